@@ -1,0 +1,23 @@
+#include "lyrefit/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace lyrefit {
+
+void ParallelFor(int count, int threads, const std::function<void(int)>& body) {
+  if (threads <= 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = std::min(threads, count);
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) body(i);
+  };
+  std::vector<std::thread> crew;
+  for (int t = 1; t < threads; ++t) crew.emplace_back(work);
+  work();
+  for (std::thread& member : crew) member.join();
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace lyrefit {
+
+// exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on every
+// IEEE 754 machine and in every vector width (the mathematics library's does not: its last bit follows
+// the processor). `V` is double or a GCC vector of doubles, `B` the integer type of the same shape.
+// Error below 1 ulp for x in [-700, 700]; below that range it is cut, above it the caller must not go.
+//
+// Method: x = k ln 2 + r with |r| <= ln(2) / 2 (Cody and Waite's two-part ln 2), exp(r) = 1 + r +
+// r^2 q(r) with q the degree-9 Chebyshev fit (error 2e-17), then 2^k through the exponent bits.
+template <class V, class B>
+[[gnu::always_inline]] inline V PortableExp(V x) {
+  static_assert(sizeof(V) == sizeof(B), "V and B must have the same shape");
+  const V lowest = V{} - 700.0;
+  x = x < lowest ? lowest : x;
+  constexpr double kMagic = 0x1.8p52;  // adding it rounds to an integer that sits in the low bits
+  const V shifted = x * 0x1.71547652b82fep+0 + kMagic;
+  const V k = shifted - kMagic;
+  const V r = (x - k * 0x1.62e42fefa0000p-1) - k * 0x1.cf79abc9e3b3ap-40;
+  const V r2 = r * r;
+  const V r4 = r2 * r2;
+  const V q01 = 0x1.0000000000001p-1 + r * 0x1.5555555555556p-3;
+  const V q23 = 0x1.5555555553d63p-5 + r * 0x1.11111111109b3p-7;
+  const V q45 = 0x1.6c16c1788bd90p-10 + r * 0x1.a01a01a7c41d5p-13;
+  const V q67 = 0x1.a019b90d2ae7ap-16 + r * 0x1.71de0dae63bb3p-19;
+  const V q89 = 0x1.289185613a3d6p-22 + r * 0x1.af38a9b0ec855p-26;
+  const V q = (q01 + r2 * q23) + r4 * ((q45 + r2 * q67) + r4 * q89);
+  const V mantissa = 1.0 + (r + r2 * q);
+  B bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  bits = (bits + 1023) << 52;
+  V power;
+  std::memcpy(&power, &bits, sizeof power);
+  return mantissa * power;
+}
+
+// The same for one number of any size.
+inline double PortableExp(double x) {
+  if (x > 700.0) x = 700.0;
+  return PortableExp<double, std::int64_t>(x);
+}
+
+// An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent bits
+// and one tangent; the same bits everywhere.
+inline double LogUpperBound(double x) {
+  std::int64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const double exponent = static_cast<double>((bits >> 52) - 1023);
+  bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
+  double mantissa;
+  std::memcpy(&mantissa, &bits, sizeof mantissa);
+  return (exponent + 0.5 + (mantissa - 1.4142135623730951) * 1.0201394465967895) * 0.6931471805599454;
+}
+
+}  // namespace lyrefit

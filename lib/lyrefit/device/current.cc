@@ -1,0 +1,29 @@
+#include "lyrefit/device/current.h"
+
+#include <cmath>
+
+#include "lyrefit/device/kernel.h"
+#include "lyrefit/device/solve.h"
+
+namespace lyrefit {
+
+OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double voltage_V) {
+  PreparedDevice prepared;
+  PrepareDevice(device.terms.data(), static_cast<int>(device.terms.size()),
+                device.resistance_series, device.module_thermal_voltage_V, p, &prepared);
+  const double limit = JunctionVoltageLimit(prepared, voltage_V);
+  OperatingPoint point;
+  point.current_A =
+      SolveCurrentFrom(prepared, limit, voltage_V, voltage_V + prepared.rs * prepared.largest_current,
+                       &point.junction_voltage_V);
+  point.conductance_S =
+      PreparedCurrent(prepared, Slope<double>(point.junction_voltage_V, 1.0)).slope;
+  return point;
+}
+
+double Rmse(const Device& device, Objective objective, const double* p,
+            const std::vector<double>& voltage_V, const std::vector<double>& current_A) {
+  return std::sqrt(MeanSquare(device, objective, p, MakePointSet(voltage_V, current_A)));
+}
+
+}  // namespace lyrefit

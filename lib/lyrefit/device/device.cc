@@ -1,0 +1,38 @@
+#include "lyrefit/device/device.h"
+
+namespace lyrefit {
+
+std::optional<int> Device::Find(const std::string& symbol_or_name) const {
+  for (int i = 0; i < size(); ++i) {
+    if (parameters[i].symbol == symbol_or_name || parameters[i].name == symbol_or_name) return i;
+  }
+  return std::nullopt;
+}
+
+Device MakeDevice(Model model, const Conditions& conditions, ConstantSet constants) {
+  Device device;
+  device.module_thermal_voltage_V = conditions.ModuleThermalVoltage(constants);
+  device.resistance_series = kRs;
+  device.parameters = {
+      {"Iph", "photocurrent", "A", "current the light generates"},
+      {"Is1", "saturation_current", "A", "saturation current of the diode"},
+      {"n1", "n", "", "ideality of the diode, per cell"},
+      {"Rs", "resistance_series", "ohm", "series resistance of the whole device"},
+      {"Rsh", "resistance_shunt", "ohm", "shunt resistance of the whole device"},
+  };
+  device.terms = {{TermKind::kPhotocurrent, {kIph, -1}},
+                  {TermKind::kShunt, {kRsh, -1}},
+                  {TermKind::kDiode, {SaturationCurrentIndex(0), IdealityIndex(0)}}};
+  for (int diode = 1; diode < static_cast<int>(model); ++diode) {
+    const std::string number = std::to_string(diode + 1);
+    device.parameters.push_back({"Is" + number, "saturation_current_" + number, "A",
+                                 "saturation current of diode " + number});
+    device.parameters.push_back(
+        {"n" + number, "n_" + number, "", "ideality of diode " + number + ", per cell"});
+    device.terms.push_back(
+        {TermKind::kDiode, {SaturationCurrentIndex(diode), IdealityIndex(diode)}});
+  }
+  return device;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/device/parameter.h"
+#include "lyrefit/device/term.h"
+
+namespace lyrefit {
+
+// How many diodes stand in parallel.
+enum class Model { kSingleDiode = 1, kDoubleDiode = 2, kTripleDiode = 3 };
+
+template <>
+struct EnumTable<Model> {
+  static constexpr EnumText<Model> kRows[] = {
+      {Model::kSingleDiode, "sd"},
+      {Model::kDoubleDiode, "dd"},
+      {Model::kTripleDiode, "td"},
+  };
+};
+
+// Which residual is squared (they have different optima, and figures of one kind must never be compared
+// with figures of the other):
+//   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at the measured current
+//   solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
+enum class Objective { kMeasuredCurrent, kSolvedCurrent };
+
+template <>
+struct EnumTable<Objective> {
+  static constexpr EnumText<Objective> kRows[] = {
+      {Objective::kMeasuredCurrent, "measured-current"},
+      {Objective::kSolvedCurrent, "solved-current"},
+  };
+};
+
+// A device model: a sum of terms over the junction voltage behind one series resistance. Parameter
+// vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3, n3,
+// so that a model's vector starts with that of the model with one diode less. Resistances are those of
+// the whole module, n is per cell.
+struct Device {
+  std::vector<ParameterInfo> parameters;
+  std::vector<Term> terms;
+  int resistance_series = -1;           // position of Rs
+  double module_thermal_voltage_V = 0;  // Ns Vt
+
+  int size() const { return static_cast<int>(parameters.size()); }
+  // Position of the parameter with this symbol ("Rs") or name ("resistance_series").
+  std::optional<int> Find(const std::string& symbol_or_name) const;
+};
+
+Device MakeDevice(Model model, const Conditions& conditions,
+                  ConstantSet constants = ConstantSet::kCodata);
+
+// Positions every diode device has.
+constexpr int kIph = 0;
+constexpr int kRs = 3;
+constexpr int kRsh = 4;
+constexpr int SaturationCurrentIndex(int diode) { return diode == 0 ? 1 : 3 + 2 * diode; }
+constexpr int IdealityIndex(int diode) { return SaturationCurrentIndex(diode) + 1; }
+inline int DiodeCount(const Device& device) { return (device.size() - 3) / 2; }
+
+// F(Vd): the current of all terms at junction voltage vd. T = S for automatic differentiation.
+template <class S, class T>
+T JunctionCurrent(const Device& device, const S* p, const T& vd) {
+  T current = T(0.0);
+  for (const Term& term : device.terms) {
+    PreparedTerm<S> prepared;
+    PrepareTerm(term, p, device.module_thermal_voltage_V, &prepared);
+    current = current + TermCurrent(prepared, vd);
+  }
+  return current;
+}
+
+// The right-hand side at terminal voltage V and a given current I: F(V + I Rs).
+template <class S>
+S ExplicitCurrent(const Device& device, const S* p, double voltage_V, double current_A) {
+  return JunctionCurrent(device, p, S(voltage_V + current_A * p[device.resistance_series]));
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,108 @@
+#include "lyrefit/device/kernel.h"
+
+#include <glog/logging.h>
+
+#include <numeric>
+
+namespace lyrefit {
+
+namespace portable {
+extern const Kernel kKernel;
+}
+#if defined(__x86_64__)
+namespace avx2 {
+extern const Kernel kKernel;
+}
+namespace avx512 {
+extern const Kernel kKernel;
+}
+#endif
+
+namespace {
+
+std::vector<Block> ToBlocks(const std::vector<double>& values, double filler) {
+  std::vector<Block> blocks((values.size() + Block::kLanes - 1) / Block::kLanes);
+  for (std::size_t i = 0; i < blocks.size() * Block::kLanes; ++i) {
+    blocks[i / Block::kLanes].lane[i % Block::kLanes] = i < values.size() ? values[i] : filler;
+  }
+  return blocks;
+}
+
+std::vector<Kernel> FindKernels() {
+  std::vector<Kernel> kernels = {portable::kKernel};
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx2")) kernels.push_back(avx2::kKernel);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    kernels.push_back(avx512::kKernel);
+  }
+#endif
+  return kernels;
+}
+
+PreparedDevice Prepare(const Device& device, const double* p) {
+  PreparedDevice prepared;
+  const int count = static_cast<int>(device.terms.size());
+  DCHECK_LE(count, PreparedDevice::kMaxTerms);
+  PrepareDevice(device.terms.data(), count, device.resistance_series,
+                device.module_thermal_voltage_V, p, &prepared);
+  return prepared;
+}
+
+}  // namespace
+
+PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
+                      const std::vector<double>& weights) {
+  CHECK(!voltage_V.empty());
+  CHECK_EQ(voltage_V.size(), current_A.size());
+  PointSet points;
+  points.size = static_cast<int>(voltage_V.size());
+  points.largest_voltage_V = *std::max_element(voltage_V.begin(), voltage_V.end());
+  points.voltage_V = ToBlocks(voltage_V, voltage_V.back());
+  points.current_A = ToBlocks(current_A, current_A.back());
+  std::vector<double> scaled(voltage_V.size(), 1.0);
+  if (!weights.empty()) {
+    CHECK_EQ(weights.size(), voltage_V.size());
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t i = 0; i < scaled.size(); ++i) {
+      scaled[i] = weights[i] * (static_cast<double>(weights.size()) / sum);
+    }
+  }
+  points.weight = ToBlocks(scaled, 0.0);
+  return points;
+}
+
+const std::vector<Kernel>& AvailableKernels() {
+  static const std::vector<Kernel> kernels = FindKernels();
+  return kernels;
+}
+
+const Kernel& FastestKernel() { return AvailableKernels().back(); }
+
+double MeanSquare(const Device& device, Objective objective, const double* p, const PointSet& points,
+                  const Kernel& kernel) {
+  const PreparedDevice prepared = Prepare(device, p);
+  if (objective == Objective::kMeasuredCurrent) {
+    return kernel.measured_mean_square(prepared, points);
+  }
+  return kernel.solved_mean_square(prepared, points,
+                                   JunctionVoltageLimit(prepared, points.largest_voltage_V));
+}
+
+std::vector<double> SolveCurrents(const Device& device, const double* p,
+                                  const std::vector<double>& voltage_V, const Kernel& kernel) {
+  if (voltage_V.empty()) return {};
+  const PreparedDevice prepared = Prepare(device, p);
+  const PointSet points = MakePointSet(voltage_V, std::vector<double>(voltage_V.size(), 0.0));
+  std::vector<Block> current(points.voltage_V.size());
+  kernel.solve_currents(prepared, points, JunctionVoltageLimit(prepared, points.largest_voltage_V),
+                        current.data());
+  std::vector<double> result(voltage_V.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = current[i / Block::kLanes].lane[i % Block::kLanes];
+  }
+  return result;
+}
+
+}  // namespace lyrefit

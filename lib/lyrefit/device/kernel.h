@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/device/device.h"
+#include "lyrefit/device/solve.h"
+
+namespace lyrefit {
+
+// Points of a curve laid out for kernels that take eight at a time; the last block is filled up with
+// copies of the last point at weight 0.
+struct alignas(64) Block {
+  static constexpr int kLanes = 8;
+  double lane[kLanes];
+};
+
+struct PointSet {
+  int size = 0;
+  double largest_voltage_V = 0;
+  std::vector<Block> voltage_V;
+  std::vector<Block> current_A;
+  std::vector<Block> weight;  // of the squared residual; mean 1 over the points
+};
+
+// `weights` may be empty (all 1) or as long as the points; it is scaled to mean 1.
+PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
+                      const std::vector<double>& weights = {});
+
+// The heavy loops, compiled once per instruction set from one source without fused multiply-add and
+// with a fixed order of summation: all of them give the same bits for the same input.
+struct Kernel {
+  const char* name;  // "portable", "avx2", "avx512"
+  // Mean over the points of weight x (F(V, I) - I)^2.
+  double (*measured_mean_square)(const PreparedDevice&, const PointSet&);
+  // Mean of weight x (I(V) - I)^2. `diode_limit` as from JunctionVoltageLimit for the largest voltage.
+  double (*solved_mean_square)(const PreparedDevice&, const PointSet&, double diode_limit);
+  // I(V) of every point into `current` (as many blocks as the set).
+  void (*solve_currents)(const PreparedDevice&, const PointSet&, double diode_limit, Block* current);
+};
+
+// Every kernel this processor can run, slowest ("portable") first.
+const std::vector<Kernel>& AvailableKernels();
+const Kernel& FastestKernel();
+
+// Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root.
+double MeanSquare(const Device& device, Objective objective, const double* p, const PointSet& points,
+                  const Kernel& kernel = FastestKernel());
+
+// I(V) in ampere for each voltage, by the same kernels.
+std::vector<double> SolveCurrents(const Device& device, const double* p,
+                                  const std::vector<double>& voltage_V,
+                                  const Kernel& kernel = FastestKernel());
+
+}  // namespace lyrefit

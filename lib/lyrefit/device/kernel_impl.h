@@ -1,0 +1,142 @@
+// The loops of every kernel. Included once by each kernel_*.cc with LYREFIT_KERNEL (its namespace) and
+// LYREFIT_KERNEL_WIDTH (doubles in a register) defined. Everything here lives in that namespace or is
+// forced inline: a function that two kernels shared would be compiled for the newer processor only.
+
+#include "lyrefit/device/kernel.h"
+
+namespace lyrefit::LYREFIT_KERNEL {
+
+constexpr int kWidth = LYREFIT_KERNEL_WIDTH;
+constexpr int kParts = Block::kLanes / kWidth;
+typedef double Register __attribute__((vector_size(kWidth * sizeof(double))));
+typedef long long Bits __attribute__((vector_size(kWidth * sizeof(double))));
+
+struct Mask {
+  Bits part[kParts];
+};
+
+// Eight doubles. Every operation is element by element, so the width of a register does not show.
+struct Pack {
+  Register part[kParts];
+
+  Pack() = default;
+  explicit Pack(double value) {
+    for (Register& r : part) r = Register{} + value;
+  }
+};
+
+#define LYREFIT_EACH(i) for (int i = 0; i < kParts; ++i)
+#define LYREFIT_OP [[gnu::always_inline]] inline
+
+LYREFIT_OP Pack Load(const Block& block) {
+  Pack p;
+  LYREFIT_EACH(i) __builtin_memcpy(&p.part[i], &block.lane[i * kWidth], sizeof(Register));
+  return p;
+}
+LYREFIT_OP void Store(const Pack& p, Block* block) {
+  LYREFIT_EACH(i) __builtin_memcpy(&block->lane[i * kWidth], &p.part[i], sizeof(Register));
+}
+
+LYREFIT_OP Pack operator+(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] += b.part[i];
+  return a;
+}
+LYREFIT_OP Pack operator-(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] -= b.part[i];
+  return a;
+}
+LYREFIT_OP Pack operator*(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] *= b.part[i];
+  return a;
+}
+LYREFIT_OP Pack operator/(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] /= b.part[i];
+  return a;
+}
+LYREFIT_OP Pack operator*(Pack a, double b) {
+  LYREFIT_EACH(i) a.part[i] *= b;
+  return a;
+}
+LYREFIT_OP Pack operator-(Pack a) {
+  LYREFIT_EACH(i) a.part[i] = -a.part[i];
+  return a;
+}
+LYREFIT_OP Mask operator<(const Pack& a, const Pack& b) {
+  Mask m;
+  LYREFIT_EACH(i) m.part[i] = a.part[i] < b.part[i];
+  return m;
+}
+LYREFIT_OP Pack Choose(const Mask& m, const Pack& yes, Pack no) {
+  LYREFIT_EACH(i) no.part[i] = m.part[i] ? yes.part[i] : no.part[i];
+  return no;
+}
+LYREFIT_OP Pack Smaller(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] = b.part[i] < a.part[i] ? b.part[i] : a.part[i];
+  return a;
+}
+LYREFIT_OP Pack Magnitude(const Pack& a) { return Choose(a < Pack(0.0), -a, a); }
+LYREFIT_OP bool All(const Mask& m) {
+  Bits all = m.part[0];
+  for (int i = 1; i < kParts; ++i) all &= m.part[i];
+  long long every = -1;
+  for (int lane = 0; lane < kWidth; ++lane) every &= all[lane];
+  return every != 0;
+}
+LYREFIT_OP Pack exp(Pack a) {
+  LYREFIT_EACH(i) a.part[i] = PortableExp<Register, Bits>(a.part[i]);
+  return a;
+}
+LYREFIT_OP double Sum(const Pack& a) {
+  Block b;
+  Store(a, &b);
+  return ((b.lane[0] + b.lane[4]) + (b.lane[1] + b.lane[5])) +
+         ((b.lane[2] + b.lane[6]) + (b.lane[3] + b.lane[7]));
+}
+
+static double MeasuredMeanSquare(const PreparedDevice& d, const PointSet& points) {
+  const Block* voltage = points.voltage_V.data();
+  const Block* current = points.current_A.data();
+  const Block* weight = points.weight.data();
+  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
+  Pack sum(0.0);
+  for (int k = 0; k < blocks; ++k) {
+    const Pack measured = Load(current[k]);
+    const Pack residual = PreparedCurrent(d, Load(voltage[k]) + measured * d.rs) - measured;
+    sum = sum + residual * residual * Load(weight[k]);
+  }
+  return Sum(sum) / points.size;
+}
+
+static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points, double diode_limit) {
+  const Block* voltage = points.voltage_V.data();
+  const Block* current = points.current_A.data();
+  const Block* weight = points.weight.data();
+  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
+  Pack sum(0.0);
+  for (int k = 0; k < blocks; ++k) {
+    const Pack measured = Load(current[k]);
+    const Pack v = Load(voltage[k]);
+    Pack junction;
+    const Pack residual =
+        SolveCurrentFrom(d, diode_limit, v, v + measured * d.rs, &junction) - measured;
+    sum = sum + residual * residual * Load(weight[k]);
+  }
+  return Sum(sum) / points.size;
+}
+
+static void SolveCurrents(const PreparedDevice& d, const PointSet& points, double diode_limit,
+                          Block* current) {
+  const Block* voltage = points.voltage_V.data();
+  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
+  for (int k = 0; k < blocks; ++k) {
+    const Pack v = Load(voltage[k]);
+    Pack junction;
+    Store(SolveCurrentFrom(d, diode_limit, v, v + Pack(d.rs * d.largest_current), &junction),
+          &current[k]);
+  }
+}
+
+extern const Kernel kKernel;
+const Kernel kKernel = {LYREFIT_KERNEL_NAME, MeasuredMeanSquare, SolvedMeanSquare, SolveCurrents};
+
+}  // namespace lyrefit::LYREFIT_KERNEL

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cmath>
+
+namespace lyrefit {
+
+// The terms of the terminal law
+//
+//   Vd = V + I Rs                      junction voltage of the whole device, in volt
+//   I  = sum of terms(Vd)              delivered current in ampere, generator sign
+//
+// Each term is written once as a template: `S` is the type of the parameters, `T` that of the junction
+// voltage. The same lines serve double, automatic differentiation (a dual number for S, T or both) and
+// eight points at a time (T = a kernel's pack). `exp` and `Smaller` are found beside T.
+//
+// To add a term: one kind, one line in PrepareTerm and one in TermCurrent. A term must not lead from a
+// finite Vd to NaN for any parameters inside their bounds.
+enum class TermKind {
+  kPhotocurrent,  // {Iph}      I = Iph
+  kDiode,         // {Is, n}    I = -Is (exp(Vd / (n Ns Vt)) - 1)                    Shockley
+  kShunt,         // {Rsh}      I = -Vd / Rsh
+};
+
+struct Term {
+  TermKind kind;
+  int parameter[2];  // positions in the device's parameter vector, -1 where unused
+};
+
+// What of a term does not depend on the voltage.
+template <class S>
+struct PreparedTerm {
+  TermKind kind;
+  S a;
+  S b;
+};
+
+// Exponents are cut here, far outside any real device, so that even the square of a current is finite.
+constexpr double kLargestExponent = 230;
+// Smallest shunt resistance and n that are told from 0, so that a bound of 0 is legal.
+constexpr double kSmallestResistance_ohm = 1e-9;
+constexpr double kSmallestIdeality = 1e-3;
+
+template <class T>
+[[gnu::always_inline]] inline T Smaller(const T& a, const T& b) {
+  return b < a ? b : a;
+}
+template <class T>
+[[gnu::always_inline]] inline T Larger(const T& a, const T& b) {
+  return a < b ? b : a;
+}
+
+template <class S>
+inline void PrepareTerm(const Term& term, const S* p, double module_thermal_voltage_V,
+                        PreparedTerm<S>* prepared) {
+  const S& first = p[term.parameter[0]];
+  prepared->kind = term.kind;
+  switch (term.kind) {
+    case TermKind::kPhotocurrent:
+      prepared->a = first;
+      break;
+    case TermKind::kDiode:
+      prepared->a = first;
+      prepared->b = 1.0 / (Larger(p[term.parameter[1]], S(kSmallestIdeality)) *
+                           module_thermal_voltage_V);
+      break;
+    case TermKind::kShunt:
+      // A negative resistance is let through: a least-squares step may pass there on its way to a bound.
+      prepared->a = 1.0 / (first < S(0.0) ? first : Larger(first, S(kSmallestResistance_ohm)));
+      break;
+  }
+}
+
+template <class S, class T>
+inline T TermCurrent(const PreparedTerm<S>& term, const T& vd) {
+  using std::exp;
+  switch (term.kind) {
+    case TermKind::kPhotocurrent:
+      return T(term.a);
+    case TermKind::kDiode:
+      return T(term.a) - exp(Smaller(vd * term.b, T(kLargestExponent))) * term.a;
+    case TermKind::kShunt:
+      return -(vd * term.a);
+  }
+  return T(0.0);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,170 @@
+#include "lyrefit/fit/bounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/key_points.h"
+
+namespace lyrefit {
+namespace {
+
+// "Is" for "Is2", "n" for "n1", the symbol itself for the rest.
+std::string Group(const std::string& symbol) {
+  return symbol.substr(0, symbol.find_last_not_of("0123456789") + 1);
+}
+
+// The range a table gives a parameter: under its own symbol or name, else under its group.
+const std::pair<double, double>* Lookup(const BoundsSpec::Table& table, const ParameterInfo& info) {
+  for (const std::string& key : {info.symbol, info.name, Group(info.symbol)}) {
+    if (const auto found = table.find(key); found != table.end()) return &found->second;
+  }
+  return nullptr;
+}
+
+bool Known(const std::string& key, const Device& device) {
+  return device.Find(key).has_value() ||
+         std::any_of(device.parameters.begin(), device.parameters.end(),
+                     [&](const ParameterInfo& info) { return Group(info.symbol) == key; });
+}
+
+Expected<void> CheckTable(const BoundsSpec::Table& table, const Device& device, bool all_known) {
+  for (const auto& [key, range] : table) {
+    const auto [lower, upper] = range;
+    if (all_known && !Known(key, device)) {
+      std::string known;
+      for (const ParameterInfo& info : device.parameters) {
+        known += (known.empty() ? "" : ", ") + info.symbol;
+      }
+      return Fail(fmt::format("bounds of '{}': this model has no such parameter; it has {}", key,
+                              known));
+    }
+    if (!std::isfinite(lower) || !std::isfinite(upper)) {
+      return Fail(fmt::format("bounds of {} must be finite numbers", key));
+    }
+    if (lower > upper) {
+      return Fail(fmt::format("bounds of {} are reversed: {:g} is above {:g}", key, lower, upper));
+    }
+    if (lower < 0) {
+      return Fail(fmt::format("bounds of {} start at {:g}, expected 0 or more", key, lower));
+    }
+    if (Group(key) == "n" && upper <= 0) {
+      return Fail(fmt::format("bounds of {} end at {:g}, expected more than 0", key, upper));
+    }
+  }
+  return {};
+}
+
+ParameterBounds Linear(double lower, double upper) {
+  return {lower, upper, lower, upper, SearchScale::kLinear};
+}
+
+// A curve's own scales, from which the physical box is built.
+struct CurveScales {
+  double current_A;  // largest |current|
+  double voltage_V;  // Voc, or the largest voltage
+};
+
+CurveScales ScalesOf(const IvCurve& curve) {
+  CurveScales scales{0, 0};
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    scales.current_A = std::max(scales.current_A, std::fabs(curve.current_A[k]));
+    scales.voltage_V = std::max(scales.voltage_V, curve.voltage_V[k]);
+  }
+  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
+  if (voc > 0) scales.voltage_V = voc;
+  if (!(scales.voltage_V > 0)) {
+    for (const double v : curve.voltage_V) scales.voltage_V = std::max(scales.voltage_V, std::fabs(v));
+  }
+  if (!(scales.current_A > 0)) scales.current_A = 1e-12;
+  return scales;
+}
+
+std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve& curve,
+                                            double n_lower, double n_upper) {
+  const CurveScales scales = ScalesOf(curve);
+  const double resistance = scales.voltage_V / scales.current_A;
+  // No junction of a single cell gives 1.5 V: the number of cells was not told, and n is that of all.
+  const double per_cell_V = scales.voltage_V / curve.conditions.cells_in_series;
+  if (per_cell_V > 1.5) n_upper *= std::ceil(per_cell_V / 0.5);
+  const double vt = device.module_thermal_voltage_V;
+  const auto saturation = [&](double n) {
+    return scales.current_A * std::exp(-std::min(scales.voltage_V / (n * vt), 600.0));
+  };
+  std::vector<ParameterBounds> bounds(device.size());
+  bounds[kIph] = Linear(0, 2 * scales.current_A);
+  bounds[kRs] = {0, resistance, 0, 0.5 * resistance, SearchScale::kLinear};
+  bounds[kRsh] = {0.1 * resistance, 1e12 * resistance, 0.5 * resistance, 1e4 * resistance,
+                  SearchScale::kLog};
+  for (int d = 0; d < DiodeCount(device); ++d) {
+    const double top = 100 * saturation(n_upper);
+    bounds[SaturationCurrentIndex(d)] = {0, top, 1e-3 * saturation(n_lower), top,
+                                         SearchScale::kLog};
+    bounds[IdealityIndex(d)] = Linear(n_lower, n_upper);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const Device& device,
+                                                  const IvCurve& curve) {
+  std::vector<ParameterBounds> bounds;
+  if (spec.name == "physical") {
+    bounds = PhysicalBounds(device, curve, 1, 2);
+  } else if (spec.name == "wide") {
+    bounds = PhysicalBounds(device, curve, 0.5, 10);
+  } else {
+    // A table may speak of diodes that this model lacks: one file serves every model.
+    const Device largest = MakeDevice(Model::kTripleDiode, curve.conditions);
+    if (auto checked = CheckTable(spec.table, largest, true); !checked) {
+      return tl::unexpected(checked.error());
+    }
+    for (const ParameterInfo& info : device.parameters) {
+      const auto* range = Lookup(spec.table, info);
+      if (range == nullptr) {
+        return Fail(fmt::format("bounds '{}' leave out {}", spec.name, info.symbol));
+      }
+      bounds.push_back(Linear(range->first, range->second));
+    }
+  }
+  if (auto checked = CheckTable(spec.overrides, device, true); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  for (int i = 0; i < device.size(); ++i) {
+    const auto* range = Lookup(spec.overrides, device.parameters[i]);
+    if (range != nullptr) bounds[i] = Linear(range->first, range->second);
+  }
+  return bounds;
+}
+
+Expected<BoundsSpec> ReadBoundsFile(const std::string& path) {
+  constexpr std::uintmax_t kLargestFile = 1U << 20;
+  const auto text = ReadTextFile(path, kLargestFile);
+  if (!text) return tl::unexpected(text.error());
+  const auto json = ParseJson(*text, path);
+  if (!json) return tl::unexpected(json.error());
+  if (!json->is_object() || json->empty()) {
+    return Fail(R"(expected bounds as an object like {"Iph":[0,2],"n":[1,2]})", path, 1, 1);
+  }
+  BoundsSpec spec;
+  spec.name = path;
+  const JsonFields fields(*json, *text, path);
+  for (const auto& [key, value] : json->items()) {
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+      return fields.Refuse(key, "[lower, upper], two numbers,");
+    }
+    spec.table[key] = {value[0].get<double>(), value[1].get<double>()};
+  }
+  Conditions any;
+  if (auto checked = CheckTable(spec.table, MakeDevice(Model::kTripleDiode, any), true); !checked) {
+    return Fail(checked.error().message, path);
+  }
+  return spec;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/device/kernel.h"
+#include "lyrefit/fit/bounds.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+
+enum class Loss { kSquared, kHuber, kCauchy };
+
+template <>
+struct EnumTable<Loss> {
+  static constexpr EnumText<Loss> kRows[] = {
+      {Loss::kSquared, "squared"}, {Loss::kHuber, "huber"}, {Loss::kCauchy, "cauchy"}};
+};
+
+enum class Intervals { kNone, kSymmetric, kProfile };
+
+template <>
+struct EnumTable<Intervals> {
+  static constexpr EnumText<Intervals> kRows[] = {{Intervals::kNone, "none"},
+                                                  {Intervals::kSymmetric, "symmetric"},
+                                                  {Intervals::kProfile, "profile"}};
+};
+
+struct FitOptions {
+  Model model = Model::kSingleDiode;
+  Objective objective = Objective::kSolvedCurrent;
+  ConstantSet constants = ConstantSet::kCodata;
+  BoundsSpec bounds;                    // physical ones derived from the curve unless said
+  std::map<std::string, double> fixed;  // by symbol or name: "n2" -> 2
+  SearchOptions search;
+  bool polish = true;
+  Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
+  double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
+  Intervals intervals = Intervals::kProfile;  // kProfile: profile only where symmetric would be false
+  int threads = 0;                            // 0: all cores; never changes a result
+  const Kernel* kernel = nullptr;             // nullptr: the fastest
+};
+
+// The hybrid estimator: search the bounds, polish the best bird, further elites and a separable grid by
+// bounded least squares, and say what is known and how well. Errors: an unusable curve, options outside
+// their ranges, reversed or impossible bounds, fewer points than free parameters.
+Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options = {},
+                        const Observer& observer = {});
+
+// Fits SD, DD and TD and returns the one the data support, with `choice` filled in: more diodes must
+// earn their place by AICc, the F-test, identifiability and held-out error together.
+Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options = {},
+                            const Observer& observer = {});
+
+}  // namespace lyrefit

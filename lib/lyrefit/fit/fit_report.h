@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/device/device.h"
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+enum class BoundSide { kNone, kLower, kUpper };
+
+template <>
+struct EnumTable<BoundSide> {
+  static constexpr EnumText<BoundSide> kRows[] = {
+      {BoundSide::kNone, "none"}, {BoundSide::kLower, "lower"}, {BoundSide::kUpper, "upper"}};
+};
+
+enum class IntervalMethod {
+  kNone,       // fixed, or not asked for
+  kSymmetric,  // estimate -+ t x standard error on the parameter's own scale, cut at the bounds
+  kProfile,    // where the refitted sum of squares crosses the F threshold, or a bound
+};
+
+template <>
+struct EnumTable<IntervalMethod> {
+  static constexpr EnumText<IntervalMethod> kRows[] = {{IntervalMethod::kNone, "none"},
+                                                       {IntervalMethod::kSymmetric, "symmetric"},
+                                                       {IntervalMethod::kProfile, "profile"}};
+};
+
+// One parameter, searched and refined side by side. NaN: not known (no polish, or no spread to be had).
+struct Estimate {
+  ParameterInfo info;
+  ParameterBounds bounds;
+  bool fixed = false;
+  double searched = kUnknown;
+  double refined = kUnknown;
+  double standard_error = kUnknown;
+  double low_95 = kUnknown;
+  double high_95 = kUnknown;
+  IntervalMethod interval = IntervalMethod::kNone;
+  BoundSide at_bound = BoundSide::kNone;
+  bool identifiable = true;
+  std::string reason;  // why not identifiable, in plain words
+};
+
+// Root mean square errors of one parameter vector, in ampere, each under its label.
+struct RmsePair {
+  double measured_current_A = kUnknown;
+  double solved_current_A = kUnknown;
+  double Of(Objective objective) const {
+    return objective == Objective::kMeasuredCurrent ? measured_current_A : solved_current_A;
+  }
+};
+
+struct RmseTable {
+  RmsePair searched;            // the metaheuristic's best bird as it is
+  RmsePair best_bird_polished;  // that bird after its own polish
+  RmsePair refined;             // the best end of all starts
+};
+
+// One start of the polish and where it ended.
+struct StartReport {
+  std::string origin;            // "best bird", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
+  double start_rmse_A = kUnknown;  // both of the objective that was fitted
+  double end_rmse_A = kUnknown;
+  bool agrees = false;  // ended within 1e-9 relative of the best end
+};
+
+struct RefineReport {
+  std::string termination = "not run";  // "converged", "no convergence", "interrupted", "not run"
+  std::string message;
+  std::vector<StartReport> starts;
+  int winner = -1;    // index into starts
+  int agreeing = 0;   // starts that end within 1e-9 relative of the best
+  // Largest cosine between the residual and a column of the Jacobian whose parameter is free to move
+  // downhill: 0 at an exact optimum, at most 1.
+  double projected_gradient = kUnknown;
+  double condition = kUnknown;  // of the scaled Jacobian in the free parameters
+  double seconds = 0;
+};
+
+struct Correlation {
+  std::string first;  // symbols
+  std::string second;
+  double value = 0;
+};
+
+struct InformationCriteria {
+  int points = 0;
+  int parameters = 0;  // free ones; the noise variance is counted on top
+  double aicc = kUnknown;
+  double bic = kUnknown;
+};
+
+struct ResidualStatistics {
+  double largest_A = kUnknown;  // largest |model - measured|, solved-current
+  double largest_at_V = kUnknown;
+  double mean_A = kUnknown;
+  int runs = 0;  // of one sign, in order of voltage
+  double expected_runs = kUnknown;
+  double runs_p_value = kUnknown;  // two-sided, Wald-Wolfowitz
+  double durbin_watson = kUnknown;
+};
+
+// What `auto` says of one candidate.
+struct CandidateReport {
+  Model model = Model::kSingleDiode;
+  double rmse_A = kUnknown;           // refined, of the objective that was fitted
+  double held_out_rmse_A = kUnknown;  // contiguous blocks left out in turn, same objective
+  double aicc = kUnknown;
+  double f_p_value = kUnknown;  // against the next simpler model
+  bool identifiable = true;     // every parameter
+};
+
+struct ModelChoice {
+  Model chosen = Model::kSingleDiode;
+  std::vector<CandidateReport> candidates;  // SD, DD, TD
+  std::string sentence;
+};
+
+struct FitReport {
+  std::string version;  // of lyrefit
+  IvCurve curve;
+  Model model = Model::kSingleDiode;
+  Objective objective = Objective::kSolvedCurrent;
+  ConstantSet constants = ConstantSet::kCodata;
+  std::string bounds_name;  // "physical", "paper", "literature", "wide" or the file's name
+  Device device;
+  std::vector<double> searched;  // parameter vectors in the device's order
+  std::vector<double> best_bird_polished;
+  std::vector<double> refined;   // equal to `searched` where there was no polish
+  bool polished = false;
+  std::vector<Estimate> estimates;  // in the device's order
+  double nNsVth = kUnknown;         // modified ideality of the first diode, in volt, as pvlib wants it
+  RmseTable rmse;
+  KeyPoints measured;
+  KeyPoints simulated;                   // of the refined model
+  std::vector<double> model_current_A;   // I(V) of the refined model at the measured voltages
+  std::vector<double> residual_A;        // model_current_A - current_A
+  InformationCriteria criteria;
+  ResidualStatistics residuals;
+  std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
+  SearchOptions search_options;
+  SearchSummary search;
+  RefineReport refine;
+  double interval_seconds = 0;
+  std::optional<ModelChoice> choice;           // of `auto`
+  std::vector<OptionEcho> non_default_options;
+  std::vector<std::string> warnings;           // plain words
+  bool interrupted = false;
+  bool usable = true;  // finite, and not worse than a straight line through the data
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,102 @@
+#include "lyrefit/refine/linear_part.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/refine/bounded_linear.h"
+
+namespace lyrefit {
+
+LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<double>& weights,
+                             double rs, const std::vector<double>& idealities) {
+  const int points = static_cast<int>(problem.voltage_V.size());
+  const int count = 2 + static_cast<int>(idealities.size());
+  LinearPart linear;
+  linear.columns.resize(points, count);
+  linear.target.resize(points);
+  Eigen::VectorXd root(points);
+  for (int k = 0; k < points; ++k) {
+    const double vd = problem.voltage_V[k] + rs * problem.current_A[k];
+    linear.columns(k, 0) = 1;
+    linear.columns(k, 1) = -vd;
+    for (int j = 2; j < count; ++j) {
+      const double exponent = vd / (idealities[j - 2] * problem.device.module_thermal_voltage_V);
+      linear.columns(k, j) = -std::expm1(std::min(exponent, kLargestExponent));
+    }
+    root[k] = std::sqrt(weights[k]);
+    linear.target[k] = root[k] * problem.current_A[k];
+  }
+  linear.scale = linear.columns.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-300);
+  linear.columns = root.asDiagonal() * linear.columns * linear.scale.cwiseInverse().asDiagonal();
+  return linear;
+}
+
+void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale,
+                  Eigen::VectorXd* lower, Eigen::VectorXd* upper) {
+  lower->resize(scale.size());
+  upper->resize(scale.size());
+  const auto range = [&](int column, double low, double high) {
+    (*lower)[column] = low * scale[column];
+    (*upper)[column] = high * scale[column];
+  };
+  range(0, problem.lower[kIph], problem.upper[kIph]);
+  range(1, 1 / std::max(problem.upper[kRsh], kSmallestResistance_ohm),
+        1 / std::max(problem.lower[kRsh], kSmallestResistance_ohm));
+  for (int d = 0; d < DiodeCount(problem.device); ++d) {
+    const int is = SaturationCurrentIndex(d);
+    range(2 + d, problem.lower[is], problem.upper[is]);
+  }
+}
+
+LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<double>& weights,
+                           double rs, const std::vector<double>& idealities) {
+  LinearPart linear = MakeLinearColumns(problem, weights, rs, idealities);
+  Eigen::VectorXd lower, upper;
+  LinearBounds(problem, linear.scale, &lower, &upper);
+  linear.x = SolveBoundedLinear(linear.columns.transpose() * linear.columns,
+                                linear.columns.transpose() * linear.target, lower, upper);
+  const int count = static_cast<int>(linear.x.size());
+  for (int j = 0; j < count; ++j) {
+    if (linear.x[j] > lower[j] && linear.x[j] < upper[j]) linear.free.push_back(j);
+  }
+  // The normal equations found which bounds hold; the digits come from an orthogonal factorisation.
+  Eigen::MatrixXd a(linear.columns.rows(), linear.free.size());
+  Eigen::VectorXd rest = linear.x;
+  for (std::size_t j = 0; j < linear.free.size(); ++j) {
+    a.col(static_cast<int>(j)) = linear.columns.col(linear.free[j]);
+    rest[linear.free[j]] = 0;
+  }
+  const Eigen::VectorXd exact =
+      a.colPivHouseholderQr().solve(linear.target - linear.columns * rest);
+  bool inside = true;
+  for (std::size_t j = 0; j < linear.free.size(); ++j) {
+    const int column = linear.free[j];
+    const double value = exact[static_cast<int>(j)];
+    inside = inside && value >= lower[column] && value <= upper[column];
+  }
+  for (std::size_t j = 0; inside && j < linear.free.size(); ++j) {
+    linear.x[linear.free[j]] = exact[static_cast<int>(j)];
+  }
+  linear.residual = linear.columns * linear.x - linear.target;
+  return linear;
+}
+
+std::vector<double> ToParameters(const RefineProblem& problem, const LinearPart& linear, double rs,
+                                 const std::vector<double>& idealities) {
+  std::vector<double> p(problem.device.size());
+  p[kIph] = linear.x[0] / linear.scale[0];
+  p[kRs] = rs;
+  p[kRsh] = linear.scale[1] / std::max(linear.x[1], 1e-300);
+  for (std::size_t d = 0; d < idealities.size(); ++d) {
+    const int diode = static_cast<int>(d);
+    p[SaturationCurrentIndex(diode)] = linear.x[2 + diode] / linear.scale[2 + diode];
+    p[IdealityIndex(diode)] = idealities[d];
+  }
+  for (int i = 0; i < problem.device.size(); ++i) {
+    p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
+  }
+  return p;
+}
+
+}  // namespace lyrefit

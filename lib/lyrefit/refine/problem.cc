@@ -1,0 +1,49 @@
+#include "lyrefit/refine/problem.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace lyrefit {
+namespace {
+
+double LargestMagnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::fabs(value));
+  return largest > 0 ? largest : 1;
+}
+
+}  // namespace
+
+RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<double> voltage_V,
+                                std::vector<double> current_A, std::vector<double> weights,
+                                std::vector<double> lower, std::vector<double> upper) {
+  CHECK_EQ(static_cast<int>(lower.size()), device.size());
+  CHECK_EQ(lower.size(), upper.size());
+  RefineProblem problem;
+  problem.device = std::move(device);
+  problem.objective = objective;
+  problem.voltage_V = std::move(voltage_V);
+  problem.current_A = std::move(current_A);
+  problem.lower = std::move(lower);
+  problem.upper = std::move(upper);
+  problem.kernel = &FastestKernel();
+  if (weights.empty()) weights.assign(problem.voltage_V.size(), 1.0);
+  const double mean =
+      std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
+  for (double& weight : weights) weight /= mean;
+  problem.weights = std::move(weights);
+  problem.points = MakePointSet(problem.voltage_V, problem.current_A, problem.weights);
+  problem.current_scale_A = LargestMagnitude(problem.current_A);
+  problem.voltage_scale_V = LargestMagnitude(problem.voltage_V);
+  return problem;
+}
+
+double MeanSquare(const RefineProblem& problem, const std::vector<double>& p) {
+  return MeanSquare(problem.device, problem.objective, p.data(), problem.points, *problem.kernel);
+}
+
+}  // namespace lyrefit

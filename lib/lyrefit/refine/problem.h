@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/device/device.h"
+#include "lyrefit/device/kernel.h"
+
+namespace lyrefit {
+
+// A bounded least-squares problem on one curve: minimise the mean of weight x residual^2.
+struct RefineProblem {
+  Device device;
+  Objective objective = Objective::kSolvedCurrent;
+  std::vector<double> voltage_V;
+  std::vector<double> current_A;
+  std::vector<double> weights;  // of the squared residuals, mean 1
+  std::vector<double> lower;    // of each parameter; lower == upper: fixed
+  std::vector<double> upper;
+  const Kernel* kernel = nullptr;
+  PointSet points;  // the same points, laid out for the kernel
+
+  // Natural sizes of the curve, which every coordinate is scaled by.
+  double current_scale_A = 1;  // largest |current|
+  double voltage_scale_V = 1;  // largest |voltage|
+  double resistance_scale() const { return voltage_scale_V / current_scale_A; }
+  bool fixed(int i) const { return lower[i] == upper[i]; }
+};
+
+// Fills what follows from the points: weights scaled to mean 1 (empty: all 1), the point set, the scales.
+RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<double> voltage_V,
+                                std::vector<double> current_A, std::vector<double> weights,
+                                std::vector<double> lower, std::vector<double> upper);
+
+// Weighted mean square of the problem's own objective, in A^2.
+double MeanSquare(const RefineProblem& problem, const std::vector<double>& p);
+
+}  // namespace lyrefit

@@ -1,0 +1,26 @@
+// Uniform random search: the baseline that every metaheuristic figure is printed beside. The population
+// is simply the best points drawn so far, so that elites mean the same as elsewhere.
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/search/run.h"
+
+namespace lyrefit {
+
+void RunRandom(SearchRun* run, const SearchOptions& options) {
+  RandomStream random(options.seed, options.run);
+  DrawPopulation(run, &random, options.iterations);
+  const Box& box = run->box();
+  std::vector<double> x(run->dimensions());
+  for (std::int64_t t = 1; !run->stopped(); ++t) {
+    for (int i = 0; i < run->population() && !run->stopped(); ++i) {
+      for (int j = 0; j < run->dimensions(); ++j) {
+        x[j] = box.lower[j] + random.Uniform() * (box.upper[j] - box.lower[j]);
+      }
+      const double value = run->Evaluate(x.data());
+      if (value < run->f(i)) run->Replace(i, x.data(), value);
+    }
+    run->EndIteration(t, options.iterations);
+  }
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+
+// What every algorithm of this room shares: the population, the count of evaluations, the trace and the
+// reasons to stop. An algorithm is a function that moves the population until `stopped()`.
+class SearchRun {
+ public:
+  SearchRun(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
+            const Observer& observer);
+
+  int dimensions() const { return dimensions_; }
+  int population() const { return options_.population; }
+  const Box& box() const { return box_; }
+  double* x(int bird) { return &x_[static_cast<std::size_t>(bird) * dimensions_]; }
+  double f(int bird) const { return f_[bird]; }
+  int best() const { return best_; }
+  bool stopped() const { return summary_.termination != SearchTermination::kNotRun; }
+
+  // Objective at x, NaN as infinity. Must not be called once stopped().
+  double Evaluate(const double* x) {
+    const double value = objective_(x);
+    ++summary_.evaluations;
+    if (summary_.evaluations >= options_.max_evaluations) Stop(SearchTermination::kEvaluations);
+    return value == value ? value : kInfinity;
+  }
+
+  void Replace(int bird, const double* x, double f);
+
+  // Ends iteration `t` of `planned`: writes the trace, asks the observer, looks at the clock.
+  void EndIteration(std::int64_t t, std::int64_t planned);
+
+  SearchSummary Finish();
+
+ private:
+  void Stop(SearchTermination why) {
+    if (!stopped()) summary_.termination = why;
+  }
+  double Seconds() const;
+  void CollectElites();
+
+  const ObjectiveFunction& objective_;
+  const Box& box_;
+  const SearchOptions& options_;
+  const Observer& observer_;
+  const int dimensions_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::vector<double> x_;
+  std::vector<double> f_;
+  int best_ = 0;
+  double best_at_last_gain_ = kInfinity;
+  std::int64_t last_gain_ = 0;
+  SearchSummary summary_;
+};
+
+// The algorithms, one file each.
+void RunLyrebird(SearchRun* run, const SearchOptions& options);
+void RunRandom(SearchRun* run, const SearchOptions& options);
+void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options);
+
+// Draws the first population uniformly in the box (Eq. 14) and ends iteration 0.
+class RandomStream;
+void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned);
+
+}  // namespace lyrefit

@@ -1,0 +1,146 @@
+#include "lyrefit/search/search.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/search/run.h"
+
+namespace lyrefit {
+namespace {
+
+// Birds closer than this in every coordinate of the unit box count as one elite.
+constexpr double kDistinct = 0.01;
+
+std::string Message(const SearchSummary& summary) {
+  switch (summary.termination) {
+    case SearchTermination::kNotRun:
+      return "the search was not run";
+    case SearchTermination::kIterations:
+      return "all " + std::to_string(summary.iterations) + " iterations done";
+    case SearchTermination::kEvaluations:
+      return "the budget of " + std::to_string(summary.evaluations) + " evaluations is used up";
+    case SearchTermination::kTarget:
+      return "the target was reached";
+    case SearchTermination::kTimeLimit:
+      return "the time limit was reached";
+    case SearchTermination::kPatience:
+      return "no gain for as many iterations as patience allows";
+    case SearchTermination::kInterrupted:
+      return "stopped on request; the best so far is reported";
+  }
+  return "";
+}
+
+}  // namespace
+
+SearchRun::SearchRun(const ObjectiveFunction& objective, const Box& box,
+                     const SearchOptions& options, const Observer& observer)
+    : objective_(objective),
+      box_(box),
+      options_(options),
+      observer_(observer),
+      dimensions_(static_cast<int>(box.lower.size())),
+      x_(static_cast<std::size_t>(options.population) * box.lower.size()),
+      f_(options.population, kInfinity) {}
+
+double SearchRun::Seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void SearchRun::Replace(int bird, const double* x, double f) {
+  std::copy(x, x + dimensions_, this->x(bird));
+  f_[bird] = f;
+  if (f < f_[best_]) best_ = bird;
+}
+
+void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
+  const double best = f_[best_];
+  summary_.iterations = t;
+  summary_.trace.push_back({t, summary_.evaluations, best});
+  if (best < best_at_last_gain_) {
+    best_at_last_gain_ = best;
+    last_gain_ = t;
+  }
+  if (best <= options_.target) Stop(SearchTermination::kTarget);
+  if (options_.patience > 0 && t - last_gain_ >= options_.patience) {
+    Stop(SearchTermination::kPatience);
+  }
+  if (t >= planned) Stop(SearchTermination::kIterations);
+  const bool timed = options_.time_limit_s < kInfinity;
+  if (!timed && !observer_) return;
+  const double seconds = Seconds();
+  if (timed && seconds >= options_.time_limit_s) Stop(SearchTermination::kTimeLimit);
+  if (StopRequested(observer_, {"search", t, planned, summary_.evaluations, best, seconds})) {
+    Stop(SearchTermination::kInterrupted);
+  }
+}
+
+void SearchRun::CollectElites() {
+  std::vector<int> order(options_.population);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return f_[a] < f_[b]; });
+  for (const int bird : order) {
+    if (static_cast<int>(summary_.elites.size()) == options_.elites) break;
+    const double* candidate = x(bird);
+    const bool distinct = std::all_of(
+        summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
+          for (int j = 0; j < dimensions_; ++j) {
+            const double side = box_.upper[j] - box_.lower[j];
+            if (std::fabs(candidate[j] - taken.x[j]) > kDistinct * side) return true;
+          }
+          return false;
+        });
+    if (distinct) summary_.elites.push_back({{candidate, candidate + dimensions_}, f_[bird]});
+  }
+  summary_.best = summary_.elites.front();
+}
+
+SearchSummary SearchRun::Finish() {
+  CollectElites();
+  summary_.message = Message(summary_);
+  summary_.seconds = Seconds();
+  return std::move(summary_);
+}
+
+void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned) {
+  const Box& box = run->box();
+  std::vector<double> x(run->dimensions());
+  for (int i = 0; i < run->population() && !run->stopped(); ++i) {
+    for (int j = 0; j < run->dimensions(); ++j) {
+      x[j] = box.lower[j] + random->Uniform() * (box.upper[j] - box.lower[j]);
+    }
+    run->Replace(i, x.data(), run->Evaluate(x.data()));
+  }
+  run->EndIteration(0, planned);
+}
+
+SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
+                     const SearchOptions& options, const Observer& observer) {
+  CHECK(ValidateOptions(options, kSearchOptionTable).has_value());
+  CHECK(!box.lower.empty());
+  CHECK_EQ(box.lower.size(), box.upper.size());
+  CHECK_LE(box.lower.size(), 64U);
+  for (std::size_t j = 0; j < box.lower.size(); ++j) CHECK_LE(box.lower[j], box.upper[j]);
+  SearchRun run(objective, box, options, observer);
+  switch (options.algorithm) {
+    case Algorithm::kMlo:
+    case Algorithm::kLo:
+    case Algorithm::kLoMblss:
+    case Algorithm::kLoDmlss:
+      RunLyrebird(&run, options);
+      break;
+    case Algorithm::kRandom:
+      RunRandom(&run, options);
+      break;
+    case Algorithm::kDe:
+      RunDifferentialEvolution(&run, options);
+      break;
+  }
+  return run.Finish();
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/option.h"
+
+namespace lyrefit {
+
+// The four settings of the lyrebird optimizer and two plain baselines.
+enum class Algorithm {
+  kMlo,      // modified lyrebird: both strategies
+  kLo,       // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
+  kLoMblss,  // with the memory-based learn search strategy only
+  kLoDmlss,  // with the diversity-maintenance learn search strategy only
+  kRandom,   // uniform random points: the baseline every figure is printed beside
+  kDe,       // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
+};
+
+template <>
+struct EnumTable<Algorithm> {
+  static constexpr EnumText<Algorithm> kRows[] = {
+      {Algorithm::kMlo, "mlo"},           {Algorithm::kLo, "lo"},
+      {Algorithm::kLoMblss, "lo+mblss"},  {Algorithm::kLoDmlss, "lo+dmlss"},
+      {Algorithm::kRandom, "random"},     {Algorithm::kDe, "de"},
+  };
+};
+
+struct SearchOptions {
+  Algorithm algorithm = Algorithm::kMlo;
+  std::uint64_t seed = 0;
+  std::uint64_t run = 0;               // number of the run: seed and run together name the stream
+  int population = 30;                 // birds
+  int iterations = 40;                 // one evaluation a bird each
+  double memory_rate = 0.5;            // Pm of MBLSS; 0 switches it off
+  double distance_coefficient = 0.25;  // gamma of DMLSS; 0 switches it off
+  double de_scale = 0.5;               // F of differential evolution
+  double de_crossover = 0.9;           // CR of differential evolution
+  std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
+  double target = -std::numeric_limits<double>::infinity();  // stop at or below this objective value
+  double time_limit_s = std::numeric_limits<double>::infinity();
+  int patience = 0;  // stop after so many iterations without a better best; 0: never
+  int elites = 4;    // how many distinct birds to return, the best included
+};
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
+    {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
+    {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
+    {"population", "birds", "number of birds", &SearchOptions::population, 4, 100000},
+    {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1, 1e8},
+    {"memory-rate", "", "Pm: rate of the memory-based strategy", &SearchOptions::memory_rate, 0, 1},
+    {"distance-coefficient", "", "gamma: reach of the diversity strategy",
+     &SearchOptions::distance_coefficient, 0, 1},
+    {"de-scale", "", "F of differential evolution", &SearchOptions::de_scale, 0, 2},
+    {"de-crossover", "", "CR of differential evolution", &SearchOptions::de_crossover, 0, 1},
+    {"max-evaluations", "", "stop after so many evaluations", &SearchOptions::max_evaluations, 4,
+     1e19},
+    {"target", "", "stop at or below this objective value", &SearchOptions::target, -kInfinity,
+     kInfinity},
+    {"time-limit", "s", "stop after so many seconds", &SearchOptions::time_limit_s, 0, kInfinity},
+    {"patience", "iterations", "stop after so many iterations without gain; 0: never",
+     &SearchOptions::patience, 0, 1e8},
+    {"elites", "birds", "distinct birds handed to the polish", &SearchOptions::elites, 1, 1000},
+}};
+
+enum class SearchTermination {
+  kNotRun,
+  kIterations,   // all iterations done
+  kEvaluations,  // budget used up
+  kTarget,       // target reached
+  kTimeLimit,
+  kPatience,     // no gain for `patience` iterations
+  kInterrupted,  // the observer asked to stop
+};
+
+template <>
+struct EnumTable<SearchTermination> {
+  static constexpr EnumText<SearchTermination> kRows[] = {
+      {SearchTermination::kNotRun, "not run"},
+      {SearchTermination::kIterations, "iterations"},
+      {SearchTermination::kEvaluations, "evaluations"},
+      {SearchTermination::kTarget, "target"},
+      {SearchTermination::kTimeLimit, "time limit"},
+      {SearchTermination::kPatience, "patience"},
+      {SearchTermination::kInterrupted, "interrupted"},
+  };
+};
+
+// A point of the box and its objective value.
+struct Bird {
+  std::vector<double> x;
+  double objective = kInfinity;
+};
+
+// The best so far after an iteration (iteration 0: the first random birds).
+struct TracePoint {
+  std::int64_t iteration = 0;
+  std::int64_t evaluations = 0;
+  double best = kInfinity;
+};
+
+struct SearchSummary {
+  SearchTermination termination = SearchTermination::kNotRun;
+  std::string message;
+  Bird best;
+  std::vector<Bird> elites;  // distinct birds, best first; the first one is `best`
+  std::int64_t evaluations = 0;
+  std::int64_t iterations = 0;
+  double seconds = 0;
+  std::vector<TracePoint> trace;
+};
+
+struct Box {
+  std::vector<double> lower;
+  std::vector<double> upper;
+};
+
+// The function to minimise: takes as many numbers as the box has sides. Must return the same value for
+// the same point; NaN counts as infinity.
+using ObjectiveFunction = std::function<double(const double*)>;
+
+// Minimises `objective` over the box. Same seed and run, same bits. Options must be valid and the box
+// sound (CHECKed); a search that stops early is a result, see `termination`.
+SearchSummary Search(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
+                     const Observer& observer = {});
+
+}  // namespace lyrefit

@@ -15,7 +15,13 @@
 
 namespace lyrefit {
 
-enum class Loss { kSquared, kHuber, kCauchy };
+// How the polish weighs large residuals. The robust ones are fitted by reweighting: r and k are the
+// residual and `loss_scale`, both in units of the noise.
+enum class Loss {
+  kSquared,
+  kHuber,   // weight min(1, k / |r|)
+  kCauchy,  // weight 1 / (1 + (r / k)^2)
+};
 
 template <>
 struct EnumTable<Loss> {

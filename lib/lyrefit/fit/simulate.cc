@@ -74,10 +74,12 @@ Expected<void> CheckOptions(const SimulateOptions& options) {
     return Fail(fmt::format("expected 2 to 10000000 points, found {}", options.points));
   }
   const Conditions& c = options.conditions;
-  if (c.cells_in_series < 1 || !(c.cell_temperature_K > 0) || !std::isfinite(c.cell_temperature_K)) {
-    return Fail(fmt::format("expected at least 1 cell in series and a temperature above 0 K, found {} "
-                            "and {:.6g} K",
-                            c.cells_in_series, c.cell_temperature_K));
+  if (c.cells_in_series < 1 || !(c.cell_temperature_K > 0) ||
+      !std::isfinite(c.cell_temperature_K)) {
+    return Fail(
+        fmt::format("expected at least 1 cell in series and a temperature above 0 K, found {} "
+                    "and {:.6g} K",
+                    c.cells_in_series, c.cell_temperature_K));
   }
   return {};
 }

@@ -25,9 +25,9 @@ struct SimulateOptions {
   std::string name = "simulated";
 };
 
-// The curve of a device under the given conditions: I(V) solved to rounding, then noise. Same options,
-// same bits. Errors: a parameter missing, unknown or outside its physical range, no open-circuit voltage
-// to end at, options outside their ranges.
+// The curve of a device under the given conditions: I(V) solved to rounding, then noise. Same
+// options, same bits. Errors: a parameter missing, unknown or outside its physical range, no
+// open-circuit voltage to end at, options outside their ranges.
 Expected<IvCurve> Simulate(const SimulateOptions& options);
 
 // Model, parameters, conditions, constants and name of a JSON fit report, ready to be simulated. An

@@ -7,6 +7,29 @@
 #include "lyrefit/refine/bounded_linear.h"
 
 namespace lyrefit {
+namespace {
+
+// The normal equations found which bounds hold; the digits come from an orthogonal factorisation.
+void SharpenFree(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, LinearPart* linear) {
+  Eigen::MatrixXd a(linear->columns.rows(), linear->free.size());
+  Eigen::VectorXd rest = linear->x;
+  for (std::size_t j = 0; j < linear->free.size(); ++j) {
+    a.col(static_cast<int>(j)) = linear->columns.col(linear->free[j]);
+    rest[linear->free[j]] = 0;
+  }
+  const Eigen::VectorXd exact =
+      a.colPivHouseholderQr().solve(linear->target - linear->columns * rest);
+  for (std::size_t j = 0; j < linear->free.size(); ++j) {
+    const int column = linear->free[j];
+    const double value = exact[static_cast<int>(j)];
+    if (!(value >= lower[column] && value <= upper[column])) return;
+  }
+  for (std::size_t j = 0; j < linear->free.size(); ++j) {
+    linear->x[linear->free[j]] = exact[static_cast<int>(j)];
+  }
+}
+
+}  // namespace
 
 LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<double>& weights,
                              double rs, const std::vector<double>& idealities) {
@@ -60,24 +83,7 @@ LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<doubl
   for (int j = 0; j < count; ++j) {
     if (linear.x[j] > lower[j] && linear.x[j] < upper[j]) linear.free.push_back(j);
   }
-  // The normal equations found which bounds hold; the digits come from an orthogonal factorisation.
-  Eigen::MatrixXd a(linear.columns.rows(), linear.free.size());
-  Eigen::VectorXd rest = linear.x;
-  for (std::size_t j = 0; j < linear.free.size(); ++j) {
-    a.col(static_cast<int>(j)) = linear.columns.col(linear.free[j]);
-    rest[linear.free[j]] = 0;
-  }
-  const Eigen::VectorXd exact =
-      a.colPivHouseholderQr().solve(linear.target - linear.columns * rest);
-  bool inside = true;
-  for (std::size_t j = 0; j < linear.free.size(); ++j) {
-    const int column = linear.free[j];
-    const double value = exact[static_cast<int>(j)];
-    inside = inside && value >= lower[column] && value <= upper[column];
-  }
-  for (std::size_t j = 0; inside && j < linear.free.size(); ++j) {
-    linear.x[linear.free[j]] = exact[static_cast<int>(j)];
-  }
+  if (!linear.free.empty()) SharpenFree(lower, upper, &linear);
   linear.residual = linear.columns * linear.x - linear.target;
   return linear;
 }

@@ -168,7 +168,8 @@ class Polish {
     for (int d = 0; d < DiodeCount(problem_.device); ++d) {
       const int is = SaturationCurrentIndex(d);
       const int n = IdealityIndex(d);
-      if (problem_.lower[is] > 0 || problem_.fixed(is) || (held_[is] && p_[is] > 0)) continue;
+      if (p_[is] <= 0) held_[is] = held_[n] = true;
+      if (problem_.lower[is] > 0 || held_[is]) continue;
       const double exponent = top / (p_[n] * problem_.device.module_thermal_voltage_V);
       const double strongest = p_[is] * std::exp(std::min(std::max(exponent, 0.0), 600.0));
       if (strongest > kFaded * problem_.current_scale_A) continue;

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/device/current.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/held_out.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kLevel = 0.05;
+
+std::string Capital(Model model) {
+  return model == Model::kSingleDiode ? "SD" : model == Model::kDoubleDiode ? "DD" : "TD";
+}
+
+// Why the data do not support `rich` over `simple`, empty if they do.
+std::string Objection(const CandidateReport& simple, const CandidateReport& rich) {
+  std::vector<std::string> reasons;
+  if (!(rich.aicc < simple.aicc)) {
+    reasons.push_back(std::isnan(rich.aicc) || std::isnan(simple.aicc)
+                          ? "too few points for AICc"
+                          : fmt::format("AICc rises by {:.1f}", rich.aicc - simple.aicc));
+  }
+  if (!(rich.f_p_value < kLevel)) {
+    reasons.push_back(std::isnan(rich.f_p_value) ? "no degrees of freedom for the F-test"
+                                                 : fmt::format("F-test p = {:.2g}", rich.f_p_value));
+  }
+  if (!rich.identifiable) reasons.push_back("the added diode may be absent");
+  if (!(rich.held_out_rmse_A < simple.held_out_rmse_A)) {
+    reasons.push_back(fmt::format("held-out RMSE does not fall ({:.3g} to {:.3g} A)",
+                                  simple.held_out_rmse_A, rich.held_out_rmse_A));
+  }
+  std::string text;
+  for (const std::string& reason : reasons) text += (text.empty() ? "" : ", ") + reason;
+  return text;
+}
+
+bool DiodesIdentifiable(const FitReport& report) {
+  return std::all_of(report.estimates.begin(), report.estimates.end(), [](const Estimate& e) {
+    const bool diode = e.info.symbol[0] == 'n' || e.info.symbol.rfind("Is", 0) == 0;
+    return !diode || e.fixed || e.identifiable;
+  });
+}
+
+CandidateReport Judge(const FitReport& report, const FitOptions& options,
+                      const FitReport* simpler) {
+  CandidateReport candidate;
+  candidate.model = report.model;
+  candidate.rmse_A = report.rmse.refined.Of(report.objective);
+  candidate.aicc = report.criteria.aicc;
+  candidate.identifiable = DiodesIdentifiable(report);
+  candidate.held_out_rmse_A = HeldOutRmse(report, options);
+  if (simpler != nullptr) {
+    const double simple = simpler->rmse.refined.Of(report.objective);
+    const int extra = report.criteria.parameters - simpler->criteria.parameters;
+    candidate.f_p_value =
+        FTestPValue(simple * simple, candidate.rmse_A * candidate.rmse_A, std::max(extra, 1),
+                    report.criteria.points - report.criteria.parameters);
+  }
+  return candidate;
+}
+
+// A model's own share of options that speak of diodes it does not have.
+FitOptions ForModel(FitOptions options, Model model, const IvCurve& curve) {
+  options.model = model;
+  const Device device = MakeDevice(model, curve.conditions);
+  const Device largest = MakeDevice(Model::kTripleDiode, curve.conditions);
+  const auto lacks = [&](const std::string& key) {
+    return largest.Find(key).has_value() && !device.Find(key).has_value();
+  };
+  for (auto it = options.fixed.begin(); it != options.fixed.end();) {
+    it = lacks(it->first) ? options.fixed.erase(it) : std::next(it);
+  }
+  auto& overrides = options.bounds.overrides;
+  for (auto it = overrides.begin(); it != overrides.end();) {
+    it = lacks(it->first) ? overrides.erase(it) : std::next(it);
+  }
+  return options;
+}
+
+}  // namespace
+
+Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
+                            const Observer& observer) {
+  std::vector<FitReport> fits;
+  ModelChoice choice;
+  std::string sentence;
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
+    FitOptions own = ForModel(options, model, curve);
+    own.polish = true;
+    auto fit = Fit(curve, own, observer);
+    if (!fit && fits.empty()) return fit;
+    if (!fit) {
+      sentence += fmt::format(" {} was not tried: {}.", Capital(model), fit.error().message);
+      break;
+    }
+    fits.push_back(std::move(*fit));
+    const bool first = fits.size() == 1;
+    choice.candidates.push_back(Judge(fits.back(), own, first ? nullptr : &fits[fits.size() - 2]));
+    if (fits.back().interrupted) {
+      sentence += " The comparison was interrupted.";
+      break;
+    }
+  }
+  std::size_t chosen = 0;
+  for (std::size_t k = 1; k < choice.candidates.size(); ++k) {
+    const CandidateReport& rich = choice.candidates[k];
+    const std::string objection = Objection(choice.candidates[chosen], rich);
+    if (objection.empty() && chosen + 1 == k) {
+      chosen = k;
+      sentence += fmt::format(
+          " {} earns its extra diode: AICc falls by {:.1f}, F-test p = {:.2g}, held-out RMSE falls "
+          "from {:.3g} to {:.3g} A.",
+          Capital(rich.model), choice.candidates[k - 1].aicc - rich.aicc, rich.f_p_value,
+          choice.candidates[k - 1].held_out_rmse_A, rich.held_out_rmse_A);
+    } else {
+      sentence += fmt::format(" {} is not supported: {}.", Capital(rich.model),
+                              objection.empty() ? "the model before it is not" : objection);
+    }
+  }
+  choice.chosen = choice.candidates[chosen].model;
+  choice.sentence = fmt::format("The data support {}.", Capital(choice.chosen)) + sentence;
+  FitReport report = std::move(fits[chosen]);
+  report.interrupted = report.interrupted || fits.back().interrupted;
+  report.choice = std::move(choice);
+  return report;
+}
+
+}  // namespace lyrefit

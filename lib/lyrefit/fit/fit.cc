@@ -1,0 +1,337 @@
+#include "lyrefit/fit/fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/base/version.h"
+#include "lyrefit/device/current.h"
+#include "lyrefit/device/model_points.h"
+#include "lyrefit/fit/intervals.h"
+#include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/search_space.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/fit/warnings.h"
+#include "lyrefit/refine/coordinates.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kGridStarts = 4;
+
+// Value of each parameter that the user fixed, NaN for the others.
+Expected<std::vector<double>> FixedValues(const std::map<std::string, double>& fixed,
+                                          const Device& device) {
+  std::vector<double> values(device.size(), kUnknown);
+  for (const auto& [key, value] : fixed) {
+    bool known = false;
+    for (int i = 0; i < device.size(); ++i) {
+      const ParameterInfo& info = device.parameters[i];
+      const bool group = (key == "Is" && Coordinates::IsSaturation(i)) ||
+                         (key == "n" && Coordinates::IsIdeality(i));
+      if (!group && info.symbol != key && info.name != key) continue;
+      const bool must_be_positive = Coordinates::IsIdeality(i) || i == kRsh;
+      if (!std::isfinite(value) || value < 0 || (must_be_positive && value <= 0)) {
+        return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key, value,
+                                must_be_positive ? "above 0" : "of 0 or more"));
+      }
+      values[i] = value;
+      known = true;
+    }
+    if (!known) return Fail(fmt::format("cannot fix '{}': this model has no such parameter", key));
+  }
+  return values;
+}
+
+// What the stages of one fit hand to each other.
+struct Job {
+  const IvCurve& curve;
+  const FitOptions& options;
+  const Observer& observer;
+  std::vector<ParameterBounds> bounds;
+  std::vector<double> fixed;
+  int free_parameters = 0;
+  RefineProblem problem;
+  bool stopped = false;
+
+  bool Stop(std::string_view stage) {
+    if (!stopped && StopRequested(observer, {stage, 0, 0, 0, 0, 0})) stopped = true;
+    return stopped;
+  }
+};
+
+Expected<void> Prepare(Job* job, FitReport* report) {
+  const IvCurve& curve = job->curve;
+  const FitOptions& options = job->options;
+  if (auto valid = Validate(curve); !valid) return valid;
+  if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
+  if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
+  report->device = MakeDevice(options.model, curve.conditions, options.constants);
+  auto bounds = MakeBounds(options.bounds, report->device, curve);
+  if (!bounds) return tl::unexpected(bounds.error());
+  auto fixed = FixedValues(options.fixed, report->device);
+  if (!fixed) return tl::unexpected(fixed.error());
+  job->bounds = std::move(*bounds);
+  job->fixed = std::move(*fixed);
+  std::vector<double> lower, upper;
+  for (int i = 0; i < report->device.size(); ++i) {
+    ParameterBounds& b = job->bounds[i];
+    if (b.lower == b.upper && std::isnan(job->fixed[i])) job->fixed[i] = b.lower;
+    const bool is_fixed = !std::isnan(job->fixed[i]);
+    if (is_fixed) b = {job->fixed[i], job->fixed[i], job->fixed[i], job->fixed[i], {}};
+    job->free_parameters += !is_fixed;
+    lower.push_back(b.lower);
+    upper.push_back(b.upper);
+  }
+  const int points = static_cast<int>(curve.size());
+  if (points < job->free_parameters) {
+    return Fail(fmt::format("{} points cannot determine {} parameters: measure more points or fix some",
+                            points, job->free_parameters),
+                curve.source);
+  }
+  if (job->free_parameters == 0) return Fail("every parameter is fixed: nothing is left to fit");
+  std::vector<double> weights;
+  for (const double sigma : curve.sigma_A) weights.push_back(1 / (sigma * sigma));
+  job->problem =
+      MakeRefineProblem(report->device, options.objective, curve.voltage_V, curve.current_A,
+                        std::move(weights), std::move(lower), std::move(upper));
+  if (options.kernel != nullptr) job->problem.kernel = options.kernel;
+  return {};
+}
+
+// Runs the search; returns the elites as parameter vectors.
+std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
+  const SearchSpace space(job->bounds, job->fixed);
+  std::vector<double> p(report->device.size());
+  const ObjectiveFunction objective = [&](const double* x) {
+    space.ToParameters(x, p.data());
+    return std::sqrt(MeanSquare(job->problem, p));
+  };
+  report->search = Search(objective, space.box(), job->options.search, job->observer);
+  job->stopped = report->search.termination == SearchTermination::kInterrupted;
+  std::vector<std::vector<double>> elites;
+  for (const Bird& bird : report->search.elites) {
+    space.ToParameters(bird.x.data(), p.data());
+    elites.push_back(p);
+  }
+  return elites;
+}
+
+// Reweights for a robust loss until the weights stand still; the result is a weighted problem whose
+// least-squares solution is the robust estimate.
+void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end) {
+  constexpr int kRounds = 50;
+  const std::vector<double> given = problem->weights;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> residual;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const double model =
+          problem->objective == Objective::kMeasuredCurrent
+              ? ExplicitCurrent(problem->device, end->p.data(), problem->voltage_V[k],
+                                problem->current_A[k])
+              : SolveOperatingPoint(problem->device, end->p.data(), problem->voltage_V[k]).current_A;
+      residual.push_back((model - problem->current_A[k]) * std::sqrt(given[k]));
+    }
+    const double unit = RobustScale(residual) * options.loss_scale;
+    if (!(unit > 0)) return;
+    std::vector<double> weights;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const double u = std::fabs(residual[k]) / unit;
+      weights.push_back(given[k] * (options.loss == Loss::kHuber ? std::min(1.0, 1 / u)
+                                                                 : 1 / (1 + u * u)));
+    }
+    const Kernel* kernel = problem->kernel;
+    *problem = MakeRefineProblem(problem->device, problem->objective, problem->voltage_V,
+                                 problem->current_A, std::move(weights), problem->lower,
+                                 problem->upper);
+    problem->kernel = kernel;
+    const std::vector<double> before = end->p;
+    *end = Refine(*problem, end->p);
+    double moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      moved = std::max(moved, std::fabs(end->p[i] - before[i]) / (std::fabs(before[i]) + 1e-300));
+    }
+    if (moved < 1e-9) return;
+  }
+}
+
+// Puts interchangeable diodes in order of rising n, vanished ones last.
+void OrderDiodes(const std::vector<ParameterBounds>& bounds, std::vector<double>* p,
+                 std::vector<bool>* held) {
+  const int diodes = (static_cast<int>(p->size()) - 3) / 2;
+  const auto same = [&](int a, int b) {
+    return bounds[a].lower == bounds[b].lower && bounds[a].upper == bounds[b].upper;
+  };
+  for (int pass = 0; pass < diodes; ++pass) {
+    for (int d = 0; d + 1 < diodes; ++d) {
+      const int is = SaturationCurrentIndex(d), next_is = SaturationCurrentIndex(d + 1);
+      const int n = IdealityIndex(d), next_n = IdealityIndex(d + 1);
+      if (!same(is, next_is) || !same(n, next_n)) continue;
+      const bool first_gone = (*p)[is] <= 0, second_gone = (*p)[next_is] <= 0;
+      const bool swap = first_gone != second_gone ? first_gone : (*p)[next_n] < (*p)[n];
+      if (!swap) continue;
+      for (const auto& [a, b] : {std::pair(is, next_is), std::pair(n, next_n)}) {
+        std::swap((*p)[a], (*p)[b]);
+        if (held == nullptr) continue;
+        const bool first = (*held)[a];
+        (*held)[a] = (*held)[b];
+        (*held)[b] = first;
+      }
+    }
+  }
+}
+
+RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {
+  return {Rmse(device, Objective::kMeasuredCurrent, p.data(), curve.voltage_V, curve.current_A),
+          Rmse(device, Objective::kSolvedCurrent, p.data(), curve.voltage_V, curve.current_A)};
+}
+
+// RMSE of the straight line through the points: what a fit must at least beat.
+double StraightLineRmse(const IvCurve& curve) {
+  const double n = static_cast<double>(curve.size());
+  const auto mean = [&](const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / n;
+  };
+  const double v0 = mean(curve.voltage_V), i0 = mean(curve.current_A);
+  double vv = 0, vi = 0, ii = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double v = curve.voltage_V[k] - v0, i = curve.current_A[k] - i0;
+    vv += v * v;
+    vi += v * i;
+    ii += i * i;
+  }
+  return std::sqrt(std::max(ii - vi * vi / vv, 0.0) / n);
+}
+
+void FillEstimates(const Job& job, FitReport* report) {
+  report->estimates.clear();
+  for (int i = 0; i < report->device.size(); ++i) {
+    Estimate e;
+    e.info = report->device.parameters[i];
+    e.bounds = job.bounds[i];
+    e.fixed = !std::isnan(job.fixed[i]);
+    e.searched = report->searched[i];
+    if (report->polished) e.refined = report->refined[i];
+    report->estimates.push_back(std::move(e));
+  }
+}
+
+// Everything that follows from the parameters.
+void FillResults(const Job& job, FitReport* report) {
+  const IvCurve& curve = job.curve;
+  const Device& device = report->device;
+  report->rmse.searched = BothRmse(device, report->searched, curve);
+  if (report->polished) {
+    report->rmse.best_bird_polished = BothRmse(device, report->best_bird_polished, curve);
+    report->rmse.refined = BothRmse(device, report->refined, curve);
+  }
+  const std::vector<double>& p = report->refined;
+  report->nNsVth = p[IdealityIndex(0)] * device.module_thermal_voltage_V;
+  report->measured = FindKeyPoints(curve.voltage_V, curve.current_A);
+  report->simulated = ModelKeyPoints(device, p.data());
+  report->model_current_A = SolveCurrents(device, p.data(), curve.voltage_V, *job.problem.kernel);
+  report->residual_A.clear();
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
+  }
+  report->criteria = FindInformation(MeanSquare(job.problem, p), static_cast<int>(curve.size()),
+                                     job.free_parameters);
+  report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
+  const double solved = BothRmse(device, p, curve).solved_current_A;
+  report->usable = std::isfinite(solved) && solved < StraightLineRmse(curve);
+}
+
+void EchoOptions(const FitOptions& options, FitReport* report) {
+  const FitOptions defaults;
+  std::vector<OptionEcho>& echoes = report->non_default_options;
+  const auto echo = [&](const char* name, const std::string& value, const std::string& usual) {
+    if (value != usual) echoes.push_back({name, value, usual});
+  };
+  echo("objective", ToText(options.objective), ToText(defaults.objective));
+  echo("constants", ToText(options.constants), ToText(defaults.constants));
+  echo("bounds", options.bounds.name, defaults.bounds.name);
+  for (const auto& [key, range] : options.bounds.overrides) {
+    echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
+  }
+  for (const auto& [key, value] : options.fixed) echo("fix", fmt::format("{}={:g}", key, value), "");
+  echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
+  AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
+  echo("polish", options.polish ? "yes" : "no", "yes");
+  echo("loss", ToText(options.loss), ToText(defaults.loss));
+  echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));
+  echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
+}
+
+// Polishes, finds intervals, and starts over from a lower optimum if a profile comes upon one.
+void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, FitReport* report) {
+  const FitOptions& options = job->options;
+  const auto stop = [&] { return job->Stop("polish"); };
+  const auto starts = CollectStarts(job->problem, elites, kGridStarts);
+  PolishResult polish = PolishStarts(job->problem, starts, options.threads, stop);
+  report->polished = true;
+  report->refine = polish.report;
+  report->best_bird_polished = polish.first.p;
+  OrderDiodes(job->bounds, &report->best_bird_polished, nullptr);
+  RefineEnd end = polish.best;
+  if (options.loss != Loss::kSquared) Robustify(options, &job->problem, &end);
+
+  const auto begin = std::chrono::steady_clock::now();
+  constexpr int kRestarts = 3;
+  for (int round = 0; round <= kRestarts; ++round) {
+    OrderDiodes(job->bounds, &end.p, &end.held);
+    report->refined = end.p;
+    FillEstimates(*job, report);
+    report->correlations.clear();
+    const IntervalInput input{job->problem, end, options.intervals, job->free_parameters,
+                              options.threads, [&] { return job->Stop("intervals"); }};
+    const std::vector<double> better =
+        FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
+    if (better.empty() || round == kRestarts) break;
+    end = Refine(job->problem, better);
+    report->refine.starts.push_back({"profile", std::sqrt(MeanSquare(job->problem, better)),
+                                     std::sqrt(end.mean_square), true});
+    report->refine.winner = static_cast<int>(report->refine.starts.size()) - 1;
+    report->refine.agreeing = 1;
+    for (std::size_t s = 0; s + 1 < report->refine.starts.size(); ++s) {
+      report->refine.starts[s].agrees = false;
+    }
+  }
+  report->refine.projected_gradient = end.projected_gradient;
+  report->interval_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
+  FitReport report;
+  Job job{curve, options, observer, {}, {}, 0, {}, false};
+  if (auto ready = Prepare(&job, &report); !ready) return tl::unexpected(ready.error());
+  report.version = Version();
+  report.curve = curve;
+  report.model = options.model;
+  report.objective = options.objective;
+  report.constants = options.constants;
+  report.bounds_name = options.bounds.name;
+  report.search_options = options.search;
+  EchoOptions(options, &report);
+
+  const std::vector<std::vector<double>> elites = RunSearch(&job, &report);
+  report.searched = report.refined = elites[0];
+  OrderDiodes(job.bounds, &report.searched, nullptr);
+  if (options.polish) {
+    PolishAndJudge(&job, elites, &report);
+  } else {
+    report.refined = report.searched;
+    FillEstimates(job, &report);
+  }
+  FillResults(job, &report);
+  report.interrupted = job.stopped;
+  report.warnings = FindWarnings(report);
+  return report;
+}
+
+}  // namespace lyrefit

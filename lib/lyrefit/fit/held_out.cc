@@ -1,0 +1,70 @@
+#include "lyrefit/fit/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/device/current.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/refine.h"
+#include "lyrefit/refine/separable.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kBlocks = 5;
+
+struct Split {
+  IvCurve kept;
+  IvCurve left_out;
+};
+
+Split MakeSplit(const IvCurve& curve, int block) {
+  const std::vector<int> order = OrderByVoltage(curve.voltage_V);
+  const int points = static_cast<int>(order.size());
+  const int begin = points * block / kBlocks;
+  const int end = points * (block + 1) / kBlocks;
+  Split split;
+  for (int k = 0; k < points; ++k) {
+    IvCurve& side = k >= begin && k < end ? split.left_out : split.kept;
+    side.voltage_V.push_back(curve.voltage_V[order[k]]);
+    side.current_A.push_back(curve.current_A[order[k]]);
+    if (!curve.sigma_A.empty()) side.sigma_A.push_back(curve.sigma_A[order[k]]);
+  }
+  return split;
+}
+
+}  // namespace
+
+double HeldOutRmse(const FitReport& report, const FitOptions& options) {
+  const int points = static_cast<int>(report.curve.size());
+  const int largest_block = (points + kBlocks - 1) / kBlocks;
+  if (points - largest_block < report.criteria.parameters || points < kBlocks) return kUnknown;
+  std::vector<double> lower, upper;
+  for (const Estimate& e : report.estimates) {
+    lower.push_back(e.bounds.lower);
+    upper.push_back(e.bounds.upper);
+  }
+  std::vector<double> squares(kBlocks);
+  ParallelFor(kBlocks, options.threads, [&](int block) {
+    const Split split = MakeSplit(report.curve, block);
+    std::vector<double> weights;
+    for (const double sigma : split.kept.sigma_A) weights.push_back(1 / (sigma * sigma));
+    const RefineProblem problem =
+        MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
+                          split.kept.current_A, std::move(weights), lower, upper);
+    RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined));
+    for (const SeparableStart& start : SeparableStarts(problem, report.refined[kRs], 2)) {
+      RefineEnd other = Refine(problem, SeparableDescent(problem, start.p));
+      if (other.mean_square < end.mean_square) end = std::move(other);
+    }
+    const double rmse = Rmse(report.device, report.objective, end.p.data(),
+                             split.left_out.voltage_V, split.left_out.current_A);
+    squares[block] = rmse * rmse * static_cast<double>(split.left_out.size());
+  });
+  double sum = 0;
+  for (const double square : squares) sum += square;
+  return std::sqrt(sum / points);
+}
+
+}  // namespace lyrefit

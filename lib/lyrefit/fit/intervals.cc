@@ -1,0 +1,207 @@
+#include "lyrefit/fit/intervals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/coordinates.h"
+#include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/sensitivity.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kStrongCorrelation = 0.9;
+
+// How far a symmetric interval may reach, in parts of the value (of a saturation current, in its
+// logarithm), before the curve of the model makes it false.
+constexpr double kLinearReach = 0.3;
+
+class IntervalFinder {
+ public:
+  IntervalFinder(const IntervalInput& input, std::vector<Estimate>* estimates)
+      : input_(input), estimates_(*estimates), size_(static_cast<int>(estimates->size())) {
+    const int points = static_cast<int>(input.problem.voltage_V.size());
+    degrees_ = std::max(points - input.free_parameters, 1);
+    t_ = StudentT95(degrees_);
+  }
+
+  std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
+    MarkBounds();
+    if (input_.method == Intervals::kNone) return {};
+    const Sensitivity sensitivity = FindSensitivity(input_.problem, input_.end, degrees_);
+    *condition = sensitivity.condition;
+    for (int i = 0; i < size_; ++i) {
+      estimates_[i].standard_error = sensitivity.standard_error[i];
+      if (!estimates_[i].fixed) Symmetric(i);
+    }
+    FindCorrelations(sensitivity, correlations);
+    if (input_.method == Intervals::kProfile && ResidualsAreNoise()) {
+      ProfileWhereNeeded(/*saturation_currents=*/true);
+      MarkAbsentDiodes();
+      ProfileWhereNeeded(/*saturation_currents=*/false);
+    }
+    MarkUnidentifiable();
+    return better_;
+  }
+
+ private:
+  // A profile measures residuals against residuals: with none but rounding it has nothing to measure.
+  bool ResidualsAreNoise() const {
+    return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
+  }
+
+  void MarkBounds() {
+    for (int i = 0; i < size_; ++i) {
+      Estimate& e = estimates_[i];
+      if (e.fixed) continue;
+      if (input_.end.p[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
+      if (input_.end.p[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
+    }
+  }
+
+  // On the parameter's own scale: ln Is, 1 / Rsh, linear for the rest.
+  void Symmetric(int i) {
+    Estimate& e = estimates_[i];
+    const double reach = t_ * e.standard_error;
+    if (!std::isfinite(reach)) return;
+    const double value = input_.end.p[i];
+    e.interval = IntervalMethod::kSymmetric;
+    if (Coordinates::IsSaturation(i)) {
+      e.low_95 = value * std::exp(-reach / value);
+      e.high_95 = value * std::exp(reach / value);
+    } else if (i == kRsh) {
+      const double conductance = 1 / value;
+      const double part = reach / (value * value);
+      e.low_95 = 1 / (conductance + part);
+      e.high_95 = conductance > part ? 1 / (conductance - part) : e.bounds.upper;
+    } else {
+      e.low_95 = value - reach;
+      e.high_95 = value + reach;
+    }
+    e.low_95 = std::max(e.low_95, e.bounds.lower);
+    e.high_95 = std::min(e.high_95, e.bounds.upper);
+  }
+
+  bool NeedsProfile(int i) const {
+    const Estimate& e = estimates_[i];
+    if (e.fixed) return false;
+    const bool any_at_bound =
+        std::any_of(estimates_.begin(), estimates_.end(),
+                    [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
+    if (any_at_bound || e.interval == IntervalMethod::kNone) return true;
+    if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
+    const double relative = t_ * e.standard_error / input_.end.p[i];
+    return relative > kLinearReach;
+  }
+
+  void ProfileWhereNeeded(bool saturation_currents) {
+    std::vector<ProfileQuery> queries;
+    for (int i = 0; i < size_; ++i) {
+      if (Coordinates::IsSaturation(i) != saturation_currents || !NeedsProfile(i)) continue;
+      if (estimates_[i].interval == IntervalMethod::kProfile) continue;
+      for (const bool upper : {false, true}) {
+        queries.push_back({i, upper, t_, degrees_, estimates_[i].standard_error});
+      }
+    }
+    const int count = static_cast<int>(queries.size());
+    std::vector<ProfileSide> sides(count);
+    std::vector<char> done(count, 0);
+    std::mutex asking;
+    ParallelFor(count, input_.threads, [&](int q) {
+      {
+        const std::lock_guard<std::mutex> lock(asking);
+        if (input_.stop()) return;
+      }
+      sides[q] = FindProfileSide(input_.problem, input_.end, queries[q]);
+      done[q] = 1;
+    });
+    for (int q = 0; q + 1 < count; q += 2) {
+      if (!done[q] || !done[q + 1]) continue;
+      Estimate& e = estimates_[queries[q].parameter];
+      e.interval = IntervalMethod::kProfile;
+      e.low_95 = sides[q].value;
+      e.high_95 = sides[q + 1].value;
+      for (const ProfileSide* side : {&sides[q], &sides[q + 1]}) {
+        if (side->better.empty()) continue;
+        if (better_.empty() ||
+            MeanSquare(input_.problem, side->better) < MeanSquare(input_.problem, better_)) {
+          better_ = side->better;
+        }
+      }
+    }
+  }
+
+  // A diode that the data allow to be absent says nothing about its n.
+  void MarkAbsentDiodes() {
+    for (int d = 0; d < DiodeCount(input_.problem.device); ++d) {
+      Estimate& is = estimates_[SaturationCurrentIndex(d)];
+      Estimate& n = estimates_[IdealityIndex(d)];
+      const bool absent = input_.end.p[SaturationCurrentIndex(d)] <= 0;
+      const bool may_be_absent =
+          is.interval == IntervalMethod::kProfile && is.low_95 <= 0 && !is.fixed;
+      if (!absent && !may_be_absent) continue;
+      is.identifiable = false;
+      is.reason = absent ? "the best fit has no such diode" : "the data allow this diode to be absent";
+      if (n.fixed) continue;
+      n.identifiable = false;
+      n.reason = fmt::format("{} may be 0", is.info.symbol);
+      n.interval = IntervalMethod::kProfile;
+      n.low_95 = n.bounds.lower;
+      n.high_95 = n.bounds.upper;
+      if (absent) n.at_bound = BoundSide::kNone;
+    }
+  }
+
+  void MarkUnidentifiable() {
+    for (int i = 0; i < size_; ++i) {
+      Estimate& e = estimates_[i];
+      if (e.fixed || !e.identifiable) continue;
+      const bool profiled = e.interval == IntervalMethod::kProfile;
+      if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
+        e.identifiable = false;
+        e.reason = "the data allow its whole range";
+      } else if (i == kRsh && e.high_95 >= e.bounds.upper) {
+        e.identifiable = false;
+        e.reason = "no shunt is visible: only a lower limit is known";
+      } else if (e.interval == IntervalMethod::kNone && e.at_bound == BoundSide::kNone) {
+        e.identifiable = false;
+        e.reason = "the data do not fix it: another parameter takes its place exactly";
+      }
+    }
+  }
+
+  void FindCorrelations(const Sensitivity& sensitivity, std::vector<Correlation>* correlations) {
+    for (int i = 0; i < size_; ++i) {
+      for (int j = i + 1; j < size_; ++j) {
+        const double value = sensitivity.correlation(i, j);
+        if (std::fabs(value) <= kStrongCorrelation) continue;
+        correlations->push_back(
+            {estimates_[i].info.symbol, estimates_[j].info.symbol, value});
+      }
+    }
+    std::stable_sort(correlations->begin(), correlations->end(), [](const auto& a, const auto& b) {
+      return std::fabs(a.value) > std::fabs(b.value);
+    });
+  }
+
+  const IntervalInput& input_;
+  std::vector<Estimate>& estimates_;
+  const int size_;
+  int degrees_ = 1;
+  double t_ = 2;
+  std::vector<double> better_;
+};
+
+}  // namespace
+
+std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
+                                  std::vector<Correlation>* correlations, double* condition) {
+  return IntervalFinder(input, estimates).Run(correlations, condition);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/refine/refine.h"
+
+namespace lyrefit {
+
+struct IntervalInput {
+  const RefineProblem& problem;
+  const RefineEnd& end;
+  Intervals method = Intervals::kProfile;
+  int free_parameters = 0;
+  int threads = 0;
+  std::function<bool()> stop;
+};
+
+// Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and condition.
+// Returns parameters of a lower optimum if a profile came upon one, else an empty vector.
+std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
+                                  std::vector<Correlation>* correlations, double* condition);
+
+}  // namespace lyrefit

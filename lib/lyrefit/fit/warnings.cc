@@ -1,0 +1,113 @@
+#include "lyrefit/fit/warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/coordinates.h"
+
+namespace lyrefit {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+void WarnOfStops(const FitReport& report, Sentences* out) {
+  if (report.interrupted) {
+    out->push_back("interrupted: this is the best so far, not the end of the search");
+  }
+  if (!report.usable) {
+    out->push_back("the fit is not usable: a straight line describes these points as well");
+  }
+  if (report.polished && report.refine.termination == "no convergence") {
+    out->push_back("the polish stopped before it converged; do not trust the last digits");
+  }
+  if (!report.polished && !report.interrupted) {
+    out->push_back("not polished: the parameters are those of the search's best bird");
+  }
+}
+
+void WarnOfBounds(const FitReport& report, Sentences* out) {
+  for (const Estimate& e : report.estimates) {
+    if (e.at_bound == BoundSide::kNone) continue;
+    const double bound = e.at_bound == BoundSide::kLower ? e.bounds.lower : e.bounds.upper;
+    std::string text = fmt::format("{} sits at its {} bound {:.6g}", e.info.symbol,
+                                   ToText(e.at_bound), bound);
+    const bool ideality = e.info.symbol[0] == 'n';
+    if (ideality && report.estimates.size() == 5) {
+      text += ": temperature or number of cells may be wrong, or one diode is not enough";
+    } else if (ideality) {
+      text += ": the data would take it further, where it has no physical meaning";
+    }
+    out->push_back(text);
+  }
+}
+
+void WarnOfRichModel(const FitReport& report, Sentences* out) {
+  std::string absent;
+  for (const Estimate& e : report.estimates) {
+    if (e.identifiable || e.info.name.rfind("saturation_current", 0) != 0) continue;
+    absent += (absent.empty() ? "" : ", ") + e.info.symbol;
+  }
+  if (absent.empty() || report.model == Model::kSingleDiode) return;
+  out->push_back(fmt::format(
+      "{} may be 0: the data do not support this many diodes; --model auto decides", absent));
+}
+
+void WarnOfData(const FitReport& report, Sentences* out) {
+  const int spare = report.criteria.points - report.criteria.parameters;
+  if (spare < 3) {
+    out->push_back(fmt::format("{} points for {} parameters leave {} to judge the fit by",
+                               report.criteria.points, report.criteria.parameters, spare));
+  }
+  if (std::isnan(report.measured.open_circuit_voltage_V)) {
+    out->push_back("the curve does not reach open circuit: n, Is and Rs rest on extrapolation");
+  }
+  if (std::isnan(report.measured.short_circuit_current_A)) {
+    out->push_back("the curve does not reach short circuit: Iph and Rsh rest on extrapolation");
+  }
+}
+
+// Current that rises with voltage beyond what noise explains: impossible for a passive device.
+void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
+  constexpr double kNoises = 6;
+  const IvCurve& curve = report.curve;
+  const double noise = std::max(NoiseFromDifferences(curve.voltage_V, report.residual_A),
+                                RobustScale(report.residual_A));
+  double lowest = HUGE_VAL, worst = 0, at = 0;
+  for (const int k : OrderByVoltage(curve.voltage_V)) {
+    lowest = std::min(lowest, curve.current_A[k]);
+    if (curve.current_A[k] - lowest <= worst) continue;
+    worst = curve.current_A[k] - lowest;
+    at = curve.voltage_V[k];
+  }
+  if (worst <= kNoises * noise || worst <= 0) return;
+  out->push_back(fmt::format(
+      "the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive device does: the "
+      "light or the instrument changed during the sweep",
+      worst, at));
+}
+
+void WarnOfResiduals(const FitReport& report, Sentences* out) {
+  if (!(report.residuals.runs_p_value < 0.01)) return;
+  out->push_back(fmt::format(
+      "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): the "
+      "model misses something, and intervals are too narrow",
+      report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value));
+}
+
+}  // namespace
+
+std::vector<std::string> FindWarnings(const FitReport& report) {
+  Sentences warnings;
+  WarnOfStops(report, &warnings);
+  WarnOfBounds(report, &warnings);
+  WarnOfRichModel(report, &warnings);
+  WarnOfRisingCurrent(report, &warnings);
+  WarnOfResiduals(report, &warnings);
+  WarnOfData(report, &warnings);
+  return warnings;
+}
+
+}  // namespace lyrefit

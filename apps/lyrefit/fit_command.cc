@@ -1,0 +1,242 @@
+#include "fit_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "interrupt.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/plot.h"
+#include "lyrefit/report/text_report.h"
+#include "output.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kFitFooter[] =
+    "Examples:\n"
+    "  lyrefit fit data/rtc_france --model sd\n"
+    "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
+    "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
+    "\n"
+    "Exit codes: 0 fine, 1 bad input or options, 2 the fit is not usable.";
+
+// Bounds published for a data set lie beside its curve.
+Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string& curve_file) {
+  std::error_code error;
+  const fs::path curve(curve_file);
+  const fs::path folder = fs::is_directory(curve, error) ? curve : curve.parent_path();
+  const fs::path file = folder / ("bounds-" + name + ".json");
+  if (!fs::exists(file, error)) {
+    std::string others;
+    for (const char* other : {"paper", "literature"}) {
+      if (!fs::exists(folder / fmt::format("bounds-{}.json", other), error)) continue;
+      others += fmt::format("{}, ", other);
+    }
+    return Fail(
+        fmt::format("--bounds {}: there is no {} beside the curve; there are {}physical and wide",
+                    name, file.string(), others));
+  }
+  Expected<BoundsSpec> spec = ReadBoundsFile(file.string());
+  if (spec) spec->name = name;
+  return spec;
+}
+
+Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file) {
+  if (name == "physical" || name == "wide") {
+    BoundsSpec spec;
+    spec.name = name;
+    return spec;
+  }
+  if (name == "paper" || name == "literature") return PublishedBounds(name, curve_file);
+  std::error_code error;
+  if (!fs::exists(name, error)) {
+    return Fail(
+        fmt::format("--bounds: expected physical, wide, paper, literature or a JSON file, but "
+                    "there is no file '{}'",
+                    name));
+  }
+  return ReadBoundsFile(name);
+}
+
+}  // namespace
+
+FitCommand::FitCommand(CLI::App* app)
+    : command_(app->add_subcommand("fit", "Fit diode-model parameters to a measured I-V curve")) {
+  command_
+      ->add_option("CURVE", curve_file_, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
+      ->required();
+  command_->add_option("--curve", curve_index_, "which curve of a file that holds several")
+      ->type_name("INDEX")
+      ->group("Conditions");
+  AddConditionFlags(command_, &conditions_);
+  AddModelFlags();
+  AddSearchFlags();
+  AddPolishFlags();
+  AddOutputFlags();
+  command_->footer(kFitFooter);
+}
+
+void FitCommand::AddModelFlags() {
+  const auto parse_model = [this](const std::string& text) {
+    const std::optional<Model> model = FromText<Model>(text);
+    auto_model_ = text == "auto";
+    if (!model && !auto_model_) {
+      throw CLI::ValidationError(
+          "--model", "expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
+    }
+    options_.model = model.value_or(Model::kSingleDiode);
+  };
+  command_
+      ->add_option_function<std::string>(
+          "--model", parse_model,
+          "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
+      ->type_name("NAME")
+      ->group("Model");
+  AddEnumFlag(command_, "--objective", "which residual is squared", &options_.objective)
+      ->group("Model");
+  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Model");
+  command_
+      ->add_option(
+          "--bounds", bounds_,
+          "physical (derived from the curve), wide, paper or literature (published with the "
+          "curve), or a JSON file (default physical)")
+      ->type_name("NAME|FILE")
+      ->group("Model");
+  AddListFlag(command_, "--bound", "range of one parameter, Rs=0:0.5; once for each", &bound_list_)
+      ->type_name("P=LOWER:UPPER")
+      ->group("Model");
+  AddListFlag(command_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
+      ->type_name("P=VALUE")
+      ->group("Model");
+}
+
+void FitCommand::AddSearchFlags() {
+  AddEnumFlag(command_, "--algorithm", "how to search", &options_.search.algorithm)
+      ->group("Search");
+  AddTableFlags(command_, kSearchOptionTable, "Search", &options_.search);
+}
+
+void FitCommand::AddPolishFlags() {
+  command_->add_flag("--no-polish", no_polish_, "answer with the search's best bird")
+      ->group("Polish");
+  AddEnumFlag(command_, "--loss", "of the polish", &options_.loss)->group("Polish");
+  command_
+      ->add_option("--loss-scale", options_.loss_scale,
+                   "noise units beyond which a robust loss bends (default " +
+                       NumberText(options_.loss_scale) + ")")
+      ->type_name("NUMBER")
+      ->group("Polish");
+  AddEnumFlag(command_, "--intervals", "95 % intervals", &options_.intervals)->group("Polish");
+  command_
+      ->add_option("--threads", options_.threads,
+                   "0: all cores; never changes a result (default 0)")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N")
+      ->group("Polish");
+  std::string kernels;
+  for (const Kernel& kernel : AvailableKernels()) {
+    kernels += std::string(kernels.empty() ? "" : ", ") + kernel.name;
+  }
+  command_
+      ->add_option("--kernel", kernel_,
+                   "instruction set of the heavy loops; never changes a result: " + kernels +
+                       " (default: the fastest)")
+      ->type_name("NAME")
+      ->group("Polish");
+}
+
+void FitCommand::AddOutputFlags() {
+  command_->add_option("--json", json_file_, "the report as JSON; - for standard output, alone")
+      ->type_name("FILE")
+      ->group("Output");
+  command_->add_option("--plot", plot_file_, "the fit as a picture, .svg or .png")
+      ->type_name("FILE")
+      ->group("Output");
+  command_->add_flag("--brief", brief_, "one line instead of the whole report")->group("Output");
+  command_->add_flag("--quiet", quiet_, "no text report")->group("Output");
+}
+
+Expected<IvCurve> FitCommand::Curve() const {
+  ReadOptions read;
+  read.curve = curve_index_;
+  Expected<IvCurve> curve = ReadCurve(curve_file_, read);
+  if (!curve) return curve;
+  if (auto applied = ApplyConditionFlags(conditions_, &*curve); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return curve;
+}
+
+Expected<void> FitCommand::SetBounds() {
+  Expected<BoundsSpec> spec = NamedBounds(bounds_, curve_file_);
+  if (!spec) return tl::unexpected(spec.error());
+  for (const std::string& text : bound_list_) {
+    const auto range = ParseRange("--bound", text);
+    if (!range) return tl::unexpected(range.error());
+    spec->overrides[range->first] = range->second;
+  }
+  options_.bounds = std::move(*spec);
+  return {};
+}
+
+Expected<void> FitCommand::SetFixed() {
+  for (const std::string& text : fix_list_) {
+    const auto assignment = ParseAssignment("--fix", text);
+    if (!assignment) return tl::unexpected(assignment.error());
+    options_.fixed[assignment->first] = assignment->second;
+  }
+  return {};
+}
+
+Expected<void> FitCommand::SetKernel() {
+  if (kernel_.empty()) return {};
+  std::string names;
+  for (const Kernel& kernel : AvailableKernels()) {
+    if (kernel_ == kernel.name) {
+      options_.kernel = &kernel;
+      return {};
+    }
+    names += (names.empty() ? "" : ", ") + std::string(kernel.name);
+  }
+  return Fail(fmt::format("--kernel: this processor runs {}, not '{}'", names, kernel_));
+}
+
+Expected<void> FitCommand::CheckTargets() const {
+  if (auto writable = CheckWritable(json_file_); !writable) return writable;
+  if (plot_file_.empty()) return {};
+  if (auto drawable = CheckPlot(plot_file_); !drawable) return drawable;
+  return CheckWritable(plot_file_);
+}
+
+Expected<void> FitCommand::Write(const FitReport& report) const {
+  if (!json_file_.empty()) {
+    if (auto written = WriteOutput(json_file_, JsonReport(report)); !written) return written;
+  }
+  if (!plot_file_.empty()) {
+    if (auto drawn = PlotFit(report, plot_file_); !drawn) return drawn;
+  }
+  if (quiet_ || json_file_ == "-") return {};
+  return WriteOutput("-", brief_ ? BriefReport(report) : FullReport(report));
+}
+
+int FitCommand::Run() {
+  options_.polish = !no_polish_;
+  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckTargets()}) {
+    if (!checked) return Refuse(checked.error());
+  }
+  const Expected<IvCurve> curve = Curve();
+  if (!curve) return Refuse(curve.error());
+  const InterruptGuard guard;
+  const Expected<FitReport> report = auto_model_ ? FitAuto(*curve, options_, TerminalObserver())
+                                                 : Fit(*curve, options_, TerminalObserver());
+  ClearProgressLine();
+  if (!report) return Refuse(report.error());
+  if (auto written = Write(*report); !written) return Refuse(written.error());
+  return report->usable ? kExitFine : kExitNotUsable;
+}
+
+}  // namespace lyrefit

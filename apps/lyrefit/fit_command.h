@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flags.h"
+#include "lyrefit/fit/fit.h"
+
+namespace lyrefit {
+
+// `lyrefit fit`: reads a curve, fits it, writes the report.
+class FitCommand {
+ public:
+  explicit FitCommand(CLI::App* app);
+  bool Chosen() const { return command_->parsed(); }
+  int Run();
+
+ private:
+  void AddModelFlags();
+  void AddSearchFlags();
+  void AddPolishFlags();
+  void AddOutputFlags();
+  Expected<IvCurve> Curve() const;
+  Expected<void> SetBounds();
+  Expected<void> SetFixed();
+  Expected<void> SetKernel();
+  Expected<void> CheckTargets() const;
+  Expected<void> Write(const FitReport& report) const;
+
+  CLI::App* command_;
+  FitOptions options_;
+  std::string curve_file_;
+  std::optional<int> curve_index_;
+  ConditionFlags conditions_;
+  bool auto_model_ = false;
+  bool no_polish_ = false;
+  std::string bounds_ = "physical";
+  std::vector<std::string> bound_list_;
+  std::vector<std::string> fix_list_;
+  std::string kernel_;
+  std::string json_file_;
+  std::string plot_file_;
+  bool brief_ = false;
+  bool quiet_ = false;
+};
+
+}  // namespace lyrefit

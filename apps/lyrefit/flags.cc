@@ -1,0 +1,140 @@
+#include "flags.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lyrefit/curve/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kColdest_C = -100;
+constexpr double kHottest_C = 150;
+constexpr double kMostSteps = 1e6;
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
+    parts.push_back(text.substr(begin, end - begin));
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+tl::unexpected<Error> Misread(const std::string& flag, const char* example,
+                              const std::string& text) {
+  return Fail(fmt::format("{}: expected {}, found '{}'", flag, example, text));
+}
+
+Expected<void> CheckConditionFlags(const ConditionFlags& flags) {
+  if (flags.cells && *flags.cells < 1) {
+    return Fail(fmt::format("--cells: expected at least 1 cell in series, found {}", *flags.cells));
+  }
+  if (flags.temperature_C && *flags.temperature_C > kHottest_C) {
+    return Fail(
+        fmt::format("--temperature-C: {} looks like kelvin: expected degrees Celsius, "
+                    "{} to {}",
+                    NumberText(*flags.temperature_C), kColdest_C, kHottest_C));
+  }
+  if (flags.temperature_C && !(*flags.temperature_C >= kColdest_C)) {
+    return Fail(fmt::format("--temperature-C: expected degrees Celsius, {} to {}, found {}",
+                            kColdest_C, kHottest_C, NumberText(*flags.temperature_C)));
+  }
+  if (flags.irradiance_W_m2 &&
+      !(std::isfinite(*flags.irradiance_W_m2) && *flags.irradiance_W_m2 >= 0)) {
+    return Fail(fmt::format("--irradiance-Wm2: expected at least 0 W/m2, found {}",
+                            NumberText(*flags.irradiance_W_m2)));
+  }
+  return {};
+}
+
+// Drops the sentences about a condition that now is given.
+void ForgetAssumptions(const char* about, std::vector<std::string>* sentences) {
+  const auto begins_with = [about](const std::string& sentence, const char* start) {
+    return sentence.rfind(std::string(start) + about, 0) == 0;
+  };
+  sentences->erase(std::remove_if(sentences->begin(), sentences->end(),
+                                  [&](const std::string& sentence) {
+                                    return begins_with(sentence, "") ||
+                                           begins_with(sentence, "the ") ||
+                                           begins_with(sentence, "number of ") ||
+                                           begins_with(sentence, "the column of the ");
+                                  }),
+                   sentences->end());
+}
+
+}  // namespace
+
+CLI::Option* AddListFlag(CLI::App* app, const std::string& flag, const std::string& doc,
+                         std::vector<std::string>* target) {
+  return app->add_option(flag, *target, doc)->allow_extra_args(false)->type_name("TEXT ...");
+}
+
+Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std::string& flag,
+                                                                       const std::string& text) {
+  constexpr char kExample[] = "PARAMETER=LOWER:UPPER such as Rs=0:0.5";
+  const std::vector<std::string> sides = Split(text, '=');
+  if (sides.size() != 2 || sides[0].empty()) return Misread(flag, kExample, text);
+  const std::vector<std::string> ends = Split(sides[1], ':');
+  if (ends.size() != 2) return Misread(flag, kExample, text);
+  const std::optional<double> lower = ParseNumber(ends[0]);
+  const std::optional<double> upper = ParseNumber(ends[1]);
+  if (!lower || !upper) return Misread(flag, kExample, text);
+  return std::pair(sides[0], std::pair(*lower, *upper));
+}
+
+Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag,
+                                                         const std::string& text) {
+  const std::vector<std::string> sides = Split(text, '=');
+  const std::optional<double> value = sides.size() == 2 ? ParseNumber(sides[1]) : std::nullopt;
+  if (!value || sides[0].empty()) return Misread(flag, "PARAMETER=VALUE such as n2=2", text);
+  return std::pair(sides[0], *value);
+}
+
+Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text) {
+  constexpr char kExample[] = "FROM:TO:COUNT in volt such as 0:0.6:50";
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts.size() != 3) return Misread(flag, kExample, text);
+  const std::optional<double> from = ParseNumber(parts[0]);
+  const std::optional<double> to = ParseNumber(parts[1]);
+  const std::optional<double> count = ParseNumber(parts[2]);
+  const bool sound = from && to && count && std::isfinite(*from) && std::isfinite(*to) &&
+                     *count >= 2 && *count <= kMostSteps && *count == std::floor(*count);
+  if (!sound) return Misread(flag, kExample, text);
+  std::vector<double> steps(static_cast<std::size_t>(*count));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    steps[i] = *from + (*to - *from) * static_cast<double>(i) / (*count - 1);
+  }
+  return steps;
+}
+
+void AddConditionFlags(CLI::App* app, ConditionFlags* flags) {
+  app->add_option("--cells", flags->cells, "cells in series")->type_name("N")->group("Conditions");
+  app->add_option("--temperature-C", flags->temperature_C, "cell temperature in degrees Celsius")
+      ->type_name("T")
+      ->group("Conditions");
+  app->add_option("--irradiance-Wm2", flags->irradiance_W_m2, "irradiance in W/m2")
+      ->type_name("G")
+      ->group("Conditions");
+}
+
+Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) {
+  if (auto checked = CheckConditionFlags(flags); !checked) return checked;
+  if (flags.cells) {
+    curve->conditions.cells_in_series = *flags.cells;
+    ForgetAssumptions("cells in series", &curve->assumptions);
+  }
+  if (flags.temperature_C) {
+    curve->conditions.cell_temperature_K = *flags.temperature_C + kZeroCelsius_K;
+    ForgetAssumptions("cell temperature", &curve->assumptions);
+  }
+  if (flags.irradiance_W_m2) {
+    curve->conditions.irradiance_W_m2 = *flags.irradiance_W_m2;
+    ForgetAssumptions("irradiance", &curve->assumptions);
+  }
+  return {};
+}
+
+}  // namespace lyrefit

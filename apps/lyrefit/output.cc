@@ -1,0 +1,56 @@
+#include "output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "lyrefit/base/file.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> CannotWrite(const std::string& path, int reason) {
+  return Fail("cannot write the file: " + std::generic_category().message(reason), path);
+}
+
+}  // namespace
+
+int Refuse(const Error& error) {
+  fmt::print(stderr, "lyrefit: {}\n", error.ToString());
+  return kExitBadInput;
+}
+
+Expected<void> CheckWritable(const std::string& path) {
+  if (path.empty() || path == "-") return {};
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return Fail("expected a file to write, found a folder", path);
+  if (fs::exists(status)) {
+    if (access(path.c_str(), W_OK) != 0) return CannotWrite(path, errno);
+    if (!fs::is_regular_file(status)) return {};
+  }
+  // A file beside it, as the writer will use one.
+  const std::string probe = fmt::format("{}.{}.probe", path, getpid());
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return CannotWrite(path, errno);
+  close(file);
+  unlink(probe.c_str());
+  return {};
+}
+
+Expected<void> WriteOutput(const std::string& path, const std::string& text) {
+  if (path != "-") return WriteTextFile(path, text);
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!written) return CannotWrite("standard output", errno);
+  return {};
+}
+
+}  // namespace lyrefit

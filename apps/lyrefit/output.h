@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/base/error.h"
+
+namespace lyrefit {
+
+// Exit codes of every verb.
+constexpr int kExitFine = 0;
+constexpr int kExitBadInput = 1;
+constexpr int kExitNotUsable = 2;
+
+// Prints "lyrefit: sentence" on standard error; returns kExitBadInput.
+int Refuse(const Error& error);
+
+// Whether a file can be created or replaced at `path`; leaves nothing behind. "-" and "" pass.
+Expected<void> CheckWritable(const std::string& path);
+
+// Writes into a file, or onto standard output if `path` is "-".
+Expected<void> WriteOutput(const std::string& path, const std::string& text);
+
+}  // namespace lyrefit

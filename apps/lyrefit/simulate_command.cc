@@ -1,0 +1,124 @@
+#include "simulate_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/write_curve.h"
+#include "output.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr char kSimulateFooter[] =
+    "Examples:\n"
+    "  lyrefit simulate --set Iph=0.76 --set Is1=3e-7 --set n1=1.48 --set Rs=0.036 --set Rsh=54\n"
+    "      --temperature-C 33 --noise-A 0.0005 --seed 1 --out cell.csv\n"
+    "  lyrefit simulate --from fit.json --voltages 0:0.6:61\n"
+    "\n"
+    "Beside NAME.csv a file NAME.json holds the conditions; lyrefit fit NAME.csv reads both.";
+
+// NAME.json beside NAME.csv; empty for standard output.
+std::string SidecarOf(const std::string& table) {
+  if (table == "-") return "";
+  return std::filesystem::path(table).replace_extension(".json").string();
+}
+
+Expected<void> CheckTargets(const std::string& table) {
+  if (table != "-" && table == SidecarOf(table)) {
+    return Fail("--out: expected a table that ends in .csv, found .json", table);
+  }
+  if (auto writable = CheckWritable(table); !writable) return writable;
+  return CheckWritable(SidecarOf(table));
+}
+
+}  // namespace
+
+SimulateCommand::SimulateCommand(CLI::App* app)
+    : command_(
+          app->add_subcommand("simulate", "Write the curve of a device, with noise if wanted")) {
+  AddEnumFlag(command_, "--model", "number of diodes", &flags_.model)->group("Device");
+  AddListFlag(command_, "--set", "value of one parameter, Iph=0.76; once for each", &set_list_)
+      ->type_name("P=VALUE")
+      ->group("Device");
+  command_->add_option("--from", from_file_, "parameters and conditions of a JSON fit report")
+      ->type_name("FILE")
+      ->group("Device");
+  AddEnumFlag(command_, "--constants", "values of k and q", &flags_.constants)->group("Device");
+  AddConditionFlags(command_, &conditions_);
+  command_->add_option("--voltages", voltages_, "even steps in volt, both ends included")
+      ->type_name("FROM:TO:COUNT")
+      ->group("Points");
+  command_
+      ->add_option("--points", flags_.points,
+                   "points from 0 V to a little beyond open circuit (default 100)")
+      ->type_name("N")
+      ->excludes("--voltages")
+      ->group("Points");
+  command_
+      ->add_option("--noise-A", flags_.noise_A,
+                   "standard deviation of the current in A (default 0)")
+      ->type_name("S")
+      ->group("Noise");
+  command_
+      ->add_option("--noise-relative", flags_.noise_relative,
+                   "standard deviation as a part of the current (default 0)")
+      ->type_name("R")
+      ->group("Noise");
+  command_->add_option("--seed", flags_.seed, "seed of the noise (default 0)")
+      ->type_name("S")
+      ->group("Noise");
+  command_->add_option("--out", out_file_, "where to write; - for standard output (default -)")
+      ->type_name("FILE")
+      ->group("Output");
+  command_->footer(kSimulateFooter);
+}
+
+Expected<SimulateOptions> SimulateCommand::Options() const {
+  SimulateOptions options = flags_;
+  if (!from_file_.empty()) {
+    const Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_);
+    if (!fit) return fit;
+    options.parameters = fit->parameters;
+    options.conditions = fit->conditions;
+    if (command_->count("--model") == 0) options.model = fit->model;
+    if (command_->count("--constants") == 0) options.constants = fit->constants;
+  }
+  for (const std::string& text : set_list_) {
+    const auto assignment = ParseAssignment("--set", text);
+    if (!assignment) return tl::unexpected(assignment.error());
+    options.parameters[assignment->first] = assignment->second;
+  }
+  if (!voltages_.empty()) {
+    const auto steps = ParseSteps("--voltages", voltages_);
+    if (!steps) return tl::unexpected(steps.error());
+    options.voltage_V = *steps;
+  }
+  IvCurve told;
+  told.conditions = options.conditions;
+  if (auto applied = ApplyConditionFlags(conditions_, &told); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  options.conditions = told.conditions;
+  if (out_file_ != "-") options.name = std::filesystem::path(out_file_).stem().string();
+  return options;
+}
+
+int SimulateCommand::Run() {
+  const Expected<SimulateOptions> options = Options();
+  if (!options) return Refuse(options.error());
+  if (auto checked = CheckTargets(out_file_); !checked) return Refuse(checked.error());
+  const Expected<IvCurve> curve = Simulate(*options);
+  if (!curve) return Refuse(curve.error());
+  if (auto written = WriteOutput(out_file_, CurveToCsv(*curve)); !written) {
+    return Refuse(written.error());
+  }
+  if (out_file_ == "-") return kExitFine;
+  if (auto written = WriteTextFile(SidecarOf(out_file_), CurveSidecarJson(*curve)); !written) {
+    return Refuse(written.error());
+  }
+  return kExitFine;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lyrefit {
+
+enum class ColumnKind {
+  kUnknown,
+  kVoltage,
+  kCurrent,
+  kSigma,
+  kTime,
+  kSweep,  // member of one measurement: up, down, light, dark
+  kCurve,  // one of several measurements in a file
+  kIrradiance,
+  kTemperature,
+  kCurrentDensity,  // recognised only to be refused
+};
+
+// What a header cell says about its column. A value in the file becomes factor * value + offset in
+// V, A, s, W/m2 or degrees Celsius.
+struct Column {
+  ColumnKind kind = ColumnKind::kUnknown;
+  std::string label;  // as in the file
+  std::string unit;   // as understood, empty where the label names none
+  double factor = 1;
+  double offset = 0;
+  std::string refusal;  // why a column of this kind cannot be used, empty if it can
+};
+
+// Reads "Voltage (mV)", "I_mA", "U [V]", "Amps", ... without regard to case and punctuation. Only a
+// lone t and T differ: time and temperature.
+Column RecogniseColumn(std::string_view label);
+
+}  // namespace lyrefit

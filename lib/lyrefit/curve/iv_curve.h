@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/base/error.h"
+
+namespace lyrefit {
+
+// Under what a curve was taken.
+struct Conditions {
+  double cell_temperature_K = 298.15;
+  double irradiance_W_m2 = 1000;
+  int cells_in_series = 1;
+  int strings_in_parallel = 1;
+
+  // Ns Vt in volt: divides the junction voltage of the whole module in the diode's exponent.
+  double ModuleThermalVoltage(ConstantSet constants) const {
+    return cells_in_series * ThermalVoltage(cell_temperature_K, constants);
+  }
+};
+
+// What the person at the bench knows besides the readings; empty where nobody said.
+struct DeviceNotes {
+  std::string technology;
+  std::optional<int> bypass_diodes;
+  std::optional<double> bandgap_eV;
+  std::optional<double> isc_tempco_per_K;          // relative, per kelvin
+  std::optional<double> current_noise_constant_A;  // standard deviation, constant part
+  std::optional<double> current_noise_relative;    // standard deviation, part of |current|
+  std::optional<double> current_resolution_A;      // step of the instrument
+};
+
+// One measured curve in generator sign: delivered current is positive, negative voltages are
+// reverse bias. Points stay in the order they were taken. Optional columns are empty or as long as
+// voltage_V.
+struct IvCurve {
+  std::string name;    // "rtc_france"
+  std::string source;  // the file it was read from, empty for made curves
+  Conditions conditions;
+  DeviceNotes notes;
+  std::vector<double> voltage_V;
+  std::vector<double> current_A;
+  std::vector<double> sigma_A;  // standard deviation of each current
+  std::vector<double> time_s;
+  std::vector<int> sweep;
+  std::vector<double> irradiance_W_m2;
+  std::vector<double> temperature_C;
+  std::vector<std::string> assumptions;  // plain sentences: what the reader had to assume
+
+  std::size_t size() const { return voltage_V.size(); }
+};
+
+// Checks what every fit relies on: equal lengths, finite numbers, at least two different voltages,
+// positive sigma, a plausible cell temperature (-100..200 C) and at least one cell.
+Expected<void> Validate(const IvCurve& curve);
+
+}  // namespace lyrefit

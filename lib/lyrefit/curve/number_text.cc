@@ -1,0 +1,101 @@
+#include "lyrefit/curve/number_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <system_error>
+
+namespace lyrefit {
+namespace {
+
+std::optional<double> Convert(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string_view Trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+// Bytes that follow `lead` in its UTF-8 sequence, -1 if none can begin with it.
+int Followers(unsigned char lead) {
+  if (lead < 0x80) return 0;
+  if (lead >= 0xc2 && lead <= 0xdf) return 1;
+  if (lead >= 0xe0 && lead <= 0xef) return 2;
+  if (lead >= 0xf0 && lead <= 0xf4) return 3;
+  return -1;
+}
+
+// Overlong forms, surrogates and values past U+10FFFF show in the first follower.
+bool FirstFollowerFits(unsigned char lead, unsigned char next) {
+  switch (lead) {
+    case 0xe0:
+      return next >= 0xa0;
+    case 0xed:
+      return next < 0xa0;
+    case 0xf0:
+      return next >= 0x90;
+    case 0xf4:
+      return next < 0x90;
+    default:
+      return true;
+  }
+}
+
+}  // namespace
+
+std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
+  if (const auto value = Convert(text)) return value;
+  std::string plain(Trim(text));
+  const std::string_view minus = "\u2212";
+  for (std::size_t at; (at = plain.find(minus)) != std::string::npos;) {
+    plain.replace(at, minus.size(), "-");
+  }
+  if (decimal_comma && plain.find('.') == std::string::npos) {
+    if (const std::size_t at = plain.find(','); at != std::string::npos) plain[at] = '.';
+  }
+  return Convert(plain);
+}
+
+std::string Quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown(text.substr(0, kLongest));
+  // Never cut through a character.
+  while (!shown.empty() && FirstInvalidUtf8(shown)) shown.pop_back();
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return "'" + shown + (shown.size() < text.size() ? "...'" : "'");
+}
+
+std::optional<std::size_t> FirstInvalidUtf8(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::uint64_t eight;
+    if (at + sizeof eight <= text.size()) {
+      std::memcpy(&eight, text.data() + at, sizeof eight);
+      if ((eight & 0x8080808080808080ULL) == 0) {
+        at += sizeof eight;
+        continue;
+      }
+    }
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const int followers = Followers(lead);
+    if (followers < 0 || at + followers >= text.size()) return at;
+    for (int i = 1; i <= followers; ++i) {
+      const auto next = static_cast<unsigned char>(text[at + i]);
+      if ((next & 0xc0) != 0x80) return at;
+      if (i == 1 && !FirstFollowerFits(lead, next)) return at;
+    }
+    at += followers + 1;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lyrefit {
+
+// A decimal number in any locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus, blanks around it
+// allowed; with `decimal_comma` also "1,5". Empty for anything else and for numbers beyond double;
+// "nan" and "inf" are numbers here, so that the caller can refuse them in its own words.
+std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
+
+// `text` in quotes for a message, shortened, control characters replaced.
+std::string Quoted(std::string_view text);
+
+// Position (from 0) of the first byte that is not part of well-formed UTF-8.
+std::optional<std::size_t> FirstInvalidUtf8(std::string_view text);
+
+}  // namespace lyrefit

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/curve/settle_conditions.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+
+// One file: the parts of an error that do not change.
+class IvCurvesReader {
+ public:
+  IvCurvesReader(const json& document, const std::string& path)
+      : document_(document), path_(path) {}
+
+  Expected<std::vector<IvCurve>> Read() {
+    const auto list = document_.is_object() ? document_.find("IV Curves") : document_.end();
+    if (!document_.is_object() || list == document_.end()) {
+      return Refuse("an ivcurves file: a JSON object with the key \"IV Curves\"");
+    }
+    if (!list->is_array() || list->empty()) return Refuse("a list of curves in \"IV Curves\"");
+    std::vector<IvCurve> curves;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      place_ = fmt::format("\"IV Curves\"[{}]", i);
+      Expected<IvCurve> curve = ReadOne((*list)[i]);
+      if (!curve) return tl::unexpected(curve.error());
+      curves.push_back(std::move(*curve));
+    }
+    return curves;
+  }
+
+ private:
+  tl::unexpected<Error> Refuse(const std::string& expected) const {
+    return Fail("expected " + expected, path_);
+  }
+
+  tl::unexpected<Error> RefuseAt(const std::string& key, const std::string& expected) const {
+    return Refuse(fmt::format("{} in {}.{}", expected, place_, key));
+  }
+
+  Expected<IvCurve> ReadOne(const json& entry) {
+    if (!entry.is_object()) return Refuse(fmt::format("an object in {}", place_));
+    IvCurve curve;
+    curve.source = path_;
+    if (auto read = ReadIndex(entry, &curve); !read) return tl::unexpected(read.error());
+    for (const auto& [key, values] :
+         {std::pair("Voltages", &curve.voltage_V), std::pair("Currents", &curve.current_A)}) {
+      if (auto read = ReadList(entry, key, values); !read) return tl::unexpected(read.error());
+    }
+    if (curve.voltage_V.size() != curve.current_A.size()) {
+      return Refuse(fmt::format("as many Currents as Voltages in {}, found {} and {}", place_,
+                                curve.current_A.size(), curve.voltage_V.size()));
+    }
+    if (auto read = ReadConditions(entry, &curve); !read) return tl::unexpected(read.error());
+    TurnLoadSign(&curve);
+    if (auto valid = Validate(curve); !valid) {
+      return Fail(place_ + ": " + valid.error().message, path_);
+    }
+    return curve;
+  }
+
+  Expected<void> ReadIndex(const json& entry, IvCurve* curve) {
+    const auto found = entry.find("Index");
+    const auto index = found == entry.end() ? std::nullopt : NumberOrText(*found);
+    if (!index || *index != std::floor(*index) || std::abs(*index) > 1e9) {
+      return RefuseAt("Index", "a whole number");
+    }
+    if (!indices_.insert(static_cast<int>(*index)).second) {
+      return RefuseAt("Index", fmt::format("a number not used before (it is {})", *index));
+    }
+    curve->name = fmt::format("{}_{}", std::filesystem::path(path_).stem().string(), *index);
+    return {};
+  }
+
+  Expected<void> ReadList(const json& entry, const char* key, std::vector<double>* values) const {
+    const auto list = entry.find(key);
+    if (list == entry.end() || !list->is_array()) return RefuseAt(key, "a list of numbers");
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const auto value = NumberOrText((*list)[i]);
+      if (!value) return RefuseAt(fmt::format("{}[{}]", key, i), "a finite number");
+      values->push_back(*value);
+    }
+    return {};
+  }
+
+  // The entry of the curve, else that of the file; null where neither says anything.
+  json Setting(const json& entry, const char* key) const {
+    for (const json* object : {&entry, &document_}) {
+      const auto found = object->find(key);
+      if (found == object->end() || found->is_null()) continue;
+      if (found->is_string() && found->get_ref<const std::string&>().empty()) continue;
+      return *found;
+    }
+    return nullptr;
+  }
+
+  Expected<void> ReadConditions(const json& entry, IvCurve* curve) const {
+    const json cells = Setting(entry, "cells_in_series");
+    if (cells.is_null()) {
+      curve->assumptions.push_back(kCellsAssumed);
+    } else {
+      const auto number = NumberOrText(cells);
+      const bool counts =
+          number && *number == std::floor(*number) && *number >= 1 && *number <= 1e6;
+      if (!counts) return Refuse("a whole number from 1 up in \"cells_in_series\"");
+      curve->conditions.cells_in_series = static_cast<int>(*number);
+    }
+    const json temperature = Setting(entry, "Temperature");
+    if (temperature.is_null()) {
+      curve->assumptions.push_back(kTemperatureAssumed);
+    } else {
+      const auto kelvin = NumberOrText(temperature);
+      if (!kelvin || *kelvin < 173 || *kelvin > 474) {
+        return RefuseAt("Temperature", "kelvin from 173 to 474");
+      }
+      curve->conditions.cell_temperature_K = *kelvin;
+    }
+    const json irradiance = Setting(entry, "Irradiance");
+    if (irradiance.is_null()) {
+      curve->assumptions.push_back(kIrradianceAssumed);
+    } else {
+      const auto value = NumberOrText(irradiance);
+      if (!value || *value < 0) return RefuseAt("Irradiance", "W/m2 from 0 up");
+      curve->conditions.irradiance_W_m2 = *value;
+    }
+    const json material = Setting(entry, "Material");
+    if (material.is_string()) curve->notes.technology = material.get<std::string>();
+    return {};
+  }
+
+  const json& document_;
+  const std::string& path_;
+  std::string place_;
+  std::set<int> indices_;
+};
+
+}  // namespace
+
+Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
+                                                const ReadOptions& options) {
+  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+  if (!text) return tl::unexpected(text.error());
+  const Expected<json> document = ParseJson(*text, path);
+  if (!document) return tl::unexpected(document.error());
+  return IvCurvesReader(*document, path).Read();
+}
+
+}  // namespace lyrefit

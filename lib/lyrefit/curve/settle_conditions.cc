@@ -1,0 +1,82 @@
+#include "lyrefit/curve/settle_conditions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lyrefit {
+namespace {
+
+// One condition: what the file beside the table and the column in it say.
+struct Source {
+  const char* name;
+  const char* unit;
+  std::optional<double> sidecar;
+  const std::vector<double>& column;
+  double tolerance;
+};
+
+double Mean(const std::vector<double>& values) {
+  // Exact for constant columns, whatever their length.
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*low == *high) return *low;
+  double mean = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  return mean;
+}
+
+std::optional<double> Settle(const Source& source, std::vector<std::string>* assumptions) {
+  if (source.column.empty()) return source.sidecar;
+  const double mean = Mean(source.column);
+  const auto [low, high] = std::minmax_element(source.column.begin(), source.column.end());
+  const bool varies = *high - *low > 2 * source.tolerance;
+  if (varies) {
+    assumptions->push_back(
+        fmt::format("the column of the {} varies from {:.6g} to {:.6g} {}: its "
+                    "mean {:.6g} {} counts for the whole curve",
+                    source.name, *low, *high, source.unit, mean, source.unit));
+  }
+  if (!source.sidecar) return mean;
+  if (std::abs(mean - *source.sidecar) <= source.tolerance) return source.sidecar;
+  assumptions->push_back(fmt::format(
+      "the {} in the table ({:.6g} {}) differs from the one in the file beside it ({:.6g} {}): the "
+      "table counts",
+      source.name, mean, source.unit, *source.sidecar, source.unit));
+  return mean;
+}
+
+}  // namespace
+
+const char* const kCellsAssumed =
+    "number of cells in series not given: assumed 1; n is then the ideality of the whole module";
+const char* const kTemperatureAssumed = "cell temperature not given: assumed 25 C";
+const char* const kIrradianceAssumed = "irradiance not given: assumed 1000 W/m2";
+
+void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
+  if (!sidecar.name.empty()) curve->name = sidecar.name;
+  curve->notes = sidecar.notes;
+  Conditions& conditions = curve->conditions;
+  conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
+  conditions.cells_in_series = sidecar.cells_in_series.value_or(1);
+  if (!sidecar.cells_in_series) curve->assumptions.push_back(kCellsAssumed);
+
+  const auto temperature_C =
+      Settle({"cell temperature", "C", sidecar.temperature_C, curve->temperature_C, 1},
+             &curve->assumptions);
+  if (!temperature_C) curve->assumptions.push_back(kTemperatureAssumed);
+  conditions.cell_temperature_K = temperature_C.value_or(25) + kZeroCelsius_K;
+
+  double brightest = sidecar.irradiance_W_m2.value_or(0);
+  for (const double irradiance : curve->irradiance_W_m2)
+    brightest = std::max(brightest, irradiance);
+  const auto irradiance = Settle(
+      {"irradiance", "W/m2", sidecar.irradiance_W_m2, curve->irradiance_W_m2, 0.02 * brightest},
+      &curve->assumptions);
+  if (!irradiance) curve->assumptions.push_back(kIrradianceAssumed);
+  // A sensor in the dark may show a little less than nothing.
+  conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
+
+namespace lyrefit {
+
+// A table that ReadCurve understands: voltage_V,current_A and the optional columns the curve has,
+// with as many digits as bring back the same bits.
+std::string CurveToCsv(const IvCurve& curve);
+
+// The sidecar of that table: conditions and notes as JSON.
+std::string CurveSidecarJson(const IvCurve& curve);
+
+}  // namespace lyrefit

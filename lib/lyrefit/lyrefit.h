@@ -1,0 +1,29 @@
+#pragma once
+
+// The beginner's door to lyrefit: everything that reading, fitting, simulating and reporting one I-V curve
+// takes.
+//
+//   #include <iostream>
+//   #include "lyrefit/lyrefit.h"
+//
+//   int main() {
+//     const auto curve = lyrefit::ReadCurve("data/rtc_france");
+//     if (!curve) return std::cerr << curve.error().ToString() << '\n', 1;
+//     const auto report = lyrefit::Fit(*curve);
+//     if (!report) return std::cerr << report.error().ToString() << '\n', 1;
+//     std::cout << lyrefit::FullReport(*report);
+//   }
+//
+// Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one sentence,
+// a search or polish that ended badly is part of the report. FitOptions says what can be chosen, FitReport
+// what is known afterwards. FitAuto chooses among one, two and three diodes.
+
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/curve/write_curve.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/fit/simulate.h"
+#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/plot.h"
+#include "lyrefit/report/text_report.h"

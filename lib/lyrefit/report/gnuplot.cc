@@ -1,0 +1,88 @@
+#include "lyrefit/report/gnuplot.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+extern char** environ;
+
+namespace lyrefit {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string ReadFromStart(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file)) {
+    text.append(block.data(), got);
+  }
+  return text;
+}
+
+// The first line of what gnuplot complained about.
+std::string FirstComplaint(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\n\r^");
+  if (begin == std::string::npos) return "no message";
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+// The exit status of gnuplot with the three files as its standard streams, or an errno below zero.
+int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(messages), STDERR_FILENO);
+  char program[] = "gnuplot";
+  char no_startup_files[] = "-d";
+  char* const arguments[] = {program, no_startup_files, nullptr};
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) return -failure;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return -errno;
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+}  // namespace
+
+Expected<std::string> RunGnuplot(const std::string& script) {
+  // Files rather than pipes: nothing can block, and a gnuplot that dies raises no SIGPIPE.
+  const File input(std::tmpfile());
+  const File output(std::tmpfile());
+  const File messages(std::tmpfile());
+  if (!input || !output || !messages) return Fail("cannot create a temporary file for gnuplot");
+  const bool written = std::fwrite(script.data(), 1, script.size(), input.get()) == script.size() &&
+                       std::fflush(input.get()) == 0 && std::fseek(input.get(), 0, SEEK_SET) == 0;
+  if (!written) return Fail("cannot write the temporary file for gnuplot");
+  const int status = RunWith(input.get(), output.get(), messages.get());
+  if (status == -ENOENT || status == 127) {
+    return Fail("plots need gnuplot, which was not found: install it (Debian: gnuplot-nox)");
+  }
+  if (status < 0) {
+    return Fail("cannot start gnuplot: " + std::generic_category().message(-status));
+  }
+  std::string picture = ReadFromStart(output.get());
+  if (status != 0 || picture.empty()) {
+    return Fail(fmt::format("gnuplot could not draw the plot: {}",
+                            FirstComplaint(ReadFromStart(messages.get()))));
+  }
+  return picture;
+}
+
+}  // namespace lyrefit

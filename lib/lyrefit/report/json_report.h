@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/fit/fit_report.h"
+
+namespace lyrefit {
+
+// The report as one JSON object, numbers with as many digits as bring back the same bits. What is
+// not known or not finite is null; without a polish so are `refined` and the polished RMSEs. The
+// values the fit answers with stand in `parameters.<name>.refined`, or `.searched` where that is
+// null. Every wall-clock time stands under a key named `seconds`; apart from those the same seed
+// gives the same text.
+//
+// For the single-diode model `singlediode` holds the five arguments of pvlib.pvsystem.singlediode
+// under pvlib's names; a perfect shunt (infinite resistance) is null there too.
+std::string JsonReport(const FitReport& report);
+
+}  // namespace lyrefit

@@ -1,0 +1,191 @@
+#include "lyrefit/report/plot_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "lyrefit/device/kernel.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kModelPoints = 500;
+
+// Colours of Okabe and Ito, which the colour-blind tell apart too.
+constexpr char kBlue[] = "#0072B2";
+constexpr char kVermilion[] = "#D55E00";
+constexpr char kSkyBlue[] = "#56B4E9";
+
+// In gnuplot's single quotes; control characters become blanks.
+std::string Quote(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += '\'';
+    quoted += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
+// A prefix under which the largest number has its first digit around the point.
+struct Prefix {
+  const char* text;
+  double factor;
+};
+
+Prefix PrefixFor(double largest) {
+  if (largest >= 0.1 || !(largest > 0)) return {"", 1};
+  if (largest >= 1e-4) return {"m", 1e3};
+  if (largest >= 1e-7) return {"u", 1e6};
+  return {"n", 1e9};
+}
+
+// Lowest and highest of some numbers and zero.
+struct Span {
+  double low = 0;
+  double high = 0;
+  double Largest() const { return std::max(-low, high); }
+};
+
+Span SpanOf(const std::vector<double>& values) {
+  Span span;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    span.low = std::min(span.low, value);
+    span.high = std::max(span.high, value);
+  }
+  return span;
+}
+
+std::vector<double> Product(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> product(std::min(a.size(), b.size()));
+  for (std::size_t i = 0; i < product.size(); ++i) product[i] = a[i] * b[i];
+  return product;
+}
+
+// Gives both axes their zero at one height, where that does not squeeze either.
+void AlignZeros(Span* a, Span* b) {
+  if (!(a->high > 0 && b->high > 0)) return;
+  const double ratio = std::max(-a->low / a->high, -b->low / b->high);
+  if (ratio > 2) return;
+  a->low = -ratio * a->high;
+  b->low = -ratio * b->high;
+}
+
+std::string AxisRange(const Span& span, double factor) {
+  const double air = span.high > span.low ? 0.06 * (span.high - span.low) : 1;
+  return fmt::format("[{}:{}]", (span.low < 0 ? span.low - air : 0.0) * factor,
+                     (span.high + air) * factor);
+}
+
+void AppendBlock(const char* name, const std::vector<double>& x, const std::vector<double>& y,
+                 std::string* script) {
+  *script += fmt::format("${} << END_OF_DATA\n", name);
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+    fmt::format_to(std::back_inserter(*script), "{} {}\n", x[i], y[i]);
+  }
+  *script += "END_OF_DATA\n";
+}
+
+std::string Title(const FitReport& report) {
+  const char* const models[] = {"single-diode", "double-diode", "triple-diode"};
+  const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
+  return fmt::format("{}, {} model{}: RMSE {:.4g} A {}{}", report.curve.name,
+                     models[static_cast<int>(report.model) - 1],
+                     report.interrupted ? ", interrupted" : "", rmse.Of(report.objective),
+                     ToText(report.objective), report.polished ? "" : ", not polished");
+}
+
+std::string Preamble(const FitReport& report, const std::string& terminal, const Span& voltage) {
+  const double air = voltage.high > voltage.low ? 0.03 * (voltage.high - voltage.low) : 1;
+  const char* const settings =
+      terminal == "svg"
+          ? "svg size 900,760 noenhanced font 'DejaVu Sans,13' background '#ffffff'"
+          : "pngcairo size 1350,1140 noenhanced font 'DejaVu Sans,13' fontscale 1.5 linewidth 1.5";
+  return fmt::format(
+      "set encoding utf8\n"
+      "set terminal {}\n"
+      "set multiplot title {} offset 0,-0.2\n"
+      "set lmargin at screen 0.105\nset rmargin at screen 0.895\n"
+      "set grid back lt 1 lw 0.7 lc rgb '#cccccc'\nset border lw 0.8\nset xrange [{}:{}]\n",
+      settings, Quote(Title(report)), voltage.low - air, voltage.high + air);
+}
+
+// Current on the left axis, power on the right one.
+std::string UpperPanel(const IvCurve& curve) {
+  Span current = SpanOf(curve.current_A);
+  Span power = SpanOf(Product(curve.voltage_V, curve.current_A));
+  AlignZeros(&current, &power);
+  const Prefix ampere = PrefixFor(current.Largest());
+  const Prefix watt = PrefixFor(power.Largest());
+  return fmt::format(
+      "set tmargin at screen 0.90\nset bmargin at screen 0.42\n"
+      "set key at screen 0.5,0.925 center horizontal maxrows 1 samplen 2.5\n"
+      "set yrange {}\nset y2range {}\n"
+      "set ylabel 'Current ({}A)' textcolor rgb '{blue}'\n"
+      "set y2label 'Power ({}W)' textcolor rgb '{red}'\n"
+      "set ytics nomirror\nset y2tics\nset format x ''\n"
+      "plot 0 with lines lw 0.8 lc rgb 'black' notitle, \\\n"
+      " $model using 1:($2*{f}) axes x1y1 with lines lw 2 lc rgb '{blue}' title 'I model', \\\n"
+      " $measured using 1:($2*{f}) axes x1y1 with points pt 6 ps 1.3 lw 1.3 lc rgb '{blue}' "
+      "title 'I measured', \\\n"
+      " $model using 1:($1*$2*{p}) axes x1y2 with lines lw 2 dt 2 lc rgb '{red}' title 'P model', "
+      "\\\n"
+      " $measured using 1:($1*$2*{p}) axes x1y2 with points pt 8 ps 1.3 lw 1.3 lc rgb '{red}' "
+      "title 'P measured'\n",
+      AxisRange(current, ampere.factor), AxisRange(power, watt.factor), ampere.text, watt.text,
+      fmt::arg("blue", kBlue), fmt::arg("red", kVermilion), fmt::arg("f", ampere.factor),
+      fmt::arg("p", watt.factor));
+}
+
+// Solved-current residuals with a band of +- their RMSE.
+std::string LowerPanel(const FitReport& report) {
+  const RmsePair& refined = report.polished ? report.rmse.refined : report.rmse.searched;
+  const double rmse = std::isfinite(refined.solved_current_A) ? refined.solved_current_A : 0;
+  const double largest = std::max(SpanOf(report.residual_A).Largest(), rmse);
+  const double half = largest > 0 ? 1.15 * largest : 1;
+  const Prefix prefix = PrefixFor(largest);
+  return fmt::format(
+      "set tmargin at screen 0.355\nset bmargin at screen 0.095\n"
+      "set key at screen 0.5,0.38 center horizontal maxrows 1 samplen 2.5\n"
+      "unset y2label\nunset y2tics\nset ytics mirror\nset format x '%g'\n"
+      "set xlabel 'Voltage (V)'\nset ylabel 'Model - measured ({u}A)' textcolor rgb 'black'\n"
+      "set yrange [{low}:{high}]\n"
+      "set object 1 rectangle from graph 0, first -{band} to graph 1, first {band} "
+      "fc rgb '{sky}' fs transparent solid 0.25 noborder behind\n"
+      "plot 0 with lines lw 1 lc rgb 'black' notitle, \\\n"
+      " $residual using 1:($2*{f}) with impulses lw 1.2 lc rgb '{blue}' notitle, \\\n"
+      " $residual using 1:($2*{f}) with points pt 7 ps 0.8 lc rgb '{blue}' "
+      "title 'residuals, solved-current', \\\n"
+      " NaN with filledcurves fs transparent solid 0.25 fc rgb '{sky}' "
+      "title '± RMSE, {shown:.3g} {u}A'\n",
+      fmt::arg("u", prefix.text), fmt::arg("low", -half * prefix.factor),
+      fmt::arg("high", half * prefix.factor), fmt::arg("band", rmse * prefix.factor),
+      fmt::arg("sky", kSkyBlue), fmt::arg("blue", kBlue), fmt::arg("f", prefix.factor),
+      fmt::arg("shown", rmse * prefix.factor));
+}
+
+}  // namespace
+
+std::string PlotScript(const FitReport& report, const std::string& terminal) {
+  const IvCurve& curve = report.curve;
+  Span voltage{curve.voltage_V.front(), curve.voltage_V.front()};
+  for (const double v : curve.voltage_V) {
+    voltage = {std::min(voltage.low, v), std::max(voltage.high, v)};
+  }
+  std::vector<double> model_V(kModelPoints);
+  for (int i = 0; i < kModelPoints; ++i) {
+    model_V[i] = voltage.low + (voltage.high - voltage.low) * i / (kModelPoints - 1);
+  }
+  std::string script;
+  AppendBlock("measured", curve.voltage_V, curve.current_A, &script);
+  AppendBlock("model", model_V, SolveCurrents(report.device, report.refined.data(), model_V),
+              &script);
+  AppendBlock("residual", curve.voltage_V, report.residual_A, &script);
+  return script + Preamble(report, terminal, voltage) + UpperPanel(curve) + LowerPanel(report) +
+         "unset multiplot\n";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_sections.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kValueDigits = 6;
+constexpr int kErrorDigits = 2;
+constexpr int kRmseDigits = 10;
+
+std::string Marks(const Estimate& estimate) {
+  if (estimate.fixed) return "fixed";
+  std::string marks;
+  if (estimate.at_bound != BoundSide::kNone) {
+    marks = fmt::format("at {} bound", ToText(estimate.at_bound));
+  }
+  if (!estimate.identifiable)
+    marks += (marks.empty() ? "" : ", ") + std::string("not identifiable");
+  return marks;
+}
+
+std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
+  return {e.info.symbol,
+          Significant(e.searched, kValueDigits),
+          polished ? Significant(e.refined, kValueDigits) : "-",
+          Significant(e.standard_error, kErrorDigits),
+          Range(e.low_95, e.high_95),
+          e.info.unit,
+          Marks(e)};
+}
+
+// "95 % intervals: profile (Rs, n2), symmetric (Iph)".
+std::string IntervalNote(const std::vector<Estimate>& estimates) {
+  std::string note;
+  for (const IntervalMethod method : {IntervalMethod::kSymmetric, IntervalMethod::kProfile}) {
+    std::string symbols;
+    for (const Estimate& e : estimates) {
+      if (e.interval == method) symbols += (symbols.empty() ? "" : ", ") + e.info.symbol;
+    }
+    if (symbols.empty()) continue;
+    note += fmt::format("{}{} ({})", note.empty() ? "" : "; ", ToText(method), symbols);
+  }
+  return note;
+}
+
+std::string Difference(double measured, double simulated) {
+  const double percent = 100 * (simulated / measured - 1);
+  return std::isfinite(percent) ? fmt::format("{:+.3f} %", percent) : "-";
+}
+
+}  // namespace
+
+std::string ParameterSection(const FitReport& report) {
+  TextTable table("lrrrlll");
+  table.Add({"parameter", "searched", "refined", "std. error", "95 % interval", "unit", ""});
+  for (const Estimate& e : report.estimates) table.Add(ParameterRow(e, report.polished));
+  std::string text = "Parameters\n" + table.Text();
+  if (!report.polished)
+    text += Wrap("  ", "No polish was done: the searched values are the answer.");
+  for (const Estimate& e : report.estimates) {
+    if (!e.identifiable && !e.reason.empty()) {
+      text += Wrap("  ", fmt::format("{} is not identifiable: {}", e.info.symbol, e.reason));
+    }
+  }
+  const std::string intervals = IntervalNote(report.estimates);
+  if (!intervals.empty()) text += Wrap("  ", "95 % intervals: " + intervals);
+  text += Wrap("  ", fmt::format("nNsVth = {} V (n1 x cells in series x k T / q)",
+                                 Significant(report.nNsVth, kValueDigits)));
+  return text;
+}
+
+std::string RmseSection(const FitReport& report) {
+  const auto label = [&](Objective objective) {
+    return ToText(objective) + (objective == report.objective ? " *" : "");
+  };
+  const auto row = [](const char* name, const RmsePair& rmse, bool known) {
+    const RmsePair shown = known ? rmse : RmsePair{};
+    return std::vector<std::string>{name, Scientific(shown.measured_current_A, kRmseDigits),
+                                    Scientific(shown.solved_current_A, kRmseDigits)};
+  };
+  TextTable table("lrr");
+  table.Add({"", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)});
+  table.Add(row("searched (best bird)", report.rmse.searched, true));
+  table.Add(row("best bird polished", report.rmse.best_bird_polished, report.polished));
+  table.Add(row("refined (best of all starts)", report.rmse.refined, report.polished));
+  return "RMSE in A   (* the objective that was fitted)\n" + table.Text();
+}
+
+std::string KeyPointSection(const FitReport& report) {
+  const struct {
+    const char* name;
+    const char* unit;
+    double KeyPoints::*field;
+  } rows[] = {{"Isc", "A", &KeyPoints::short_circuit_current_A},
+              {"Voc", "V", &KeyPoints::open_circuit_voltage_V},
+              {"Vmp", "V", &KeyPoints::max_power_voltage_V},
+              {"Imp", "A", &KeyPoints::max_power_current_A},
+              {"Pmp", "W", &KeyPoints::max_power_W},
+              {"fill factor", "", &KeyPoints::fill_factor}};
+  TextTable table("lrrrl");
+  table.Add({"", "measured", "simulated", "difference", "unit"});
+  for (const auto& row : rows) {
+    const double measured = report.measured.*row.field;
+    const double simulated = report.simulated.*row.field;
+    table.Add({row.name, Significant(measured, kValueDigits), Significant(simulated, kValueDigits),
+               Difference(measured, simulated), row.unit});
+  }
+  return "Key points\n" + table.Text();
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_sections.h"
+
+namespace lyrefit {
+namespace {
+
+// Where the words about residuals change. They are words only: nothing is decided by them.
+constexpr double kSurprising = 0.05;
+constexpr double kDurbinWatsonLow = 1.0;
+constexpr double kDurbinWatsonHigh = 3.0;
+
+std::string ResidualVerdict(const ResidualStatistics& r) {
+  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return "too few points to say";
+  const bool surprising = r.runs_p_value < kSurprising;
+  if ((surprising && r.runs < r.expected_runs) || r.durbin_watson < kDurbinWatsonLow) {
+    return "neighbouring residuals go together: the curve holds a shape that the model lacks, or "
+           "the "
+           "readings drifted";
+  }
+  if ((surprising && r.runs > r.expected_runs) || r.durbin_watson > kDurbinWatsonHigh) {
+    return "neighbouring residuals alternate more than chance allows: look at the instrument or at "
+           "how "
+           "the points were sorted";
+  }
+  return "consistent with independent noise: the model misses nothing that the data could show";
+}
+
+std::string Decimals(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.2f}", value);
+}
+
+std::string PolishText(const RefineReport& refine) {
+  std::string text = Duration(refine.seconds) + ": " + refine.termination;
+  if (!refine.message.empty()) text += fmt::format(" ({})", refine.message);
+  return text + fmt::format("; projected gradient {}; condition {}",
+                            Significant(refine.projected_gradient, 2),
+                            Significant(refine.condition, 2));
+}
+
+std::string StartsText(const RefineReport& refine) {
+  const int starts = static_cast<int>(refine.starts.size());
+  std::string text = fmt::format("{} of {} agree within 1e-9", refine.agreeing, starts);
+  if (refine.winner >= 0 && refine.winner < starts) {
+    text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
+                        refine.starts[refine.winner].origin);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ChoiceSection(const FitReport& report) {
+  if (!report.choice) return "";
+  TextTable table("lrrrrl");
+  const std::string rmse = fmt::format("RMSE in A ({})", ToText(report.objective));
+  table.Add({"model", rmse, "held out", "AICc", "F-test p", "every parameter identifiable"});
+  for (const CandidateReport& c : report.choice->candidates) {
+    table.Add({ToText(c.model) + (c.model == report.choice->chosen ? " <-" : ""),
+               Scientific(c.rmse_A, 6), Scientific(c.held_out_rmse_A, 3), Decimals(c.aicc),
+               Significant(c.f_p_value, 2), c.identifiable ? "yes" : "no"});
+  }
+  return "Choice of the model\n" + table.Text() + Wrap("  ", report.choice->sentence);
+}
+
+std::string ResidualSection(const FitReport& report) {
+  const ResidualStatistics& r = report.residuals;
+  std::string text = "Residuals (model - measured, solved-current)\n";
+  text +=
+      Field("largest error", fmt::format("{} A at {} V; mean {} A", Significant(r.largest_A, 3),
+                                         Significant(r.largest_at_V, 4), Significant(r.mean_A, 2)));
+  text +=
+      Field("runs", fmt::format("{} of one sign, {} expected of independent noise (p = {}); "
+                                "Durbin-Watson {}",
+                                r.runs, Significant(r.expected_runs, 3),
+                                Significant(r.runs_p_value, 2), Significant(r.durbin_watson, 3)));
+  text += Field("verdict", ResidualVerdict(r));
+  text += Field("information",
+                fmt::format("AICc {}, BIC {} ({} points, {} free parameters)",
+                            Decimals(report.criteria.aicc), Decimals(report.criteria.bic),
+                            report.criteria.points, report.criteria.parameters));
+  std::string correlations;
+  for (const Correlation& c : report.correlations) {
+    correlations += fmt::format("{}{}-{} {:+.4f}", correlations.empty() ? "" : ", ", c.first,
+                                c.second, c.value);
+  }
+  if (!correlations.empty()) text += Field("correlations", correlations + " (above 0.9)");
+  return text;
+}
+
+std::string SearchSection(const FitReport& report) {
+  const SearchSummary& s = report.search;
+  const SearchOptions& o = report.search_options;
+  std::string text = "How it was found\n";
+  std::string search =
+      fmt::format("{}: {}, seed {}, {} birds x {} iterations, {} evaluations; ended by: {}",
+                  Duration(s.seconds), ToText(o.algorithm), o.seed, o.population, s.iterations,
+                  s.evaluations, ToText(s.termination));
+  if (s.termination != SearchTermination::kIterations && !s.message.empty()) {
+    search += fmt::format(" ({})", s.message);
+  }
+  text += Field("search", search);
+  text += Field("polish", report.polished ? PolishText(report.refine) : "none");
+  if (report.polished) text += Field("starts", StartsText(report.refine));
+  if (report.interval_seconds > 0) text += Field("intervals", Duration(report.interval_seconds));
+  std::string options;
+  for (const OptionEcho& echo : report.non_default_options) {
+    options += fmt::format("{}{} = {} (default {})", options.empty() ? "" : ", ", echo.name,
+                           echo.value, echo.default_value);
+  }
+  return text + Field("options", options.empty() ? "all at their defaults" : options);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,100 @@
+#include "lyrefit/report/text_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+// Terminal columns of UTF-8 text: continuation bytes take none.
+std::size_t Columns(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+}  // namespace
+
+std::string Significant(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  if (value == 0) return "0";
+  std::string text = fmt::format("{:#.{}g}", value, digits);
+  // The library adds ".0" where all the digits stand before the point.
+  const auto shown =
+      std::count_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool whole = text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0;
+  if (whole && shown > digits) text.resize(text.size() - 2);
+  return text;
+}
+
+std::string Scientific(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}e}", value, digits - 1);
+}
+
+std::string Range(double low, double high) {
+  if (std::isnan(low) || std::isnan(high)) return "-";
+  const double largest = std::max(std::isfinite(low) ? std::abs(low) : 0.0,
+                                  std::isfinite(high) ? std::abs(high) : 0.0);
+  int digits = 4;
+  if (std::isfinite(low) && std::isfinite(high) && high > low) {
+    digits = std::clamp(3 + static_cast<int>(std::ceil(std::log10(largest / (high - low)))), 3, 9);
+  }
+  return Significant(low, digits) + " .. " + Significant(high, digits);
+}
+
+std::string Duration(double seconds) {
+  if (std::isnan(seconds)) return "-";
+  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+std::string Wrap(std::string_view first, std::string_view text) {
+  const std::string indent(Columns(first), ' ');
+  std::string wrapped(first);
+  std::size_t column = indent.size();
+  bool line_is_empty = true;
+  while (!text.empty()) {
+    const std::size_t begin = text.find_first_not_of(" \n\t\r");
+    if (begin == std::string_view::npos) break;
+    text.remove_prefix(begin);
+    const std::string_view word = text.substr(0, text.find_first_of(" \n\t\r"));
+    text.remove_prefix(word.size());
+    const std::size_t width = Columns(word);
+    if (!line_is_empty && column + 1 + width > kTextWidth) {
+      wrapped += "\n" + indent;
+      column = indent.size();
+      line_is_empty = true;
+    }
+    if (!line_is_empty) wrapped += ' ';
+    column += width + (line_is_empty ? 0 : 1);
+    wrapped += word;
+    line_is_empty = false;
+  }
+  return wrapped + "\n";
+}
+
+std::string Field(std::string_view name, std::string_view text) {
+  return Wrap(fmt::format("  {:<13} ", name), text);
+}
+
+std::string TextTable::Text() const {
+  std::vector<std::size_t> widths(alignment_.size(), 0);
+  for (const auto& row : rows_) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], Columns(row[c]));
+  }
+  std::string text;
+  for (const auto& row : rows_) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string blanks(widths[c] - Columns(row[c]), ' ');
+      line += "  " + (alignment_[c] == 'r' ? blanks + row[c] : row[c] + blanks);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace lyrefit

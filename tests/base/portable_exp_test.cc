@@ -1,0 +1,45 @@
+#include "lyrefit/base/portable_exp.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/base/random.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(PortableExp, IsWithinOneUlpOfTheLongDoubleExponential) {
+  RandomStream random(1);
+  for (int k = 0; k < 1000000; ++k) {
+    const double x = -700 + 1400 * random.Uniform();
+    const long double exact = std::exp(static_cast<long double>(x));
+    const double error = static_cast<double>((PortableExp(x) - exact) / exact);
+    ASSERT_LE(std::fabs(error), 0x1p-52) << x;
+  }
+}
+
+TEST(PortableExp, IsExactAtZeroAndCutOutsideItsRange) {
+  EXPECT_EQ(PortableExp(0.0), 1.0);
+  EXPECT_EQ(PortableExp(-1e9), PortableExp(-700.0));
+  EXPECT_EQ(PortableExp(1e9), PortableExp(700.0));
+}
+
+TEST(PortableExp, HasTheseBits) {
+  EXPECT_EQ(PortableExp(1.0), 0x1.5bf0a8b14576ap+1);
+  EXPECT_EQ(PortableExp(-20.25), 0x1.b93de1e27ca3bp-30);
+  EXPECT_EQ(PortableExp(33.3), 0x1.078401f5a3ec8p+48);
+}
+
+TEST(LogUpperBound, IsAboveTheLogarithmByLittle) {
+  RandomStream random(2);
+  for (int k = 0; k < 100000; ++k) {
+    const double x = std::exp(-600 + 1200 * random.Uniform());
+    const double bound = LogUpperBound(x);
+    ASSERT_GE(bound, std::log(x) - 1e-12) << x;
+    ASSERT_LE(bound, std::log(x) + 0.07) << x;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

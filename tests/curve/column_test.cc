@@ -1,0 +1,125 @@
+#include "lyrefit/curve/column.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(RecogniseColumnTest, KnowsEverySpelling) {
+  const struct {
+    const char* label;
+    ColumnKind kind;
+    double factor = 1;
+    double offset = 0;
+  } kCases[] = {
+      {"V", ColumnKind::kVoltage},
+      {"v", ColumnKind::kVoltage},
+      {"U", ColumnKind::kVoltage},
+      {"voltage", ColumnKind::kVoltage},
+      {"VOLTAGE", ColumnKind::kVoltage},
+      {"Volts", ColumnKind::kVoltage},
+      {"voltage_V", ColumnKind::kVoltage},
+      {"Voltage (V)", ColumnKind::kVoltage},
+      {"Voltage, V", ColumnKind::kVoltage},
+      {"Voltage/V", ColumnKind::kVoltage},
+      {"  Voltage [ V ] ", ColumnKind::kVoltage},
+      {"Voltage in V", ColumnKind::kVoltage},
+      {"PV Voltage (V)", ColumnKind::kVoltage},
+      {"V_meas", ColumnKind::kVoltage},
+      {"Spannung (V)", ColumnKind::kVoltage},
+      {"U [V]", ColumnKind::kVoltage},
+      {"U [mV]", ColumnKind::kVoltage, 1e-3},
+      {"voltage_mV", ColumnKind::kVoltage, 1e-3},
+      {"mV", ColumnKind::kVoltage, 1e-3},
+      {"V (kV)", ColumnKind::kVoltage, 1e3},
+      {"I", ColumnKind::kCurrent},
+      {"i", ColumnKind::kCurrent},
+      {"current", ColumnKind::kCurrent},
+      {"Amps", ColumnKind::kCurrent},
+      {"A", ColumnKind::kCurrent},
+      {"current_A", ColumnKind::kCurrent},
+      {"Module Current (A)", ColumnKind::kCurrent},
+      {"I [mA]", ColumnKind::kCurrent, 1e-3},
+      {"Current (mA)", ColumnKind::kCurrent, 1e-3},
+      {"I/mA", ColumnKind::kCurrent, 1e-3},
+      {"Current (\u00b5A)", ColumnKind::kCurrent, 1e-6},
+      {"Current (\u03bcA)", ColumnKind::kCurrent, 1e-6},
+      {"current_uA", ColumnKind::kCurrent, 1e-6},
+      {"I (kA)", ColumnKind::kCurrent, 1e3},
+      {"sigma", ColumnKind::kSigma},
+      {"sigma_A", ColumnKind::kSigma},
+      {"current_sigma", ColumnKind::kSigma},
+      {"uncertainty (mA)", ColumnKind::kSigma, 1e-3},
+      {"time", ColumnKind::kTime},
+      {"time_s", ColumnKind::kTime},
+      {"t", ColumnKind::kTime},
+      {"Time (ms)", ColumnKind::kTime, 1e-3},
+      {"T [s]", ColumnKind::kTime},
+      {"sweep", ColumnKind::kSweep},
+      {"Sweep number", ColumnKind::kSweep},
+      {"curve", ColumnKind::kCurve},
+      {"irradiance", ColumnKind::kIrradiance},
+      {"irradiance_Wm2", ColumnKind::kIrradiance},
+      {"irradiance_W_m2", ColumnKind::kIrradiance},
+      {"G", ColumnKind::kIrradiance},
+      {"POA (W/m\u00b2)", ColumnKind::kIrradiance},
+      {"poa [W/m^2]", ColumnKind::kIrradiance},
+      {"Irradiance (W m-2)", ColumnKind::kIrradiance},
+      {"Irradiance (W m\u207b\u00b2)", ColumnKind::kIrradiance},
+      {"Irradiance (kW/m2)", ColumnKind::kIrradiance, 1e3},
+      {"irradiance (suns)", ColumnKind::kIrradiance, 1e3},
+      {"temperature", ColumnKind::kTemperature},
+      {"temperature_C", ColumnKind::kTemperature},
+      {"T", ColumnKind::kTemperature},
+      {"t (\u00b0C)", ColumnKind::kTemperature},
+      {"cell_temperature_C", ColumnKind::kTemperature},
+      {"T_cell (C)", ColumnKind::kTemperature},
+      {"temperature_K", ColumnKind::kTemperature, 1, -273.15},
+      {"Temperature (K)", ColumnKind::kTemperature, 1, -273.15},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.label);
+    const Column column = RecogniseColumn(c.label);
+    EXPECT_EQ(column.kind, c.kind);
+    EXPECT_EQ(column.factor, c.factor);
+    EXPECT_EQ(column.offset, c.offset);
+    EXPECT_EQ(column.refusal, "");
+    EXPECT_EQ(column.label, c.label);
+  }
+}
+
+TEST(RecogniseColumnTest, LeavesOtherColumnsAlone) {
+  for (const char* label : {"", "Watts", "Ohms", "Power (W)", "P", "V_set", "voltage_offset", "Isc",
+                            "I_sc", "Voc", "V1", "ambient temperature (C)", "illuminance_lux",
+                            "timestamp", "date", "index", "x", "(", "%"}) {
+    SCOPED_TRACE(label);
+    EXPECT_EQ(RecogniseColumn(label).kind, ColumnKind::kUnknown);
+  }
+}
+
+TEST(RecogniseColumnTest, RefusesUnitsItCannotConvert) {
+  for (const char* label : {"Voltage (%)", "voltage_percent", "Current (%)", "I [counts]", "U (dB)",
+                            "Temperature (F)", "Irradiance (lux)", "sigma (%)"}) {
+    SCOPED_TRACE(label);
+    const Column column = RecogniseColumn(label);
+    EXPECT_NE(column.kind, ColumnKind::kUnknown);
+    EXPECT_THAT(column.refusal, HasSubstr(label));
+    EXPECT_THAT(column.refusal, HasSubstr("expected"));
+  }
+}
+
+TEST(RecogniseColumnTest, CurrentDensityIsNotCurrent) {
+  for (const char* label : {"J", "J (mA/cm2)", "Current density (mA/cm\u00b2)", "current_density",
+                            "I (mA/cm2)", "Current [A/m^2]", "j_mA_cm2"}) {
+    SCOPED_TRACE(label);
+    const Column column = RecogniseColumn(label);
+    EXPECT_EQ(column.kind, ColumnKind::kCurrentDensity);
+    EXPECT_THAT(column.refusal, HasSubstr("current density"));
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

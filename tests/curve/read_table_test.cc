@@ -1,0 +1,117 @@
+#include "lyrefit/curve/read_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(ReadTableTest, ReadsEveryWayToWriteTheSameTable) {
+  for (const char* text : {
+           "voltage_V,current_A\n-0.5,2\n0,1.5\n",
+           "voltage_V,current_A\r\n-0.5,2\r\n0,1.5\r\n",
+           "voltage_V,current_A\r-0.5,2\r0,1.5",
+           "# remark\n\nvoltage_V,current_A\n# remark\n-0.5,2\n\n0,1.5\n# end",
+           "voltage_V,current_A,\n-0.5,2,\n0,1.5,\n",
+           "voltage_V,current_A\n-0.5,2,,\n0,1.5\n",
+           "\"voltage_V\",\"current_A\"\n\"-0.5\",\"2\"\n\"0\",\"1.5\"\n",
+           "V I\n-0.5 2\n 0   1.5 \n",
+           "V\tI\n-0.5\t2\n0\t1.5\n",
+           "V;I\n-0,5;2\n0;1,5\n",
+           "V\tI\n-0,5\t2\n0\t1,5\n",
+           "V,I\n-5e-1,+2.0E0\n0,1.5\n",
+           "V,I\n\u22120.5,2\n0,1.5\n",
+           "Voltage (mV),Current (mA)\n-500,2000\n0,1500\n",
+           "Volts, Amps, Watts, Ohms\n-0.5, 2, -1, -0.25\n0, 1.5, 0, 0\n",
+           "I,V\n2,-0.5\n1.5,0\n",
+           "-0.5,2.0\n0,1.5\n",
+           "-0.5 2\n0 1.5\n",
+           "-0,5;2\n0;1,5\n",
+           "Tracer X\nModule: 7\n\nVoltage [V];Current [A]\n-0.5;2\n0;1.5\n",
+       }) {
+    SCOPED_TRACE(text);
+    const auto table = ReadTable(text, "f.csv");
+    ASSERT_TRUE(table) << table.error().ToString();
+    EXPECT_THAT(table->curve.voltage_V, ElementsAre(-0.5, 0));
+    EXPECT_THAT(table->curve.current_A, ElementsAre(2, 1.5));
+  }
+}
+
+TEST(ReadTableTest, ReadsTheOptionalColumns) {
+  const auto table = ReadTable(
+      "V,I,sigma_mA,time_ms,sweep,irradiance_kW/m2,temperature_K\n0,1,2,500,3,0.8,298.15\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->curve.sigma_A, ElementsAre(2e-3));
+  EXPECT_THAT(table->curve.time_s, ElementsAre(0.5));
+  EXPECT_THAT(table->curve.sweep, ElementsAre(3));
+  EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(800));
+  EXPECT_THAT(table->curve.temperature_C, ElementsAre(25));
+  EXPECT_FALSE(table->holds_curves);
+  EXPECT_THAT(table->curve.assumptions, ::testing::Contains(HasSubstr("converted from kelvin")));
+}
+
+TEST(ReadTableTest, ColumnNamedCurveTellsCurvesApart) {
+  const auto table = ReadTable("curve,V,I\n4,0,1\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->holds_curves);
+  EXPECT_THAT(table->curve.sweep, ElementsAre(4));
+}
+
+TEST(ReadTableTest, KeepsOrderAndDuplicates) {
+  const auto table = ReadTable("V,I\n0.5,1\n0,2\n0.5,1\n0.3,1.5\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0.5, 0, 0.5, 0.3));
+}
+
+struct BadTable {
+  const char* text;
+  int line;
+  int column;
+  const char* phrase;
+};
+
+TEST(ReadTableTest, ErrorsNameLineColumnAndWhatWasExpected) {
+  const BadTable kCases[] = {
+      {"voltage_V,current_A\n0,1\n0.1,abc\n", 3, 5,
+       "expected a number in column current_A, found 'abc'"},
+      {"V,I\nabc,1\n0.1,2\n", 2, 1, "expected a number in column V, found 'abc'"},
+      {"V,I\n0,1\n0.1,\n", 3, 5, "expected a number in column I, found an empty field"},
+      {"V,I\n0,1\n,1\n", 3, 1, "found an empty field"},
+      {"V,I\n0,1\n0.1\n", 3, 1, "expected 2 fields as in the first line of the table, found 1"},
+      {"V,I\n0,1\n0.1,2,3\n", 3, 7, "expected 2 fields as in the first line of the table, found 3"},
+      {"V,I\n0,5,3,2\n", 2, 5, "with a decimal comma"},
+      {"V,I\n0,nan\n", 2, 3, "expected a finite number in column I, found 'nan'"},
+      {"V,I\n0,1\ninf,1\n", 3, 1, "expected a finite number in column V"},
+      {"V,I\n0,1e999\n", 2, 3, "expected a number"},
+      {"V,I (kA)\n0,1e308\n", 2, 3, "expected a finite number"},
+      {"V,I\n0,\"1\n", 2, 1, "expected closed quotes"},
+      {"V,I\n", 1, 0, "expected rows of numbers below the header"},
+      {"V,I,sigma\n0,1,0\n", 2, 5, "expected a positive number in column sigma, found '0'"},
+      {"V,I,sigma\n0,1,-0.1\n", 2, 5, "expected a positive number"},
+      {"V,I,sweep\n0,1,up\n", 2, 5, "expected a number in column sweep, found 'up'"},
+      {"V,I,sweep\n0,1,1.5\n", 2, 5, "expected a whole number in column sweep"},
+      {"V,I,temperature_C\n0,1,298.15\n", 2, 5, "looks like kelvin"},
+      {"V,I,temperature_C\n0,1,-101\n", 2, 5, "too cold for a cell"},
+      {"V,I,temperature_K\n0,1,25\n", 2, 5, "too cold for a cell"},
+      {"0.0,1\n0.1,x\n", 2, 5, "expected a number in column 2, found 'x'"},
+      {"V;I\n0.5;1\n0,6;1\n", 3, 1, "a number with decimal '.' as above"},
+      {"V;I\n0,5;1\n0.6;1\n", 3, 1, "a number with decimal ',' as above"},
+      {"V,I\n0,1\n0.1,\xb5\n", 3, 5, "UTF-8"},
+      {"# r\r\nV,I\r\n0,1\r\n0.1,x\r\n", 4, 5, "found 'x'"},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.text);
+    const auto table = ReadTable(c.text, "f.csv");
+    ASSERT_FALSE(table);
+    EXPECT_EQ(table.error().file, "f.csv");
+    EXPECT_EQ(table.error().line, c.line);
+    EXPECT_EQ(table.error().column, c.column);
+    EXPECT_THAT(table.error().message, HasSubstr(c.phrase));
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,113 @@
+#include "lyrefit/curve/table_layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(FindTableLayoutTest, ColumnsMayStandInAnyOrder) {
+  const auto layout = FindTableLayout(
+      "time_s,current_A,sigma_A,voltage_V,sweep,G,temperature_C\n0,1,1,0,0,1,1\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->time, 0);
+  EXPECT_EQ(layout->current, 1);
+  EXPECT_EQ(layout->sigma, 2);
+  EXPECT_EQ(layout->voltage, 3);
+  EXPECT_EQ(layout->sweep, 4);
+  EXPECT_EQ(layout->irradiance, 5);
+  EXPECT_EQ(layout->temperature, 6);
+  EXPECT_EQ(layout->first_row_line, 1);
+  EXPECT_THAT(layout->assumptions, IsEmpty());
+}
+
+TEST(FindTableLayoutTest, UsableColumnGoesBeforeRefusedOne) {
+  const auto layout = FindTableLayout("V,J (mA/cm2),I (% of Isc),I_A\n0,1,2,3\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->current, 3);
+  EXPECT_THAT(layout->assumptions, Contains(HasSubstr("columns not used: 'J (mA/cm2)'")));
+}
+
+TEST(FindTableLayoutTest, TimeOfDayIsNotUsed) {
+  const auto layout = FindTableLayout("Time,voltage_V,current_A\n12:00:01,0,1\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->time, kNoColumn);
+  EXPECT_THAT(layout->assumptions, ElementsAre("column not used: 'Time'"));
+}
+
+TEST(FindTableLayoutTest, SkipsThePreambleOfATracer) {
+  const auto layout = FindTableLayout(
+      "Tracer 5\nDate;2024-05-01\nI measured the voltage and the current myself\nTemperature;25\n"
+      "\nU [V];I [A]\n0;1\n",
+      "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->delimiter, ';');
+  EXPECT_EQ(layout->first_row_line, 6);
+  EXPECT_THAT(layout->assumptions, ElementsAre("4 lines before the header in line 6 skipped"));
+}
+
+TEST(FindTableLayoutTest, LineOfUnitsBelowTheNamesCounts) {
+  const auto layout = FindTableLayout("Voltage,Current\n(mV),(mA)\n0,1\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->columns[layout->voltage].factor, 1e-3);
+  EXPECT_EQ(layout->columns[layout->current].factor, 1e-3);
+  EXPECT_EQ(layout->first_row_line, 2);
+}
+
+TEST(FindTableLayoutTest, WithoutHeaderTheFirstTwoColumnsCount) {
+  const auto layout = FindTableLayout("# remark\n0.0 1.0 7\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->voltage, 0);
+  EXPECT_EQ(layout->current, 1);
+  EXPECT_EQ(layout->first_row_line, 1);
+  EXPECT_THAT(layout->assumptions,
+              ElementsAre(HasSubstr("no header line"), HasSubstr("1 further columns not used")));
+}
+
+TEST(FindTableLayoutTest, HeaderMayHideInAComment) {
+  const auto layout = FindTableLayout("# I_mA V_mV\n1 0\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->current, 0);
+  EXPECT_EQ(layout->voltage, 1);
+  EXPECT_EQ(layout->columns[1].factor, 1e-3);
+  EXPECT_THAT(layout->assumptions, Contains(HasSubstr("comment above the numbers")));
+}
+
+TEST(FindTableLayoutTest, RefusalsNameTheColumn) {
+  const struct {
+    const char* text;
+    int line;
+    int column;
+    const char* phrase;
+  } kCases[] = {
+      {"V,voltage,I\n0,0,1\n", 1, 3, "found two: 'V' and 'voltage'"},
+      {"V,I,Amps\n0,0,1\n", 1, 5, "expected one current column"},
+      {"V,J\n0,1\n", 1, 3, "current density"},
+      {"U (%),I\n0,1\n", 1, 1, "expected V, mV, uV or kV"},
+      {"V,P\n0,1\n", 1, 1, "found no current among 'V', 'P'"},
+      {"I,P\n0,1\n", 1, 1, "found no voltage among"},
+      {"title\nx,y\n0,1\n", 2, 1, "found neither among 'x', 'y'"},
+      {"only words\nand more\n", 1, 1, "found neither among 'only', 'words'"},
+      {"voltage\n0\n", 1, 1, "found one field: 'voltage'"},
+      {"0.5\n0.6\n", 1, 1, "a table of one column"},
+      {"0,5,7,48\n", 1, 1, "decimal comma"},
+      {"# only\n\n# comments\n", 0, 0, "no data"},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.text);
+    const auto layout = FindTableLayout(c.text, "f.csv");
+    ASSERT_FALSE(layout);
+    EXPECT_EQ(layout.error().file, "f.csv");
+    EXPECT_EQ(layout.error().line, c.line);
+    EXPECT_EQ(layout.error().column, c.column);
+    EXPECT_THAT(layout.error().message, HasSubstr(c.phrase));
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,154 @@
+#include "lyrefit/report/json_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sample_report.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> Keys(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+json Parsed(const FitReport& report) { return json::parse(JsonReport(report)); }
+
+TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
+  const json j = Parsed(SampleReport());
+  const std::set<std::string> top = {
+      "lyrefit_version", "curve",     "model",        "objective", "constants",     "bounds",
+      "parameters",      "nNsVth",    "singlediode",  "rmse",      "largest_error", "key_points",
+      "information",     "residuals", "correlations", "search",    "refine",        "intervals",
+      "model_choice",    "options",   "interrupted",  "usable",    "warnings",      "data"};
+  EXPECT_EQ(Keys(j), top);
+  const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
+                                        "iterations", "evaluations", "termination", "message",
+                                        "seconds",    "elites"};
+  EXPECT_EQ(Keys(j["search"]), search);
+  const std::set<std::string> refine = {"termination", "message", "starts",
+                                        "agreeing",    "winner",  "projected_gradient",
+                                        "condition",   "seconds", "start_list"};
+  EXPECT_EQ(Keys(j["refine"]), refine);
+}
+
+TEST(JsonReport, NamesParametersAsPvlibDoes) {
+  FitReport report = SampleReport();
+  EXPECT_EQ(Keys(Parsed(report)["parameters"]),
+            (std::set<std::string>{"photocurrent", "saturation_current", "n", "resistance_series",
+                                   "resistance_shunt"}));
+  report.model = Model::kTripleDiode;
+  report.estimates.clear();
+  for (const ParameterInfo& info : MakeDevice(report.model, report.curve.conditions).parameters) {
+    Estimate e;
+    e.info = info;
+    report.estimates.push_back(e);
+  }
+  EXPECT_EQ(Keys(Parsed(report)["parameters"]),
+            (std::set<std::string>{"photocurrent", "saturation_current", "saturation_current_2",
+                                   "saturation_current_3", "n", "n_2", "n_3", "resistance_series",
+                                   "resistance_shunt"}));
+  EXPECT_TRUE(Parsed(report)["singlediode"].is_null());
+}
+
+TEST(JsonReport, BringsBackTheSameBits) {
+  const FitReport report = SampleReport();
+  const json j = Parsed(report);
+  EXPECT_EQ(j["parameters"]["saturation_current"]["refined"].get<double>(), report.refined[1]);
+  EXPECT_EQ(j["rmse"]["refined"]["solved_current_A"].get<double>(),
+            report.rmse.refined.solved_current_A);
+  EXPECT_EQ(j["singlediode"]["nNsVth"].get<double>(), report.nNsVth);
+  EXPECT_EQ(j["data"]["current_A"].get<std::vector<double>>(), report.curve.current_A);
+}
+
+TEST(JsonReport, GivesTheFiveArgumentsOfSinglediode) {
+  EXPECT_EQ(Keys(Parsed(SampleReport())["singlediode"]),
+            (std::set<std::string>{"photocurrent", "saturation_current", "resistance_series",
+                                   "resistance_shunt", "nNsVth"}));
+}
+
+TEST(JsonReport, HasTheTypesScriptsRelyOn) {
+  FitReport report = SampleReport();
+  report.estimates[2].at_bound = BoundSide::kUpper;
+  const json j = Parsed(report);
+  const json& n = j["parameters"]["n"];
+  EXPECT_EQ(n["at_bound"], true);
+  EXPECT_EQ(n["bound_side"], "upper");
+  EXPECT_EQ(n["interval"], "symmetric");
+  EXPECT_EQ(n["unit"], "");
+  EXPECT_EQ(j["parameters"]["photocurrent"]["at_bound"], false);
+  EXPECT_TRUE(j["parameters"]["photocurrent"]["bound_side"].is_null());
+  EXPECT_TRUE(j["parameters"]["photocurrent"]["identifiable"].is_boolean());
+  EXPECT_EQ(j["refine"]["starts"], 3);
+  EXPECT_EQ(j["refine"]["start_list"].size(), 3U);
+  EXPECT_EQ(j["search"]["seed"], 7);
+  EXPECT_TRUE(j["warnings"].is_array());
+  EXPECT_TRUE(j["model_choice"].is_null());
+  EXPECT_NEAR(j["curve"]["conditions"]["cell_temperature_C"].get<double>(), 33, 0);
+}
+
+TEST(JsonReport, WritesNullForWhatIsNotFinite) {
+  FitReport report = SampleReport();
+  report.estimates[4].high_95 = kInfinity;
+  report.simulated.open_circuit_voltage_V = kUnknown;
+  const json j = Parsed(report);
+  EXPECT_TRUE(j["parameters"]["resistance_shunt"]["high_95"].is_null());
+  EXPECT_TRUE(j["key_points"]["simulated"]["open_circuit_voltage_V"].is_null());
+}
+
+TEST(JsonReport, WritesNullForRefinedWithoutAPolish) {
+  FitReport report = SampleReport();
+  report.polished = false;
+  const json j = Parsed(report);
+  EXPECT_TRUE(j["parameters"]["n"]["refined"].is_null());
+  EXPECT_TRUE(j["rmse"]["refined"]["solved_current_A"].is_null());
+  EXPECT_TRUE(j["rmse"]["best_bird_polished"]["measured_current_A"].is_null());
+  EXPECT_TRUE(j["rmse"]["searched"]["solved_current_A"].is_number());
+  EXPECT_TRUE(j["singlediode"]["photocurrent"].is_number());
+}
+
+void RemoveSeconds(json* value) {
+  if (value->is_object()) value->erase("seconds");
+  for (auto& child : *value) {
+    if (child.is_structured()) RemoveSeconds(&child);
+  }
+}
+
+TEST(JsonReport, KeepsWallClockTimesUnderSecondsOnly) {
+  FitReport report = SampleReport();
+  json first = Parsed(report);
+  report.search.seconds = 77;
+  report.refine.seconds = 77;
+  report.interval_seconds = 77;
+  json second = Parsed(report);
+  EXPECT_NE(first, second);
+  RemoveSeconds(&first);
+  RemoveSeconds(&second);
+  EXPECT_EQ(first, second);
+}
+
+TEST(JsonReport, WritesTheChoiceOfTheModel) {
+  FitReport report = SampleReport();
+  report.choice = ModelChoice{
+      Model::kDoubleDiode, {{Model::kSingleDiode, 1e-3, 2e-3, -10, kUnknown, true}}, "Two diodes."};
+  const json choice = Parsed(report)["model_choice"];
+  EXPECT_EQ(choice["chosen"], "dd");
+  EXPECT_EQ(choice["sentence"], "Two diodes.");
+  EXPECT_EQ(choice["candidates"][0]["model"], "sd");
+  EXPECT_TRUE(choice["candidates"][0]["f_p_value"].is_null());
+}
+
+TEST(JsonReport, SurvivesNamesThatAreNotUtf8) {
+  FitReport report = SampleReport();
+  report.curve.name = "caf\xe9";
+  EXPECT_EQ(Parsed(report)["curve"]["name"], "caf\xef\xbf\xbd");
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,66 @@
+#include "lyrefit/report/text_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Significant, KeepsTrailingZerosAndSaysUnknown) {
+  EXPECT_EQ(Significant(0.76078796, 6), "0.760788");
+  EXPECT_EQ(Significant(0.76, 6), "0.760000");
+  EXPECT_EQ(Significant(3.1068e-7, 6), "3.10680e-07");
+  EXPECT_EQ(Significant(123456, 6), "123456");
+  EXPECT_EQ(Significant(0, 6), "0");
+  EXPECT_EQ(Significant(kNaN, 6), "-");
+}
+
+TEST(Range, ShowsEnoughDigitsToTellTheEndsApart) {
+  EXPECT_EQ(Range(0.99991, 1.00009), "0.9999100 .. 1.000090");
+  EXPECT_EQ(Range(1, 2), "1.000 .. 2.000");
+  EXPECT_EQ(Range(0, 3e-7), "0 .. 3.00e-07");
+  EXPECT_EQ(Range(kNaN, 1), "-");
+  EXPECT_EQ(Range(10, std::numeric_limits<double>::infinity()), "10.00 .. inf");
+}
+
+TEST(Duration, PicksTheUnit) {
+  EXPECT_EQ(Duration(0.0123), "12.3 ms");
+  EXPECT_EQ(Duration(12.345), "12.3 s");
+  EXPECT_EQ(Duration(kNaN), "-");
+}
+
+TEST(Wrap, BreaksAtBlanksAndIndentsTheRest) {
+  std::string words;
+  for (int i = 0; i < 60; ++i) words += "word ";
+  const std::string text = Wrap("  - ", words);
+  std::size_t begin = 0;
+  int lines = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string line = text.substr(begin, end - begin);
+    EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth));
+    EXPECT_EQ(line.substr(0, 8), lines == 0 ? "  - word" : "    word");
+    ++lines;
+  }
+  EXPECT_EQ(lines, 4);
+  EXPECT_EQ(begin, text.size());
+}
+
+TEST(Wrap, LeavesAWordLongerThanTheLineWhole) {
+  const std::string word(150, 'x');
+  EXPECT_EQ(Wrap("> ", word), "> " + word + "\n");
+}
+
+TEST(TextTable, AlignsColumnsByTheirWidestCell) {
+  TextTable table("lr");
+  table.Add({"name", "value"});
+  table.Add({"\u00b5", "1"});
+  table.Add({"alone"});
+  EXPECT_EQ(table.Text(), "  name   value\n  \u00b5          1\n  alone\n");
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,149 @@
+#include "lyrefit/report/text_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "lyrefit/report/text_layout.h"
+#include "sample_report.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+// The first line that holds `text`.
+std::string LineWith(const std::string& report, const std::string& text) {
+  std::istringstream lines(report);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(text) != std::string::npos) return line;
+  }
+  return "";
+}
+
+TEST(FullReport, FitsATerminalOf100Columns) {
+  FitReport report = SampleReport();
+  report.warnings = {std::string(300, 'a').replace(50, 1, " ").replace(120, 1, " ")};
+  report.warnings = {
+      "a warning of many words that goes on and on, longer than any terminal is wide, "
+      "because the matter is not simple and wants to be explained in plain words"};
+  std::istringstream lines(FullReport(report));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth)) << line;
+  }
+}
+
+TEST(FullReport, ShowsSearchedAndRefinedSideBySide) {
+  const std::string text = FullReport(SampleReport());
+  const std::string line = LineWith(text, "  Rs ");
+  EXPECT_THAT(line, HasSubstr("0.0363000    0.0365469     0.00045  0.035633 .. 0.037461"));
+  EXPECT_THAT(line, HasSubstr("ohm"));
+}
+
+TEST(FullReport, LabelsBothRmsesAndMarksTheFittedOne) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), HasSubstr("measured-current  solved-current *"));
+  EXPECT_THAT(LineWith(FullReport(report), "refined (best"),
+              HasSubstr("9.891234568e-04   7.730062690e-04"));
+  report.objective = Objective::kMeasuredCurrent;
+  EXPECT_THAT(FullReport(report), HasSubstr("measured-current *   solved-current"));
+}
+
+TEST(FullReport, SaysWhereThereWasNoPolish) {
+  FitReport report = SampleReport();
+  report.polished = false;
+  const std::string text = FullReport(report);
+  EXPECT_THAT(text, HasSubstr("No polish was done"));
+  EXPECT_THAT(LineWith(text, "  polish "), HasSubstr("none"));
+  EXPECT_THAT(LineWith(text, "refined (best"), Not(HasSubstr("e-04")));
+  EXPECT_THAT(LineWith(text, "best bird polished"), Not(HasSubstr("e-04")));
+}
+
+TEST(FullReport, StartsWithInterrupted) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), StartsWith("lyrefit 1.2.3"));
+  report.interrupted = true;
+  EXPECT_THAT(FullReport(report), StartsWith("INTERRUPTED"));
+}
+
+TEST(FullReport, SaysNotUsable) {
+  FitReport report = SampleReport();
+  report.usable = false;
+  EXPECT_THAT(FullReport(report), StartsWith("NOT USABLE"));
+}
+
+TEST(FullReport, MarksBoundsFixedAndNotIdentifiable) {
+  FitReport report = SampleReport();
+  report.estimates[0].fixed = true;
+  report.estimates[2].at_bound = BoundSide::kUpper;
+  report.estimates[4].identifiable = false;
+  report.estimates[4].reason = "any shunt above 800 ohm fits as well";
+  const std::string text = FullReport(report);
+  EXPECT_THAT(LineWith(text, "  Iph "), HasSubstr("fixed"));
+  EXPECT_THAT(LineWith(text, "  n1 "), HasSubstr("at upper bound"));
+  EXPECT_THAT(LineWith(text, "  Rsh "), HasSubstr("not identifiable"));
+  EXPECT_THAT(text, HasSubstr("Rsh is not identifiable: any shunt above 800 ohm fits as well"));
+}
+
+TEST(FullReport, SpellsUnknownNumbersAsADash) {
+  FitReport report = SampleReport();
+  report.simulated.open_circuit_voltage_V = kUnknown;
+  EXPECT_EQ(LineWith(FullReport(report), "  Voc"),
+            "  Voc          0.572700          -           -  V");
+}
+
+TEST(FullReport, JudgesResidualsInWords) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), HasSubstr("consistent with independent noise"));
+  report.residuals.runs = 5;
+  report.residuals.runs_p_value = 0.001;
+  EXPECT_THAT(FullReport(report), HasSubstr("go together"));
+  report.residuals.runs = 24;
+  EXPECT_THAT(FullReport(report), HasSubstr("alternate"));
+  report.residuals.runs_p_value = kUnknown;
+  report.residuals.durbin_watson = kUnknown;
+  EXPECT_THAT(FullReport(report), HasSubstr("too few points to say"));
+}
+
+TEST(FullReport, ShowsHowItWasFound) {
+  const std::string text = FullReport(SampleReport());
+  EXPECT_THAT(LineWith(text, "  search "),
+              HasSubstr("mlo, seed 7, 30 birds x 40 iterations, 1200 evaluations"));
+  EXPECT_THAT(text, HasSubstr("2 of 3 agree within 1e-9; the best end came from start 2: elite 2"));
+  EXPECT_THAT(text, HasSubstr("seed = 7 (default 0)"));
+  EXPECT_THAT(text, HasSubstr("irradiance not given: assumed 1000 W/m2"));
+}
+
+TEST(FullReport, ShowsTheChoiceOfTheModel) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("Choice of the model")));
+  report.choice = ModelChoice{Model::kSingleDiode,
+                              {{Model::kSingleDiode, 7.73e-4, 8.5e-4, -358.5, kUnknown, true},
+                               {Model::kDoubleDiode, 7.33e-4, 8.6e-4, -355.5, 0.24, false}},
+                              "A second diode does not pay."};
+  const std::string text = FullReport(report);
+  EXPECT_THAT(LineWith(text, "sd <-"), HasSubstr("7.73000e-04"));
+  EXPECT_THAT(LineWith(text, "  dd "), HasSubstr("0.24  no"));
+  EXPECT_THAT(text, HasSubstr("A second diode does not pay."));
+}
+
+TEST(FullReport, TakesAnEmptyReport) {
+  FitReport report;
+  report.measured = report.simulated = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  EXPECT_FALSE(FullReport(report).empty());
+  EXPECT_FALSE(BriefReport(report).empty());
+}
+
+TEST(BriefReport, IsOneLineWithBothLabels) {
+  const std::string text = BriefReport(SampleReport());
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+  EXPECT_THAT(text, StartsWith("sample_cell: sd, RMSE 9.891234568e-04 A measured-current, "
+                               "7.730062690e-04 A solved-current (fitted: solved-current)"));
+  EXPECT_THAT(text, HasSubstr("Rs 0.0365469 ohm"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -32,7 +32,7 @@ TEST(ModelKeyPoints, OfADarkDeviceAreUnknown) {
   const Device device = MakeDevice(Model::kSingleDiode, {});
   const double p[] = {0, 1e-9, 1.2, 0.01, 50};
   const KeyPoints points = ModelKeyPoints(device, p);
-  EXPECT_EQ(points.short_circuit_current_A, 0);
+  EXPECT_NEAR(points.short_circuit_current_A, 0, 1e-20);
   EXPECT_TRUE(std::isnan(points.open_circuit_voltage_V));
   EXPECT_TRUE(std::isnan(points.max_power_W));
 }

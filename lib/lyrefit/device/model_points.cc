@@ -24,7 +24,8 @@ KeyPoints ModelKeyPoints(const Device& device, const double* p) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   KeyPoints points{kNone, kNone, kNone, kNone, kNone, kNone};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;
-  if (!(points.short_circuit_current_A > 0)) return points;
+  // In the dark the root at V = 0 is zero but for rounding.
+  if (!(points.short_circuit_current_A > 1e-15 * p[kIph]) || !(p[kIph] > 0)) return points;
   // At open circuit no current flows through Rs: the junction sees V itself.
   const auto junction = [&](double v) { return JunctionCurrent(device, p, v); };
   double above = device.module_thermal_voltage_V;

@@ -11,6 +11,7 @@ namespace lyrefit {
 namespace {
 
 constexpr double kAgree = 1e-9;      // relative, of RMSE: two ends are the same
+constexpr double kBetter = 1e-12;    // relative, of RMSE: one end is better than another
 constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents have come to the same curve
 
 std::vector<double> ExplicitCurve(const RefineProblem& problem, const std::vector<double>& p) {
@@ -47,6 +48,28 @@ std::vector<int> GroupByCurve(const RefineProblem& problem,
   return leader;
 }
 
+// A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with each
+// diode taken out, as long as that helps.
+RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
+  constexpr int kAttempts = 3;
+  for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
+    std::vector<RefineEnd> others = {Refine(problem, end.p)};
+    for (int d = 0; d < DiodeCount(problem.device); ++d) {
+      const int is = SaturationCurrentIndex(d);
+      if (problem.lower[is] > 0 || end.p[is] <= 0) continue;
+      std::vector<double> without = end.p;
+      without[is] = 0;
+      others.push_back(Refine(problem, SeparableDescent(problem, without)));
+    }
+    for (RefineEnd& other : others) {
+      const bool level = other.mean_square <= end.mean_square * (1 + kBetter);
+      const bool lower = other.mean_square < end.mean_square * (1 - kBetter);
+      if (lower || (level && other.converged && !end.converged)) end = std::move(other);
+    }
+  }
+  return end;
+}
+
 }  // namespace
 
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
@@ -73,7 +96,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const std::vector<Polish
   const std::vector<int> leader = GroupByCurve(problem, descended);
   std::vector<RefineEnd> ends(count);
   ParallelFor(count, threads, [&](int s) {
-    if (leader[s] == s) ends[s] = Refine(problem, descended[s]);
+    if (leader[s] == s) ends[s] = SecondWind(problem, Refine(problem, descended[s]));
   });
 
   PolishResult result;
@@ -84,7 +107,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const std::vector<Polish
                              std::sqrt(end.mean_square), false});
     const bool better = report.winner < 0 || report.starts[s].end_rmse_A <
                                                  report.starts[report.winner].end_rmse_A *
-                                                     (1 - kAgree);
+                                                     (1 - kBetter);
     if (better) report.winner = s;
   }
   result.first = ends[leader[0]];

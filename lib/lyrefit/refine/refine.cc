@@ -60,6 +60,8 @@ class Polish {
       return;
     }
     std::vector<double> theta = coordinates.Start();
+    solver_converged_ = false;
+    if (!coordinates.Sane(theta.data())) return;  // no place to take a step from
     const double unit_A = std::max(std::sqrt(mean_square_), 1e-13 * problem_.current_scale_A);
     auto* cost = new ceres::DynamicAutoDiffCostFunction<CurveResiduals, kJetWidth>(
         new CurveResiduals(problem_, coordinates, unit_A));

@@ -12,11 +12,13 @@ namespace lyrefit {
 namespace {
 
 constexpr int kModelPoints = 500;
+constexpr std::size_t kManyPoints = 150;  // from here on small pale symbols
 
 // Colours of Okabe and Ito, which the colour-blind tell apart too.
 constexpr char kBlue[] = "#0072B2";
 constexpr char kVermilion[] = "#D55E00";
 constexpr char kSkyBlue[] = "#56B4E9";
+constexpr char kOrange[] = "#E69F00";
 
 // In gnuplot's single quotes; control characters become blanks.
 std::string Quote(const std::string& text) {
@@ -108,7 +110,7 @@ std::string Preamble(const FitReport& report, const std::string& terminal, const
       "set encoding utf8\n"
       "set terminal {}\n"
       "set multiplot title {} offset 0,-0.2\n"
-      "set lmargin at screen 0.105\nset rmargin at screen 0.895\n"
+      "set lmargin at screen 0.12\nset rmargin at screen 0.88\n"
       "set grid back lt 1 lw 0.7 lc rgb '#cccccc'\nset border lw 0.8\nset xrange [{}:{}]\n",
       settings, Quote(Title(report)), voltage.low - air, voltage.high + air);
 }
@@ -118,26 +120,29 @@ std::string UpperPanel(const IvCurve& curve) {
   Span current = SpanOf(curve.current_A);
   Span power = SpanOf(Product(curve.voltage_V, curve.current_A));
   AlignZeros(&current, &power);
+  const bool many = curve.size() > kManyPoints;
   const Prefix ampere = PrefixFor(current.Largest());
   const Prefix watt = PrefixFor(power.Largest());
   return fmt::format(
       "set tmargin at screen 0.90\nset bmargin at screen 0.42\n"
-      "set key at screen 0.5,0.925 center horizontal maxrows 1 samplen 2.5\n"
+      "set key at screen 0.5,0.925 center horizontal maxrows 1 samplen 2 font ',11'\n"
       "set yrange {}\nset y2range {}\n"
       "set ylabel 'Current ({}A)' textcolor rgb '{blue}'\n"
       "set y2label 'Power ({}W)' textcolor rgb '{red}'\n"
       "set ytics nomirror\nset y2tics\nset format x ''\n"
       "plot 0 with lines lw 0.8 lc rgb 'black' notitle, \\\n"
-      " $model using 1:($2*{f}) axes x1y1 with lines lw 2 lc rgb '{blue}' title 'I model', \\\n"
-      " $measured using 1:($2*{f}) axes x1y1 with points pt 6 ps 1.3 lw 1.3 lc rgb '{blue}' "
+      " $measured using 1:($2*{f}) axes x1y1 with points pt 6 ps {size} lw 1.3 lc rgb '{i_colour}' "
       "title 'I measured', \\\n"
-      " $model using 1:($1*$2*{p}) axes x1y2 with lines lw 2 dt 2 lc rgb '{red}' title 'P model', "
-      "\\\n"
-      " $measured using 1:($1*$2*{p}) axes x1y2 with points pt 8 ps 1.3 lw 1.3 lc rgb '{red}' "
-      "title 'P measured'\n",
+      " $model using 1:($2*{f}) axes x1y1 with lines lw 2 lc rgb '{blue}' title 'I model', \\\n"
+      " $measured using 1:($1*$2*{p}) axes x1y2 with points pt 8 ps {size} lw 1.3 lc rgb "
+      "'{p_colour}' "
+      "title 'P measured', \\\n"
+      " $model using 1:($1*$2*{p}) axes x1y2 with lines lw 2 dt 2 lc rgb '{red}' title 'P model'\n",
       AxisRange(current, ampere.factor), AxisRange(power, watt.factor), ampere.text, watt.text,
       fmt::arg("blue", kBlue), fmt::arg("red", kVermilion), fmt::arg("f", ampere.factor),
-      fmt::arg("p", watt.factor));
+      fmt::arg("p", watt.factor), fmt::arg("size", many ? 0.4 : 1.3),
+      fmt::arg("i_colour", many ? kSkyBlue : kBlue),
+      fmt::arg("p_colour", many ? kOrange : kVermilion));
 }
 
 // Solved-current residuals with a band of +- their RMSE.
@@ -147,24 +152,26 @@ std::string LowerPanel(const FitReport& report) {
   const double largest = std::max(SpanOf(report.residual_A).Largest(), rmse);
   const double half = largest > 0 ? 1.15 * largest : 1;
   const Prefix prefix = PrefixFor(largest);
+  const bool many = report.curve.size() > kManyPoints;
   return fmt::format(
       "set tmargin at screen 0.355\nset bmargin at screen 0.095\n"
-      "set key at screen 0.5,0.38 center horizontal maxrows 1 samplen 2.5\n"
+      "set key at screen 0.5,0.38 center horizontal maxrows 1 samplen 2 font ',11'\n"
       "unset y2label\nunset y2tics\nset ytics mirror\nset format x '%g'\n"
       "set xlabel 'Voltage (V)'\nset ylabel 'Model - measured ({u}A)' textcolor rgb 'black'\n"
       "set yrange [{low}:{high}]\n"
       "set object 1 rectangle from graph 0, first -{band} to graph 1, first {band} "
       "fc rgb '{sky}' fs transparent solid 0.25 noborder behind\n"
       "plot 0 with lines lw 1 lc rgb 'black' notitle, \\\n"
-      " $residual using 1:($2*{f}) with impulses lw 1.2 lc rgb '{blue}' notitle, \\\n"
-      " $residual using 1:($2*{f}) with points pt 7 ps 0.8 lc rgb '{blue}' "
+      " $residual using 1:($2*{f}) with impulses lw {stem} lc rgb '{stem_colour}' notitle, \\\n"
+      " $residual using 1:($2*{f}) with points pt 7 ps {size} lc rgb '{blue}' "
       "title 'residuals, solved-current', \\\n"
       " NaN with filledcurves fs transparent solid 0.25 fc rgb '{sky}' "
       "title '± RMSE, {shown:.3g} {u}A'\n",
       fmt::arg("u", prefix.text), fmt::arg("low", -half * prefix.factor),
       fmt::arg("high", half * prefix.factor), fmt::arg("band", rmse * prefix.factor),
       fmt::arg("sky", kSkyBlue), fmt::arg("blue", kBlue), fmt::arg("f", prefix.factor),
-      fmt::arg("shown", rmse * prefix.factor));
+      fmt::arg("shown", rmse * prefix.factor), fmt::arg("size", many ? 0.4 : 0.8),
+      fmt::arg("stem", many ? 0.3 : 1.2), fmt::arg("stem_colour", many ? kSkyBlue : kBlue));
 }
 
 }  // namespace

@@ -8,28 +8,34 @@
 namespace lyrefit {
 namespace {
 
+constexpr int kSearchedDigits = 5;
 constexpr int kValueDigits = 6;
 constexpr int kErrorDigits = 2;
 constexpr int kRmseDigits = 10;
+constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
 
 std::string Marks(const Estimate& estimate) {
   if (estimate.fixed) return "fixed";
   std::string marks;
   if (estimate.at_bound != BoundSide::kNone) {
-    marks = fmt::format("at {} bound", ToText(estimate.at_bound));
+    marks = fmt::format("{} bound", ToText(estimate.at_bound));
   }
   if (!estimate.identifiable)
     marks += (marks.empty() ? "" : ", ") + std::string("not identifiable");
   return marks;
 }
 
+// "Rs (ohm)", "n1".
+std::string Label(const ParameterInfo& info) {
+  return info.unit.empty() ? info.symbol : fmt::format("{} ({})", info.symbol, info.unit);
+}
+
 std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
-  return {e.info.symbol,
-          Significant(e.searched, kValueDigits),
+  return {Label(e.info),
+          Significant(e.searched, kSearchedDigits),
           polished ? Significant(e.refined, kValueDigits) : "-",
           Significant(e.standard_error, kErrorDigits),
           Range(e.low_95, e.high_95),
-          e.info.unit,
           Marks(e)};
 }
 
@@ -49,14 +55,14 @@ std::string IntervalNote(const std::vector<Estimate>& estimates) {
 
 std::string Difference(double measured, double simulated) {
   const double percent = 100 * (simulated / measured - 1);
-  return std::isfinite(percent) ? fmt::format("{:+.3f} %", percent) : "-";
+  return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
 }
 
 }  // namespace
 
 std::string ParameterSection(const FitReport& report) {
-  TextTable table("lrrrlll");
-  table.Add({"parameter", "searched", "refined", "std. error", "95 % interval", "unit", ""});
+  TextTable table("lrrrll");
+  table.Add({"parameter", "searched", "refined", "std err", "95 % interval"});
   for (const Estimate& e : report.estimates) table.Add(ParameterRow(e, report.polished));
   std::string text = "Parameters\n" + table.Text();
   if (!report.polished)

@@ -26,7 +26,7 @@ std::string ResidualVerdict(const ResidualStatistics& r) {
            "how "
            "the points were sorted";
   }
-  return "consistent with independent noise: the model misses nothing that the data could show";
+  return "consistent with independent noise: no pattern beyond chance";
 }
 
 std::string Decimals(double value) {

@@ -39,7 +39,7 @@ std::string Range(double low, double high) {
                                   std::isfinite(high) ? std::abs(high) : 0.0);
   int digits = 4;
   if (std::isfinite(low) && std::isfinite(high) && high > low) {
-    digits = std::clamp(3 + static_cast<int>(std::ceil(std::log10(largest / (high - low)))), 3, 9);
+    digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(largest / (high - low)))), 3, 8);
   }
   return Significant(low, digits) + " .. " + Significant(high, digits);
 }

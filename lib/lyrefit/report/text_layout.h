@@ -15,7 +15,8 @@ std::string Significant(double value, int digits);
 // "9.860218779e-04", "-" for NaN.
 std::string Scientific(double value, int digits);
 
-// "low .. high" with as many digits as tell both ends apart to three digits of their distance.
+// "low .. high" with as many digits as tell both ends apart to two or three digits of their
+// distance.
 std::string Range(double low, double high);
 
 // "12 ms", "3.21 s"; "-" for NaN.

@@ -40,11 +40,13 @@ std::string Objection(const CandidateReport& simple, const CandidateReport& rich
   return text;
 }
 
-bool DiodesIdentifiable(const FitReport& report) {
-  return std::all_of(report.estimates.begin(), report.estimates.end(), [](const Estimate& e) {
-    const bool diode = e.info.symbol[0] == 'n' || e.info.symbol.rfind("Is", 0) == 0;
-    return !diode || e.fixed || e.identifiable;
-  });
+// Whether every diode is needed: the best fit with one diode less must lie outside the 95 % limit that
+// also bounds the profile of a saturation current.
+bool DiodesIdentifiable(double simple_rmse, double rich_rmse, int degrees_of_freedom) {
+  if (degrees_of_freedom < 1) return false;
+  const double t = StudentT95(degrees_of_freedom);
+  const double ratio = simple_rmse / rich_rmse;
+  return (ratio * ratio - 1) * degrees_of_freedom > t * t;
 }
 
 CandidateReport Judge(const FitReport& report, const FitOptions& options,
@@ -53,14 +55,14 @@ CandidateReport Judge(const FitReport& report, const FitOptions& options,
   candidate.model = report.model;
   candidate.rmse_A = report.rmse.refined.Of(report.objective);
   candidate.aicc = report.criteria.aicc;
-  candidate.identifiable = DiodesIdentifiable(report);
   candidate.held_out_rmse_A = HeldOutRmse(report, options);
   if (simpler != nullptr) {
     const double simple = simpler->rmse.refined.Of(report.objective);
     const int extra = report.criteria.parameters - simpler->criteria.parameters;
-    candidate.f_p_value =
-        FTestPValue(simple * simple, candidate.rmse_A * candidate.rmse_A, std::max(extra, 1),
-                    report.criteria.points - report.criteria.parameters);
+    const int degrees = report.criteria.points - report.criteria.parameters;
+    candidate.f_p_value = FTestPValue(simple * simple, candidate.rmse_A * candidate.rmse_A,
+                                      std::max(extra, 1), degrees);
+    candidate.identifiable = DiodesIdentifiable(simple, candidate.rmse_A, degrees);
   }
   return candidate;
 }
@@ -93,6 +95,7 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     FitOptions own = ForModel(options, model, curve);
     own.polish = true;
+    own.intervals = Intervals::kNone;  // only the chosen model needs them
     auto fit = Fit(curve, own, observer);
     if (!fit && fits.empty()) return fit;
     if (!fit) {
@@ -125,8 +128,14 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
   }
   choice.chosen = choice.candidates[chosen].model;
   choice.sentence = fmt::format("The data support {}.", Capital(choice.chosen)) + sentence;
-  FitReport report = std::move(fits[chosen]);
-  report.interrupted = report.interrupted || fits.back().interrupted;
+  const bool interrupted = fits.back().interrupted;
+  FitOptions final_options = ForModel(options, choice.chosen, curve);
+  final_options.polish = true;
+  auto final_fit = interrupted ? Expected<FitReport>(std::move(fits[chosen]))
+                               : Fit(curve, final_options, observer);
+  if (!final_fit) return final_fit;
+  FitReport report = std::move(*final_fit);
+  report.interrupted = report.interrupted || interrupted;
   report.choice = std::move(choice);
   return report;
 }

@@ -75,8 +75,10 @@ CurveScales ScalesOf(const IvCurve& curve) {
     scales.current_A = std::max(scales.current_A, std::fabs(curve.current_A[k]));
     scales.voltage_V = std::max(scales.voltage_V, curve.voltage_V[k]);
   }
-  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
-  if (voc > 0) scales.voltage_V = voc;
+  // A dark curve crosses zero current at zero voltage; that is no open circuit to go by.
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const bool lit = key.short_circuit_current_A > 0.01 * scales.current_A;
+  if (lit && key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
   if (!(scales.voltage_V > 0)) {
     for (const double v : curve.voltage_V) scales.voltage_V = std::max(scales.voltage_V, std::fabs(v));
   }
@@ -88,9 +90,13 @@ std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve&
                                             double n_lower, double n_upper) {
   const CurveScales scales = ScalesOf(curve);
   const double resistance = scales.voltage_V / scales.current_A;
-  // No junction of a single cell gives 1.5 V: the number of cells was not told, and n is that of all.
+  // No junction of a single cell gives 1.5 V: the number of cells was not told, n is that of all of
+  // them together, and each gives somewhere between 0.5 and 1.25 V.
   const double per_cell_V = scales.voltage_V / curve.conditions.cells_in_series;
-  if (per_cell_V > 1.5) n_upper *= std::ceil(per_cell_V / 0.5);
+  if (per_cell_V > 1.5) {
+    n_lower *= per_cell_V / 1.25;
+    n_upper *= per_cell_V / 0.5;
+  }
   const double vt = device.module_thermal_voltage_V;
   const auto saturation = [&](double n) {
     return scales.current_A * std::exp(-std::min(scales.voltage_V / (n * vt), 600.0));

@@ -119,7 +119,7 @@ struct CandidateReport {
   double held_out_rmse_A = kUnknown;  // contiguous blocks left out in turn, same objective
   double aicc = kUnknown;
   double f_p_value = kUnknown;  // against the next simpler model
-  bool identifiable = true;     // every parameter
+  bool identifiable = true;     // no diode may be absent
 };
 
 struct ModelChoice {

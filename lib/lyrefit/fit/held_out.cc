@@ -12,18 +12,19 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kBlocks = 5;
+constexpr int kMostBlocks = 10;
+constexpr int kSmallestBlock = 2;
 
 struct Split {
   IvCurve kept;
   IvCurve left_out;
 };
 
-Split MakeSplit(const IvCurve& curve, int block) {
+Split MakeSplit(const IvCurve& curve, int block, int blocks) {
   const std::vector<int> order = OrderByVoltage(curve.voltage_V);
   const int points = static_cast<int>(order.size());
-  const int begin = points * block / kBlocks;
-  const int end = points * (block + 1) / kBlocks;
+  const int begin = 1 + (points - 2) * block / blocks;
+  const int end = 1 + (points - 2) * (block + 1) / blocks;
   Split split;
   for (int k = 0; k < points; ++k) {
     IvCurve& side = k >= begin && k < end ? split.left_out : split.kept;
@@ -38,23 +39,25 @@ Split MakeSplit(const IvCurve& curve, int block) {
 
 double HeldOutRmse(const FitReport& report, const FitOptions& options) {
   const int points = static_cast<int>(report.curve.size());
-  const int largest_block = (points + kBlocks - 1) / kBlocks;
-  if (points - largest_block < report.criteria.parameters || points < kBlocks) return kUnknown;
+  const int blocks = std::min(kMostBlocks, (points - 2) / kSmallestBlock);
+  if (blocks < 2) return kUnknown;
+  const int largest_block = (points - 2 + blocks - 1) / blocks;
+  if (points - largest_block < report.criteria.parameters) return kUnknown;
   std::vector<double> lower, upper;
   for (const Estimate& e : report.estimates) {
     lower.push_back(e.bounds.lower);
     upper.push_back(e.bounds.upper);
   }
-  std::vector<double> squares(kBlocks);
-  ParallelFor(kBlocks, options.threads, [&](int block) {
-    const Split split = MakeSplit(report.curve, block);
+  std::vector<double> squares(blocks);
+  ParallelFor(blocks, options.threads, [&](int block) {
+    const Split split = MakeSplit(report.curve, block, blocks);
     std::vector<double> weights;
     for (const double sigma : split.kept.sigma_A) weights.push_back(1 / (sigma * sigma));
     const RefineProblem problem =
         MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
                           split.kept.current_A, std::move(weights), lower, upper);
     RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined));
-    for (const SeparableStart& start : SeparableStarts(problem, report.refined[kRs], 2)) {
+    for (const SeparableStart& start : SeparableStarts(problem, report.refined[kRs], 1)) {
       RefineEnd other = Refine(problem, SeparableDescent(problem, start.p));
       if (other.mean_square < end.mean_square) end = std::move(other);
     }
@@ -64,7 +67,7 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options) {
   });
   double sum = 0;
   for (const double square : squares) sum += square;
-  return std::sqrt(sum / points);
+  return std::sqrt(sum / (points - 2));
 }
 
 }  // namespace lyrefit

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/refine/coordinates.h"
 #include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
@@ -48,6 +49,29 @@ std::vector<int> GroupByCurve(const RefineProblem& problem,
   return leader;
 }
 
+// The best single-diode answer with the other diodes absent, so that a richer model never ends above a
+// poorer one.
+std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
+  RefineProblem single = problem;
+  single.device.parameters.resize(5);
+  auto& terms = single.device.terms;
+  terms.erase(std::remove_if(terms.begin(), terms.end(),
+                             [](const Term& term) {
+                               return term.kind == TermKind::kDiode &&
+                                      term.parameter[0] != SaturationCurrentIndex(0);
+                             }),
+              terms.end());
+  single.lower.resize(5);
+  single.upper.resize(5);
+  const auto starts = SeparableStarts(single, 0, 1);
+  std::vector<double> p = Refine(single, SeparableDescent(single, starts.at(0).p)).p;
+  for (int i = 5; i < problem.device.size(); ++i) {
+    p.push_back(Coordinates::IsSaturation(i) ? problem.lower[i]
+                                             : 0.5 * (problem.lower[i] + problem.upper[i]));
+  }
+  return p;
+}
+
 // A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with each
 // diode taken out, as long as that helps.
 RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
@@ -78,6 +102,7 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
   for (std::size_t k = 0; k < elites.size(); ++k) {
     starts.push_back({k == 0 ? "best bird" : "elite " + std::to_string(k + 1), elites[k]});
   }
+  if (DiodeCount(problem.device) > 1) starts.push_back({"single diode", SingleDiodeStart(problem)});
   const double hint = elites.empty() ? 0 : elites[0][kRs];
   for (SeparableStart& start : SeparableStarts(problem, hint, grid)) {
     starts.push_back({std::move(start.origin), std::move(start.p)});

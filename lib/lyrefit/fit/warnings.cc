@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/refine/coordinates.h"
 
 namespace lyrefit {
 namespace {
@@ -30,7 +29,9 @@ void WarnOfStops(const FitReport& report, Sentences* out) {
 
 void WarnOfBounds(const FitReport& report, Sentences* out) {
   for (const Estimate& e : report.estimates) {
-    if (e.at_bound == BoundSide::kNone) continue;
+    const bool absent_diode = !e.identifiable && e.at_bound == BoundSide::kLower &&
+                              e.info.name.rfind("saturation_current", 0) == 0;
+    if (e.at_bound == BoundSide::kNone || absent_diode) continue;
     const double bound = e.at_bound == BoundSide::kLower ? e.bounds.lower : e.bounds.upper;
     std::string text = fmt::format("{} sits at its {} bound {:.6g}", e.info.symbol,
                                    ToText(e.at_bound), bound);
@@ -72,17 +73,18 @@ void WarnOfData(const FitReport& report, Sentences* out) {
 // Current that rises with voltage beyond what noise explains: impossible for a passive device.
 void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
   constexpr double kNoises = 6;
+  constexpr double kVisible = 2e-3;  // of the largest current
   const IvCurve& curve = report.curve;
-  const double noise = std::max(NoiseFromDifferences(curve.voltage_V, report.residual_A),
-                                RobustScale(report.residual_A));
-  double lowest = HUGE_VAL, worst = 0, at = 0;
+  const double noise = NoiseFromDifferences(curve.voltage_V, report.residual_A);
+  double lowest = HUGE_VAL, worst = 0, at = 0, largest = 0;
   for (const int k : OrderByVoltage(curve.voltage_V)) {
     lowest = std::min(lowest, curve.current_A[k]);
+    largest = std::max(largest, std::fabs(curve.current_A[k]));
     if (curve.current_A[k] - lowest <= worst) continue;
     worst = curve.current_A[k] - lowest;
     at = curve.voltage_V[k];
   }
-  if (worst <= kNoises * noise || worst <= 0) return;
+  if (worst <= kNoises * noise || worst <= kVisible * largest) return;
   out->push_back(fmt::format(
       "the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive device does: the "
       "light or the instrument changed during the sweep",

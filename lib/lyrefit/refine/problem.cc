@@ -38,7 +38,8 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
   problem.weights = std::move(weights);
   problem.points = MakePointSet(problem.voltage_V, problem.current_A, problem.weights);
   problem.current_scale_A = LargestMagnitude(problem.current_A);
-  problem.voltage_scale_V = LargestMagnitude(problem.voltage_V);
+  const double forward_V = problem.points.largest_voltage_V;
+  problem.voltage_scale_V = forward_V > 0 ? forward_V : LargestMagnitude(problem.voltage_V);
   return problem;
 }
 

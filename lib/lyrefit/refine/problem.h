@@ -21,7 +21,7 @@ struct RefineProblem {
 
   // Natural sizes of the curve, which every coordinate is scaled by.
   double current_scale_A = 1;  // largest |current|
-  double voltage_scale_V = 1;  // largest |voltage|
+  double voltage_scale_V = 1;  // largest forward voltage; largest |voltage| if there is none
   double resistance_scale() const { return voltage_scale_V / current_scale_A; }
   bool fixed(int i) const { return lower[i] == upper[i]; }
 };

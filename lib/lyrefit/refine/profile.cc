@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "lyrefit/refine/coordinates.h"
@@ -83,19 +82,12 @@ class Side {
     ++side_.refits;
     RefineProblem held = problem_;
     held.lower[i] = held.upper[i] = value;
-    double lowest = std::numeric_limits<double>::infinity();
-    std::vector<double> lowest_p;
-    for (const std::vector<double>& from : {warm_, best_.p}) {
-      std::vector<double> start = from;
-      start[i] = value;
-      const RefineEnd end = Refine(held, SeparableDescent(held, std::move(start)));
-      if (end.mean_square >= lowest) continue;
-      lowest = end.mean_square;
-      lowest_p = end.p;
-    }
-    warm_ = lowest_p;
-    if (lowest < best_.mean_square * (1 - kBetter)) side_.better = lowest_p;
-    const double rise = (lowest / best_.mean_square - 1) * query_.degrees_of_freedom;
+    std::vector<double> start = warm_;
+    start[i] = value;
+    RefineEnd end = Refine(held, SeparableDescent(held, std::move(start)));
+    if (end.mean_square < best_.mean_square * (1 - kBetter)) side_.better = end.p;
+    const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
+    warm_ = std::move(end.p);
     return std::sqrt(std::max(rise, 0.0));
   }
 

@@ -202,6 +202,7 @@ class Polish {
       const double column = now.jacobian.col(k).norm();
       if (!(column > 0) || !(norm > 0)) continue;
       const double cosine = now.jacobian.col(k).dot(now.residual) / (column * norm);
+      DCHECK(std::isfinite(cosine));
       if (held_[i]) {
         // Conductance and 1 / n fall as the parameter rises.
         const bool rises = i != kRsh && !Coordinates::IsIdeality(i);

@@ -1,0 +1,61 @@
+# What `cmake --install` lays down: the public headers, the library, the command (by its own folder) and
+# the package that find_package(lyrefit) finds.
+include(CMakePackageConfigHelpers)
+set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
+
+# Public is what stands in this list. Whatever a header here includes must stand here too: the test
+# `package` compiles each one alone from the installed tree, where the others are not.
+set(LYREFIT_PUBLIC_HEADERS
+  lyrefit.h
+  base/constants.h
+  base/enum_text.h
+  base/error.h
+  base/file.h
+  base/observer.h
+  base/option.h
+  base/parallel.h
+  base/portable_exp.h
+  base/random.h
+  base/version.h
+  curve/iv_curve.h
+  curve/key_points.h
+  curve/read_curve.h
+  curve/write_curve.h
+  device/current.h
+  device/device.h
+  device/kernel.h
+  device/model_points.h
+  device/parameter.h
+  device/solve.h
+  device/term.h
+  fit/bounds.h
+  fit/fit.h
+  fit/fit_report.h
+  fit/simulate.h
+  fit/statistics.h
+  report/json_report.h
+  report/plot.h
+  report/text_report.h
+  search/search.h)
+list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
+target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
+                              FILES ${LYREFIT_PUBLIC_HEADERS})
+# Before 1.0 a new minor version may change the interface.
+set_target_properties(lyrefit PROPERTIES VERSION ${PROJECT_VERSION}
+                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+install(TARGETS lyrefit EXPORT lyrefit-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT lyrefit-targets NAMESPACE lyrefit:: DESTINATION ${LYREFIT_PACKAGE_DIR})
+
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.in"
+                              "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
+                              INSTALL_DESTINATION ${LYREFIT_PACKAGE_DIR})
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
+              "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindLibCsv.cmake"
+        DESTINATION ${LYREFIT_PACKAGE_DIR})

@@ -22,18 +22,22 @@ constexpr char kFooter[] =
 
 void StartLogging(const char* program, int verbosity) {
   FLAGS_logtostderr = true;
-  FLAGS_minloglevel = verbosity > 0 ? google::GLOG_INFO : google::GLOG_ERROR;
+  // The solver logs every step it had to take back as an error; the report says what came of it.
+  FLAGS_minloglevel = verbosity > 0 ? google::GLOG_INFO : google::GLOG_FATAL;
   FLAGS_v = verbosity;
   google::InitGoogleLogging(program);
 }
 
-// What CLI11 found wrong, with a hint where it is a second value of a flag that takes one.
+// What CLI11 found wrong, in our words where its own say little.
 Error CommandLineError(const CLI::ParseError& error) {
   std::string message = error.what();
   const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   if (extra && message.find('=') != std::string::npos) {
     message += " (repeat --bound, --fix or --set before each value)";
   }
+  const std::size_t repeated = message.find(": At Most 1 required");
+  if (repeated != std::string::npos)
+    message = message.substr(0, repeated) + ": given more than once";
   return {message, {}};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The beginner's door to lyrefit: everything that reading, fitting, simulating and reporting one I-V curve
-// takes.
+// The beginner's door to lyrefit: everything that reading, fitting, simulating and reporting one
+// I-V curve takes.
 //
 //   #include <iostream>
 //   #include "lyrefit/lyrefit.h"
@@ -14,9 +14,9 @@
 //     std::cout << lyrefit::FullReport(*report);
 //   }
 //
-// Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one sentence,
-// a search or polish that ended badly is part of the report. FitOptions says what can be chosen, FitReport
-// what is known afterwards. FitAuto chooses among one, two and three diodes.
+// Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one
+// sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
+// chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"

@@ -55,7 +55,7 @@ TEST(PlotFit, TakesAnyNameAndPath) {
   const std::string path = folder.Path("a 'b' $c.svg");
   const auto drawn = PlotFit(report, path);
   ASSERT_TRUE(drawn) << drawn.error().ToString();
-  EXPECT_THAT(Content(path), HasSubstr("&lt;cell&gt; &amp; $x `rm` \\n set output"));
+  EXPECT_THAT(Content(path), HasSubstr("&lt;cell> &amp; $x `rm` \\n set output"));
 }
 
 TEST(PlotFit, DrawsDarkAndTinyCurves) {

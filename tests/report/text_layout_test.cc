@@ -20,8 +20,8 @@ TEST(Significant, KeepsTrailingZerosAndSaysUnknown) {
 }
 
 TEST(Range, ShowsEnoughDigitsToTellTheEndsApart) {
-  EXPECT_EQ(Range(0.99991, 1.00009), "0.9999100 .. 1.000090");
-  EXPECT_EQ(Range(1, 2), "1.000 .. 2.000");
+  EXPECT_EQ(Range(0.99991, 1.00009), "0.999910 .. 1.00009");
+  EXPECT_EQ(Range(1, 2), "1.00 .. 2.00");
   EXPECT_EQ(Range(0, 3e-7), "0 .. 3.00e-07");
   EXPECT_EQ(Range(kNaN, 1), "-");
   EXPECT_EQ(Range(10, std::numeric_limits<double>::infinity()), "10.00 .. inf");

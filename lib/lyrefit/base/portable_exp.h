@@ -7,7 +7,8 @@ namespace lyrefit {
 
 // exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on every
 // IEEE 754 machine and in every vector width (the mathematics library's does not: its last bit follows
-// the processor). `V` is double or a GCC vector of doubles, `B` the integer type of the same shape.
+// the processor). `V` is double or a GCC vector of doubles, `B` the unsigned
+// integer type of the same shape.
 // Error below 1 ulp for x in [-700, 700]; below that range it is cut, above it the caller must not go.
 //
 // Method: x = k ln 2 + r with |r| <= ln(2) / 2 (Cody and Waite's two-part ln 2), exp(r) = 1 + r +
@@ -41,7 +42,7 @@ template <class V, class B>
 // The same for one number of any size.
 inline double PortableExp(double x) {
   if (x > 700.0) x = 700.0;
-  return PortableExp<double, std::int64_t>(x);
+  return PortableExp<double, std::uint64_t>(x);
 }
 
 // An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent bits

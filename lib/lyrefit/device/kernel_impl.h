@@ -10,6 +10,7 @@ constexpr int kWidth = LYREFIT_KERNEL_WIDTH;
 constexpr int kParts = Block::kLanes / kWidth;
 typedef double Register __attribute__((vector_size(kWidth * sizeof(double))));
 typedef long long Bits __attribute__((vector_size(kWidth * sizeof(double))));
+typedef unsigned long long Unsigned __attribute__((vector_size(kWidth * sizeof(double))));
 
 struct Mask {
   Bits part[kParts];
@@ -83,7 +84,7 @@ LYREFIT_OP bool All(const Mask& m) {
   return every != 0;
 }
 LYREFIT_OP Pack exp(Pack a) {
-  LYREFIT_EACH(i) a.part[i] = PortableExp<Register, Bits>(a.part[i]);
+  LYREFIT_EACH(i) a.part[i] = PortableExp<Register, Unsigned>(a.part[i]);
   return a;
 }
 LYREFIT_OP double Sum(const Pack& a) {

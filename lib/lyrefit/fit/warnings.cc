@@ -35,6 +35,7 @@ void WarnOfBounds(const FitReport& report, Sentences* out) {
     const double bound = e.at_bound == BoundSide::kLower ? e.bounds.lower : e.bounds.upper;
     std::string text = fmt::format("{} sits at its {} bound {:.6g}", e.info.symbol,
                                    ToText(e.at_bound), bound);
+    if (e.info.symbol == "Rsh" && e.at_bound == BoundSide::kUpper) text += ": no shunt is visible";
     const bool ideality = e.info.symbol[0] == 'n';
     if (ideality && report.estimates.size() == 5) {
       text += ": temperature or number of cells may be wrong, or one diode is not enough";

@@ -8,7 +8,7 @@
 namespace lyrefit {
 
 struct RefineOptions {
-  int max_iterations = 200;            // of one least-squares solve
+  int max_iterations = 2000;           // of one least-squares solve
   double function_tolerance = 1e-15;   // relative decrease of the sum of squares that ends a solve
   int max_rounds = 30;                 // of settling which bounds are active
 };

@@ -104,7 +104,7 @@ std::string Preamble(const FitReport& report, const std::string& terminal, const
   const double air = voltage.high > voltage.low ? 0.03 * (voltage.high - voltage.low) : 1;
   const char* const settings =
       terminal == "svg"
-          ? "svg size 900,760 noenhanced font 'DejaVu Sans,13' background '#ffffff'"
+          ? "svg size 900,760 noenhanced font 'DejaVu Sans,14' background '#ffffff'"
           : "pngcairo size 1350,1140 noenhanced font 'DejaVu Sans,13' fontscale 1.5 linewidth 1.5";
   return fmt::format(
       "set encoding utf8\n"
@@ -116,7 +116,7 @@ std::string Preamble(const FitReport& report, const std::string& terminal, const
 }
 
 // Current on the left axis, power on the right one.
-std::string UpperPanel(const IvCurve& curve) {
+std::string UpperPanel(const IvCurve& curve, double symbol_size) {
   Span current = SpanOf(curve.current_A);
   Span power = SpanOf(Product(curve.voltage_V, curve.current_A));
   AlignZeros(&current, &power);
@@ -140,13 +140,13 @@ std::string UpperPanel(const IvCurve& curve) {
       " $model using 1:($1*$2*{p}) axes x1y2 with lines lw 2 dt 2 lc rgb '{red}' title 'P model'\n",
       AxisRange(current, ampere.factor), AxisRange(power, watt.factor), ampere.text, watt.text,
       fmt::arg("blue", kBlue), fmt::arg("red", kVermilion), fmt::arg("f", ampere.factor),
-      fmt::arg("p", watt.factor), fmt::arg("size", many ? 0.4 : 1.3),
+      fmt::arg("p", watt.factor), fmt::arg("size", symbol_size * (many ? 0.4 : 1.3)),
       fmt::arg("i_colour", many ? kSkyBlue : kBlue),
       fmt::arg("p_colour", many ? kOrange : kVermilion));
 }
 
 // Solved-current residuals with a band of +- their RMSE.
-std::string LowerPanel(const FitReport& report) {
+std::string LowerPanel(const FitReport& report, double symbol_size) {
   const RmsePair& refined = report.polished ? report.rmse.refined : report.rmse.searched;
   const double rmse = std::isfinite(refined.solved_current_A) ? refined.solved_current_A : 0;
   const double largest = std::max(SpanOf(report.residual_A).Largest(), rmse);
@@ -170,7 +170,7 @@ std::string LowerPanel(const FitReport& report) {
       fmt::arg("u", prefix.text), fmt::arg("low", -half * prefix.factor),
       fmt::arg("high", half * prefix.factor), fmt::arg("band", rmse * prefix.factor),
       fmt::arg("sky", kSkyBlue), fmt::arg("blue", kBlue), fmt::arg("f", prefix.factor),
-      fmt::arg("shown", rmse * prefix.factor), fmt::arg("size", many ? 0.4 : 0.8),
+      fmt::arg("shown", rmse * prefix.factor), fmt::arg("size", symbol_size * (many ? 0.4 : 0.8)),
       fmt::arg("stem", many ? 0.3 : 1.2), fmt::arg("stem_colour", many ? kSkyBlue : kBlue));
 }
 
@@ -191,8 +191,9 @@ std::string PlotScript(const FitReport& report, const std::string& terminal) {
   AppendBlock("model", model_V, SolveCurrents(report.device, report.refined.data(), model_V),
               &script);
   AppendBlock("residual", curve.voltage_V, report.residual_A, &script);
-  return script + Preamble(report, terminal, voltage) + UpperPanel(curve) + LowerPanel(report) +
-         "unset multiplot\n";
+  const double symbol_size = terminal == "svg" ? 0.6 : 1;  // svg draws the same size larger
+  return script + Preamble(report, terminal, voltage) + UpperPanel(curve, symbol_size) +
+         LowerPanel(report, symbol_size) + "unset multiplot\n";
 }
 
 }  // namespace lyrefit

@@ -1,0 +1,87 @@
+# The house rule, as a test: a room includes only rooms above it.
+#   cmake -DROOT=<folder with lib/ and apps/> -P CheckRooms.cmake
+# Lists every include that breaks a rule and fails if there is one.
+cmake_minimum_required(VERSION 3.25)
+
+# room -> the rooms of lib/lyrefit that its files may include, besides itself
+set(ALLOWED_base)
+set(ALLOWED_curve base)
+set(ALLOWED_device base curve)
+set(ALLOWED_search base)  # knows no photovoltaics
+set(ALLOWED_refine base curve device)
+set(ALLOWED_fit base curve device search refine)
+set(ALLOWED_effects base curve device)  # knows no fitting
+set(ALLOWED_diagnose base curve device search refine fit effects)
+set(ALLOWED_report base curve device search fit diagnose)  # computes nothing
+set(ROOMS base curve device search refine fit effects diagnose report)
+
+set(BROKEN 0)
+macro(complain text)
+  message(NOTICE "${FILE}: ${text}")
+  math(EXPR BROKEN "${BROKEN} + 1")
+endmacro()
+
+# An include among the project's own headers, `quoted` as it stands between the quotation marks.
+function(check_own_include room quoted)
+  if(NOT quoted MATCHES "^lyrefit/(.+)$")
+    complain("includes \"${quoted}\"; inside lib/ includes start with \"lyrefit/\"")
+  elseif(CMAKE_MATCH_1 MATCHES "^([^/]+)/")
+    set(other "${CMAKE_MATCH_1}")
+    if(NOT other STREQUAL room AND NOT other IN_LIST ALLOWED_${room})
+      complain("room ${room} must not include room ${other} (\"${quoted}\")")
+    endif()
+  else()
+    complain("room ${room} must not include \"${quoted}\", which includes every room")
+  endif()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
+function(check_file room)
+  file(STRINGS "${ROOT}/${FILE}" lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "include[ \t]*([<\"])([^>\"]+)[>\"]")
+      continue()
+    endif()
+    set(mark "${CMAKE_MATCH_1}")
+    set(header "${CMAKE_MATCH_2}")
+    if(header MATCHES "^ceres/" AND NOT room STREQUAL "refine")
+      complain("only room refine includes Ceres (<${header}>)")
+    endif()
+    if(room STREQUAL "apps")
+      continue()
+    endif()
+    if(header STREQUAL "iostream")
+      complain("the library prints nothing (<iostream>)")
+    elseif(header MATCHES "^CLI/")
+      complain("the library must build without the app's dependencies (<${header}>)")
+    endif()
+    if(room IN_LIST ROOMS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
+      check_own_include(${room} "${header}")
+    endif()
+  endforeach()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/lib/*.h" "${ROOT}/lib/*.cc"
+     "${ROOT}/apps/*.h" "${ROOT}/apps/*.cc")
+foreach(FILE IN LISTS files)
+  if(FILE MATCHES "^apps/")
+    check_file(apps)
+  elseif(FILE MATCHES "^lib/lyrefit/([^/]+)/")
+    set(room "${CMAKE_MATCH_1}")
+    if(NOT room IN_LIST ROOMS)
+      complain("lib/lyrefit/${room} is no room of the house")
+    endif()
+    check_file(${room})
+  else()
+    check_file(top)  # lyrefit.h, the door to every room
+  endif()
+endforeach()
+
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no source files under ${ROOT}")
+elseif(BROKEN)
+  message(FATAL_ERROR "${BROKEN} of the includes in ${count} files break the order of the rooms")
+endif()
+message(NOTICE "${count} files keep the order of the rooms")

@@ -1,0 +1,69 @@
+# shellcheck shell=bash
+# Sourced by the scripts beside it and by .ci/run: what they share. Needs Debian 12 (or a relative with
+# the same package names); the rest of a machine's set-up is done here.
+
+LYREFIT_ROOT=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+
+Say() { printf '\n== %s\n' "$*"; }
+
+Die() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+# The Debian packages of one purpose.
+PackagesFor() {
+  case $1 in
+    build)
+      echo build-essential cmake libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
+        libexpected-dev libcsv-dev libboost-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
+    test) echo libgtest-dev libgmock-dev ;;
+    check) echo clang-format clang-tidy shellcheck git qemu-user ;;
+    benchmark) echo libbenchmark-dev libnlopt-dev libnlopt-cxx-dev libpagmo-dev ;;
+    *) Die "no package list named '$1'" ;;
+  esac
+}
+
+# Root is asked for only here, and only when a package is missing.
+AptGet() {
+  local prefix=()
+  ((EUID == 0)) || prefix=(sudo)
+  "${prefix[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -qq -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 "$@" > /dev/null
+}
+
+# InstallPackages PURPOSE...: those of their packages that are not there yet.
+InstallPackages() {
+  local purpose package missing=()
+  for purpose in "$@"; do
+    for package in $(PackagesFor "$purpose"); do
+      [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null) == installed ]] ||
+        missing+=("$package")
+    done
+  done
+  ((${#missing[@]})) || return 0
+  command -v apt-get > /dev/null ||
+    Die "this machine has no apt-get; install what these Debian packages hold: ${missing[*]}"
+  ((EUID == 0)) || command -v sudo > /dev/null ||
+    Die "run this as root or install sudo; these Debian packages are missing: ${missing[*]}"
+  Say "Installing ${missing[*]}"
+  AptGet update || Die "apt-get update failed (see above)"
+  AptGet install -y --no-install-recommends "${missing[@]}" || Die "apt-get install failed (see above)"
+}
+
+# Configure FOLDER OPTION...: a Release build unless the options say otherwise.
+Configure() {
+  Say "Configuring $1"
+  cmake -S "$LYREFIT_ROOT" -B "$1" -DCMAKE_BUILD_TYPE=Release "${@:2}"
+}
+
+# Build FOLDER [OPTION...] on every core.
+Build() {
+  Say "Building $1"
+  cmake --build "$1" --parallel "$(nproc)" "${@:2}"
+}
+
+RunTests() {
+  Say "Testing $1"
+  ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
+}

@@ -1,0 +1,200 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string kRtc = DataFolder("rtc_france");
+
+TEST(App, PrintsVersionAndHelp) {
+  const AppResult version = RunApp("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, StartsWith("lyrefit "));
+  for (const char* verb : {"", "fit ", "simulate "}) {
+    const AppResult help = RunApp(std::string(verb) + "--help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_EQ(help.err, "");
+    EXPECT_THAT(help.out, HasSubstr("Examples:"));
+  }
+}
+
+TEST(App, OffersEveryFlagOfTheContract) {
+  const std::string help = RunApp("fit --help").out;
+  for (const char* flag :
+       {"--model",      "--objective", "--cells",       "--temperature-C", "--irradiance-Wm2",
+        "--bounds",     "--bound",     "--fix",         "--seed",          "--population",
+        "--iterations", "--algorithm", "--elites",      "--no-polish",     "--constants",
+        "--json",       "--plot",      "--memory-rate", "--patience",      "--intervals",
+        "--loss",       "--threads",   "--kernel",      "--brief",         "--curve"}) {
+    EXPECT_THAT(help, HasSubstr(std::string("  ") + flag + " ")) << flag;
+  }
+}
+
+TEST(Fit, PrintsTheWholeReportByDefault) {
+  const AppResult result = RunApp("fit " + kRtc);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("solved-current *"));
+  EXPECT_THAT(result.out, HasSubstr("7.730062690e-04"));
+}
+
+TEST(Fit, PrintsOneLineWithBrief) {
+  const AppResult result = RunApp("fit " + kRtc + " --brief");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out.find('\n'), result.out.size() - 1);
+}
+
+TEST(Fit, PutsTheJsonAloneOnStandardOutput) {
+  const TempFolder folder;
+  const AppResult result =
+      RunApp("fit " + kRtc + " --json - --plot " + folder.Path("fit.svg") + " --brief");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(json::accept(result.out));
+  EXPECT_THAT(FileText(folder.Path("fit.svg")), HasSubstr("<svg"));
+}
+
+TEST(Fit, WritesJsonAndPictureIntoFiles) {
+  const TempFolder folder;
+  const AppResult result = RunApp("fit " + kRtc + " --quiet --json " + folder.Path("fit.json") +
+                                  " --plot " + folder.Path("fit.png"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(json::accept(FileText(folder.Path("fit.json"))));
+  EXPECT_THAT(FileText(folder.Path("fit.png")), StartsWith("\x89PNG"));
+}
+
+TEST(Fit, JsonKeepsTheContract) {
+  const json j = FitJson(kRtc);
+  for (const char* name :
+       {"photocurrent", "saturation_current", "n", "resistance_series", "resistance_shunt"}) {
+    ASSERT_TRUE(j["parameters"].contains(name)) << name;
+    const json& p = j["parameters"][name];
+    EXPECT_TRUE(p["unit"].is_string());
+    for (const char* key : {"searched", "refined", "standard_error", "low_95", "high_95"}) {
+      EXPECT_TRUE(p[key].is_number()) << name << "." << key;
+    }
+    EXPECT_TRUE(p["at_bound"].is_boolean());
+    EXPECT_TRUE(p["identifiable"].is_boolean());
+  }
+  EXPECT_TRUE(j["nNsVth"].is_number());
+  for (const char* stage : {"searched", "best_bird_polished", "refined"}) {
+    EXPECT_TRUE(j["rmse"][stage]["measured_current_A"].is_number()) << stage;
+    EXPECT_TRUE(j["rmse"][stage]["solved_current_A"].is_number()) << stage;
+  }
+  EXPECT_EQ(j["search"]["algorithm"], "mlo");
+  for (const char* key : {"seed", "evaluations", "iterations", "seconds"}) {
+    EXPECT_TRUE(j["search"][key].is_number()) << key;
+  }
+  EXPECT_TRUE(j["search"]["termination"].is_string());
+  for (const char* key : {"starts", "agreeing", "projected_gradient", "seconds"}) {
+    EXPECT_TRUE(j["refine"][key].is_number()) << key;
+  }
+  EXPECT_TRUE(j["refine"]["termination"].is_string());
+  EXPECT_TRUE(j["warnings"].is_array());
+  EXPECT_EQ(j["objective"], "solved-current");
+  EXPECT_EQ(j["bounds"], "physical");
+}
+
+TEST(Fit, NamesTheParametersOfThreeDiodes) {
+  const json j = FitJson(kRtc + " --model td");
+  std::set<std::string> names;
+  for (const auto& [name, value] : j["parameters"].items()) names.insert(name);
+  EXPECT_EQ(names, (std::set<std::string>{"photocurrent", "saturation_current",
+                                          "saturation_current_2", "saturation_current_3", "n",
+                                          "n_2", "n_3", "resistance_series", "resistance_shunt"}));
+}
+
+TEST(Fit, GoesByTheFlags) {
+  const json j = FitJson(kRtc +
+                         " --model dd --objective measured-current --fix n2=2 --seed 5 "
+                         "--bound Rs=0:0.1 --bound Rsh=1:500 --population 20 --iterations 30 "
+                         "--algorithm lo+mblss --constants literature --bounds literature "
+                         "--temperature-C 30 --cells 2 --irradiance-Wm2 800 --elites 2");
+  EXPECT_EQ(j["model"], "dd");
+  EXPECT_EQ(j["objective"], "measured-current");
+  EXPECT_EQ(j["parameters"]["n_2"]["fixed"], true);
+  EXPECT_EQ(j["parameters"]["n_2"]["refined"], 2);
+  EXPECT_EQ(j["parameters"]["resistance_series"]["upper"], 0.1);
+  EXPECT_EQ(j["parameters"]["resistance_shunt"]["upper"], 500);
+  EXPECT_EQ(j["search"]["seed"], 5);
+  EXPECT_EQ(j["search"]["population"], 20);
+  EXPECT_EQ(j["search"]["algorithm"], "lo+mblss");
+  EXPECT_EQ(j["constants"], "literature");
+  EXPECT_EQ(j["bounds"], "literature");
+  EXPECT_EQ(j["curve"]["conditions"]["cell_temperature_C"], 30);
+  EXPECT_EQ(j["curve"]["conditions"]["cells_in_series"], 2);
+  EXPECT_EQ(j["curve"]["conditions"]["irradiance_Wm2"], 800);
+}
+
+TEST(Fit, TakesABoundsFile) {
+  const TempFolder folder;
+  const std::string bounds = folder.Write(
+      "my.json", R"({"Iph":[0,2],"Is":[0,5e-5],"n":[1,2],"Rs":[0,0.36],"Rsh":[0,1000]})");
+  const json j = FitJson(kRtc + " --bounds " + bounds);
+  EXPECT_EQ(j["parameters"]["resistance_series"]["upper"], 0.36);
+}
+
+TEST(Fit, AnswersWithTheSearchWithoutPolish) {
+  const json j = FitJson(kRtc + " --no-polish");
+  EXPECT_TRUE(j["parameters"]["n"]["refined"].is_null());
+  EXPECT_TRUE(j["parameters"]["n"]["searched"].is_number());
+  EXPECT_TRUE(j["rmse"]["refined"]["solved_current_A"].is_null());
+  EXPECT_THAT(RunApp("fit " + kRtc + " --no-polish").out, HasSubstr("No polish was done"));
+}
+
+TEST(Fit, FlagsReplaceWhatTheReaderAssumed) {
+  const TempFolder folder;
+  const std::string curve = folder.Write("bare.csv", FileText(DataFolder("rtc_france/curve.csv")));
+  const std::string assumed = FitJson(curve)["curve"]["assumptions"].dump();
+  EXPECT_THAT(assumed, HasSubstr("cells in series not given"));
+  EXPECT_THAT(assumed, HasSubstr("temperature not given"));
+  EXPECT_THAT(assumed, HasSubstr("irradiance not given"));
+  const json told = FitJson(curve + " --cells 1 --temperature-C 33");
+  EXPECT_THAT(told["curve"]["assumptions"].dump(), Not(HasSubstr("cells in series")));
+  EXPECT_THAT(told["curve"]["assumptions"].dump(), Not(HasSubstr("temperature")));
+  EXPECT_THAT(told["curve"]["assumptions"].dump(), HasSubstr("irradiance not given"));
+}
+
+TEST(Fit, AutoChoosesOneDiodeForRtcFrance) {
+  const json j = FitJson(kRtc + " --model auto");
+  EXPECT_EQ(j["model"], "sd");
+  EXPECT_EQ(j["model_choice"]["chosen"], "sd");
+  EXPECT_EQ(j["model_choice"]["candidates"].size(), 3U);
+  EXPECT_FALSE(j["model_choice"]["sentence"].get<std::string>().empty());
+}
+
+TEST(Fit, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreadsAndKernel) {
+  for (const char* model : {"sd", "dd", "auto"}) {
+    const std::string arguments = kRtc + " --seed 11 --model " + model;
+    json first = FitJson(arguments + " --threads 1");
+    RemoveSeconds(&first);
+    for (const char* other : {" --threads 1", " --threads 2", " --kernel portable"}) {
+      json second = FitJson(arguments + other);
+      RemoveSeconds(&second);
+      EXPECT_EQ(first, second) << model << other << json::diff(first, second).dump();
+    }
+  }
+}
+
+TEST(Fit, EndsWith2WhereTheFitIsNotUsable) {
+  // A light curve held against a single bad point of the box.
+  const AppResult result = RunApp(
+      "fit " + kRtc + " --no-polish --population 4 --iterations 1 --bound Iph=0:0.01 --json -");
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  const json j = json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(j.is_object());
+  EXPECT_EQ(j["usable"], false);
+}
+
+}  // namespace
+}  // namespace lyrefit

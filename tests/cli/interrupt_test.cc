@@ -1,0 +1,95 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "run_app.h"
+
+extern char** environ;
+
+namespace lyrefit {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// Starts the app without a shell, so that the signal reaches it.
+pid_t StartApp(std::vector<std::string> arguments, const std::string& out) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  std::vector<char*> words;
+  arguments.insert(arguments.begin(), LYREFIT_APP);
+  for (std::string& word : arguments) words.push_back(word.data());
+  words.push_back(nullptr);
+  pid_t child = -1;
+  posix_spawn(&child, LYREFIT_APP, &actions, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return child;
+}
+
+// Ctrl-C after `delay`; returns the wait status and how long the app took to end.
+std::pair<int, double> InterruptAfter(pid_t child, std::chrono::milliseconds delay) {
+  std::this_thread::sleep_for(delay);
+  const auto begin = Clock::now();
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {status, std::chrono::duration<double>(Clock::now() - begin).count()};
+}
+
+const std::vector<std::string> kLongRun = {
+    "fit",  DataFolder("rtc_france"), "--model", "td", "--population",
+    "1000", "--iterations",           "1000000"};
+
+TEST(Interrupt, EndsALongSearchWithinASecondAndReports) {
+  const TempFolder folder;
+  const std::string out = folder.Path("out.txt");
+  const pid_t child = StartApp(kLongRun, out);
+  ASSERT_GT(child, 0);
+  const auto [status, seconds] = InterruptAfter(child, std::chrono::milliseconds(700));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_LT(seconds, 1);
+  EXPECT_THAT(FileText(out), StartsWith("INTERRUPTED"));
+  EXPECT_THAT(FileText(out), HasSubstr("searched (best bird)"));
+}
+
+TEST(Interrupt, IsMarkedInTheJson) {
+  const TempFolder folder;
+  const std::string out = folder.Path("out.json");
+  std::vector<std::string> arguments = kLongRun;
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const pid_t child = StartApp(arguments, out);
+  ASSERT_GT(child, 0);
+  const auto [status, seconds] = InterruptAfter(child, std::chrono::milliseconds(700));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const nlohmann::json j = nlohmann::json::parse(FileText(out), nullptr, false);
+  ASSERT_TRUE(j.is_object());
+  EXPECT_EQ(j["interrupted"], true);
+  EXPECT_EQ(j["search"]["termination"], "interrupted");
+  EXPECT_TRUE(j["rmse"]["searched"]["solved_current_A"].is_number());
+}
+
+TEST(Interrupt, EndsAutoToo) {
+  const TempFolder folder;
+  std::vector<std::string> arguments = kLongRun;
+  arguments[3] = "auto";
+  const pid_t child = StartApp(arguments, folder.Path("out.txt"));
+  ASSERT_GT(child, 0);
+  const auto [status, seconds] = InterruptAfter(child, std::chrono::milliseconds(700));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_LT(seconds, 1);
+  EXPECT_THAT(FileText(folder.Path("out.txt")), StartsWith("INTERRUPTED"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../temp_folder.h"
+
+namespace lyrefit {
+
+struct AppResult {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string out;
+  std::string err;
+};
+
+inline std::string FileText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Runs the lyrefit command with `arguments`, as the shell reads them, in a folder of its own.
+inline AppResult RunApp(const std::string& arguments) {
+  const std::string base =
+      (std::filesystem::path(::testing::TempDir()) / ("lyrefit-run-" + std::to_string(getpid())))
+          .string();
+  const std::string command = std::string("'") + LYREFIT_APP + "' " + arguments + " >'" + base +
+                              ".out' 2>'" + base + ".err' </dev/null";
+  const int status = std::system(command.c_str());
+  AppResult result;
+  if (WIFEXITED(status) && WEXITSTATUS(status) < 126) result.exit_code = WEXITSTATUS(status);
+  result.out = FileText(base + ".out");
+  result.err = FileText(base + ".err");
+  std::filesystem::remove(base + ".out");
+  std::filesystem::remove(base + ".err");
+  return result;
+}
+
+inline std::string DataFolder(const std::string& name) {
+  return std::string(LYREFIT_DATA_DIR) + "/" + name;
+}
+
+inline void RemoveSeconds(nlohmann::json* value) {
+  if (value->is_object()) value->erase("seconds");
+  for (auto& child : *value) {
+    if (child.is_structured()) RemoveSeconds(&child);
+  }
+}
+
+// The JSON that a fit leaves on standard output; null if there is none.
+inline nlohmann::json FitJson(const std::string& arguments) {
+  const AppResult result = RunApp("fit " + arguments + " --json -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+}  // namespace lyrefit

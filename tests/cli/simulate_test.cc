@@ -1,0 +1,125 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kParameters =
+    "simulate --set Iph=8.2 --set Is1=2e-9 --set n1=1.15 --set Rs=0.25 --set Rsh=300 ";
+const std::string kDevice = kParameters + "--cells 60 --temperature-C 45 ";
+
+std::int64_t Lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST(Simulate, WritesATableOnStandardOutput) {
+  const AppResult result = RunApp(kDevice);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("voltage_V,current_A\n0,8.19"));
+  EXPECT_EQ(Lines(result.out), 101);
+  EXPECT_THAT(result.out.substr(result.out.rfind(',')), StartsWith(",-"));  // beyond open circuit
+}
+
+TEST(Simulate, TakesTheVoltagesAskedFor) {
+  const AppResult result = RunApp(kDevice + "--voltages -1:1:3");
+  EXPECT_THAT(result.out, HasSubstr("\n-1,"));
+  EXPECT_THAT(result.out, HasSubstr("\n1,"));
+  EXPECT_EQ(Lines(result.out), 4);
+  EXPECT_EQ(Lines(RunApp(kDevice + "--points 17").out), 18);
+}
+
+TEST(Simulate, ThenFitRecoversTheParameters) {
+  const TempFolder folder;
+  const std::string curve = folder.Path("module.csv");
+  const AppResult made = RunApp(kDevice + "--out " + curve);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.out, "");
+  const json j = FitJson(curve);
+  EXPECT_EQ(j["curve"]["conditions"]["cells_in_series"], 60);
+  EXPECT_EQ(j["curve"]["conditions"]["cell_temperature_C"], 45);
+  EXPECT_EQ(j["curve"]["assumptions"].size(), 0U);
+  const json& p = j["parameters"];
+  EXPECT_NEAR(p["photocurrent"]["refined"].get<double>(), 8.2, 1e-6);
+  EXPECT_NEAR(p["saturation_current"]["refined"].get<double>(), 2e-9, 1e-14);
+  EXPECT_NEAR(p["n"]["refined"].get<double>(), 1.15, 1e-6);
+  EXPECT_NEAR(p["resistance_series"]["refined"].get<double>(), 0.25, 1e-6);
+  EXPECT_NEAR(p["resistance_shunt"]["refined"].get<double>(), 300, 1e-3);
+}
+
+TEST(Simulate, NoiseFollowsTheSeed) {
+  const std::string noisy = kDevice + "--noise-A 0.01 --noise-relative 0.001 ";
+  EXPECT_EQ(RunApp(noisy + "--seed 1").out, RunApp(noisy + "--seed 1").out);
+  EXPECT_NE(RunApp(noisy + "--seed 1").out, RunApp(noisy + "--seed 2").out);
+  EXPECT_NE(RunApp(noisy).out, RunApp(kDevice).out);
+}
+
+TEST(Simulate, IntervalsOfNoisyCurvesHoldTheTruth) {
+  const TempFolder folder;
+  const std::string curve = folder.Path("noisy.csv");
+  ASSERT_EQ(RunApp(kDevice + "--noise-A 0.005 --seed 3 --out " + curve).exit_code, 0);
+  const json p = FitJson(curve)["parameters"]["resistance_series"];
+  // Three times the distance to each end: a miss here is a mistake, no bad luck.
+  const double refined = p["refined"];
+  EXPECT_LT(refined - 3 * (refined - p["low_95"].get<double>()), 0.25);
+  EXPECT_GT(refined + 3 * (p["high_95"].get<double>() - refined), 0.25);
+}
+
+TEST(Simulate, RedrawsTheModelOfAFit) {
+  const TempFolder folder;
+  const std::string fit = folder.Path("fit.json");
+  ASSERT_EQ(RunApp("fit " + DataFolder("rtc_france") + " --quiet --json " + fit).exit_code, 0);
+  const AppResult redrawn = RunApp("simulate --from " + fit + " --voltages 0.59:-0.2057:2");
+  EXPECT_EQ(redrawn.exit_code, 0) << redrawn.err;
+  const json j = json::parse(FileText(fit));
+  const std::string last = redrawn.out.substr(redrawn.out.rfind(',') + 1);
+  EXPECT_NEAR(std::stod(last), j["data"]["model_current_A"][0].get<double>(), 1e-12);
+}
+
+TEST(Simulate, RedrawsAFitWithoutPolish) {
+  const TempFolder folder;
+  const std::string fit = folder.Path("fit.json");
+  const std::string flags = " --no-polish --quiet --json ";
+  ASSERT_EQ(RunApp("fit " + DataFolder("rtc_france") + flags + fit).exit_code, 0);
+  EXPECT_EQ(RunApp("simulate --from " + fit).exit_code, 0);
+}
+
+void ExpectRefused(const std::string& arguments, const std::string& says) {
+  const AppResult result = RunApp(arguments);
+  EXPECT_EQ(result.exit_code, 1) << arguments;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(Lines(result.err), 1) << result.err;
+  EXPECT_THAT(result.err, StartsWith("lyrefit: "));
+  EXPECT_THAT(result.err, HasSubstr(says));
+}
+
+TEST(Simulate, RefusesWhatItCannotSimulate) {
+  const TempFolder folder;
+  ExpectRefused("simulate --set Iph=1", "no value for");
+  ExpectRefused(kDevice + "--set n2=2", "n2");
+  ExpectRefused(kDevice + "--set Rsh=0", "Rsh");
+  ExpectRefused(kDevice + "--set Is1=-1", "Is1");
+  ExpectRefused(kDevice + "--set Iph=0", "open-circuit");
+  ExpectRefused(kDevice + "--voltages 0:1", "FROM:TO:COUNT");
+  ExpectRefused(kDevice + "--points 1", "points");
+  ExpectRefused(kDevice + "--noise-A -1", "noise");
+  ExpectRefused(kParameters + "--cells 0", "--cells: expected at least 1");
+  ExpectRefused(kParameters + "--temperature-C 318", "kelvin");
+  ExpectRefused(kDevice + "--cells 3", "--cells: given more than once");
+  ExpectRefused(kDevice + "--out " + folder.Path("no/x.csv"), "no/x.csv");
+  ExpectRefused(kDevice + "--out " + folder.Path("x.json"), ".json");
+  ExpectRefused("simulate --from " + folder.Path("no.json"), "does not exist");
+  ExpectRefused("simulate --from " + folder.Write("list.json", "[1, 2]"), "fit report");
+  ExpectRefused("simulate --from " + folder.Write("odd.json", R"({"model":"sd","constants":"codata",
+      "parameters":{},"curve":[],"rmse":[1]})"),
+                "curve.conditions");
+  EXPECT_FALSE(std::filesystem::exists(folder.Path("x.json")));
+}
+
+}  // namespace
+}  // namespace lyrefit

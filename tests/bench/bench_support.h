@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/device/device.h"
+#include "lyrefit/device/kernel.h"
+#include "lyrefit/fit/bounds.h"
+
+namespace lyrefit::bench {
+
+// A curve of the data folder by its name, "rtc_france". Aborts if it cannot be read.
+IvCurve LoadCurve(const std::string& name);
+
+// Its published bounds, data/NAME/bounds-KIND.json.
+BoundsSpec LoadBounds(const std::string& name, const std::string& kind);
+
+// A model of a curve and everything a benchmark of it needs.
+struct Case {
+  IvCurve curve;
+  Device device;
+  PointSet points;
+  std::vector<ParameterBounds> bounds;
+};
+Case MakeCase(const std::string& curve, Model model, const BoundsSpec& bounds = {},
+              ConstantSet constants = ConstantSet::kCodata);
+
+// `count` parameter vectors, one after the other, drawn uniformly from the box a search would see.
+std::vector<double> DrawParameters(const Case& subject, int count);
+
+// The proved optimum of RTC France in ampere, any box that holds n in [1, 2].
+double CertifiedRmse(Model model, Objective objective);
+
+// Within 1e-9 relative of it.
+bool IsHit(double rmse, double certified);
+
+double Median(std::vector<double> values);
+
+std::string ModelName(Model model);          // "SD"
+std::string ObjectiveName(Objective which);  // "measured"
+
+}  // namespace lyrefit::bench

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace lyrefit::bench {
+
+// One a file: each registers its benchmarks and claims.
+void RegisterExpBenchmarks();
+void RegisterKernelBenchmarks();
+void RegisterSolverBenchmarks();
+void RegisterSearchBenchmarks();
+void RegisterFitBenchmarks();
+
+}  // namespace lyrefit::bench

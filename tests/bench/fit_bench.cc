@@ -1,0 +1,155 @@
+// RTC France to the proved optimum on one thread: the default search and polish, the same with
+// intervals, and two optimisation libraries on the same box and the same kernels. A peer that is
+// "told" knows the optimum and stops the moment it is there; lyrefit and the others have to make
+// sure.
+
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+#include <memory>
+#include <string>
+
+#include "bench_support.h"
+#include "benchmarks.h"
+#include "claims.h"
+#include "lyrefit/fit/fit.h"
+#include "peer.h"
+
+namespace lyrefit::bench {
+namespace {
+
+constexpr int kRuns = 50;
+constexpr int kPeerRuns = 20;
+
+// Processor time of this thread: others on the machine do not count.
+double ProcessorSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Milliseconds of every run and how many runs came within 1e-9 of the optimum.
+class Tally {
+ public:
+  explicit Tally(double certified) : certified_(certified) {}
+
+  void Begin() { begin_ = ProcessorSeconds(); }
+  void End(double rmse) {
+    milliseconds_.push_back(1e3 * (ProcessorSeconds() - begin_));
+    hits_ += IsHit(rmse, certified_);
+  }
+  void Report(benchmark::State& state) const {
+    state.counters["hits"] = hits_;
+    state.counters["runs"] = static_cast<double>(milliseconds_.size());
+    state.counters["median_ms"] = Median(milliseconds_);
+  }
+
+ private:
+  double certified_;
+  int hits_ = 0;
+  std::vector<double> milliseconds_;
+  double begin_ = 0;
+};
+
+void CompleteFit(benchmark::State& state, const IvCurve& curve, Model model, Objective objective,
+                 Intervals intervals) {
+  FitOptions options;
+  options.model = model;
+  options.objective = objective;
+  options.intervals = intervals;
+  options.threads = 1;
+  Tally tally(CertifiedRmse(model, objective));
+  double search_s = 0, polish_s = 0, interval_s = 0, evaluations = 0;
+  for (auto _ : state) {
+    tally.Begin();
+    const Expected<FitReport> report = Fit(curve, options);
+    tally.End(report ? report->rmse.refined.Of(objective) : kInfinity);
+    ++options.search.seed;
+    if (!report) continue;
+    search_s += report->search.seconds;
+    polish_s += report->refine.seconds;
+    interval_s += report->interval_seconds;
+    evaluations += static_cast<double>(report->search.evaluations);
+  }
+  tally.Report(state);
+  const double stages = search_s + polish_s + interval_s;
+  state.counters["search_part"] = search_s / stages;
+  state.counters["polish_part"] = polish_s / stages;
+  if (intervals != Intervals::kNone) state.counters["interval_part"] = interval_s / stages;
+  state.counters["evaluations"] = evaluations / static_cast<double>(state.iterations());
+}
+
+template <class Run>
+void CompletePeer(benchmark::State& state, const Case& subject, Model model, Objective objective,
+                  const Run& run) {
+  const PeerProblem problem(subject, model, objective);
+  Tally tally(CertifiedRmse(model, objective));
+  std::uint64_t seed = 0;
+  double evaluations = 0;
+  for (auto _ : state) {
+    tally.Begin();
+    const PeerEnd end = run(problem, seed++);
+    tally.End(1e-3 * end.rmse_mA);
+    evaluations += static_cast<double>(end.evaluations);
+  }
+  tally.Report(state);
+  state.counters["evaluations"] = evaluations / static_cast<double>(state.iterations());
+}
+
+template <class Body>
+void RegisterRuns(const std::string& name, int runs, const Body& body) {
+  benchmark::RegisterBenchmark(name.c_str(), body)->Iterations(runs)->Unit(benchmark::kMillisecond);
+}
+
+void Register(Model model, Objective objective) {
+  const auto subject = std::make_shared<Case>(MakeCase("rtc_france", model));
+  const std::string row = ModelName(model) + "/" + ObjectiveName(objective);
+  const std::string what = "RTC France to 1e-9/" + row + "/";
+  RegisterRuns(what + "lyrefit", kRuns, [=](benchmark::State& state) {
+    CompleteFit(state, subject->curve, model, objective, Intervals::kNone);
+  });
+  RegisterRuns(what + "lyrefit with intervals", kRuns, [=](benchmark::State& state) {
+    CompleteFit(state, subject->curve, model, objective, Intervals::kProfile);
+  });
+  const auto peer = [&](const std::string& name, const auto& run, double target) {
+    RegisterRuns(what + name, kPeerRuns, [=](benchmark::State& state) {
+      CompletePeer(state, *subject, model, objective, run);
+    });
+    AddClaim({"RTC France " + row + ": " + name + " / lyrefit",
+              what + name,
+              what + "lyrefit",
+              target,
+              true,
+              {what + "lyrefit"}});
+  };
+  const auto nlopt = [=](bool told) {
+    return [=](const PeerProblem& problem, std::uint64_t seed) {
+      return RunNlopt(problem, seed, TunedNlopt(model, objective, told));
+    };
+  };
+  peer("NLopt CRS2+SLSQP", nlopt(false), 2);
+  peer("NLopt CRS2+SLSQP, told", nlopt(true), 0);
+  peer(
+      "pagmo2 de1220, told",
+      [=](const PeerProblem& problem, std::uint64_t seed) {
+        return RunPagmo(problem, seed, TunedPagmo(model));
+      },
+      2);
+  AddClaim({"RTC France " + row + ": with intervals / without",
+            what + "lyrefit with intervals",
+            what + "lyrefit",
+            0,
+            false,
+            {}});
+}
+
+}  // namespace
+
+void RegisterFitBenchmarks() {
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
+    Register(model, Objective::kMeasuredCurrent);
+    Register(model, Objective::kSolvedCurrent);
+  }
+}
+
+}  // namespace lyrefit::bench

@@ -7,5 +7,6 @@ InstallPackages build check
 cd -- "$LYREFIT_ROOT"
 [[ -f build/compile_commands.json ]] || Configure build
 files=("$@")
-((${#files[@]})) || mapfile -t files < <(git ls-files --cached --others --exclude-standard -- 'lib/*.cc' 'apps/*.cc')
+((${#files[@]})) ||
+  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- 'lib/*.cc' 'apps/*.cc')
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p build --quiet

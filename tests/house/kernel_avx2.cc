@@ -1,5 +1,5 @@
-// What a vector kernel must not do, for the test of the test: it leaves a copy of std::vector's functions,
-// compiled for AVX2, to the whole program.
+// What a vector kernel must not do, for the test of the test: it leaves a copy of std::vector's
+// functions, compiled for AVX2, to the whole program.
 #include <vector>
 
 namespace lyrefit::avx2 {

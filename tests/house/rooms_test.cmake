@@ -6,7 +6,7 @@ set(FAILURES 0)
 # `expected` is part of what the checker must say; "" where the include is allowed.
 function(expect file include expected)
   file(REMOVE_RECURSE "${WORK}")
-  file(WRITE "${WORK}/${file}" "#pragma once\n// #include <iostream> in a comment does not count\n${include}\n")
+  file(WRITE "${WORK}/${file}" "// #include <iostream> in a comment does not count\n${include}\n")
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECKER}
                   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   string(REGEX REPLACE "[ \n]+" " " said "${said}")

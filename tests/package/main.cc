@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
   if (!curve) return std::puts(curve.error().ToString().c_str()), 1;
   const auto report = lyrefit::Fit(*curve);
   if (!report) return std::puts(report.error().ToString().c_str()), 1;
-  constexpr double kCertified = 7.730062689942e-4;  // data/rtc_france/expected.json, SD, solved current
+  constexpr double kCertified =
+      7.730062689942e-4;  // data/rtc_france/expected.json, SD, solved current
   const double rmse = report->rmse.refined.solved_current_A;
   std::printf("RMSE %.12e A, certified %.12e A\n", rmse, kCertified);
   return std::abs(rmse / kCertified - 1.0) <= 1e-9 ? 0 : 1;

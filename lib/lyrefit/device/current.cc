@@ -13,11 +13,20 @@ OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double
                 device.resistance_series, device.module_thermal_voltage_V, p, &prepared);
   const double limit = JunctionVoltageLimit(prepared, voltage_V);
   OperatingPoint point;
-  point.current_A =
-      SolveCurrentFrom(prepared, limit, voltage_V, voltage_V + prepared.rs * prepared.largest_current,
-                       &point.junction_voltage_V);
+  point.junction_voltage_V = voltage_V + prepared.rs * prepared.largest_current;
+  SolveTogether(prepared, limit, 1, &voltage_V, &point.junction_voltage_V, &point.current_A);
   point.conductance_S =
       PreparedCurrent(prepared, Slope<double>(point.junction_voltage_V, 1.0)).slope;
+  return point;
+}
+
+OperatingPoint KnownOperatingPoint(const Device& device, const double* p, double voltage_V,
+                                   double current_A) {
+  OperatingPoint point;
+  point.current_A = current_A;
+  point.junction_voltage_V = voltage_V + current_A * p[device.resistance_series];
+  point.conductance_S =
+      JunctionCurrent(device, p, Slope<double>(point.junction_voltage_V, 1.0)).slope;
   return point;
 }
 

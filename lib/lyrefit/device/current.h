@@ -20,6 +20,10 @@ OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double
 double Rmse(const Device& device, Objective objective, const double* p,
             const std::vector<double>& voltage_V, const std::vector<double>& current_A);
 
+// The point on the curve where the current is known to be `current_A` already.
+OperatingPoint KnownOperatingPoint(const Device& device, const double* p, double voltage_V,
+                                   double current_A);
+
 // dI/dp of the solved current by the implicit function theorem, given the derivatives of the explicit
 // right-hand side at the solved current (dF: with Vd = V + I Rs and I held): dI = dF / (1 - Rs F').
 inline double ImplicitFactor(const Device& device, const double* p, const OperatingPoint& point) {

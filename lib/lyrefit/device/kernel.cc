@@ -2,6 +2,7 @@
 
 #include <glog/logging.h>
 
+#include <cstring>
 #include <numeric>
 
 namespace lyrefit {
@@ -90,19 +91,22 @@ double MeanSquare(const Device& device, Objective objective, const double* p, co
                                    JunctionVoltageLimit(prepared, points.largest_voltage_V));
 }
 
-std::vector<double> SolveCurrents(const Device& device, const double* p,
-                                  const std::vector<double>& voltage_V, const Kernel& kernel) {
-  if (voltage_V.empty()) return {};
+std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
+                                  const Kernel& kernel) {
   const PreparedDevice prepared = Prepare(device, p);
-  const PointSet points = MakePointSet(voltage_V, std::vector<double>(voltage_V.size(), 0.0));
   std::vector<Block> current(points.voltage_V.size());
   kernel.solve_currents(prepared, points, JunctionVoltageLimit(prepared, points.largest_voltage_V),
                         current.data());
-  std::vector<double> result(voltage_V.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = current[i / Block::kLanes].lane[i % Block::kLanes];
-  }
+  std::vector<double> result(points.size);
+  std::memcpy(result.data(), current.data(), result.size() * sizeof(double));
   return result;
+}
+
+std::vector<double> SolveCurrents(const Device& device, const double* p,
+                                  const std::vector<double>& voltage_V, const Kernel& kernel) {
+  if (voltage_V.empty()) return {};
+  const std::vector<double> no_current(voltage_V.size(), 0.0);
+  return SolveCurrents(device, p, MakePointSet(voltage_V, no_current), kernel);
 }
 
 }  // namespace lyrefit

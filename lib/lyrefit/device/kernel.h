@@ -46,7 +46,11 @@ const Kernel& FastestKernel();
 double MeanSquare(const Device& device, Objective objective, const double* p, const PointSet& points,
                   const Kernel& kernel = FastestKernel());
 
-// I(V) in ampere for each voltage, by the same kernels.
+// I(V) in ampere at the voltages of `points`, in their order.
+std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
+                                  const Kernel& kernel = FastestKernel());
+
+// The same for plain voltages.
 std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V,
                                   const Kernel& kernel = FastestKernel());

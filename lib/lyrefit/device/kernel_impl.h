@@ -75,6 +75,10 @@ LYREFIT_OP Pack Smaller(Pack a, const Pack& b) {
   LYREFIT_EACH(i) a.part[i] = b.part[i] < a.part[i] ? b.part[i] : a.part[i];
   return a;
 }
+LYREFIT_OP Pack Larger(Pack a, const Pack& b) {
+  LYREFIT_EACH(i) a.part[i] = a.part[i] < b.part[i] ? b.part[i] : a.part[i];
+  return a;
+}
 LYREFIT_OP Pack Magnitude(const Pack& a) { return Choose(a < Pack(0.0), -a, a); }
 LYREFIT_OP bool All(const Mask& m) {
   Bits all = m.part[0];
@@ -108,32 +112,40 @@ static double MeasuredMeanSquare(const PreparedDevice& d, const PointSet& points
   return Sum(sum) / points.size;
 }
 
+// Up to kMostTogether blocks of voltages from `first` on; the starts stand in `junction`.
+LYREFIT_OP int LoadVoltages(const PointSet& points, int first, int blocks, Pack* voltage) {
+  const int count = blocks - first < kMostTogether ? blocks - first : kMostTogether;
+  for (int k = 0; k < count; ++k) voltage[k] = Load(points.voltage_V.data()[first + k]);
+  return count;
+}
+
 static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points, double diode_limit) {
-  const Block* voltage = points.voltage_V.data();
   const Block* current = points.current_A.data();
   const Block* weight = points.weight.data();
   const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
   Pack sum(0.0);
-  for (int k = 0; k < blocks; ++k) {
-    const Pack measured = Load(current[k]);
-    const Pack v = Load(voltage[k]);
-    Pack junction;
-    const Pack residual =
-        SolveCurrentFrom(d, diode_limit, v, v + measured * d.rs, &junction) - measured;
-    sum = sum + residual * residual * Load(weight[k]);
+  Pack voltage[kMostTogether], junction[kMostTogether], solved[kMostTogether];
+  for (int first = 0; first < blocks; first += kMostTogether) {
+    const int count = LoadVoltages(points, first, blocks, voltage);
+    for (int k = 0; k < count; ++k) junction[k] = voltage[k] + Load(current[first + k]) * d.rs;
+    SolveTogether(d, diode_limit, count, voltage, junction, solved);
+    for (int k = 0; k < count; ++k) {
+      const Pack residual = solved[k] - Load(current[first + k]);
+      sum = sum + residual * residual * Load(weight[first + k]);
+    }
   }
   return Sum(sum) / points.size;
 }
 
 static void SolveCurrents(const PreparedDevice& d, const PointSet& points, double diode_limit,
                           Block* current) {
-  const Block* voltage = points.voltage_V.data();
   const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
-  for (int k = 0; k < blocks; ++k) {
-    const Pack v = Load(voltage[k]);
-    Pack junction;
-    Store(SolveCurrentFrom(d, diode_limit, v, v + Pack(d.rs * d.largest_current), &junction),
-          &current[k]);
+  Pack voltage[kMostTogether], junction[kMostTogether], solved[kMostTogether];
+  for (int first = 0; first < blocks; first += kMostTogether) {
+    const int count = LoadVoltages(points, first, blocks, voltage);
+    for (int k = 0; k < count; ++k) junction[k] = voltage[k] + Pack(d.rs * d.largest_current);
+    SolveTogether(d, diode_limit, count, voltage, junction, solved);
+    for (int k = 0; k < count; ++k) Store(solved[k], &current[first + k]);
   }
 }
 

@@ -94,38 +94,51 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   return limit;
 }
 
-// Root of g(Vd) = Vd - V - Rs F(Vd), and the current there. F falls and is concave in Vd, so g rises and
-// is convex: from any start one Newton step lands at or right of the root, `limit` keeps it from flying
-// off, and from there Newton falls monotonically on the root. Convergence is quadratic with constant
-// 1 / (2 n Ns Vt); the last step is small enough for the next to be below rounding.
+// Roots of g(Vd) = Vd - V - Rs F(Vd) at `count` voltages, and the currents there. F falls and is concave
+// in Vd, so g rises and is convex: from any start one Newton step lands at or right of the root, a limit
+// keeps it from flying off, and from there Newton falls monotonically on the root. Convergence is
+// quadratic with constant 1 / (2 n Ns Vt); the last step is small enough for the next to be below
+// rounding. All roots step together until the last has arrived: a step is a long chain of dependent
+// operations, and the processor works on several chains at once.
 // The current is read off the flatter of the two curves that cross at the root: F itself, or
-// (Vd - V) / Rs.
+// (Vd - V) / Rs. `junction` holds the starts on entry and the junction voltages on return.
+constexpr int kMostTogether = 4;
+
 template <class T>
-T SolveCurrentFrom(const PreparedDevice& d, double diode_limit, const T& voltage, const T& start,
-                   T* junction_voltage) {
+void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const T* voltage,
+                   T* junction, T* current) {
   constexpr int kMaxIterations = 100;
   const double rs = d.rs;
-  const T linear_limit =
-      (voltage + T(rs * d.largest_current)) * (1.0 / (1.0 + rs * d.shunt_conductance));
-  const T raw_limit = Smaller(linear_limit, T(diode_limit));
-  const T limit = raw_limit + (Magnitude(raw_limit) + Magnitude(voltage)) * 1e-13;
   const double small_step = 2e-8 / d.steepest;
-  T x = Smaller(start, limit);
-  T current = x;
-  T step = x;
-  T slope = x;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Slope<T> f = PreparedCurrent(d, Slope<T>(x, T(1.0)));
-    const T next = Smaller(x - (x - voltage - f.value * rs) / (T(1.0) - f.slope * rs), limit);
-    step = next - x;
-    x = next;
-    current = f.value + f.slope * step;
-    slope = f.slope;
-    if (All(Magnitude(step) < T(small_step) + Magnitude(x) * 1e-15)) break;
+  const double divider = 1.0 / (1.0 + rs * d.shunt_conductance);
+  T limit[kMostTogether];
+  T slope[kMostTogether];
+  for (int k = 0; k < count; ++k) {
+    const T raw =
+        Smaller((voltage[k] + T(rs * d.largest_current)) * divider, T(diode_limit));
+    limit[k] = raw + (Magnitude(raw) + Magnitude(voltage[k])) * 1e-13;
+    junction[k] = Smaller(junction[k], limit[k]);
   }
-  *junction_voltage = x;
-  if (!(rs > 0)) return current;
-  return Choose(slope * rs < T(-1.0), (x - voltage) * (1.0 / rs), current);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    T excess = T(-1.0);  // by how much any step is still too long
+    for (int k = 0; k < count; ++k) {
+      const T x = junction[k];
+      const Slope<T> f = PreparedCurrent(d, Slope<T>(x, T(1.0)));
+      const T next = Smaller(
+          x - (x - voltage[k] - f.value * rs) / (T(1.0) - f.slope * rs), limit[k]);
+      const T step = next - x;
+      junction[k] = next;
+      current[k] = f.value + f.slope * step;
+      slope[k] = f.slope;
+      excess = Larger(excess, Magnitude(step) - Magnitude(next) * 1e-15);
+    }
+    if (All(excess < T(small_step))) break;
+  }
+  if (!(rs > 0)) return;
+  for (int k = 0; k < count; ++k) {
+    current[k] = Choose(slope[k] * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs),
+                        current[k]);
+  }
 }
 
 }  // namespace lyrefit

@@ -270,7 +270,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   const FitOptions& options = job->options;
   const auto stop = [&] { return job->Stop("polish"); };
   const auto starts = CollectStarts(job->problem, elites, kGridStarts);
-  PolishResult polish = PolishStarts(job->problem, starts, options.threads, stop);
+  PolishResult polish = PolishStarts(job->problem, starts, stop);
   report->polished = true;
   report->refine = polish.report;
   report->best_bird_polished = polish.first.p;

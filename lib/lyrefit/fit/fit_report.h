@@ -79,7 +79,7 @@ struct StartReport {
 struct RefineReport {
   std::string termination = "not run";  // "converged", "no convergence", "interrupted", "not run"
   std::string message;
-  std::vector<StartReport> starts;
+  std::vector<StartReport> starts;  // in the order tried; enough that agree end the trying
   int winner = -1;    // index into starts
   int agreeing = 0;   // starts that end within 1e-9 relative of the best
   // Largest cosine between the residual and a column of the Jacobian whose parameter is free to move

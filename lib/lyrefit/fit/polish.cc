@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "lyrefit/base/parallel.h"
 #include "lyrefit/refine/coordinates.h"
 #include "lyrefit/refine/separable.h"
 
@@ -30,24 +29,40 @@ double RmsDistance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-// For each descent the index of the first one that gives the same curve.
-std::vector<int> GroupByCurve(const RefineProblem& problem,
-                              const std::vector<std::vector<double>>& descended) {
-  std::vector<std::vector<double>> curves;
-  std::vector<int> leader(descended.size());
-  for (std::size_t s = 0; s < descended.size(); ++s) {
-    curves.push_back(ExplicitCurve(problem, descended[s]));
-    const double rmse = std::sqrt(MeanSquare(problem, descended[s]));
-    leader[s] = static_cast<int>(s);
-    for (std::size_t other = 0; other < s; ++other) {
-      if (leader[other] != static_cast<int>(other)) continue;
-      if (RmsDistance(curves[other], curves[s]) > kSameCurve * rmse) continue;
-      leader[s] = static_cast<int>(other);
+// Descents sorted into groups that came to the same curve.
+class Groups {
+ public:
+  explicit Groups(const RefineProblem& problem) : problem_(problem) {}
+
+  void Add(const std::vector<double>& p) {
+    const int s = static_cast<int>(leader_.size());
+    std::vector<double> curve = ExplicitCurve(problem_, p);
+    const double rmse = std::sqrt(MeanSquare(problem_, p));
+    leader_.push_back(s);
+    for (int other = 0; other < s; ++other) {
+      if (leader_[other] != other) continue;
+      if (RmsDistance(curves_[other], curve) > kSameCurve * std::min(rmse, rmse_[other])) continue;
+      leader_[s] = other;
       break;
     }
+    curves_.push_back(std::move(curve));
+    rmse_.push_back(rmse);
   }
-  return leader;
-}
+
+  int Leader(int s) const { return leader_[s]; }
+
+  // Members of the group with the lowest error.
+  int BestGroupSize() const {
+    const auto best = std::min_element(rmse_.begin(), rmse_.end()) - rmse_.begin();
+    return static_cast<int>(std::count(leader_.begin(), leader_.end(), leader_[best]));
+  }
+
+ private:
+  const RefineProblem& problem_;
+  std::vector<int> leader_;
+  std::vector<std::vector<double>> curves_;
+  std::vector<double> rmse_;
+};
 
 // The best single-diode answer with the other diodes absent, so that a richer model never ends above a
 // poorer one.
@@ -64,7 +79,7 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   single.lower.resize(5);
   single.upper.resize(5);
   const auto starts = SeparableStarts(single, 0, 1);
-  std::vector<double> p = Refine(single, SeparableDescent(single, starts.at(0).p)).p;
+  std::vector<double> p = SeparableDescent(single, starts.at(0).p);
   for (int i = 5; i < problem.device.size(); ++i) {
     p.push_back(Coordinates::IsSaturation(i) ? problem.lower[i]
                                              : 0.5 * (problem.lower[i] + problem.upper[i]));
@@ -94,62 +109,70 @@ RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
   return end;
 }
 
+// So many starts at the same best curve end the polish: one diode leaves hardly a choice.
+int Enough(const RefineProblem& problem) { return DiodeCount(problem.device) == 1 ? 2 : 3; }
+
 }  // namespace
 
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
                                        const std::vector<std::vector<double>>& elites, int grid) {
-  std::vector<PolishStart> starts;
-  for (std::size_t k = 0; k < elites.size(); ++k) {
-    starts.push_back({k == 0 ? "best bird" : "elite " + std::to_string(k + 1), elites[k]});
-  }
-  if (DiodeCount(problem.device) > 1) starts.push_back({"single diode", SingleDiodeStart(problem)});
-  const double hint = elites.empty() ? 0 : elites[0][kRs];
-  for (SeparableStart& start : SeparableStarts(problem, hint, grid)) {
-    starts.push_back({std::move(start.origin), std::move(start.p)});
+  std::vector<PolishStart> starts = {{"best bird", elites.at(0)}};
+  std::vector<SeparableStart> separable = SeparableStarts(problem, elites[0][kRs], grid);
+  const std::size_t rounds = std::max(separable.size(), elites.size());
+  for (std::size_t k = 0; k < rounds; ++k) {
+    if (k < separable.size()) {
+      starts.push_back({std::move(separable[k].origin), std::move(separable[k].p)});
+    }
+    if (k == 0 && DiodeCount(problem.device) > 1) {
+      starts.push_back({"single diode", SingleDiodeStart(problem)});
+    }
+    if (k + 1 < elites.size()) starts.push_back({"elite " + std::to_string(k + 2), elites[k + 1]});
   }
   return starts;
 }
 
 PolishResult PolishStarts(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                          int threads, const std::function<bool()>& stop) {
+                          const std::function<bool()>& stop) {
   const auto begin = std::chrono::steady_clock::now();
-  const int all = static_cast<int>(starts.size());
-  const int count = stop() ? 1 : all;
-  std::vector<std::vector<double>> descended(count);
-  ParallelFor(count, threads,
-              [&](int s) { descended[s] = SeparableDescent(problem, starts[s].p); });
-  const std::vector<int> leader = GroupByCurve(problem, descended);
+  std::vector<std::vector<double>> descended;
+  Groups groups(problem);
+  bool stopped = false;
+  for (const PolishStart& start : starts) {
+    descended.push_back(SeparableDescent(problem, start.p));
+    groups.Add(descended.back());
+    if (groups.BestGroupSize() >= Enough(problem)) break;
+    stopped = stop();
+    if (stopped) break;
+  }
+  const int count = static_cast<int>(descended.size());
   std::vector<RefineEnd> ends(count);
-  ParallelFor(count, threads, [&](int s) {
-    if (leader[s] == s) ends[s] = SecondWind(problem, Refine(problem, descended[s]));
-  });
+  for (int s = 0; s < count; ++s) {
+    if (groups.Leader(s) == s) ends[s] = SecondWind(problem, Refine(problem, descended[s]));
+  }
 
   PolishResult result;
   RefineReport& report = result.report;
   for (int s = 0; s < count; ++s) {
-    const RefineEnd& end = ends[leader[s]];
-    report.starts.push_back({starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)),
-                             std::sqrt(end.mean_square), false});
-    const bool better = report.winner < 0 || report.starts[s].end_rmse_A <
-                                                 report.starts[report.winner].end_rmse_A *
-                                                     (1 - kBetter);
-    if (better) report.winner = s;
+    const double end_rmse = std::sqrt(ends[groups.Leader(s)].mean_square);
+    report.starts.push_back({starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse,
+                             false});
+    if (report.winner < 0 || end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
+      report.winner = s;
+    }
   }
-  result.first = ends[leader[0]];
-  result.best = ends[leader[report.winner]];
+  result.first = ends[0];
+  result.best = ends[groups.Leader(report.winner)];
   const double best_rmse = report.starts[report.winner].end_rmse_A;
   for (StartReport& start : report.starts) {
     start.agrees = start.end_rmse_A <= best_rmse * (1 + kAgree);
     report.agreeing += start.agrees;
   }
   report.projected_gradient = result.best.projected_gradient;
-  report.termination = count < all ? "interrupted"
-                       : result.best.converged ? "converged"
-                                               : "no convergence";
-  report.message = count < all ? "only the best bird was polished"
-                   : result.best.converged
-                       ? "bounds settled and least squares converged"
-                       : "least squares stopped before its tolerance was reached";
+  const bool converged = result.best.converged;
+  report.termination = stopped ? "interrupted" : converged ? "converged" : "no convergence";
+  report.message = stopped     ? "not every start was polished"
+                   : converged ? "bounds settled and least squares converged"
+                               : "least squares stopped before its tolerance was reached";
   report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -21,12 +21,14 @@ struct PolishResult {
   RefineReport report;
 };
 
-// Separable descent from every start, then one bounded least-squares solve for each group of starts that
-// the descent has brought to the same curve. Starts after the first are skipped when `stop` asks.
+// Separable descent from one start after the other, until three (of a single diode: two) have come to the
+// same best curve or no start is left; then one bounded least-squares solve for each curve that was found, so starts that came
+// to the same curve share an end. Starts after the first are skipped when `stop` asks.
 PolishResult PolishStarts(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                          int threads, const std::function<bool()>& stop);
+                          const std::function<bool()>& stop);
 
-// The best bird, further elites, then the separable grid.
+// The best bird first, then by turns the separable grid and further elites; for more than one diode
+// also the best single-diode curve, so that a richer model never ends above a poorer one.
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
                                        const std::vector<std::vector<double>>& elites, int grid);
 

@@ -1,39 +1,46 @@
 #include "lyrefit/refine/bounded_linear.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace lyrefit {
 namespace {
 
 enum class Side { kFree, kLower, kUpper };
 
+// The unknowns that are off their bounds.
+struct FreeSet {
+  int count = 0;
+  int index[kMostLinear];
+  void Add(int i) { index[count++] = i; }
+};
+
 // Least squares in the free variables with the others where they are.
-Eigen::VectorXd SolveFree(const Eigen::MatrixXd& gram, const Eigen::VectorXd& atb,
-                          const Eigen::VectorXd& x, const std::vector<int>& free) {
-  const int count = static_cast<int>(free.size());
-  Eigen::MatrixXd g(count, count);
-  Eigen::VectorXd rhs(count);
-  Eigen::VectorXd rest = x;
-  for (const int i : free) rest[i] = 0;
-  const Eigen::VectorXd shifted = atb - gram * rest;
+SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb,
+                          const SmallVector& x, const FreeSet& free) {
+  const int count = free.count;
+  SmallMatrix g(count, count);
+  SmallVector rhs(count);
+  SmallVector rest = x;
+  for (int a = 0; a < count; ++a) rest[free.index[a]] = 0;
+  const SmallVector shifted = atb - gram * rest;
   for (int a = 0; a < count; ++a) {
-    rhs[a] = shifted[free[a]];
-    for (int b = 0; b < count; ++b) g(a, b) = gram(free[a], free[b]);
+    rhs[a] = shifted[free.index[a]];
+    for (int b = 0; b < count; ++b) g(a, b) = gram(free.index[a], free.index[b]);
   }
   return g.ldlt().solve(rhs);
 }
 
 // Goes from x towards the free solution; at the first bound on the way, stops there and clamps.
 // True if the whole way was free.
-bool StepTowards(const Eigen::VectorXd& target, const std::vector<int>& free,
-                 const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, Eigen::VectorXd* x,
-                 std::vector<Side>* side) {
+bool StepTowards(const SmallVector& target, const FreeSet& free,
+                 const SmallVector& lower, const SmallVector& upper, SmallVector* x,
+                 Side* side) {
   double reach = 1;
   int first = -1;
-  for (std::size_t a = 0; a < free.size(); ++a) {
-    const int i = free[a];
+  for (int a = 0; a < free.count; ++a) {
+    const int i = free.index[a];
     const double step = target[a] - (*x)[i];
     if (!(target[a] < lower[i] || target[a] > upper[i])) continue;
     const double fraction = ((step < 0 ? lower[i] : upper[i]) - (*x)[i]) / step;
@@ -41,26 +48,27 @@ bool StepTowards(const Eigen::VectorXd& target, const std::vector<int>& free,
     reach = fraction;
     first = i;
   }
-  for (std::size_t a = 0; a < free.size(); ++a) {
-    const int i = free[a];
+  for (int a = 0; a < free.count; ++a) {
+    const int i = free.index[a];
     (*x)[i] += reach * (target[a] - (*x)[i]);
     if (i != first) continue;
     const bool down = target[a] < lower[i];
     (*x)[i] = down ? lower[i] : upper[i];
-    (*side)[i] = down ? Side::kLower : Side::kUpper;
+    side[i] = down ? Side::kLower : Side::kUpper;
   }
   return first < 0;
 }
 
 }  // namespace
 
-Eigen::VectorXd SolveBoundedLinear(const Eigen::MatrixXd& gram, const Eigen::VectorXd& atb,
-                                   const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+SmallVector SolveBoundedLinear(const SmallMatrix& gram, const SmallVector& atb,
+                                   const SmallVector& lower, const SmallVector& upper) {
   const int count = static_cast<int>(atb.size());
-  Eigen::VectorXd x = lower;
-  std::vector<Side> side(count, Side::kLower);
+  SmallVector x = lower;
+  Side side[kMostLinear];
+  std::fill(side, side + count, Side::kLower);
   for (int round = 0; round < 10 * count; ++round) {
-    const Eigen::VectorXd pull = atb - gram * x;
+    const SmallVector pull = atb - gram * x;
     int best = -1;
     double strongest = 1e-12;
     for (int i = 0; i < count; ++i) {
@@ -74,14 +82,14 @@ Eigen::VectorXd SolveBoundedLinear(const Eigen::MatrixXd& gram, const Eigen::Vec
     if (best < 0) break;
     side[best] = Side::kFree;
     for (int inner = 0; inner <= count; ++inner) {
-      std::vector<int> free;
+      FreeSet free;
       for (int i = 0; i < count; ++i) {
-        if (side[i] == Side::kFree) free.push_back(i);
+        if (side[i] == Side::kFree) free.Add(i);
       }
-      if (free.empty()) break;
-      const Eigen::VectorXd target = SolveFree(gram, atb, x, free);
+      if (free.count == 0) break;
+      const SmallVector target = SolveFree(gram, atb, x, free);
       if (!target.allFinite()) return x;
-      if (StepTowards(target, free, lower, upper, &x, &side)) break;
+      if (StepTowards(target, free, lower, upper, &x, side)) break;
     }
   }
   return x;

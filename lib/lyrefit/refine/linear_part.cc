@@ -1,32 +1,29 @@
 #include "lyrefit/refine/linear_part.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-
-#include "lyrefit/refine/bounded_linear.h"
 
 namespace lyrefit {
 namespace {
 
-// The normal equations found which bounds hold; the digits come from an orthogonal factorisation.
-void SharpenFree(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, LinearPart* linear) {
-  Eigen::MatrixXd a(linear->columns.rows(), linear->free.size());
-  Eigen::VectorXd rest = linear->x;
-  for (std::size_t j = 0; j < linear->free.size(); ++j) {
-    a.col(static_cast<int>(j)) = linear->columns.col(linear->free[j]);
-    rest[linear->free[j]] = 0;
+// The normal equations square the condition of the columns; one step of iterative refinement with the
+// true residual gives the digits back.
+void SharpenFree(const SmallVector& lower, const SmallVector& upper, LinearPart* linear) {
+  const int count = static_cast<int>(linear->free.size());
+  SmallMatrix gram(count, count);
+  SmallVector pull(count);
+  const Eigen::VectorXd residual = linear->columns * linear->x - linear->target;
+  for (int a = 0; a < count; ++a) {
+    pull[a] = linear->columns.col(linear->free[a]).dot(residual);
+    for (int b = 0; b < count; ++b) gram(a, b) = linear->gram(linear->free[a], linear->free[b]);
   }
-  const Eigen::VectorXd exact =
-      a.colPivHouseholderQr().solve(linear->target - linear->columns * rest);
-  for (std::size_t j = 0; j < linear->free.size(); ++j) {
-    const int column = linear->free[j];
-    const double value = exact[static_cast<int>(j)];
-    if (!(value >= lower[column] && value <= upper[column])) return;
+  const SmallVector step = gram.ldlt().solve(pull);
+  for (int a = 0; a < count; ++a) {
+    const double value = linear->x[linear->free[a]] - step[a];
+    if (!(value >= lower[linear->free[a]] && value <= upper[linear->free[a]])) return;
   }
-  for (std::size_t j = 0; j < linear->free.size(); ++j) {
-    linear->x[linear->free[j]] = exact[static_cast<int>(j)];
-  }
+  for (int a = 0; a < count; ++a) linear->x[linear->free[a]] -= step[a];
 }
 
 }  // namespace
@@ -45,7 +42,7 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
     linear.columns(k, 1) = -vd;
     for (int j = 2; j < count; ++j) {
       const double exponent = vd / (idealities[j - 2] * problem.device.module_thermal_voltage_V);
-      linear.columns(k, j) = -std::expm1(std::min(exponent, kLargestExponent));
+      linear.columns(k, j) = 1 - std::exp(std::min(exponent, kLargestExponent));
     }
     root[k] = std::sqrt(weights[k]);
     linear.target[k] = root[k] * problem.current_A[k];
@@ -56,7 +53,7 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
 }
 
 void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale,
-                  Eigen::VectorXd* lower, Eigen::VectorXd* upper) {
+                  SmallVector* lower, SmallVector* upper) {
   lower->resize(scale.size());
   upper->resize(scale.size());
   const auto range = [&](int column, double low, double high) {
@@ -75,10 +72,10 @@ void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale,
 LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<double>& weights,
                            double rs, const std::vector<double>& idealities) {
   LinearPart linear = MakeLinearColumns(problem, weights, rs, idealities);
-  Eigen::VectorXd lower, upper;
+  SmallVector lower, upper;
   LinearBounds(problem, linear.scale, &lower, &upper);
-  linear.x = SolveBoundedLinear(linear.columns.transpose() * linear.columns,
-                                linear.columns.transpose() * linear.target, lower, upper);
+  linear.gram.noalias() = linear.columns.transpose() * linear.columns;
+  linear.x = SolveBoundedLinear(linear.gram, linear.columns.transpose() * linear.target, lower, upper);
   const int count = static_cast<int>(linear.x.size());
   for (int j = 0; j < count; ++j) {
     if (linear.x[j] > lower[j] && linear.x[j] < upper[j]) linear.free.push_back(j);

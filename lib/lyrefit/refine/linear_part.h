@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lyrefit/refine/bounded_linear.h"
 #include "lyrefit/refine/problem.h"
 
 namespace lyrefit {
@@ -14,8 +15,9 @@ struct LinearPart {
   Eigen::MatrixXd columns;   // points x (2 + diodes): Iph, G, then the diodes
   Eigen::VectorXd target;    // sqrt(weight) x measured current
   Eigen::VectorXd scale;     // natural value = x / scale
-  Eigen::VectorXd x;         // the solution, scaled
+  SmallVector x;             // the solution, scaled
   Eigen::VectorXd residual;  // columns x - target
+  SmallMatrix gram;          // columns' columns
   std::vector<int> free;     // columns off their bounds
 };
 
@@ -24,8 +26,8 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
                              double rs, const std::vector<double>& idealities);
 
 // Bounds of the scaled unknowns; column 2 + d belongs to diode d.
-void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale,
-                  Eigen::VectorXd* lower, Eigen::VectorXd* upper);
+void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale, SmallVector* lower,
+                  SmallVector* upper);
 
 // Columns and solution for one n per diode.
 LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<double>& weights,

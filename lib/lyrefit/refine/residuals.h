@@ -26,11 +26,14 @@ class CurveResiduals {
     coordinates_.ToParameters(theta[0], p.data());
     std::vector<double> value(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) value[i] = Scalar(p[i]);
+    const bool measured = problem_.objective == Objective::kMeasuredCurrent;
+    const std::vector<double> root =
+        measured ? problem_.current_A
+                 : SolveCurrents(problem_.device, value.data(), problem_.points, *problem_.kernel);
     for (std::size_t k = 0; k < problem_.voltage_V.size(); ++k) {
-      const T current = problem_.objective == Objective::kMeasuredCurrent
-                            ? ExplicitCurrent(problem_.device, p.data(), problem_.voltage_V[k],
-                                              problem_.current_A[k])
-                            : Solved(p.data(), value.data(), problem_.voltage_V[k]);
+      const T current = measured ? ExplicitCurrent(problem_.device, p.data(),
+                                                   problem_.voltage_V[k], problem_.current_A[k])
+                                 : Solved(p.data(), value.data(), problem_.voltage_V[k], root[k]);
       residuals[k] =
           (current - problem_.current_A[k]) * (std::sqrt(problem_.weights[k]) / unit_A_);
       if (!std::isfinite(Scalar(residuals[k]))) return false;
@@ -45,14 +48,15 @@ class CurveResiduals {
     return x.a;
   }
 
-  double Solved(const double* p, const double* /*value*/, double voltage_V) const {
-    return SolveOperatingPoint(problem_.device, p, voltage_V).current_A;
+  double Solved(const double* /*p*/, const double* /*value*/, double /*voltage_V*/,
+                double root) const {
+    return root;
   }
   template <class Jet>
-  Jet Solved(const Jet* p, const double* value, double voltage_V) const {
-    const OperatingPoint point = SolveOperatingPoint(problem_.device, value, voltage_V);
-    Jet current = ExplicitCurrent(problem_.device, p, voltage_V, point.current_A);
-    current.a = point.current_A;
+  Jet Solved(const Jet* p, const double* value, double voltage_V, double root) const {
+    const OperatingPoint point = KnownOperatingPoint(problem_.device, value, voltage_V, root);
+    Jet current = ExplicitCurrent(problem_.device, p, voltage_V, root);
+    current.a = root;
     current.v *= ImplicitFactor(problem_.device, value, point);
     return current;
   }

@@ -1,5 +1,4 @@
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +10,7 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMaxSteps = 60;
-constexpr double kTolerance = 1e-13;  // relative decrease that ends the descent
+constexpr double kTolerance = 1e-11;  // relative decrease that ends the descent
 
 // The reduced problem in theta = (Rs / R0, 1/n of each diode).
 class Descent {
@@ -91,13 +90,16 @@ class Descent {
         j(k, d) = -slope * vd;
       }
     }
-    Eigen::MatrixXd a(points, linear_.free.size());
-    for (std::size_t c = 0; c < linear_.free.size(); ++c) {
-      a.col(static_cast<int>(c)) = linear_.columns.col(linear_.free[c]);
+    const int free = static_cast<int>(linear_.free.size());
+    Eigen::MatrixXd a(points, free);
+    SmallMatrix gram(free, free);
+    for (int c = 0; c < free; ++c) {
+      a.col(c) = linear_.columns.col(linear_.free[c]);
+      for (int r = 0; r < free; ++r) gram(r, c) = linear_.gram(linear_.free[r], linear_.free[c]);
     }
-    if (a.cols() > 0) {
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-      j -= a * qr.solve(j);
+    if (free > 0) {
+      const SmallMatrix inner = a.transpose() * j;
+      j.noalias() -= a * gram.ldlt().solve(inner);
     }
     return j;
   }

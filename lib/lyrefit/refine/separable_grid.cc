@@ -105,8 +105,8 @@ class Grid {
     const int size = 2 + static_cast<int>(chosen_.size());
     std::vector<int> column = {0, 1};
     for (const int k : chosen_) column.push_back(2 + k);
-    Eigen::MatrixXd gram(size, size);
-    Eigen::VectorXd atb(size), lower, upper;
+    SmallMatrix gram(size, size);
+    SmallVector atb(size), lower, upper;
     LinearPart part;
     part.scale.resize(size);
     std::vector<double> idealities;

@@ -36,8 +36,8 @@ struct SearchOptions {
   Algorithm algorithm = Algorithm::kMlo;
   std::uint64_t seed = 0;
   std::uint64_t run = 0;               // number of the run: seed and run together name the stream
-  int population = 30;                 // birds
-  int iterations = 40;                 // one evaluation a bird each
+  int population = 20;                 // birds
+  int iterations = 20;                 // one evaluation a bird each
   double memory_rate = 0.5;            // Pm of MBLSS; 0 switches it off
   double distance_coefficient = 0.25;  // gamma of DMLSS; 0 switches it off
   double de_scale = 0.5;               // F of differential evolution

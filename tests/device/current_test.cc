@@ -58,9 +58,10 @@ Draw DrawDevice(RandomStream* random) {
   return draw;
 }
 
-// The current in 113 bits, written from the equation alone: I - F(V + I Rs) = 0 solved for Vd by Newton's
-// method, which cannot miss, since the function is convex and rises.
-Quad ExactCurrent(const Device& device, const std::vector<Quad>& p, double voltage_V, double start) {
+// The current in 113 bits, written from the equation alone: I - F(V + I Rs) = 0 solved for Vd by
+// Newton's method, which cannot miss, since the function is convex and rises.
+Quad ExactCurrent(const Device& device, const std::vector<Quad>& p, double voltage_V,
+                  double start) {
   Quad vd = start;
   Quad current = 0;
   for (int k = 0; k < 200; ++k) {
@@ -88,8 +89,7 @@ TEST(SolveOperatingPoint, AgreesWithMultiprecisionOverRandomDevices) {
   double worst = 0;
   for (int k = 0; k < kDraws; ++k) {
     const Draw draw = DrawDevice(&random);
-    const OperatingPoint point =
-        SolveOperatingPoint(draw.device, draw.p.data(), draw.voltage_V);
+    const OperatingPoint point = SolveOperatingPoint(draw.device, draw.p.data(), draw.voltage_V);
     ASSERT_TRUE(std::isfinite(point.current_A)) << "draw " << k;
     const Quad exact =
         ExactCurrent(draw.device, ToQuad(draw.p), draw.voltage_V, point.junction_voltage_V);
@@ -128,8 +128,7 @@ TEST(ImplicitFactor, GivesDerivativesThatAgreeWithMultiprecisionDifferences) {
   RandomStream random(99);
   for (int k = 0; k < kDraws; ++k) {
     const Draw draw = DrawDevice(&random);
-    const OperatingPoint point =
-        SolveOperatingPoint(draw.device, draw.p.data(), draw.voltage_V);
+    const OperatingPoint point = SolveOperatingPoint(draw.device, draw.p.data(), draw.voltage_V);
     Jet p[kMost];
     for (int i = 0; i < draw.device.size(); ++i) p[i] = Jet(draw.p[i], i);
     const Jet current = ExplicitCurrent(draw.device, p, draw.voltage_V, point.current_A);
@@ -145,8 +144,8 @@ TEST(ImplicitFactor, GivesDerivativesThatAgreeWithMultiprecisionDifferences) {
            ExactCurrent(draw.device, down, draw.voltage_V, point.junction_voltage_V)) /
           (2 * step);
       // Derivatives that move the current by less than its own rounding are compared to that.
-      const double floor = 1e-5 * (std::fabs(point.current_A) + draw.p[kIph]) /
-                           (draw.p[i] + (i == kRs ? 1e-3 : 0));
+      const double floor =
+          1e-5 * (std::fabs(point.current_A) + draw.p[kIph]) / (draw.p[i] + (i == kRs ? 1e-3 : 0));
       const double expected = static_cast<double>(exact);
       ASSERT_NEAR(current.v[i] * factor, expected, 1e-9 * (std::fabs(expected) + floor))
           << draw.device.parameters[i].symbol << ", draw " << k;

@@ -34,8 +34,8 @@ TEST(JunctionCurrent, IsTheShockleyEquation) {
   const double p[] = {5, 1e-9, 1.2, 0.5, 100, 1e-6, 2};
   const double vt = 10 * 1.380649e-23 * 300 / 1.602176634e-19;
   for (const double vd : {-5.0, 0.0, 4.0, 6.0}) {
-    const double expected = 5 - 1e-9 * std::expm1(vd / (1.2 * vt)) -
-                            1e-6 * std::expm1(vd / (2 * vt)) - vd / 100;
+    const double expected =
+        5 - 1e-9 * std::expm1(vd / (1.2 * vt)) - 1e-6 * std::expm1(vd / (2 * vt)) - vd / 100;
     EXPECT_NEAR(JunctionCurrent(device, p, vd), expected, 1e-13 * (5 + std::fabs(expected)));
   }
   EXPECT_NEAR(ExplicitCurrent(device, p, 4.0, 2.0), JunctionCurrent(device, p, 5.0), 1e-14);

@@ -42,9 +42,11 @@ TEST(MeanSquare, IsTheMeanOfTheScalarResidualsForBothObjectives) {
       weight += w[k];
     }
     EXPECT_NEAR(MeanSquare(device, Objective::kMeasuredCurrent, kParameters.data(), set) /
-                    (measured / weight), 1, 1e-12);
-    EXPECT_NEAR(MeanSquare(device, Objective::kSolvedCurrent, kParameters.data(), set) /
-                    (solved / weight), 1, 1e-12);
+                    (measured / weight),
+                1, 1e-12);
+    EXPECT_NEAR(
+        MeanSquare(device, Objective::kSolvedCurrent, kParameters.data(), set) / (solved / weight),
+        1, 1e-12);
   }
 }
 
@@ -71,8 +73,8 @@ TEST(MeanSquare, GivesTheSameBitsOnEveryKernel) {
   }
 }
 
-// The portable kernel uses additions, multiplications and divisions only, in a fixed order: these bits
-// hold on every IEEE 754 machine.
+// The portable kernel uses additions, multiplications and divisions only, in a fixed order: these
+// bits hold on every IEEE 754 machine.
 TEST(MeanSquare, OfThePortableKernelHasTheseBits) {
   std::vector<double> v, i;
   for (int k = 0; k < 20; ++k) {

@@ -40,8 +40,7 @@ TEST(FitAuto, IsRarelyFooledByASingleDiode) {
 }
 
 TEST(FitAuto, LeavesOutModelsThatThePointsCannotDetermine) {
-  const FitReport report =
-      *FitAuto(ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3, 1, 8), {});
+  const FitReport report = *FitAuto(ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3, 1, 8), {});
   EXPECT_EQ(report.choice->chosen, Model::kSingleDiode);
   EXPECT_NE(report.choice->sentence.find("TD was not tried"), std::string::npos);
 }

@@ -35,8 +35,8 @@ TEST(MakeBounds, LetsATableSpeakForEveryDiodeOrForOne) {
   const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
   BoundsSpec spec;
   spec.name = "table";
-  spec.table = {{"Iph", {0, 5}}, {"Is", {0, 1e-6}}, {"n", {1, 2}}, {"n2", {1.8, 2}},
-                {"Rs", {0, 1}},  {"Rsh", {0, 1000}}};
+  spec.table = {{"Iph", {0, 5}},  {"Is", {0, 1e-6}}, {"n", {1, 2}},
+                {"n2", {1.8, 2}}, {"Rs", {0, 1}},    {"Rsh", {0, 1000}}};
   const auto bounds = *MakeBounds(spec, device, curve);
   EXPECT_EQ(bounds[2].lower, 1);
   EXPECT_EQ(bounds[6].lower, 1.8);

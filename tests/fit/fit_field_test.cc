@@ -1,5 +1,5 @@
-// Measured curves of every kind, from a cell in the dark to a module with a bypass step: the polish must
-// settle, and a richer model must never end above a poorer one.
+// Measured curves of every kind, from a cell in the dark to a module with a bypass step: the polish
+// must settle, and a richer model must never end above a poorer one.
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,8 @@ namespace {
 
 std::vector<std::string> SingleCurves() {
   std::vector<std::string> paths;
-  for (const char* folder :
-       {"showcase", "isfh_cell_32-14", "nrel_cell_32-14", "nrel_ibc2x2", "hzb_perovskite_batch1",
-        "sdle_ddiv", "load_steps_poly"}) {
+  for (const char* folder : {"showcase", "isfh_cell_32-14", "nrel_cell_32-14", "nrel_ibc2x2",
+                             "hzb_perovskite_batch1", "sdle_ddiv", "load_steps_poly"}) {
     const auto root = std::filesystem::path(LYREFIT_FIELD_DATA_DIR) / "field" / folder;
     for (const auto& entry : std::filesystem::directory_iterator(root)) {
       if (entry.path().extension() == ".csv") paths.push_back(entry.path().string());

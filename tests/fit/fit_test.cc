@@ -160,8 +160,7 @@ TEST(Fit, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
   constexpr int kCurves = 300;
   std::vector<int> covered(5);
   for (int seed = 0; seed < kCurves; ++seed) {
-    const FitReport report =
-        *Fit(ModuleCurve(Model::kSingleDiode, kSingleTruth, 4e-3, seed), {});
+    const FitReport report = *Fit(ModuleCurve(Model::kSingleDiode, kSingleTruth, 4e-3, seed), {});
     for (int i = 0; i < 5; ++i) {
       const Estimate& e = report.estimates[i];
       EXPECT_LE(e.bounds.lower, e.low_95);

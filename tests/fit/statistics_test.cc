@@ -30,8 +30,7 @@ TEST(FindInformation, IsTheTextbookFormula) {
 }
 
 TEST(FindResidualStatistics, CountsRunsInOrderOfVoltage) {
-  const ResidualStatistics s =
-      FindResidualStatistics({3, 1, 2, 4, 5, 6}, {-1, 1, 2, -3, 1, 1});
+  const ResidualStatistics s = FindResidualStatistics({3, 1, 2, 4, 5, 6}, {-1, 1, 2, -3, 1, 1});
   EXPECT_EQ(s.runs, 3);  // 1 2 | -1 -3 | 1 1
   EXPECT_EQ(s.largest_A, 3);
   EXPECT_EQ(s.largest_at_V, 4);

@@ -40,7 +40,7 @@ IvCurve DataSet(const std::string& name) {
 }
 
 Model ModelOf(const std::string& text) {
-  return text == "SD" ? Model::kSingleDiode
+  return text == "SD"   ? Model::kSingleDiode
          : text == "DD" ? Model::kDoubleDiode
                         : Model::kTripleDiode;
 }
@@ -120,8 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values("stm6_40_36", "stp6_120_36", "pwp201", "msx60"),
                        ::testing::Values(Model::kSingleDiode, Model::kDoubleDiode,
                                          Model::kTripleDiode),
-                       ::testing::Values(Objective::kMeasuredCurrent,
-                                         Objective::kSolvedCurrent)));
+                       ::testing::Values(Objective::kMeasuredCurrent, Objective::kSolvedCurrent)));
 
 }  // namespace
 }  // namespace lyrefit

@@ -13,8 +13,8 @@ namespace {
 
 TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
-    const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                                kDoubleTruth, 1e-3, objective);
+    const RefineProblem problem =
+        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 1e-3, objective);
     const std::vector<bool> held = {false, false, false, false, false, true, false};
     const Linearization now = Linearize(problem, kDoubleTruth, held);
     ASSERT_EQ(now.parameter, (std::vector<int>{0, 1, 2, 3, 4, 6}));

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/refine/separable.h"
 #include "lyrefit/refine/sensitivity.h"
+#include "lyrefit/refine/separable.h"
 #include "refine/test_curves.h"
 
 namespace lyrefit {
@@ -20,8 +20,8 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
   const Sensitivity sensitivity = FindSensitivity(problem, best, degrees);
   for (int i = 0; i < 5; ++i) {
     for (const bool upper : {false, true}) {
-      const ProfileSide side = FindProfileSide(
-          problem, best, {i, upper, t, degrees, sensitivity.standard_error[i]});
+      const ProfileSide side =
+          FindProfileSide(problem, best, {i, upper, t, degrees, sensitivity.standard_error[i]});
       ASSERT_FALSE(side.at_bound) << i;
       EXPECT_TRUE(side.better.empty());
       EXPECT_EQ(side.value > best.p[i], upper);
@@ -62,7 +62,8 @@ TEST(FindSensitivity, IsTheScatterOfRepeatedMeasurements) {
   for (int i = 0; i < 5; ++i) {
     const double scatter = std::sqrt(square[i] - mean[i] * mean[i]);
     EXPECT_NEAR(claimed[i] / scatter, 1, 0.15) << i;
-    EXPECT_NEAR(mean[i], kSingleTruth[i], 5 * scatter / std::sqrt(kRepeats) + 0.02 * kSingleTruth[i])
+    EXPECT_NEAR(mean[i], kSingleTruth[i],
+                5 * scatter / std::sqrt(kRepeats) + 0.02 * kSingleTruth[i])
         << i;
   }
 }

@@ -14,8 +14,8 @@ constexpr Objective kBoth[] = {Objective::kMeasuredCurrent, Objective::kSolvedCu
 
 TEST(Refine, RecoversTheParametersOfACleanCurve) {
   for (const Objective objective : kBoth) {
-    const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
-                                                kSingleTruth, 0, objective);
+    const RefineProblem problem =
+        ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth, 0, objective);
     const RefineEnd end = Refine(problem, {3.7, 1e-7, 1.3, 0.2, 200});
     EXPECT_TRUE(end.converged);
     for (std::size_t i = 0; i < kSingleTruth.size(); ++i) {
@@ -81,8 +81,8 @@ TEST(Refine, LetsADiodeInWhereTheResidualsAskForOne) {
 
 TEST(SeparableDescent, ComesNextToTheOptimumFromFarAway) {
   for (const Objective objective : kBoth) {
-    const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                                kDoubleTruth, 1e-3, objective);
+    const RefineProblem problem =
+        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 1e-3, objective);
     const std::vector<double> near = SeparableDescent(problem, {1, 1e-5, 1.9, 2, 5, 1e-9, 1.1});
     const RefineEnd end = Refine(problem, near);
     EXPECT_LT(MeanSquare(problem, near) / end.mean_square, 1.001) << ToText(objective);

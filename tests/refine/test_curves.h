@@ -17,8 +17,7 @@ inline RefineProblem ModuleProblem(Model truth, Model fitted, const std::vector<
   conditions.cells_in_series = 36;
   std::vector<double> voltage;
   for (int k = 0; k < 40; ++k) voltage.push_back(21.6 * k / 39);
-  std::vector<double> current =
-      SolveCurrents(MakeDevice(truth, conditions), p.data(), voltage);
+  std::vector<double> current = SolveCurrents(MakeDevice(truth, conditions), p.data(), voltage);
   RandomStream random(seed);
   for (double& i : current) i += noise_A * random.Normal();
   const Device device = MakeDevice(fitted, conditions);

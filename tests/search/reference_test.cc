@@ -1,5 +1,5 @@
-// The published level of LO and MLO on the three-diode model of the RTC France cell, from the literature's
-// bounds: population 100, 1000 iterations, measured-current RMSE.
+// The published level of LO and MLO on the three-diode model of the RTC France cell, from the
+// literature's bounds: population 100, 1000 iterations, measured-current RMSE.
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,9 @@ constexpr double kVoltage[] = {-0.2057, -0.1291, -0.0588, 0.0057, 0.0646, 0.1185
                                0.2132,  0.2545,  0.2924,  0.3269, 0.3585, 0.3873, 0.4137,
                                0.4373,  0.459,   0.4784,  0.496,  0.5119, 0.5265, 0.5398,
                                0.5521,  0.5633,  0.5736,  0.5833, 0.59};
-constexpr double kCurrent[] = {0.764,  0.762,  0.7605, 0.7605, 0.76,   0.759,  0.757,
-                               0.757,  0.7555, 0.754,  0.7505, 0.7465, 0.7385, 0.728,
-                               0.7065, 0.6755, 0.632,  0.573,  0.499,  0.413,  0.3165,
-                               0.212,  0.1035, -0.01,  -0.123, -0.21};
+constexpr double kCurrent[] = {0.764, 0.762,  0.7605, 0.7605, 0.76,   0.759,  0.757,  0.757, 0.7555,
+                               0.754, 0.7505, 0.7465, 0.7385, 0.728,  0.7065, 0.6755, 0.632, 0.573,
+                               0.499, 0.413,  0.3165, 0.212,  0.1035, -0.01,  -0.123, -0.21};
 
 // Written here from the equation, so that this room stays free of photovoltaics.
 double Rmse(const double* x) {

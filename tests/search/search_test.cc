@@ -111,8 +111,7 @@ TEST_P(EveryAlgorithm, StopsForEachReasonAndSaysWhich) {
 }
 
 TEST_P(EveryAlgorithm, SurvivesAnObjectiveOfNothingButNaN) {
-  const SearchSummary summary =
-      Search([](const double*) { return std::nan(""); }, kBox, Options());
+  const SearchSummary summary = Search([](const double*) { return std::nan(""); }, kBox, Options());
   EXPECT_EQ(summary.best.objective, kInfinity);
   EXPECT_EQ(summary.best.x.size(), 3U);
 }

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// One spelling of every enumeration, shared by flags, JSON, tables and messages. An enumeration joins
-// by specialising EnumTable with a `kRows` array of {value, text}.
+// One spelling of every enumeration, shared by flags, JSON, tables and messages. An enumeration
+// joins by specialising EnumTable with a `kRows` array of {value, text}.
 template <class E>
 struct EnumText {
   E value;

@@ -8,8 +8,9 @@
 namespace lyrefit {
 
 // A mistake in the user's data, files or options, in one sentence that says what is wrong and what
-// was expected. `line` and `column` count from 1; 0 means "not tied to a line". Broken invariants of
-// lyrefit itself are glog CHECKs, and a search that stops badly is a result: neither is an Error.
+// was expected. `line` and `column` count from 1; 0 means "not tied to a line". Broken invariants
+// of lyrefit itself are glog CHECKs, and a search that stops badly is a result: neither is an
+// Error.
 struct Error {
   std::string message;
   std::string file;

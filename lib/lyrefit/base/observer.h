@@ -18,9 +18,9 @@ struct Progress {
 
 enum class ObserverAction { kContinue, kStop };
 
-// Called once an iteration or more rarely. kStop ends the computation cleanly: what was found so far
-// is returned and marked as interrupted. An empty observer means "go on". It is called from one thread
-// at a time.
+// Called once an iteration or more rarely. kStop ends the computation cleanly: what was found so
+// far is returned and marked as interrupted. An empty observer means "go on". It is called from one
+// thread at a time.
 using Observer = std::function<ObserverAction(const Progress&)>;
 
 inline bool StopRequested(const Observer& observer, const Progress& progress) {

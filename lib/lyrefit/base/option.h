@@ -57,14 +57,14 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
 }
 
 template <class Options, class Table>
-void AppendNonDefaults(const Options& options, const Table& table, std::vector<OptionEcho>* echoes) {
+void AppendNonDefaults(const Options& options, const Table& table,
+                       std::vector<OptionEcho>* echoes) {
   const Options defaults;
   for (const OptionRow<Options>& row : table) {
     std::visit(
         [&](auto field) {
           if (options.*field == defaults.*field) return;
-          echoes->push_back(
-              {row.name, NumberText(options.*field), NumberText(defaults.*field)});
+          echoes->push_back({row.name, NumberText(options.*field), NumberText(defaults.*field)});
         },
         row.field);
   }

@@ -4,9 +4,9 @@
 
 namespace lyrefit {
 
-// Runs body(0) .. body(count - 1) on up to `threads` threads (0: all cores) and returns when all are
-// done. The bodies must be independent and write only to their own slot: then the result does not
-// depend on the number of threads.
+// Runs body(0) .. body(count - 1) on up to `threads` threads (0: all cores) and returns when all
+// are done. The bodies must be independent and write only to their own slot: then the result does
+// not depend on the number of threads.
 void ParallelFor(int count, int threads, const std::function<void(int)>& body);
 
 }  // namespace lyrefit

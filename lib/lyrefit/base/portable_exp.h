@@ -5,11 +5,11 @@
 
 namespace lyrefit {
 
-// exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on every
-// IEEE 754 machine and in every vector width (the mathematics library's does not: its last bit follows
-// the processor). `V` is double or a GCC vector of doubles, `B` the unsigned
-// integer type of the same shape.
-// Error below 1 ulp for x in [-700, 700]; below that range it is cut, above it the caller must not go.
+// exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on
+// every IEEE 754 machine and in every vector width (the mathematics library's does not: its last
+// bit follows the processor). `V` is double or a GCC vector of doubles, `B` the unsigned integer
+// type of the same shape. Error below 1 ulp for x in [-700, 700]; below that range it is cut, above
+// it the caller must not go.
 //
 // Method: x = k ln 2 + r with |r| <= ln(2) / 2 (Cody and Waite's two-part ln 2), exp(r) = 1 + r +
 // r^2 q(r) with q the degree-9 Chebyshev fit (error 2e-17), then 2^k through the exponent bits.
@@ -45,8 +45,8 @@ inline double PortableExp(double x) {
   return PortableExp<double, std::uint64_t>(x);
 }
 
-// An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent bits
-// and one tangent; the same bits everywhere.
+// An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent
+// bits and one tangent; the same bits everywhere.
 inline double LogUpperBound(double x) {
   std::int64_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -54,7 +54,8 @@ inline double LogUpperBound(double x) {
   bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
   double mantissa;
   std::memcpy(&mantissa, &bits, sizeof mantissa);
-  return (exponent + 0.5 + (mantissa - 1.4142135623730951) * 1.0201394465967895) * 0.6931471805599454;
+  return (exponent + 0.5 + (mantissa - 1.4142135623730951) * 1.0201394465967895) *
+         0.6931471805599454;
 }
 
 }  // namespace lyrefit

@@ -5,9 +5,9 @@
 namespace lyrefit {
 
 // One portable stream of random numbers per (seed, run): xoshiro256++ (Blackman and Vigna 2021,
-// doi:10.1145/3460772) under our own transforms, in integers and basic arithmetic only, so that a seed
-// means the same numbers with every compiler and standard library. (std::mt19937_64 is as portable but
-// six times slower, and took a fifth of a whole search.)
+// doi:10.1145/3460772) under our own transforms, in integers and basic arithmetic only, so that a
+// seed means the same numbers with every compiler and standard library. (std::mt19937_64 is as
+// portable but six times slower, and took a fifth of a whole search.)
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed, std::uint64_t run = 0);
@@ -27,8 +27,8 @@ class RandomStream {
   // Uniform in [0, 1), 53 bits.
   double Uniform() { return static_cast<double>(Bits() >> 11) * 0x1p-53; }
 
-  // Uniform in {0, ..., n - 1}, by the high half of a 64 x 32 bit product; n >= 1. The bias of at most
-  // n / 2^32 is far below what any run of ours can see.
+  // Uniform in {0, ..., n - 1}, by the high half of a 64 x 32 bit product; n >= 1. The bias of at
+  // most n / 2^32 is far below what any run of ours can see.
   std::uint32_t Index(std::uint32_t n) {
     return static_cast<std::uint32_t>(((Bits() >> 32) * n) >> 32);
   }
@@ -37,7 +37,9 @@ class RandomStream {
   double Normal();
 
  private:
-  static std::uint64_t Rotate(std::uint64_t x, int bits) { return (x << bits) | (x >> (64 - bits)); }
+  static std::uint64_t Rotate(std::uint64_t x, int bits) {
+    return (x << bits) | (x >> (64 - bits));
+  }
 
   std::uint64_t state_[4];
   double spare_ = 0;

@@ -11,8 +11,9 @@ struct OperatingPoint {
   double conductance_S;  // dF/dVd at the junction, never positive for a passive device
 };
 
-// The root of I = F(V + I Rs) at terminal voltage V: safeguarded Newton on the junction voltage, error
-// about 1e-15 of |I| + Iph, no failure and no NaN for any finite parameters in their physical range.
+// The root of I = F(V + I Rs) at terminal voltage V: safeguarded Newton on the junction voltage,
+// error about 1e-15 of |I| + Iph, no failure and no NaN for any finite parameters in their physical
+// range.
 OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double voltage_V);
 
 // Root mean square of both residuals over the points, unweighted, in ampere. Labels matter: see
@@ -24,8 +25,9 @@ double Rmse(const Device& device, Objective objective, const double* p,
 OperatingPoint KnownOperatingPoint(const Device& device, const double* p, double voltage_V,
                                    double current_A);
 
-// dI/dp of the solved current by the implicit function theorem, given the derivatives of the explicit
-// right-hand side at the solved current (dF: with Vd = V + I Rs and I held): dI = dF / (1 - Rs F').
+// dI/dp of the solved current by the implicit function theorem, given the derivatives of the
+// explicit right-hand side at the solved current (dF: with Vd = V + I Rs and I held): dI = dF / (1
+// - Rs F').
 inline double ImplicitFactor(const Device& device, const double* p, const OperatingPoint& point) {
   return 1.0 / (1.0 - p[device.resistance_series] * point.conductance_S);
 }

@@ -24,10 +24,10 @@ struct EnumTable<Model> {
   };
 };
 
-// Which residual is squared (they have different optima, and figures of one kind must never be compared
-// with figures of the other):
-//   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at the measured current
-//   solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
+// Which residual is squared (they have different optima, and figures of one kind must never be
+// compared with figures of the other):
+//   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at the measured
+//   current solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
 enum class Objective { kMeasuredCurrent, kSolvedCurrent };
 
 template <>
@@ -39,9 +39,9 @@ struct EnumTable<Objective> {
 };
 
 // A device model: a sum of terms over the junction voltage behind one series resistance. Parameter
-// vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3, n3,
-// so that a model's vector starts with that of the model with one diode less. Resistances are those of
-// the whole module, n is per cell.
+// vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3,
+// n3, so that a model's vector starts with that of the model with one diode less. Resistances are
+// those of the whole module, n is per cell.
 struct Device {
   std::vector<ParameterInfo> parameters;
   std::vector<Term> terms;

@@ -81,8 +81,8 @@ const std::vector<Kernel>& AvailableKernels() {
 
 const Kernel& FastestKernel() { return AvailableKernels().back(); }
 
-double MeanSquare(const Device& device, Objective objective, const double* p, const PointSet& points,
-                  const Kernel& kernel) {
+double MeanSquare(const Device& device, Objective objective, const double* p,
+                  const PointSet& points, const Kernel& kernel) {
   const PreparedDevice prepared = Prepare(device, p);
   if (objective == Objective::kMeasuredCurrent) {
     return kernel.measured_mean_square(prepared, points);

@@ -7,8 +7,8 @@
 
 namespace lyrefit {
 
-// Points of a curve laid out for kernels that take eight at a time; the last block is filled up with
-// copies of the last point at weight 0.
+// Points of a curve laid out for kernels that take eight at a time; the last block is filled up
+// with copies of the last point at weight 0.
 struct alignas(64) Block {
   static constexpr int kLanes = 8;
   double lane[kLanes];
@@ -32,10 +32,12 @@ struct Kernel {
   const char* name;  // "portable", "avx2", "avx512"
   // Mean over the points of weight x (F(V, I) - I)^2.
   double (*measured_mean_square)(const PreparedDevice&, const PointSet&);
-  // Mean of weight x (I(V) - I)^2. `diode_limit` as from JunctionVoltageLimit for the largest voltage.
+  // Mean of weight x (I(V) - I)^2. `diode_limit` as from JunctionVoltageLimit for the largest
+  // voltage.
   double (*solved_mean_square)(const PreparedDevice&, const PointSet&, double diode_limit);
   // I(V) of every point into `current` (as many blocks as the set).
-  void (*solve_currents)(const PreparedDevice&, const PointSet&, double diode_limit, Block* current);
+  void (*solve_currents)(const PreparedDevice&, const PointSet&, double diode_limit,
+                         Block* current);
 };
 
 // Every kernel this processor can run, slowest ("portable") first.
@@ -43,8 +45,8 @@ const std::vector<Kernel>& AvailableKernels();
 const Kernel& FastestKernel();
 
 // Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root.
-double MeanSquare(const Device& device, Objective objective, const double* p, const PointSet& points,
-                  const Kernel& kernel = FastestKernel());
+double MeanSquare(const Device& device, Objective objective, const double* p,
+                  const PointSet& points, const Kernel& kernel = FastestKernel());
 
 // I(V) in ampere at the voltages of `points`, in their order.
 std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,

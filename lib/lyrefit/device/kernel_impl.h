@@ -1,6 +1,7 @@
-// The loops of every kernel. Included once by each kernel_*.cc with LYREFIT_KERNEL (its namespace) and
-// LYREFIT_KERNEL_WIDTH (doubles in a register) defined. Everything here lives in that namespace or is
-// forced inline: a function that two kernels shared would be compiled for the newer processor only.
+// The loops of every kernel. Included once by each kernel_*.cc with LYREFIT_KERNEL (its namespace)
+// and LYREFIT_KERNEL_WIDTH (doubles in a register) defined. Everything here lives in that namespace
+// or is forced inline: a function that two kernels shared would be compiled for the newer processor
+// only.
 
 #include "lyrefit/device/kernel.h"
 
@@ -119,7 +120,8 @@ LYREFIT_OP int LoadVoltages(const PointSet& points, int first, int blocks, Pack*
   return count;
 }
 
-static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points, double diode_limit) {
+static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points,
+                               double diode_limit) {
   const Block* current = points.current_A.data();
   const Block* weight = points.weight.data();
   const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;

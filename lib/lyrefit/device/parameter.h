@@ -12,8 +12,8 @@ enum class SearchScale {
   kLog,  // equal steps in the logarithm: saturation currents and shunt resistances span decades
 };
 
-// What a parameter is, independent of any curve. `symbol` is the papers' (tables, plots, flags), `name`
-// is pvlib's (code, JSON).
+// What a parameter is, independent of any curve. `symbol` is the papers' (tables, plots, flags),
+// `name` is pvlib's (code, JSON).
 struct ParameterInfo {
   std::string symbol;  // "Rs"
   std::string name;    // "resistance_series"
@@ -22,8 +22,8 @@ struct ParameterInfo {
 };
 
 // Where a parameter may lie. The refinement respects [lower, upper]; the search draws from
-// [search_lower, search_upper] inside it, which is narrower where a bound is only a limit (a diode may
-// vanish, a shunt may be perfect) and no place to look for anything.
+// [search_lower, search_upper] inside it, which is narrower where a bound is only a limit (a diode
+// may vanish, a shunt may be perfect) and no place to look for anything.
 struct ParameterBounds {
   double lower = 0;
   double upper = std::numeric_limits<double>::quiet_NaN();

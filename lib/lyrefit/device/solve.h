@@ -8,7 +8,9 @@
 
 namespace lyrefit {
 
-[[gnu::always_inline]] inline double Choose(bool condition, double yes, double no) { return condition ? yes : no; }
+[[gnu::always_inline]] inline double Choose(bool condition, double yes, double no) {
+  return condition ? yes : no;
+}
 [[gnu::always_inline]] inline bool All(bool condition) { return condition; }
 [[gnu::always_inline]] inline double Magnitude(double x) { return std::fabs(x); }
 
@@ -41,7 +43,8 @@ struct Slope {
   }
 };
 
-// Voltage-independent part of a device, prepared once per parameter vector. At most kMaxTerms terms.
+// Voltage-independent part of a device, prepared once per parameter vector. At most kMaxTerms
+// terms.
 struct PreparedDevice {
   static constexpr int kMaxTerms = 16;
   PreparedTerm<double> terms[kMaxTerms];
@@ -80,7 +83,8 @@ T PreparedCurrent(const PreparedDevice& d, const T& vd) {
 // No root lies above this for terminal voltages up to `voltage_V`: where a single diode alone would
 // already carry more than the whole device can. Exponents stay small below it.
 inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
-  const double reach = voltage_V + d.rs * d.largest_current;  // bound of Rs x diode current, Vd >= 0
+  const double reach =
+      voltage_V + d.rs * d.largest_current;  // bound of Rs x diode current, Vd >= 0
   double limit = std::numeric_limits<double>::max();
   if (!(reach > 0)) return limit;
   for (int t = 0; t < d.count; ++t) {
@@ -94,14 +98,14 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   return limit;
 }
 
-// Roots of g(Vd) = Vd - V - Rs F(Vd) at `count` voltages, and the currents there. F falls and is concave
-// in Vd, so g rises and is convex: from any start one Newton step lands at or right of the root, a limit
-// keeps it from flying off, and from there Newton falls monotonically on the root. Convergence is
-// quadratic with constant 1 / (2 n Ns Vt); the last step is small enough for the next to be below
-// rounding. All roots step together until the last has arrived: a step is a long chain of dependent
-// operations, and the processor works on several chains at once.
-// The current is read off the flatter of the two curves that cross at the root: F itself, or
-// (Vd - V) / Rs. `junction` holds the starts on entry and the junction voltages on return.
+// Roots of g(Vd) = Vd - V - Rs F(Vd) at `count` voltages, and the currents there. F falls and is
+// concave in Vd, so g rises and is convex: from any start one Newton step lands at or right of the
+// root, a limit keeps it from flying off, and from there Newton falls monotonically on the root.
+// Convergence is quadratic with constant 1 / (2 n Ns Vt); the last step is small enough for the
+// next to be below rounding. All roots step together until the last has arrived: a step is a long
+// chain of dependent operations, and the processor works on several chains at once. The current is
+// read off the flatter of the two curves that cross at the root: F itself, or (Vd - V) / Rs.
+// `junction` holds the starts on entry and the junction voltages on return.
 constexpr int kMostTogether = 4;
 
 template <class T>
@@ -114,8 +118,7 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const
   T limit[kMostTogether];
   T slope[kMostTogether];
   for (int k = 0; k < count; ++k) {
-    const T raw =
-        Smaller((voltage[k] + T(rs * d.largest_current)) * divider, T(diode_limit));
+    const T raw = Smaller((voltage[k] + T(rs * d.largest_current)) * divider, T(diode_limit));
     limit[k] = raw + (Magnitude(raw) + Magnitude(voltage[k])) * 1e-13;
     junction[k] = Smaller(junction[k], limit[k]);
   }
@@ -124,8 +127,8 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const
     for (int k = 0; k < count; ++k) {
       const T x = junction[k];
       const Slope<T> f = PreparedCurrent(d, Slope<T>(x, T(1.0)));
-      const T next = Smaller(
-          x - (x - voltage[k] - f.value * rs) / (T(1.0) - f.slope * rs), limit[k]);
+      const T next =
+          Smaller(x - (x - voltage[k] - f.value * rs) / (T(1.0) - f.slope * rs), limit[k]);
       const T step = next - x;
       junction[k] = next;
       current[k] = f.value + f.slope * step;
@@ -136,8 +139,8 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const
   }
   if (!(rs > 0)) return;
   for (int k = 0; k < count; ++k) {
-    current[k] = Choose(slope[k] * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs),
-                        current[k]);
+    current[k] =
+        Choose(slope[k] * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs), current[k]);
   }
 }
 

@@ -9,12 +9,13 @@ namespace lyrefit {
 //   Vd = V + I Rs                      junction voltage of the whole device, in volt
 //   I  = sum of terms(Vd)              delivered current in ampere, generator sign
 //
-// Each term is written once as a template: `S` is the type of the parameters, `T` that of the junction
-// voltage. The same lines serve double, automatic differentiation (a dual number for S, T or both) and
-// eight points at a time (T = a kernel's pack). `exp` and `Smaller` are found beside T.
+// Each term is written once as a template: `S` is the type of the parameters, `T` that of the
+// junction voltage. The same lines serve double, automatic differentiation (a dual number for S, T
+// or both) and eight points at a time (T = a kernel's pack). `exp` and `Smaller` are found beside
+// T.
 //
-// To add a term: one kind, one line in PrepareTerm and one in TermCurrent. A term must not lead from a
-// finite Vd to NaN for any parameters inside their bounds.
+// To add a term: one kind, one line in PrepareTerm and one in TermCurrent. A term must not lead
+// from a finite Vd to NaN for any parameters inside their bounds.
 enum class TermKind {
   kPhotocurrent,  // {Iph}      I = Iph
   kDiode,         // {Is, n}    I = -Is (exp(Vd / (n Ns Vt)) - 1)                    Shockley
@@ -34,7 +35,8 @@ struct PreparedTerm {
   S b;
 };
 
-// Exponents are cut here, far outside any real device, so that even the square of a current is finite.
+// Exponents are cut here, far outside any real device, so that even the square of a current is
+// finite.
 constexpr double kLargestExponent = 230;
 // Smallest shunt resistance and n that are told from 0, so that a bound of 0 is legal.
 constexpr double kSmallestResistance_ohm = 1e-9;
@@ -60,11 +62,12 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
       break;
     case TermKind::kDiode:
       prepared->a = first;
-      prepared->b = 1.0 / (Larger(p[term.parameter[1]], S(kSmallestIdeality)) *
-                           module_thermal_voltage_V);
+      prepared->b =
+          1.0 / (Larger(p[term.parameter[1]], S(kSmallestIdeality)) * module_thermal_voltage_V);
       break;
     case TermKind::kShunt:
-      // A negative resistance is let through: a least-squares step may pass there on its way to a bound.
+      // A negative resistance is let through: a least-squares step may pass there on its way to a
+      // bound.
       prepared->a = 1.0 / (first < S(0.0) ? first : Larger(first, S(kSmallestResistance_ohm)));
       break;
   }

@@ -27,8 +27,9 @@ std::string Objection(const CandidateReport& simple, const CandidateReport& rich
                           : fmt::format("AICc rises by {:.1f}", rich.aicc - simple.aicc));
   }
   if (!(rich.f_p_value < kLevel)) {
-    reasons.push_back(std::isnan(rich.f_p_value) ? "no degrees of freedom for the F-test"
-                                                 : fmt::format("F-test p = {:.2g}", rich.f_p_value));
+    reasons.push_back(std::isnan(rich.f_p_value)
+                          ? "no degrees of freedom for the F-test"
+                          : fmt::format("F-test p = {:.2g}", rich.f_p_value));
   }
   if (!rich.identifiable) reasons.push_back("the added diode may be absent");
   if (!(rich.held_out_rmse_A < simple.held_out_rmse_A)) {
@@ -40,8 +41,8 @@ std::string Objection(const CandidateReport& simple, const CandidateReport& rich
   return text;
 }
 
-// Whether every diode is needed: the best fit with one diode less must lie outside the 95 % limit that
-// also bounds the profile of a saturation current.
+// Whether every diode is needed: the best fit with one diode less must lie outside the 95 % limit
+// that also bounds the profile of a saturation current.
 bool DiodesIdentifiable(double simple_rmse, double rich_rmse, int degrees_of_freedom) {
   if (degrees_of_freedom < 1) return false;
   const double t = StudentT95(degrees_of_freedom);

@@ -40,8 +40,8 @@ Expected<void> CheckTable(const BoundsSpec::Table& table, const Device& device, 
       for (const ParameterInfo& info : device.parameters) {
         known += (known.empty() ? "" : ", ") + info.symbol;
       }
-      return Fail(fmt::format("bounds of '{}': this model has no such parameter; it has {}", key,
-                              known));
+      return Fail(
+          fmt::format("bounds of '{}': this model has no such parameter; it has {}", key, known));
     }
     if (!std::isfinite(lower) || !std::isfinite(upper)) {
       return Fail(fmt::format("bounds of {} must be finite numbers", key));
@@ -80,7 +80,8 @@ CurveScales ScalesOf(const IvCurve& curve) {
   const bool lit = key.short_circuit_current_A > 0.01 * scales.current_A;
   if (lit && key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
   if (!(scales.voltage_V > 0)) {
-    for (const double v : curve.voltage_V) scales.voltage_V = std::max(scales.voltage_V, std::fabs(v));
+    for (const double v : curve.voltage_V)
+      scales.voltage_V = std::max(scales.voltage_V, std::fabs(v));
   }
   if (!(scales.current_A > 0)) scales.current_A = 1e-12;
   return scales;

@@ -35,8 +35,8 @@ Expected<std::vector<double>> FixedValues(const std::map<std::string, double>& f
       if (!group && info.symbol != key && info.name != key) continue;
       const bool must_be_positive = Coordinates::IsIdeality(i) || i == kRsh;
       if (!std::isfinite(value) || value < 0 || (must_be_positive && value <= 0)) {
-        return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key, value,
-                                must_be_positive ? "above 0" : "of 0 or more"));
+        return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key,
+                                value, must_be_positive ? "above 0" : "of 0 or more"));
       }
       values[i] = value;
       known = true;
@@ -88,9 +88,10 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   }
   const int points = static_cast<int>(curve.size());
   if (points < job->free_parameters) {
-    return Fail(fmt::format("{} points cannot determine {} parameters: measure more points or fix some",
-                            points, job->free_parameters),
-                curve.source);
+    return Fail(
+        fmt::format("{} points cannot determine {} parameters: measure more points or fix some",
+                    points, job->free_parameters),
+        curve.source);
   }
   if (job->free_parameters == 0) return Fail("every parameter is fixed: nothing is left to fit");
   std::vector<double> weights;
@@ -132,7 +133,8 @@ void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end
           problem->objective == Objective::kMeasuredCurrent
               ? ExplicitCurrent(problem->device, end->p.data(), problem->voltage_V[k],
                                 problem->current_A[k])
-              : SolveOperatingPoint(problem->device, end->p.data(), problem->voltage_V[k]).current_A;
+              : SolveOperatingPoint(problem->device, end->p.data(), problem->voltage_V[k])
+                    .current_A;
       residual.push_back((model - problem->current_A[k]) * std::sqrt(given[k]));
     }
     const double unit = RobustScale(residual) * options.loss_scale;
@@ -140,13 +142,13 @@ void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end
     std::vector<double> weights;
     for (std::size_t k = 0; k < given.size(); ++k) {
       const double u = std::fabs(residual[k]) / unit;
-      weights.push_back(given[k] * (options.loss == Loss::kHuber ? std::min(1.0, 1 / u)
-                                                                 : 1 / (1 + u * u)));
+      weights.push_back(given[k] *
+                        (options.loss == Loss::kHuber ? std::min(1.0, 1 / u) : 1 / (1 + u * u)));
     }
     const Kernel* kernel = problem->kernel;
-    *problem = MakeRefineProblem(problem->device, problem->objective, problem->voltage_V,
-                                 problem->current_A, std::move(weights), problem->lower,
-                                 problem->upper);
+    *problem =
+        MakeRefineProblem(problem->device, problem->objective, problem->voltage_V,
+                          problem->current_A, std::move(weights), problem->lower, problem->upper);
     problem->kernel = kernel;
     const std::vector<double> before = end->p;
     *end = Refine(*problem, end->p);
@@ -256,7 +258,8 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   for (const auto& [key, range] : options.bounds.overrides) {
     echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
   }
-  for (const auto& [key, value] : options.fixed) echo("fix", fmt::format("{}={:g}", key, value), "");
+  for (const auto& [key, value] : options.fixed)
+    echo("fix", fmt::format("{}={:g}", key, value), "");
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
   AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
   echo("polish", options.polish ? "yes" : "no", "yes");
@@ -285,14 +288,15 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
     report->refined = end.p;
     FillEstimates(*job, report);
     report->correlations.clear();
-    const IntervalInput input{job->problem, end, options.intervals, job->free_parameters,
-                              options.threads, [&] { return job->Stop("intervals"); }};
+    const IntervalInput input{job->problem,      end,
+                              options.intervals, job->free_parameters,
+                              options.threads,   [&] { return job->Stop("intervals"); }};
     const std::vector<double> better =
         FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
     if (better.empty() || round == kRestarts) break;
     end = Refine(job->problem, better);
-    report->refine.starts.push_back({"profile", std::sqrt(MeanSquare(job->problem, better)),
-                                     std::sqrt(end.mean_square), true});
+    report->refine.starts.push_back(
+        {"profile", std::sqrt(MeanSquare(job->problem, better)), std::sqrt(end.mean_square), true});
     report->refine.winner = static_cast<int>(report->refine.starts.size()) - 1;
     report->refine.agreeing = 1;
     for (std::size_t s = 0; s + 1 < report->refine.starts.size(); ++s) {

@@ -48,19 +48,20 @@ struct FitOptions {
   bool polish = true;
   Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
-  Intervals intervals = Intervals::kProfile;  // kProfile: profile only where symmetric would be false
-  int threads = 0;                            // 0: all cores; never changes a result
-  const Kernel* kernel = nullptr;             // nullptr: the fastest
+  Intervals intervals =
+      Intervals::kProfile;         // kProfile: profile only where symmetric would be false
+  int threads = 0;                 // 0: all cores; never changes a result
+  const Kernel* kernel = nullptr;  // nullptr: the fastest
 };
 
-// The hybrid estimator: search the bounds, polish the best bird, further elites and a separable grid by
-// bounded least squares, and say what is known and how well. Errors: an unusable curve, options outside
-// their ranges, reversed or impossible bounds, fewer points than free parameters.
+// The hybrid estimator: search the bounds, polish the best bird, further elites and a separable
+// grid by bounded least squares, and say what is known and how well. Errors: an unusable curve,
+// options outside their ranges, reversed or impossible bounds, fewer points than free parameters.
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options = {},
                         const Observer& observer = {});
 
-// Fits SD, DD and TD and returns the one the data support, with `choice` filled in: more diodes must
-// earn their place by AICc, the F-test, identifiability and held-out error together.
+// Fits SD, DD and TD and returns the one the data support, with `choice` filled in: more diodes
+// must earn their place by AICc, the F-test, identifiability and held-out error together.
 Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options = {},
                             const Observer& observer = {});
 

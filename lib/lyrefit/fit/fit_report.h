@@ -37,7 +37,8 @@ struct EnumTable<IntervalMethod> {
                                                        {IntervalMethod::kProfile, "profile"}};
 };
 
-// One parameter, searched and refined side by side. NaN: not known (no polish, or no spread to be had).
+// One parameter, searched and refined side by side. NaN: not known (no polish, or no spread to be
+// had).
 struct Estimate {
   ParameterInfo info;
   ParameterBounds bounds;
@@ -70,7 +71,7 @@ struct RmseTable {
 
 // One start of the polish and where it ended.
 struct StartReport {
-  std::string origin;            // "best bird", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
+  std::string origin;  // "best bird", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
   double start_rmse_A = kUnknown;  // both of the objective that was fitted
   double end_rmse_A = kUnknown;
   bool agrees = false;  // ended within 1e-9 relative of the best end
@@ -80,10 +81,10 @@ struct RefineReport {
   std::string termination = "not run";  // "converged", "no convergence", "interrupted", "not run"
   std::string message;
   std::vector<StartReport> starts;  // in the order tried; enough that agree end the trying
-  int winner = -1;    // index into starts
-  int agreeing = 0;   // starts that end within 1e-9 relative of the best
-  // Largest cosine between the residual and a column of the Jacobian whose parameter is free to move
-  // downhill: 0 at an exact optimum, at most 1.
+  int winner = -1;                  // index into starts
+  int agreeing = 0;                 // starts that end within 1e-9 relative of the best
+  // Largest cosine between the residual and a column of the Jacobian whose parameter is free to
+  // move downhill: 0 at an exact optimum, at most 1.
   double projected_gradient = kUnknown;
   double condition = kUnknown;  // of the scaled Jacobian in the free parameters
   double seconds = 0;
@@ -138,15 +139,15 @@ struct FitReport {
   Device device;
   std::vector<double> searched;  // parameter vectors in the device's order
   std::vector<double> best_bird_polished;
-  std::vector<double> refined;   // equal to `searched` where there was no polish
+  std::vector<double> refined;  // equal to `searched` where there was no polish
   bool polished = false;
   std::vector<Estimate> estimates;  // in the device's order
-  double nNsVth = kUnknown;         // modified ideality of the first diode, in volt, as pvlib wants it
+  double nNsVth = kUnknown;  // modified ideality of the first diode, in volt, as pvlib wants it
   RmseTable rmse;
   KeyPoints measured;
-  KeyPoints simulated;                   // of the refined model
-  std::vector<double> model_current_A;   // I(V) of the refined model at the measured voltages
-  std::vector<double> residual_A;        // model_current_A - current_A
+  KeyPoints simulated;                  // of the refined model
+  std::vector<double> model_current_A;  // I(V) of the refined model at the measured voltages
+  std::vector<double> residual_A;       // model_current_A - current_A
   InformationCriteria criteria;
   ResidualStatistics residuals;
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
@@ -154,9 +155,9 @@ struct FitReport {
   SearchSummary search;
   RefineReport refine;
   double interval_seconds = 0;
-  std::optional<ModelChoice> choice;           // of `auto`
+  std::optional<ModelChoice> choice;  // of `auto`
   std::vector<OptionEcho> non_default_options;
-  std::vector<std::string> warnings;           // plain words
+  std::vector<std::string> warnings;  // plain words
   bool interrupted = false;
   bool usable = true;  // finite, and not worse than a straight line through the data
 };

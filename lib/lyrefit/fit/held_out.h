@@ -4,12 +4,12 @@
 
 namespace lyrefit {
 
-// Cross-validated RMSE of a polished fit, in ampere and of the objective that was fitted: the points, in
-// order of voltage, are cut into ten contiguous blocks (fewer for short curves); each is left out in
-// turn, the model is refitted to the rest, and its residuals on the block are counted. NaN where too few
-// points are left to refit. Contiguous blocks, since residuals of neighbours are alike and single points
-// would be too easy; the first and the last point always stay in, since beyond them every model is
-// guessing.
+// Cross-validated RMSE of a polished fit, in ampere and of the objective that was fitted: the
+// points, in order of voltage, are cut into ten contiguous blocks (fewer for short curves); each is
+// left out in turn, the model is refitted to the rest, and its residuals on the block are counted.
+// NaN where too few points are left to refit. Contiguous blocks, since residuals of neighbours are
+// alike and single points would be too easy; the first and the last point always stay in, since
+// beyond them every model is guessing.
 double HeldOutRmse(const FitReport& report, const FitOptions& options);
 
 }  // namespace lyrefit

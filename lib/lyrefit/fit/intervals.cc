@@ -50,7 +50,8 @@ class IntervalFinder {
   }
 
  private:
-  // A profile measures residuals against residuals: with none but rounding it has nothing to measure.
+  // A profile measures residuals against residuals: with none but rounding it has nothing to
+  // measure.
   bool ResidualsAreNoise() const {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
@@ -146,7 +147,8 @@ class IntervalFinder {
           is.interval == IntervalMethod::kProfile && is.low_95 <= 0 && !is.fixed;
       if (!absent && !may_be_absent) continue;
       is.identifiable = false;
-      is.reason = absent ? "the best fit has no such diode" : "the data allow this diode to be absent";
+      is.reason =
+          absent ? "the best fit has no such diode" : "the data allow this diode to be absent";
       if (n.fixed) continue;
       n.identifiable = false;
       n.reason = fmt::format("{} may be 0", is.info.symbol);
@@ -180,8 +182,7 @@ class IntervalFinder {
       for (int j = i + 1; j < size_; ++j) {
         const double value = sensitivity.correlation(i, j);
         if (std::fabs(value) <= kStrongCorrelation) continue;
-        correlations->push_back(
-            {estimates_[i].info.symbol, estimates_[j].info.symbol, value});
+        correlations->push_back({estimates_[i].info.symbol, estimates_[j].info.symbol, value});
       }
     }
     std::stable_sort(correlations->begin(), correlations->end(), [](const auto& a, const auto& b) {

@@ -18,8 +18,9 @@ struct IntervalInput {
   std::function<bool()> stop;
 };
 
-// Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and condition.
-// Returns parameters of a lower optimum if a profile came upon one, else an empty vector.
+// Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and
+// condition. Returns parameters of a lower optimum if a profile came upon one, else an empty
+// vector.
 std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
                                   std::vector<Correlation>* correlations, double* condition);
 

@@ -64,8 +64,8 @@ class Groups {
   std::vector<double> rmse_;
 };
 
-// The best single-diode answer with the other diodes absent, so that a richer model never ends above a
-// poorer one.
+// The best single-diode answer with the other diodes absent, so that a richer model never ends
+// above a poorer one.
 std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   RefineProblem single = problem;
   single.device.parameters.resize(5);
@@ -87,8 +87,8 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   return p;
 }
 
-// A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with each
-// diode taken out, as long as that helps.
+// A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with
+// each diode taken out, as long as that helps.
 RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
   constexpr int kAttempts = 3;
   for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
@@ -154,8 +154,8 @@ PolishResult PolishStarts(const RefineProblem& problem, const std::vector<Polish
   RefineReport& report = result.report;
   for (int s = 0; s < count; ++s) {
     const double end_rmse = std::sqrt(ends[groups.Leader(s)].mean_square);
-    report.starts.push_back({starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse,
-                             false});
+    report.starts.push_back(
+        {starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse, false});
     if (report.winner < 0 || end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
       report.winner = s;
     }
@@ -173,8 +173,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const std::vector<Polish
   report.message = stopped     ? "not every start was polished"
                    : converged ? "bounds settled and least squares converged"
                                : "least squares stopped before its tolerance was reached";
-  report.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

@@ -21,9 +21,10 @@ struct PolishResult {
   RefineReport report;
 };
 
-// Separable descent from one start after the other, until three (of a single diode: two) have come to the
-// same best curve or no start is left; then one bounded least-squares solve for each curve that was found, so starts that came
-// to the same curve share an end. Starts after the first are skipped when `stop` asks.
+// Separable descent from one start after the other, until three (of a single diode: two) have come
+// to the same best curve or no start is left; then one bounded least-squares solve for each curve
+// that was found, so starts that came to the same curve share an end. Starts after the first are
+// skipped when `stop` asks.
 PolishResult PolishStarts(const RefineProblem& problem, const std::vector<PolishStart>& starts,
                           const std::function<bool()>& stop);
 

@@ -7,9 +7,9 @@
 
 namespace lyrefit {
 
-// The box a search sees: one side for each parameter that is not fixed. A linear parameter is searched
-// as it is, so that published boxes mean what they mean in the literature; a logarithmic one by
-// ln(value / lower end), from 0.
+// The box a search sees: one side for each parameter that is not fixed. A linear parameter is
+// searched as it is, so that published boxes mean what they mean in the literature; a logarithmic
+// one by ln(value / lower end), from 0.
 class SearchSpace {
  public:
   // `fixed[i]` is the value of a fixed parameter, NaN for the others.

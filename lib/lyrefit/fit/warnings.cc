@@ -33,8 +33,8 @@ void WarnOfBounds(const FitReport& report, Sentences* out) {
                               e.info.name.rfind("saturation_current", 0) == 0;
     if (e.at_bound == BoundSide::kNone || absent_diode) continue;
     const double bound = e.at_bound == BoundSide::kLower ? e.bounds.lower : e.bounds.upper;
-    std::string text = fmt::format("{} sits at its {} bound {:.6g}", e.info.symbol,
-                                   ToText(e.at_bound), bound);
+    std::string text =
+        fmt::format("{} sits at its {} bound {:.6g}", e.info.symbol, ToText(e.at_bound), bound);
     if (e.info.symbol == "Rsh" && e.at_bound == BoundSide::kUpper) text += ": no shunt is visible";
     const bool ideality = e.info.symbol[0] == 'n';
     if (ideality && report.estimates.size() == 5) {
@@ -86,16 +86,18 @@ void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
     at = curve.voltage_V[k];
   }
   if (worst <= kNoises * noise || worst <= kVisible * largest) return;
-  out->push_back(fmt::format(
-      "the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive device does: the "
-      "light or the instrument changed during the sweep",
-      worst, at));
+  out->push_back(
+      fmt::format("the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive "
+                  "device does: the "
+                  "light or the instrument changed during the sweep",
+                  worst, at));
 }
 
 void WarnOfResiduals(const FitReport& report, Sentences* out) {
   if (!(report.residuals.runs_p_value < 0.01)) return;
   out->push_back(fmt::format(
-      "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): the "
+      "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): "
+      "the "
       "model misses something, and intervals are too narrow",
       report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value));
 }

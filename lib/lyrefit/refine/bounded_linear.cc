@@ -17,8 +17,8 @@ struct FreeSet {
 };
 
 // Least squares in the free variables with the others where they are.
-SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb,
-                          const SmallVector& x, const FreeSet& free) {
+SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb, const SmallVector& x,
+                      const FreeSet& free) {
   const int count = free.count;
   SmallMatrix g(count, count);
   SmallVector rhs(count);
@@ -34,9 +34,8 @@ SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb,
 
 // Goes from x towards the free solution; at the first bound on the way, stops there and clamps.
 // True if the whole way was free.
-bool StepTowards(const SmallVector& target, const FreeSet& free,
-                 const SmallVector& lower, const SmallVector& upper, SmallVector* x,
-                 Side* side) {
+bool StepTowards(const SmallVector& target, const FreeSet& free, const SmallVector& lower,
+                 const SmallVector& upper, SmallVector* x, Side* side) {
   double reach = 1;
   int first = -1;
   for (int a = 0; a < free.count; ++a) {
@@ -62,7 +61,7 @@ bool StepTowards(const SmallVector& target, const FreeSet& free,
 }  // namespace
 
 SmallVector SolveBoundedLinear(const SmallMatrix& gram, const SmallVector& atb,
-                                   const SmallVector& lower, const SmallVector& upper) {
+                               const SmallVector& lower, const SmallVector& upper) {
   const int count = static_cast<int>(atb.size());
   SmallVector x = lower;
   Side side[kMostLinear];
@@ -74,7 +73,8 @@ SmallVector SolveBoundedLinear(const SmallMatrix& gram, const SmallVector& atb,
     for (int i = 0; i < count; ++i) {
       if (side[i] == Side::kFree || !(lower[i] < upper[i])) continue;
       const double scale = std::sqrt(gram(i, i));
-      const double inward = (side[i] == Side::kLower ? pull[i] : -pull[i]) / (scale > 0 ? scale : 1);
+      const double inward =
+          (side[i] == Side::kLower ? pull[i] : -pull[i]) / (scale > 0 ? scale : 1);
       if (inward <= strongest) continue;
       strongest = inward;
       best = i;

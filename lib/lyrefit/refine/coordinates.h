@@ -11,10 +11,11 @@ namespace lyrefit {
 // correlation of Is and n is taken out:
 //   Iph   Iph / I0                       Rs    Rs / R0               I0, V0: largest |I|, |V|
 //   Rsh   R0 / Rsh, a conductance        n     1 / n                 R0 = V0 / I0
-//   Is    ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's current at V0; if its n is held,
+//   Is    ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's current at V0; if its n is
+//   held,
 //         that is ln(Is / I0) but for a constant
-// A held parameter keeps its value. Every parameter's bound is a bound of its own coordinate, except
-// that of Is while its n moves too.
+// A held parameter keeps its value. Every parameter's bound is a bound of its own coordinate,
+// except that of Is while its n moves too.
 class Coordinates {
  public:
   Coordinates(const RefineProblem& problem, std::vector<double> p, std::vector<bool> held)
@@ -79,8 +80,8 @@ class Coordinates {
     if (*lower > *upper) std::swap(*lower, *upper);
   }
 
-  // Whether a point is near enough to the box to be worth evaluating. A free solve may step over a bound
-  // (its parameter is then held there), but not into regions where currents overflow.
+  // Whether a point is near enough to the box to be worth evaluating. A free solve may step over a
+  // bound (its parameter is then held there), but not into regions where currents overflow.
   template <class T>
   bool Sane(const T* theta) const {
     for (int k = 0; k < size(); ++k) {
@@ -101,9 +102,9 @@ class Coordinates {
   static bool IsIdeality(int i) { return i == 2 || (i >= 6 && i % 2 == 0); }
 
  private:
-  static constexpr double kSmallest = 1e-30;            // conductance told from 0
-  static constexpr double kLowestConductance = -0.1;    // in units of 1 / R0
-  static constexpr double kLargestLogCurrent = 30;  // of a diode at V0, in units of I0
+  static constexpr double kSmallest = 1e-30;          // conductance told from 0
+  static constexpr double kLowestConductance = -0.1;  // in units of 1 / R0
+  static constexpr double kLargestLogCurrent = 30;    // of a diode at V0, in units of I0
 
   double Pivot() const {
     return problem_->voltage_scale_V / problem_->device.module_thermal_voltage_V;

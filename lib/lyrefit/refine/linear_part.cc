@@ -7,8 +7,8 @@
 namespace lyrefit {
 namespace {
 
-// The normal equations square the condition of the columns; one step of iterative refinement with the
-// true residual gives the digits back.
+// The normal equations square the condition of the columns; one step of iterative refinement with
+// the true residual gives the digits back.
 void SharpenFree(const SmallVector& lower, const SmallVector& upper, LinearPart* linear) {
   const int count = static_cast<int>(linear->free.size());
   SmallMatrix gram(count, count);
@@ -52,8 +52,8 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
   return linear;
 }
 
-void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale,
-                  SmallVector* lower, SmallVector* upper) {
+void LinearBounds(const RefineProblem& problem, const Eigen::VectorXd& scale, SmallVector* lower,
+                  SmallVector* upper) {
   lower->resize(scale.size());
   upper->resize(scale.size());
   const auto range = [&](int column, double low, double high) {
@@ -75,7 +75,8 @@ LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<doubl
   SmallVector lower, upper;
   LinearBounds(problem, linear.scale, &lower, &upper);
   linear.gram.noalias() = linear.columns.transpose() * linear.columns;
-  linear.x = SolveBoundedLinear(linear.gram, linear.columns.transpose() * linear.target, lower, upper);
+  linear.x =
+      SolveBoundedLinear(linear.gram, linear.columns.transpose() * linear.target, lower, upper);
   const int count = static_cast<int>(linear.x.size());
   for (int j = 0; j < count; ++j) {
     if (linear.x[j] > lower[j] && linear.x[j] < upper[j]) linear.free.push_back(j);

@@ -9,8 +9,8 @@
 namespace lyrefit {
 
 // The linear part of the measured-current problem at given Rs and n: minimise
-// sum of weight x (Iph - G Vd - sum Is (exp(Vd / (n Ns Vt)) - 1) - I)^2 within the bounds of Iph, G =
-// 1/Rsh and Is. Columns are scaled to a largest entry of 1 and multiplied by sqrt(weight).
+// sum of weight x (Iph - G Vd - sum Is (exp(Vd / (n Ns Vt)) - 1) - I)^2 within the bounds of Iph, G
+// = 1/Rsh and Is. Columns are scaled to a largest entry of 1 and multiplied by sqrt(weight).
 struct LinearPart {
   Eigen::MatrixXd columns;   // points x (2 + diodes): Iph, G, then the diodes
   Eigen::VectorXd target;    // sqrt(weight) x measured current

@@ -26,7 +26,8 @@ struct RefineProblem {
   bool fixed(int i) const { return lower[i] == upper[i]; }
 };
 
-// Fills what follows from the points: weights scaled to mean 1 (empty: all 1), the point set, the scales.
+// Fills what follows from the points: weights scaled to mean 1 (empty: all 1), the point set, the
+// scales.
 RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<double> voltage_V,
                                 std::vector<double> current_A, std::vector<double> weights,
                                 std::vector<double> lower, std::vector<double> upper);

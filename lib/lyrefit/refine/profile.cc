@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxRefits = 24;
 constexpr double kCloseEnough = 0.003;  // of t
-constexpr double kBetter = 1e-7;        // relative decrease of the mean square that tells a new optimum
+constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
 
 // The scale on which a profile is closest to a straight line: ln Is, 1 / Rsh, the rest as they are.
 double ToScale(int i, double value) {
@@ -46,7 +46,8 @@ class Side {
       const double rise = Rise(FromScale(i, x));
       if (std::fabs(rise - query_.t) < kCloseEnough * query_.t) break;
       (rise > query_.t ? far : near) = x;
-      // The rise is close to proportional to the distance; fall back on bisection outside the bracket.
+      // The rise is close to proportional to the distance; fall back on bisection outside the
+      // bracket.
       const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
       const bool inside = std::min(near, far) < proposal && proposal < std::max(near, far);
       x = inside ? proposal : 0.5 * (near + far);

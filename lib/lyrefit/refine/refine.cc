@@ -100,8 +100,8 @@ class Polish {
     }
   }
 
-  // Solves without bounds. True if the answer lies inside them; else goes as far as the first bound on
-  // the way there and holds that parameter.
+  // Solves without bounds. True if the answer lies inside them; else goes as far as the first bound
+  // on the way there and holds that parameter.
   bool SolveFree() {
     const std::vector<double> before = p_;
     const double mean_square_before = mean_square_;
@@ -156,8 +156,8 @@ class Polish {
       coordinates.Bounds(k, &lower, &upper);
       const double slope = now.jacobian.col(k).dot(now.residual);
       const double near = 1e-6 * (1 + std::fabs(theta[k]));
-      const bool pressed = (theta[k] - lower < near && slope > 0) ||
-                           (upper - theta[k] < near && slope < 0);
+      const bool pressed =
+          (theta[k] - lower < near && slope > 0) || (upper - theta[k] < near && slope < 0);
       if (pressed) Hold(coordinates.parameter(k));
     }
     RemoveFadedDiodes();
@@ -241,8 +241,8 @@ class Polish {
     return true;
   }
 
-  // If the residuals correlate with the column of a vanished diode anywhere in the range of its n, puts
-  // the diode there and solves on; keeps it only if that pays.
+  // If the residuals correlate with the column of a vanished diode anywhere in the range of its n,
+  // puts the diode there and solves on; keeps it only if that pays.
   bool LetDiodeIn();
 
   const RefineProblem& problem_;
@@ -262,7 +262,8 @@ bool Polish::LetDiodeIn() {
     const int is = SaturationCurrentIndex(d);
     const int n = IdealityIndex(d);
     if (!vanished(is) || problem_.fixed(is) || let_in_ > 3 * DiodeCount(problem_.device)) continue;
-    // A trial diode that is far too weak to matter, to read off the direction its current would pull.
+    // A trial diode that is far too weak to matter, to read off the direction its current would
+    // pull.
     double best_cosine = kFlat;
     double best_n = 0;
     double best_is = 0;

@@ -8,9 +8,9 @@
 namespace lyrefit {
 
 struct RefineOptions {
-  int max_iterations = 2000;           // of one least-squares solve
-  double function_tolerance = 1e-15;   // relative decrease of the sum of squares that ends a solve
-  int max_rounds = 30;                 // of settling which bounds are active
+  int max_iterations = 2000;          // of one least-squares solve
+  double function_tolerance = 1e-15;  // relative decrease of the sum of squares that ends a solve
+  int max_rounds = 30;                // of settling which bounds are active
 };
 
 // Where a polish ended.
@@ -20,16 +20,17 @@ struct RefineEnd {
   bool converged = false;
   int iterations = 0;      // Levenberg-Marquardt iterations, all rounds
   std::vector<bool> held;  // fixed, at a bound, or of a diode that has vanished
-  // Largest cosine between the residual vector and a Jacobian column along which the parameter is free
-  // to move downhill. 0 at an exact optimum.
+  // Largest cosine between the residual vector and a Jacobian column along which the parameter is
+  // free to move downhill. 0 at an exact optimum.
   double projected_gradient = 1;
 };
 
-// Bounded least squares from `start` (clamped into the bounds; infinities not allowed): a bounded Ceres
-// solve first, then rounds of (hold what presses against its bound, solve unbounded in what is left,
-// release what wants back in), since the bounded solver alone stalls 1e-7 to 1e-5 above the optimum when
-// a bound is active. A diode whose saturation current may be 0 and which has faded from the data is taken
-// out, and let in again wherever in the range of n the residuals ask for one.
+// Bounded least squares from `start` (clamped into the bounds; infinities not allowed): a bounded
+// Ceres solve first, then rounds of (hold what presses against its bound, solve unbounded in what
+// is left, release what wants back in), since the bounded solver alone stalls 1e-7 to 1e-5 above
+// the optimum when a bound is active. A diode whose saturation current may be 0 and which has faded
+// from the data is taken out, and let in again wherever in the range of n the residuals ask for
+// one.
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options = {});
 

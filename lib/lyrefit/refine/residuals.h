@@ -10,10 +10,10 @@ namespace lyrefit {
 // Widest dual number of the polish: every model fits, so one pass gives all derivatives.
 constexpr int kJetWidth = 10;
 
-// sqrt(weight) x residual of every point in units of `unit_A`, for double or a dual number T. The solved
-// current is found in double and its derivatives follow from the implicit function theorem: one
-// evaluation of the explicit right-hand side at the root, divided by 1 - Rs F'. Differentiating the
-// Newton iteration would cost more and be less exact.
+// sqrt(weight) x residual of every point in units of `unit_A`, for double or a dual number T. The
+// solved current is found in double and its derivatives follow from the implicit function theorem:
+// one evaluation of the explicit right-hand side at the root, divided by 1 - Rs F'. Differentiating
+// the Newton iteration would cost more and be less exact.
 class CurveResiduals {
  public:
   CurveResiduals(const RefineProblem& problem, const Coordinates& coordinates, double unit_A)
@@ -31,11 +31,10 @@ class CurveResiduals {
         measured ? problem_.current_A
                  : SolveCurrents(problem_.device, value.data(), problem_.points, *problem_.kernel);
     for (std::size_t k = 0; k < problem_.voltage_V.size(); ++k) {
-      const T current = measured ? ExplicitCurrent(problem_.device, p.data(),
-                                                   problem_.voltage_V[k], problem_.current_A[k])
+      const T current = measured ? ExplicitCurrent(problem_.device, p.data(), problem_.voltage_V[k],
+                                                   problem_.current_A[k])
                                  : Solved(p.data(), value.data(), problem_.voltage_V[k], root[k]);
-      residuals[k] =
-          (current - problem_.current_A[k]) * (std::sqrt(problem_.weights[k]) / unit_A_);
+      residuals[k] = (current - problem_.current_A[k]) * (std::sqrt(problem_.weights[k]) / unit_A_);
       if (!std::isfinite(Scalar(residuals[k]))) return false;
     }
     return true;

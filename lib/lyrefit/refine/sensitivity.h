@@ -8,9 +8,10 @@
 
 namespace lyrefit {
 
-// Linearised uncertainty at the end of a polish: the inverse of J'J times the residual variance, in the
-// parameters that are not held. It assumes independent noise of constant (weighted) size in the current
-// and a model that is right; parameters at a bound are taken as known, so profiles must back it up there.
+// Linearised uncertainty at the end of a polish: the inverse of J'J times the residual variance, in
+// the parameters that are not held. It assumes independent noise of constant (weighted) size in the
+// current and a model that is right; parameters at a bound are taken as known, so profiles must
+// back it up there.
 struct Sensitivity {
   std::vector<double> standard_error;  // of each natural parameter, NaN where held or singular
   Eigen::MatrixXd correlation;         // parameters x parameters, 0 where not known

@@ -7,8 +7,8 @@
 
 namespace lyrefit {
 
-// The measured-current problem is linear in Iph, Is and 1/Rsh once Rs and the n are given. Both functions
-// below live on that: only Rs and n move, the rest is solved exactly within its bounds.
+// The measured-current problem is linear in Iph, Is and 1/Rsh once Rs and the n are given. Both
+// functions below live on that: only Rs and n move, the rest is solved exactly within its bounds.
 
 struct SeparableStart {
   std::string origin;  // "grid n = 1.14, 2; Rs = 0.036 ohm"
@@ -16,17 +16,18 @@ struct SeparableStart {
   double mean_square = 0;  // of the problem's objective
 };
 
-// Starts that need no luck: a grid of Rs and of all combinations of n. The best `count` that differ in
-// their n, judged by the problem's own objective. `rs_hint` adds a whole, half and a quarter of it to the
-// grid of Rs (0: none).
-std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint, int count);
+// Starts that need no luck: a grid of Rs and of all combinations of n. The best `count` that differ
+// in their n, judged by the problem's own objective. `rs_hint` adds a whole, half and a quarter of
+// it to the grid of Rs (0: none).
+std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint,
+                                            int count);
 
-// Descends from the Rs and n of `start` by a projected Levenberg-Marquardt method on the reduced problem
-// (variable projection; Kaufman 1975, doi:10.1007/BF01932995), which follows the narrow valleys of
-// sums of diodes in a few steps where the full problem needs hundreds. A diode whose current comes out 0
-// is moved to the n where the residuals ask for one, if there is such an n. For the solved-current
-// objective the points are weighted by 1 / (1 - Rs F')^2, which makes both residuals agree to first
-// order, so the end lies next to the optimum, not on it.
+// Descends from the Rs and n of `start` by a projected Levenberg-Marquardt method on the reduced
+// problem (variable projection; Kaufman 1975, doi:10.1007/BF01932995), which follows the narrow
+// valleys of sums of diodes in a few steps where the full problem needs hundreds. A diode whose
+// current comes out 0 is moved to the n where the residuals ask for one, if there is such an n. For
+// the solved-current objective the points are weighted by 1 / (1 - Rs F')^2, which makes both
+// residuals agree to first order, so the end lies next to the optimum, not on it.
 std::vector<double> SeparableDescent(const RefineProblem& problem, std::vector<double> start);
 
 }  // namespace lyrefit

@@ -38,7 +38,8 @@ std::vector<double> SeriesResistanceGrid(const RefineProblem& problem, double hi
   return grid;
 }
 
-// All combinations of n at one Rs after the other; the Gram matrix of all columns is built once an Rs.
+// All combinations of n at one Rs after the other; the Gram matrix of all columns is built once an
+// Rs.
 class Grid {
  public:
   Grid(const RefineProblem& problem, double rs_hint) : problem_(problem) {

@@ -9,7 +9,8 @@ namespace {
 constexpr int kLanes = 8;
 
 // These loops are elementwise and free of fused operations: every clone gives the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define LYREFIT_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define LYREFIT_CLONES

@@ -5,9 +5,9 @@
 namespace lyrefit {
 
 // Distances between all birds in the unit box, kept up to date bird by bird: a move costs O(N d), a
-// question O(1), where recomputing would cost O(N d) a question and O(N^2 d) for the largest distance.
-// The sums are updated by differences; their drift is far below the threshold's own arbitrariness and
-// the same in every run.
+// question O(1), where recomputing would cost O(N d) a question and O(N^2 d) for the largest
+// distance. The sums are updated by differences; their drift is far below the threshold's own
+// arbitrariness and the same in every run.
 class Crowding {
  public:
   // `unit` holds `birds` rows of `dimensions` coordinates.
@@ -25,9 +25,9 @@ class Crowding {
 
   int birds_;
   int dimensions_;
-  int stride_;                     // birds, rounded up to whole vectors
-  std::vector<double> coordinate_; // dimension by dimension, stride_ apart
-  std::vector<double> distance_;   // birds_ rows, stride_ apart
+  int stride_;                      // birds, rounded up to whole vectors
+  std::vector<double> coordinate_;  // dimension by dimension, stride_ apart
+  std::vector<double> distance_;    // birds_ rows, stride_ apart
   std::vector<double> sum_;
   std::vector<double> fresh_;
   double largest_ = 0;

@@ -1,5 +1,5 @@
-// Differential evolution DE/rand/1/bin (Storn and Price 1997, doi:10.1023/A:1008202821328). Ours: greedy
-// in place, and a mutant outside the box is clamped, as the lyrebirds are.
+// Differential evolution DE/rand/1/bin (Storn and Price 1997, doi:10.1023/A:1008202821328). Ours:
+// greedy in place, and a mutant outside the box is clamped, as the lyrebirds are.
 
 #include <algorithm>
 

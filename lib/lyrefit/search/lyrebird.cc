@@ -1,10 +1,11 @@
-// The lyrebird optimizer (LO) and its modification (MLO), after J. Ind. Manag. Optim. 22(1), 642-690,
-// section 3; equation numbers are that paper's. One algorithm, four settings: LO has Pm = gamma = 0.
+// The lyrebird optimizer (LO) and its modification (MLO), after J. Ind. Manag. Optim. 22(1),
+// 642-690, section 3; equation numbers are that paper's. One algorithm, four settings: LO has Pm =
+// gamma = 0.
 //
 // What the paper leaves open and we chose: r and the integers J are drawn per coordinate (only this
-// reaches the paper's LO figures); in Eq. 20 the memory is that of a random bird and z is one number a
-// move (the bird's own memory, read literally, equals its position and collapses the search); Eq. 23 and
-// 24 are lost in print, and the form below is ours.
+// reaches the paper's LO figures); in Eq. 20 the memory is that of a random bird and z is one
+// number a move (the bird's own memory, read literally, equals its position and collapses the
+// search); Eq. 23 and 24 are lost in print, and the form below is ours.
 
 #include <algorithm>
 #include <numeric>
@@ -20,14 +21,16 @@ namespace {
 // Birds by rising objective value, so that "a random bird better than i" needs no scan.
 class Ranking {
  public:
-  explicit Ranking(const SearchRun& run) : run_(run), order_(run.population()), rank_(order_.size()) {
+  explicit Ranking(const SearchRun& run)
+      : run_(run), order_(run.population()), rank_(order_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(),
                      [&](int a, int b) { return run.f(a) < run.f(b); });
     for (std::size_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = static_cast<int>(r);
   }
 
-  // How many birds are strictly better: they are order_[0 .. count - 1], the safe set S_i of Eq. 18.
+  // How many birds are strictly better: they are order_[0 .. count - 1], the safe set S_i of
+  // Eq. 18.
   int Better(int bird) const {
     int count = rank_[bird];
     while (count > 0 && run_.f(order_[count - 1]) == run_.f(bird)) --count;
@@ -118,8 +121,8 @@ class Lyrebird {
     return true;
   }
 
-  // MBLSS, Eq. 20, 21: x' = b + z (m_k - x). Acceptance is greedy and memories follow improvements, so
-  // a bird's memory is its position and needs no array of its own.
+  // MBLSS, Eq. 20, 21: x' = b + z (m_k - x). Acceptance is greedy and memories follow improvements,
+  // so a bird's memory is its position and needs no array of its own.
   void Imitate(int i) {
     const double* memory = run_->x(random_.Index(n_));
     const double* best = run_->x(run_->best());
@@ -166,7 +169,8 @@ class Lyrebird {
   std::vector<double> UnitPopulation() {
     std::vector<double> unit(static_cast<std::size_t>(n_) * d_);
     for (int i = 0; i < n_; ++i) {
-      for (int j = 0; j < d_; ++j) unit[static_cast<std::size_t>(i) * d_ + j] = Unit(run_->x(i)[j], j);
+      for (int j = 0; j < d_; ++j)
+        unit[static_cast<std::size_t>(i) * d_ + j] = Unit(run_->x(i)[j], j);
     }
     return unit;
   }

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// What every algorithm of this room shares: the population, the count of evaluations, the trace and the
-// reasons to stop. An algorithm is a function that moves the population until `stopped()`.
+// What every algorithm of this room shares: the population, the count of evaluations, the trace and
+// the reasons to stop. An algorithm is a function that moves the population until `stopped()`.
 class SearchRun {
  public:
   SearchRun(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,

@@ -86,8 +86,8 @@ void SearchRun::CollectElites() {
   for (const int bird : order) {
     if (static_cast<int>(summary_.elites.size()) == options_.elites) break;
     const double* candidate = x(bird);
-    const bool distinct = std::all_of(
-        summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
+    const bool distinct =
+        std::all_of(summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
           for (int j = 0; j < dimensions_; ++j) {
             const double side = box_.upper[j] - box_.lower[j];
             if (std::fabs(candidate[j] - taken.x[j]) > kDistinct * side) return true;

@@ -26,9 +26,9 @@ enum class Algorithm {
 template <>
 struct EnumTable<Algorithm> {
   static constexpr EnumText<Algorithm> kRows[] = {
-      {Algorithm::kMlo, "mlo"},           {Algorithm::kLo, "lo"},
-      {Algorithm::kLoMblss, "lo+mblss"},  {Algorithm::kLoDmlss, "lo+dmlss"},
-      {Algorithm::kRandom, "random"},     {Algorithm::kDe, "de"},
+      {Algorithm::kMlo, "mlo"},          {Algorithm::kLo, "lo"},
+      {Algorithm::kLoMblss, "lo+mblss"}, {Algorithm::kLoDmlss, "lo+dmlss"},
+      {Algorithm::kRandom, "random"},    {Algorithm::kDe, "de"},
   };
 };
 
@@ -43,7 +43,8 @@ struct SearchOptions {
   double de_scale = 0.5;               // F of differential evolution
   double de_crossover = 0.9;           // CR of differential evolution
   std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
-  double target = -std::numeric_limits<double>::infinity();  // stop at or below this objective value
+  double target =
+      -std::numeric_limits<double>::infinity();  // stop at or below this objective value
   double time_limit_s = std::numeric_limits<double>::infinity();
   int patience = 0;  // stop after so many iterations without a better best; 0: never
   int elites = 4;    // how many distinct birds to return, the best included
@@ -54,7 +55,8 @@ inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
     {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
     {"population", "birds", "number of birds", &SearchOptions::population, 4, 100000},
-    {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1, 1e8},
+    {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1,
+     1e8},
     {"memory-rate", "", "Pm: rate of the memory-based strategy", &SearchOptions::memory_rate, 0, 1},
     {"distance-coefficient", "", "gamma: reach of the diversity strategy",
      &SearchOptions::distance_coefficient, 0, 1},
@@ -122,13 +124,13 @@ struct Box {
   std::vector<double> upper;
 };
 
-// The function to minimise: takes as many numbers as the box has sides. Must return the same value for
-// the same point; NaN counts as infinity.
+// The function to minimise: takes as many numbers as the box has sides. Must return the same value
+// for the same point; NaN counts as infinity.
 using ObjectiveFunction = std::function<double(const double*)>;
 
-// Minimises `objective` over the box. Same seed and run, same bits. Options must be valid and the box
-// sound (CHECKed); a search that stops early is a result, see `termination`.
-SearchSummary Search(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
-                     const Observer& observer = {});
+// Minimises `objective` over the box. Same seed and run, same bits. Options must be valid and the
+// box sound (CHECKed); a search that stops early is a result, see `termination`.
+SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
+                     const SearchOptions& options, const Observer& observer = {});
 
 }  // namespace lyrefit

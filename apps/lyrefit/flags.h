@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,9 +41,8 @@ std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
   std::visit(
       [&](auto field) {
         const auto value = defaults.*field;
-        using Value = std::decay_t<decltype(value)>;
-        const bool none = !std::isfinite(static_cast<double>(value)) ||
-                          (value > 1000000 && value == std::numeric_limits<Value>::max());
+        // Infinity, or the largest whole number, stands for "no limit".
+        const bool none = std::fabs(static_cast<double>(value)) > 1e18;
         help += none ? " (default: none)" : " (default " + NumberText(value) + ")";
       },
       row.field);

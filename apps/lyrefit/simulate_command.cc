@@ -78,7 +78,7 @@ SimulateCommand::SimulateCommand(CLI::App* app)
 Expected<SimulateOptions> SimulateCommand::Options() const {
   SimulateOptions options = flags_;
   if (!from_file_.empty()) {
-    const Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_);
+    Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_);
     if (!fit) return fit;
     options.parameters = fit->parameters;
     options.conditions = fit->conditions;

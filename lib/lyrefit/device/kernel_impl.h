@@ -116,7 +116,8 @@ static double MeasuredMeanSquare(const PreparedDevice& d, const PointSet& points
 // Up to kMostTogether blocks of voltages from `first` on; the starts stand in `junction`.
 LYREFIT_OP int LoadVoltages(const PointSet& points, int first, int blocks, Pack* voltage) {
   const int count = blocks - first < kMostTogether ? blocks - first : kMostTogether;
-  for (int k = 0; k < count; ++k) voltage[k] = Load(points.voltage_V.data()[first + k]);
+  const Block* all = points.voltage_V.data();
+  for (int k = 0; k < count; ++k) voltage[k] = Load(all[first + k]);
   return count;
 }
 

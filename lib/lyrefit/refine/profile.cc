@@ -85,7 +85,7 @@ class Side {
     held.lower[i] = held.upper[i] = value;
     std::vector<double> start = warm_;
     start[i] = value;
-    RefineEnd end = Refine(held, SeparableDescent(held, std::move(start)));
+    RefineEnd end = Refine(held, SeparableDescent(held, start));
     if (end.mean_square < best_.mean_square * (1 - kBetter)) side_.better = end.p;
     const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
     warm_ = std::move(end.p);

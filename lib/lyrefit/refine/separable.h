@@ -28,6 +28,7 @@ std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double
 // current comes out 0 is moved to the n where the residuals ask for one, if there is such an n. For
 // the solved-current objective the points are weighted by 1 / (1 - Rs F')^2, which makes both
 // residuals agree to first order, so the end lies next to the optimum, not on it.
-std::vector<double> SeparableDescent(const RefineProblem& problem, std::vector<double> start);
+std::vector<double> SeparableDescent(const RefineProblem& problem,
+                                     const std::vector<double>& start);
 
 }  // namespace lyrefit

@@ -184,7 +184,8 @@ class Descent {
 
 }  // namespace
 
-std::vector<double> SeparableDescent(const RefineProblem& problem, std::vector<double> start) {
+std::vector<double> SeparableDescent(const RefineProblem& problem,
+                                     const std::vector<double>& start) {
   Descent descent(problem, start);
   if (problem.objective == Objective::kMeasuredCurrent) {
     descent.Run();

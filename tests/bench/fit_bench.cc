@@ -57,6 +57,7 @@ void CompleteFit(benchmark::State& state, const IvCurve& curve, Model model, Obj
   options.model = model;
   options.objective = objective;
   options.intervals = intervals;
+  options.random_baseline = false;  // the peers print none either
   options.threads = 1;
   Tally tally(CertifiedRmse(model, objective));
   double search_s = 0, polish_s = 0, interval_s = 0, evaluations = 0;

@@ -44,6 +44,7 @@ inline FitReport SampleReport() {
   }
   report.nNsVth = report.refined[2] * report.device.module_thermal_voltage_V;
   report.rmse.searched = {9.871e-4, 7.76e-4};
+  report.rmse.random_baseline = {3.1e-2, 2.9e-2};
   report.rmse.best_bird_polished = {9.891e-4, 7.731e-4};
   report.rmse.refined = {9.8912345678e-4, 7.7300626899e-4};
   report.measured = {0.7605, 0.5727, 0.4507, 0.6894, 0.31072, 0.7134};
@@ -68,6 +69,8 @@ inline FitReport SampleReport() {
   report.interval_seconds = 0.0011;
   report.non_default_options = {{"seed", "7", "0"}};
   report.search_options.seed = 7;
+  report.search_options.population = 30;
+  report.search_options.iterations = 40;
   return report;
 }
 

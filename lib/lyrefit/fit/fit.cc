@@ -103,6 +103,11 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   return {};
 }
 
+RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {
+  return {Rmse(device, Objective::kMeasuredCurrent, p.data(), curve.voltage_V, curve.current_A),
+          Rmse(device, Objective::kSolvedCurrent, p.data(), curve.voltage_V, curve.current_A)};
+}
+
 // Runs the search; returns the elites as parameter vectors.
 std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
   const SearchSpace space(job->bounds, job->fixed);
@@ -113,6 +118,18 @@ std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
   };
   report->search = Search(objective, space.box(), job->options.search, job->observer);
   job->stopped = report->search.termination == SearchTermination::kInterrupted;
+  const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
+  if (job->options.random_baseline && !is_random && !job->stopped) {
+    SearchOptions random = job->options.search;
+    random.algorithm = Algorithm::kRandom;
+    random.max_evaluations = std::max<std::int64_t>(report->search.evaluations, 4);
+    random.target = -kInfinity;
+    random.patience = 0;
+    const SearchSummary baseline = Search(objective, space.box(), random, job->observer);
+    job->stopped = baseline.termination == SearchTermination::kInterrupted;
+    space.ToParameters(baseline.best.x.data(), p.data());
+    report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
+  }
   std::vector<std::vector<double>> elites;
   for (const Bird& bird : report->search.elites) {
     space.ToParameters(bird.x.data(), p.data());
@@ -184,11 +201,6 @@ void OrderDiodes(const std::vector<ParameterBounds>& bounds, std::vector<double>
       }
     }
   }
-}
-
-RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {
-  return {Rmse(device, Objective::kMeasuredCurrent, p.data(), curve.voltage_V, curve.current_A),
-          Rmse(device, Objective::kSolvedCurrent, p.data(), curve.voltage_V, curve.current_A)};
 }
 
 // RMSE of the straight line through the points: what a fit must at least beat.

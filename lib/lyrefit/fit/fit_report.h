@@ -64,6 +64,7 @@ struct RmsePair {
 };
 
 struct RmseTable {
+  RmsePair random_baseline;     // best of as many uniform random points as the search evaluated
   RmsePair searched;            // the metaheuristic's best bird as it is
   RmsePair best_bird_polished;  // that bird after its own polish
   RmsePair refined;             // the best end of all starts

@@ -70,7 +70,8 @@ Json RmseJson(const FitReport& report) {
     return Json{{"measured_current_A", Number(shown.measured_current_A)},
                 {"solved_current_A", Number(shown.solved_current_A)}};
   };
-  return {{"searched", pair(report.rmse.searched, true)},
+  return {{"random_baseline", pair(report.rmse.random_baseline, true)},
+          {"searched", pair(report.rmse.searched, true)},
           {"best_bird_polished", pair(report.rmse.best_bird_polished, report.polished)},
           {"refined", pair(report.rmse.refined, report.polished)}};
 }

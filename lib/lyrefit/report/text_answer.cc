@@ -90,6 +90,7 @@ std::string RmseSection(const FitReport& report) {
   };
   TextTable table("lrr");
   table.Add({"", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)});
+  table.Add(row("random points, as many", report.rmse.random_baseline, true));
   table.Add(row("searched (best bird)", report.rmse.searched, true));
   table.Add(row("best bird polished", report.rmse.best_bird_polished, report.polished));
   table.Add(row("refined (best of all starts)", report.rmse.refined, report.polished));

@@ -85,7 +85,7 @@ TEST(MeanSquare, OfThePortableKernelHasTheseBits) {
   const Device device = Module(Model::kTripleDiode);
   const Kernel& portable = AvailableKernels()[0];
   EXPECT_EQ(MeanSquare(device, Objective::kMeasuredCurrent, kParameters.data(), set, portable),
-            0x1.85bb030dd7077p+0);
+            0x1.85bb030dd7078p+0);
   EXPECT_EQ(MeanSquare(device, Objective::kSolvedCurrent, kParameters.data(), set, portable),
             0x1.0274242939f15p-1);
 }

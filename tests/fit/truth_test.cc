@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -24,10 +25,7 @@ struct Row {
   nlohmann::json expected;
 };
 
-// How gtest names a row: "rtc_france_DD_solved_current_codata_4".
-void PrintTo(const Row& row, std::ostream* out) {
-  *out << row.data_set << ' ' << row.expected.dump();
-}
+void PrintTo(const Row& row, std::ostream* out) { *out << row.data_set; }
 
 std::vector<Row> ExpectedRows() {
   std::vector<Row> rows;
@@ -100,10 +98,20 @@ TEST_P(CertifiedOptimum, IsReachedFromEverySeed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Data, CertifiedOptimum, ::testing::ValuesIn(ExpectedRows()));
+std::string RowName(const ::testing::TestParamInfo<Row>& info) {
+  const nlohmann::json& row = info.param.expected;
+  std::string name = info.param.data_set + "_" + row["model"].get<std::string>() + "_" +
+                     row["objective"].get<std::string>() + "_" +
+                     row["constants"].get<std::string>() + "_" + std::to_string(info.index);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
-// What the search contributes to the certified optimum of the RTC France cell: the best bird with its own
-// polish alone, and the whole set of starts, for MLO, for differential evolution and for random points.
+INSTANTIATE_TEST_SUITE_P(Data, CertifiedOptimum, ::testing::ValuesIn(ExpectedRows()), RowName);
+
+// What the search contributes to the certified optimum of the RTC France cell: the best bird with
+// its own polish alone, and the whole set of starts, for MLO, for differential evolution and for
+// random points.
 TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
   const IvCurve curve = DataSet("rtc_france");
   std::printf("hits of %d: best bird's own polish / all starts\n", kSeeds);
@@ -130,7 +138,9 @@ TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
   }
 }
 
-class OneValue : public ::testing::TestWithParam<std::tuple<const char*, Model, Objective>> {};
+using Case = std::tuple<std::string, Model, Objective>;
+
+class OneValue : public ::testing::TestWithParam<Case> {};
 
 TEST_P(OneValue, IsReachedFromEverySeed) {
   const auto [name, model, objective] = GetParam();
@@ -144,8 +154,15 @@ TEST_P(OneValue, IsReachedFromEverySeed) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9e", *low);
   RecordProperty("rmse_A", text);
-  std::printf("%s %s %s: %s A from %d of %d seeds\n", name, ToText(model).c_str(),
+  std::printf("%s %s %s: %s A from %d of %d seeds\n", name.c_str(), ToText(model).c_str(),
               ToText(objective).c_str(), text, static_cast<int>(rmse.size()), kSeeds);
+}
+
+std::string CaseName(const ::testing::TestParamInfo<Case>& info) {
+  const auto& [data_set, model, objective] = info.param;
+  std::string name = data_set + "_" + ToText(model) + "_" + ToText(objective);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -153,7 +170,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values("stm6_40_36", "stp6_120_36", "pwp201", "msx60"),
                        ::testing::Values(Model::kSingleDiode, Model::kDoubleDiode,
                                          Model::kTripleDiode),
-                       ::testing::Values(Objective::kMeasuredCurrent, Objective::kSolvedCurrent)));
+                       ::testing::Values(Objective::kMeasuredCurrent, Objective::kSolvedCurrent)),
+    CaseName);
 
 }  // namespace
 }  // namespace lyrefit

@@ -14,7 +14,7 @@ OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double
   const double limit = JunctionVoltageLimit(prepared, voltage_V);
   OperatingPoint point;
   point.junction_voltage_V = voltage_V + prepared.rs * prepared.largest_current;
-  SolveTogether(prepared, limit, 1, &voltage_V, &point.junction_voltage_V, &point.current_A);
+  SolveTogether<1>(prepared, limit, &voltage_V, &point.junction_voltage_V, &point.current_A);
   point.conductance_S =
       PreparedCurrent(prepared, Slope<double>(point.junction_voltage_V, 1.0)).slope;
   return point;

@@ -99,57 +99,87 @@ LYREFIT_OP double Sum(const Pack& a) {
          ((b.lane[2] + b.lane[6]) + (b.lane[3] + b.lane[7]));
 }
 
+template <int kValue>
+struct Constant {
+  static constexpr int value = kValue;
+};
+
+// Squared residuals of `kCount` blocks; the count is a constant, so that the loops unroll and the
+// chains of all blocks are in flight at once.
+template <int kCount>
+LYREFIT_OP Pack MeasuredSquares(const PreparedDevice& d, const Block* voltage, const Block* current,
+                                const Block* weight) {
+  Pack vd[kCount], model[kCount];
+  for (int k = 0; k < kCount; ++k) {
+    const Pack measured = Load(current[k]);
+    vd[k] = Load(voltage[k]) + measured * d.rs;
+    model[k] = -measured;
+  }
+  for (int t = 0; t < d.count; ++t) {
+    const PreparedTerm<double> term = d.terms[t];
+    for (int k = 0; k < kCount; ++k) model[k] = model[k] + TermCurrent(term, vd[k]);
+  }
+  Pack sum(0.0);
+  for (int k = 0; k < kCount; ++k) sum = sum + model[k] * model[k] * Load(weight[k]);
+  return sum;
+}
+
+// Calls work(constant 4 .. 1, first block) over all blocks, four at a time as long as there are
+// four.
+template <class Work>
+LYREFIT_OP void OverBlocks(const PointSet& points, const Work& work) {
+  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
+  int first = 0;
+  for (; first + 4 <= blocks; first += 4) work(Constant<4>{}, first);
+  if (blocks - first == 3) work(Constant<3>{}, first);
+  if (blocks - first == 2) work(Constant<2>{}, first);
+  if (blocks - first == 1) work(Constant<1>{}, first);
+}
+
 static double MeasuredMeanSquare(const PreparedDevice& d, const PointSet& points) {
   const Block* voltage = points.voltage_V.data();
   const Block* current = points.current_A.data();
   const Block* weight = points.weight.data();
-  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
   Pack sum(0.0);
-  for (int k = 0; k < blocks; ++k) {
-    const Pack measured = Load(current[k]);
-    const Pack residual = PreparedCurrent(d, Load(voltage[k]) + measured * d.rs) - measured;
-    sum = sum + residual * residual * Load(weight[k]);
-  }
+  OverBlocks(points, [&](auto count, int first) {
+    sum = sum + MeasuredSquares<count.value>(d, voltage + first, current + first, weight + first);
+  });
   return Sum(sum) / points.size;
-}
-
-// Up to kMostTogether blocks of voltages from `first` on; the starts stand in `junction`.
-LYREFIT_OP int LoadVoltages(const PointSet& points, int first, int blocks, Pack* voltage) {
-  const int count = blocks - first < kMostTogether ? blocks - first : kMostTogether;
-  const Block* all = points.voltage_V.data();
-  for (int k = 0; k < count; ++k) voltage[k] = Load(all[first + k]);
-  return count;
 }
 
 static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points,
                                double diode_limit) {
+  const Block* voltage = points.voltage_V.data();
   const Block* current = points.current_A.data();
   const Block* weight = points.weight.data();
-  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
   Pack sum(0.0);
-  Pack voltage[kMostTogether], junction[kMostTogether], solved[kMostTogether];
-  for (int first = 0; first < blocks; first += kMostTogether) {
-    const int count = LoadVoltages(points, first, blocks, voltage);
-    for (int k = 0; k < count; ++k) junction[k] = voltage[k] + Load(current[first + k]) * d.rs;
-    SolveTogether(d, diode_limit, count, voltage, junction, solved);
-    for (int k = 0; k < count; ++k) {
+  OverBlocks(points, [&](auto count, int first) {
+    Pack v[count.value], junction[count.value], solved[count.value];
+    for (int k = 0; k < count.value; ++k) {
+      v[k] = Load(voltage[first + k]);
+      junction[k] = v[k] + Load(current[first + k]) * d.rs;
+    }
+    SolveTogether<count.value>(d, diode_limit, v, junction, solved);
+    for (int k = 0; k < count.value; ++k) {
       const Pack residual = solved[k] - Load(current[first + k]);
       sum = sum + residual * residual * Load(weight[first + k]);
     }
-  }
+  });
   return Sum(sum) / points.size;
 }
 
 static void SolveCurrents(const PreparedDevice& d, const PointSet& points, double diode_limit,
                           Block* current) {
-  const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;
-  Pack voltage[kMostTogether], junction[kMostTogether], solved[kMostTogether];
-  for (int first = 0; first < blocks; first += kMostTogether) {
-    const int count = LoadVoltages(points, first, blocks, voltage);
-    for (int k = 0; k < count; ++k) junction[k] = voltage[k] + Pack(d.rs * d.largest_current);
-    SolveTogether(d, diode_limit, count, voltage, junction, solved);
-    for (int k = 0; k < count; ++k) Store(solved[k], &current[first + k]);
-  }
+  const Block* voltage = points.voltage_V.data();
+  OverBlocks(points, [&](auto count, int first) {
+    Pack v[count.value], junction[count.value], solved[count.value];
+    for (int k = 0; k < count.value; ++k) {
+      v[k] = Load(voltage[first + k]);
+      junction[k] = v[k] + Pack(d.rs * d.largest_current);
+    }
+    SolveTogether<count.value>(d, diode_limit, v, junction, solved);
+    for (int k = 0; k < count.value; ++k) Store(solved[k], &current[first + k]);
+  });
 }
 
 extern const Kernel kKernel;

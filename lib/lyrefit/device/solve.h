@@ -98,7 +98,7 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   return limit;
 }
 
-// Roots of g(Vd) = Vd - V - Rs F(Vd) at `count` voltages, and the currents there. F falls and is
+// Roots of g(Vd) = Vd - V - Rs F(Vd) at `kCount` voltages, and the currents there. F falls and is
 // concave in Vd, so g rises and is convex: from any start one Newton step lands at or right of the
 // root, a limit keeps it from flying off, and from there Newton falls monotonically on the root.
 // Convergence is quadratic with constant 1 / (2 n Ns Vt); the last step is small enough for the
@@ -106,25 +106,23 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
 // chain of dependent operations, and the processor works on several chains at once. The current is
 // read off the flatter of the two curves that cross at the root: F itself, or (Vd - V) / Rs.
 // `junction` holds the starts on entry and the junction voltages on return.
-constexpr int kMostTogether = 4;
-
-template <class T>
-void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const T* voltage,
-                   T* junction, T* current) {
+template <int kCount, class T>
+void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage, T* junction,
+                   T* current) {
   constexpr int kMaxIterations = 100;
   const double rs = d.rs;
   const double small_step = 2e-8 / d.steepest;
   const double divider = 1.0 / (1.0 + rs * d.shunt_conductance);
-  T limit[kMostTogether];
-  T slope[kMostTogether];
-  for (int k = 0; k < count; ++k) {
+  T limit[kCount];
+  T slope[kCount];
+  for (int k = 0; k < kCount; ++k) {
     const T raw = Smaller((voltage[k] + T(rs * d.largest_current)) * divider, T(diode_limit));
     limit[k] = raw + (Magnitude(raw) + Magnitude(voltage[k])) * 1e-13;
     junction[k] = Smaller(junction[k], limit[k]);
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     T excess = T(-1.0);  // by how much any step is still too long
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < kCount; ++k) {
       const T x = junction[k];
       const Slope<T> f = PreparedCurrent(d, Slope<T>(x, T(1.0)));
       const T next =
@@ -138,7 +136,7 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, int count, const
     if (All(excess < T(small_step))) break;
   }
   if (!(rs > 0)) return;
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < kCount; ++k) {
     current[k] =
         Choose(slope[k] * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs), current[k]);
   }

@@ -10,41 +10,19 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/device/current.h"
 #include "lyrefit/device/model_points.h"
+#include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/warnings.h"
-#include "lyrefit/refine/coordinates.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kGridStarts = 4;
-
-// Value of each parameter that the user fixed, NaN for the others.
-Expected<std::vector<double>> FixedValues(const std::map<std::string, double>& fixed,
-                                          const Device& device) {
-  std::vector<double> values(device.size(), kUnknown);
-  for (const auto& [key, value] : fixed) {
-    bool known = false;
-    for (int i = 0; i < device.size(); ++i) {
-      const ParameterInfo& info = device.parameters[i];
-      const bool group = (key == "Is" && Coordinates::IsSaturation(i)) ||
-                         (key == "n" && Coordinates::IsIdeality(i));
-      if (!group && info.symbol != key && info.name != key) continue;
-      const bool must_be_positive = Coordinates::IsIdeality(i) || i == kRsh;
-      if (!std::isfinite(value) || value < 0 || (must_be_positive && value <= 0)) {
-        return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key,
-                                value, must_be_positive ? "above 0" : "of 0 or more"));
-      }
-      values[i] = value;
-      known = true;
-    }
-    if (!known) return Fail(fmt::format("cannot fix '{}': this model has no such parameter", key));
-  }
-  return values;
-}
 
 // What the stages of one fit hand to each other.
 struct Job {
@@ -136,71 +114,6 @@ std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
     elites.push_back(p);
   }
   return elites;
-}
-
-// Reweights for a robust loss until the weights stand still; the result is a weighted problem whose
-// least-squares solution is the robust estimate.
-void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end) {
-  constexpr int kRounds = 50;
-  const std::vector<double> given = problem->weights;
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<double> residual;
-    for (std::size_t k = 0; k < given.size(); ++k) {
-      const double model =
-          problem->objective == Objective::kMeasuredCurrent
-              ? ExplicitCurrent(problem->device, end->p.data(), problem->voltage_V[k],
-                                problem->current_A[k])
-              : SolveOperatingPoint(problem->device, end->p.data(), problem->voltage_V[k])
-                    .current_A;
-      residual.push_back((model - problem->current_A[k]) * std::sqrt(given[k]));
-    }
-    const double unit = RobustScale(residual) * options.loss_scale;
-    if (!(unit > 0)) return;
-    std::vector<double> weights;
-    for (std::size_t k = 0; k < given.size(); ++k) {
-      const double u = std::fabs(residual[k]) / unit;
-      weights.push_back(given[k] *
-                        (options.loss == Loss::kHuber ? std::min(1.0, 1 / u) : 1 / (1 + u * u)));
-    }
-    const Kernel* kernel = problem->kernel;
-    *problem =
-        MakeRefineProblem(problem->device, problem->objective, problem->voltage_V,
-                          problem->current_A, std::move(weights), problem->lower, problem->upper);
-    problem->kernel = kernel;
-    const std::vector<double> before = end->p;
-    *end = Refine(*problem, end->p);
-    double moved = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      moved = std::max(moved, std::fabs(end->p[i] - before[i]) / (std::fabs(before[i]) + 1e-300));
-    }
-    if (moved < 1e-9) return;
-  }
-}
-
-// Puts interchangeable diodes in order of rising n, vanished ones last.
-void OrderDiodes(const std::vector<ParameterBounds>& bounds, std::vector<double>* p,
-                 std::vector<bool>* held) {
-  const int diodes = (static_cast<int>(p->size()) - 3) / 2;
-  const auto same = [&](int a, int b) {
-    return bounds[a].lower == bounds[b].lower && bounds[a].upper == bounds[b].upper;
-  };
-  for (int pass = 0; pass < diodes; ++pass) {
-    for (int d = 0; d + 1 < diodes; ++d) {
-      const int is = SaturationCurrentIndex(d), next_is = SaturationCurrentIndex(d + 1);
-      const int n = IdealityIndex(d), next_n = IdealityIndex(d + 1);
-      if (!same(is, next_is) || !same(n, next_n)) continue;
-      const bool first_gone = (*p)[is] <= 0, second_gone = (*p)[next_is] <= 0;
-      const bool swap = first_gone != second_gone ? first_gone : (*p)[next_n] < (*p)[n];
-      if (!swap) continue;
-      for (const auto& [a, b] : {std::pair(is, next_is), std::pair(n, next_n)}) {
-        std::swap((*p)[a], (*p)[b]);
-        if (held == nullptr) continue;
-        const bool first = (*held)[a];
-        (*held)[a] = (*held)[b];
-        (*held)[b] = first;
-      }
-    }
-  }
 }
 
 // RMSE of the straight line through the points: what a fit must at least beat.

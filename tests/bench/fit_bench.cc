@@ -129,6 +129,12 @@ void Register(Model model, Objective objective) {
     };
   };
   peer("NLopt CRS2+SLSQP", nlopt(false), 2);
+  peer(
+      "NLopt CRS2+SLSQP, one setting for all",
+      [=](const PeerProblem& problem, std::uint64_t seed) {
+        return RunNlopt(problem, seed, UniformNlopt(model));
+      },
+      2);
   peer("NLopt CRS2+SLSQP, told", nlopt(true), 0);
   peer(
       "pagmo2 de1220, told",

@@ -56,6 +56,13 @@ NloptSettings TunedNlopt(Model model, Objective objective, bool told) {
   }
 }
 
+NloptSettings UniformNlopt(Model model) {
+  NloptSettings settings =
+      TunedNlopt(Model::kDoubleDiode, Objective::kMeasuredCurrent, /*told=*/false);
+  settings.population = 2 * (2 * static_cast<int>(model) + 4);
+  return settings;
+}
+
 PeerEnd RunNlopt(const PeerProblem& problem, std::uint64_t seed, const NloptSettings& settings) {
   const auto dimensions = static_cast<unsigned>(problem.dimensions());
   const double target = settings.told ? problem.target() : 0;

@@ -55,6 +55,10 @@ struct NloptSettings {
 // each problem. Untold, that takes several rounds, since the single one often ends elsewhere.
 NloptSettings TunedNlopt(Model model, Objective objective, bool told);
 
+// One setting for every model and objective, as lyrefit has one: what the hardest of the six
+// problems (two diodes, measured-current) asks for.
+NloptSettings UniformNlopt(Model model);
+
 // Controlled random search with local mutation (NLOPT_GN_CRS2_LM), then sequential quadratic
 // programming from its best point (NLOPT_LD_SLSQP) with exact gradients.
 PeerEnd RunNlopt(const PeerProblem& problem, std::uint64_t seed, const NloptSettings& settings);

@@ -96,6 +96,8 @@ TEST(Fit, JsonKeepsTheContract) {
     EXPECT_TRUE(j["search"][key].is_number()) << key;
   }
   EXPECT_TRUE(j["search"]["termination"].is_string());
+  ASSERT_EQ(j["search"]["trace"].size(), 21U);
+  EXPECT_EQ(j["search"]["trace"].back()["best_A"], j["rmse"]["searched"]["solved_current_A"]);
   for (const char* key : {"starts", "agreeing", "projected_gradient", "seconds"}) {
     EXPECT_TRUE(j["refine"][key].is_number()) << key;
   }

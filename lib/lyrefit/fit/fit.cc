@@ -187,6 +187,7 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
     echo("fix", fmt::format("{}={:g}", key, value), "");
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
   AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
+  echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
   echo("polish", options.polish ? "yes" : "no", "yes");
   echo("loss", ToText(options.loss), ToText(defaults.loss));
   echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));

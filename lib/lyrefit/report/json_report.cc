@@ -104,6 +104,12 @@ Json CorrelationsJson(const std::vector<Correlation>& correlations) {
 Json SearchJson(const FitReport& report) {
   const SearchOptions& options = report.search_options;
   const SearchSummary& search = report.search;
+  Json trace = Json::array();
+  for (const TracePoint& point : search.trace) {
+    trace.push_back({{"iteration", point.iteration},
+                     {"evaluations", point.evaluations},
+                     {"best_A", Number(point.best)}});
+  }
   return {{"algorithm", ToText(options.algorithm)},
           {"seed", options.seed},
           {"run", options.run},
@@ -113,7 +119,8 @@ Json SearchJson(const FitReport& report) {
           {"termination", ToText(search.termination)},
           {"message", search.message},
           {"seconds", Number(search.seconds)},
-          {"elites", search.elites.size()}};
+          {"elites", search.elites.size()},
+          {"trace", std::move(trace)}};
 }
 
 Json RefineJson(const RefineReport& refine) {

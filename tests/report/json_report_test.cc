@@ -30,7 +30,7 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
                                         "iterations", "evaluations", "termination", "message",
-                                        "seconds",    "elites", "trace"};
+                                        "seconds",    "elites",      "trace"};
   EXPECT_EQ(Keys(j["search"]), search);
   const std::set<std::string> refine = {"termination", "message", "starts",
                                         "agreeing",    "winner",  "projected_gradient",

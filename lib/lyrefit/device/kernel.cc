@@ -59,6 +59,7 @@ PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<do
   CHECK_EQ(voltage_V.size(), current_A.size());
   PointSet points;
   points.size = static_cast<int>(voltage_V.size());
+  points.inverse_size = 1.0 / points.size;
   points.largest_voltage_V = *std::max_element(voltage_V.begin(), voltage_V.end());
   points.voltage_V = ToBlocks(voltage_V, voltage_V.back());
   points.current_A = ToBlocks(current_A, current_A.back());

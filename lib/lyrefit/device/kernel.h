@@ -16,6 +16,7 @@ struct alignas(64) Block {
 
 struct PointSet {
   int size = 0;
+  double inverse_size = 0;
   double largest_voltage_V = 0;
   std::vector<Block> voltage_V;
   std::vector<Block> current_A;

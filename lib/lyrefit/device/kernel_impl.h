@@ -144,7 +144,7 @@ static double MeasuredMeanSquare(const PreparedDevice& d, const PointSet& points
   OverBlocks(points, [&](auto count, int first) {
     sum = sum + MeasuredSquares<count.value>(d, voltage + first, current + first, weight + first);
   });
-  return Sum(sum) / points.size;
+  return Sum(sum) * points.inverse_size;
 }
 
 static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points,
@@ -165,7 +165,7 @@ static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points,
       sum = sum + residual * residual * Load(weight[first + k]);
     }
   });
-  return Sum(sum) / points.size;
+  return Sum(sum) * points.inverse_size;
 }
 
 static void SolveCurrents(const PreparedDevice& d, const PointSet& points, double diode_limit,

@@ -67,7 +67,7 @@ std::vector<double> RefinedFromAllSeeds(const IvCurve& curve, FitOptions options
     if (!report) return rmse;
     EXPECT_LE(report->search.evaluations, 5000);
     // A cosine; on MSX-60 the residuals are only 1e10 roundings of the current high.
-    EXPECT_LE(report->refine.projected_gradient, 1e-5);
+    EXPECT_LE(report->refine.projected_gradient, curve.name == "msx60" ? 1e-5 : 1e-6);
     rmse.push_back(report->rmse.refined.Of(options.objective));
   }
   return rmse;

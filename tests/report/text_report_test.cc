@@ -115,7 +115,8 @@ TEST(FullReport, ShowsHowItWasFound) {
   const std::string text = FullReport(SampleReport());
   EXPECT_THAT(LineWith(text, "  search "),
               HasSubstr("mlo, seed 7, 30 birds x 40 iterations, 1200 evaluations"));
-  EXPECT_THAT(text, HasSubstr("2 of 3 agree within 1e-9; the best end came from start 2: elite 2"));
+  EXPECT_THAT(text,
+              HasSubstr("2 of 3 came to the same curve; the best end came from start 2: elite 2"));
   EXPECT_THAT(text, HasSubstr("seed = 7 (default 0)"));
   EXPECT_THAT(text, HasSubstr("irradiance not given: assumed 1000 W/m2"));
 }

@@ -70,12 +70,13 @@ struct RmseTable {
   RmsePair refined;             // the best end of all starts
 };
 
-// One start of the polish and where it ended.
+// One start of the polish and where it ended. Starts whose descents come to the same curve, to a
+// thousandth of its RMSE, are polished once and share that end.
 struct StartReport {
   std::string origin;  // "best bird", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
   double start_rmse_A = kUnknown;  // both of the objective that was fitted
   double end_rmse_A = kUnknown;
-  bool agrees = false;  // ended within 1e-9 relative of the best end
+  bool agrees = false;  // shares the best end, or its own is within 1e-9 relative of it
 };
 
 struct RefineReport {
@@ -83,7 +84,7 @@ struct RefineReport {
   std::string message;
   std::vector<StartReport> starts;  // in the order tried; enough that agree end the trying
   int winner = -1;                  // index into starts
-  int agreeing = 0;                 // starts that end within 1e-9 relative of the best
+  int agreeing = 0;                 // starts for which `agrees` holds
   // Largest cosine between the residual and a column of the Jacobian whose parameter is free to
   // move downhill: 0 at an exact optimum, at most 1.
   double projected_gradient = kUnknown;

@@ -11,6 +11,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/device/kernel.h"
+#include "lyrefit/device/model_points.h"
 
 namespace lyrefit {
 namespace {
@@ -84,34 +85,15 @@ Expected<void> CheckOptions(const SimulateOptions& options) {
   return {};
 }
 
-// Where the current is zero; there the junction sees the terminal voltage.
-std::optional<double> OpenCircuitVoltage(const Device& device, const std::vector<double>& p) {
-  const auto current = [&](double voltage_V) {
-    return JunctionCurrent(device, p.data(), voltage_V);
-  };
-  if (!(current(0.0) > 0)) return std::nullopt;
-  double low = 0;
-  double high = device.module_thermal_voltage_V;
-  while (current(high) > 0) {
-    low = high;
-    high *= 2;
-    if (!std::isfinite(high)) return std::nullopt;
-  }
-  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
-    const double middle = low + (high - low) / 2;
-    (current(middle) > 0 ? low : high) = middle;
-  }
-  return high;
-}
-
 Expected<std::vector<double>> Voltages(const SimulateOptions& options, const Device& device,
                                        const std::vector<double>& p) {
   if (!options.voltage_V.empty()) return options.voltage_V;
-  const std::optional<double> voc = OpenCircuitVoltage(device, p);
-  if (!voc) return Fail("the device has no open-circuit voltage to end at: give the voltages");
+  const double voc = ModelKeyPoints(device, p.data()).open_circuit_voltage_V;
+  if (std::isnan(voc))
+    return Fail("the device has no open-circuit voltage to end at: give the voltages");
   std::vector<double> voltage_V(options.points);
   for (int i = 0; i < options.points; ++i) {
-    voltage_V[i] = kBeyondOpenCircuit * *voc * i / (options.points - 1);
+    voltage_V[i] = kBeyondOpenCircuit * voc * i / (options.points - 1);
   }
   return voltage_V;
 }

@@ -43,7 +43,7 @@ std::string PolishText(const RefineReport& refine) {
 
 std::string StartsText(const RefineReport& refine) {
   const int starts = static_cast<int>(refine.starts.size());
-  std::string text = fmt::format("{} of {} agree within 1e-9", refine.agreeing, starts);
+  std::string text = fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
   if (refine.winner >= 0 && refine.winner < starts) {
     text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
                         refine.starts[refine.winner].origin);

@@ -9,11 +9,13 @@ set(ALLOWED_curve base)
 set(ALLOWED_device base curve)
 set(ALLOWED_search base)  # knows no photovoltaics
 set(ALLOWED_refine base curve device)
-set(ALLOWED_fit base curve device search refine)
+set(ALLOWED_certify base curve device refine)
+set(ALLOWED_fit base curve device search refine certify)
+set(ALLOWED_study base curve device search refine certify fit)
 set(ALLOWED_effects base curve device)  # knows no fitting
 set(ALLOWED_diagnose base curve device search refine fit effects)
-set(ALLOWED_report base curve device search fit diagnose)  # computes nothing
-set(ROOMS base curve device search refine fit effects diagnose report)
+set(ALLOWED_report base curve device search certify fit study diagnose)  # computes nothing
+set(ROOMS base curve device search refine certify fit study effects diagnose report)
 
 set(BROKEN 0)
 macro(complain text)

@@ -94,7 +94,9 @@ std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
     space.ToParameters(x, p.data());
     return std::sqrt(MeanSquare(job->problem, p));
   };
-  report->search = Search(objective, space.box(), job->options.search, job->observer);
+  const SearchFunction& searcher = job->options.searcher;
+  report->search = searcher ? searcher(objective, space.box(), job->options.search, job->observer)
+                            : Search(objective, space.box(), job->options.search, job->observer);
   job->stopped = report->search.termination == SearchTermination::kInterrupted;
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
   if (job->options.random_baseline && !is_random && !job->stopped) {
@@ -185,6 +187,8 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   }
   for (const auto& [key, value] : options.fixed)
     echo("fix", fmt::format("{}={:g}", key, value), "");
+  echo("searcher", options.searcher ? "custom" : "", "");
+  echo("plain-polish", options.plain_polish ? "yes" : "no", "no");
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
   AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
   echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
@@ -252,6 +256,10 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   const std::vector<std::vector<double>> elites = RunSearch(&job, &report);
   report.searched = report.refined = elites[0];
   OrderDiodes(job.bounds, &report.searched, nullptr);
+  if (options.plain_polish) {
+    const RefineEnd plain = RefinePlainly(job.problem, elites[0]);
+    report.rmse.plain_polished = BothRmse(report.device, plain.p, curve);
+  }
   if (options.polish) {
     PolishAndJudge(&job, elites, &report);
   } else {

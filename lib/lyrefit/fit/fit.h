@@ -45,9 +45,12 @@ struct FitOptions {
   BoundsSpec bounds;                    // physical ones derived from the curve unless said
   std::map<std::string, double> fixed;  // by symbol or name: "n2" -> 2
   SearchOptions search;
+  SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
   bool random_baseline =
       true;  // print the best of as many random points beside the search's figure
   bool polish = true;
+  bool plain_polish =
+      false;  // also try one bounded least-squares solve from the best bird, and nothing more
   Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
   Intervals intervals =

@@ -66,6 +66,7 @@ struct RmsePair {
 struct RmseTable {
   RmsePair random_baseline;     // best of as many uniform random points as the search evaluated
   RmsePair searched;            // the metaheuristic's best bird as it is
+  RmsePair plain_polished;      // that bird after one bounded solve in all parameters, if asked for
   RmsePair best_bird_polished;  // that bird after its own polish
   RmsePair refined;             // the best end of all starts
 };

@@ -38,17 +38,26 @@ class Polish {
       HoldWhatPresses();
       settled = SolveFree() && !ReleaseOne() && !LetDiodeIn();
     }
+    return End(settled && solver_converged_);
+  }
+
+  RefineEnd RunPlainly() {
+    Solve(/*bounded=*/true, options_.function_tolerance, options_.max_iterations);
+    return End(solver_converged_);
+  }
+
+ private:
+  RefineEnd End(bool converged) const {
     RefineEnd end;
     end.p = p_;
     end.held = held_;
     end.mean_square = mean_square_;
     end.iterations = iterations_;
     end.projected_gradient = ProjectedGradient();
-    end.converged = settled && solver_converged_;
+    end.converged = converged;
     return end;
   }
 
- private:
   int size() const { return problem_.device.size(); }
   bool vanished(int is) const { return held_[is] && p_[is] <= 0; }
 
@@ -310,6 +319,11 @@ bool Polish::LetDiodeIn() {
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
   return Polish(problem, std::move(start), options).Run();
+}
+
+RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,
+                        const RefineOptions& options) {
+  return Polish(problem, std::move(start), options).RunPlainly();
 }
 
 }  // namespace lyrefit

@@ -34,4 +34,9 @@ struct RefineEnd {
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options = {});
 
+// One bounded Ceres solve in all parameters at once and nothing more: what a metaheuristic followed
+// by least squares usually means, and the yardstick for Refine. `max_rounds` is not used.
+RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,
+                        const RefineOptions& options = {});
+
 }  // namespace lyrefit

@@ -128,6 +128,12 @@ struct Box {
 // for the same point; NaN counts as infinity.
 using ObjectiveFunction = std::function<double(const double*)>;
 
+// Any search with this signature can take the place of Search(): it must come back with the best
+// point, at least one elite, the trace and the count of evaluations, and the same for the same seed
+// and run.
+using SearchFunction = std::function<SearchSummary(const ObjectiveFunction&, const Box&,
+                                                   const SearchOptions&, const Observer&)>;
+
 // Minimises `objective` over the box. Same seed and run, same bits. Options must be valid and the
 // box sound (CHECKed); a search that stops early is a result, see `termination`.
 SearchSummary Search(const ObjectiveFunction& objective, const Box& box,

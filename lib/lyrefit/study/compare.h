@@ -1,0 +1,139 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/search/search.h"
+#include "lyrefit/study/rank_tests.h"
+
+namespace lyrefit {
+
+// One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
+// run r all of ours start from the same first birds.
+struct Contender {
+  std::string name;  // as tables show it: "mlo", "pagmo:de1220"
+  SearchOptions search;
+  SearchFunction searcher;  // empty: Search()
+};
+
+struct CompareCurve {
+  IvCurve curve;
+  BoundsSpec bounds;
+};
+
+struct CompareOptions {
+  std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
+  Objective objective = Objective::kMeasuredCurrent;  // of search, polish and every figure
+  ConstantSet constants = ConstantSet::kCodata;
+  std::uint64_t seed = 0;
+  int runs = 50;             // of each contender on each problem: runs 0 .. runs - 1 of the seed
+  double target_gap = 1e-3;  // relative distance from the reference that counts as "reached"
+  bool polish = true;
+  bool plain_polish = false;  // see FitOptions
+  int threads = 0;            // 0: all cores; never changes a result but the seconds
+  const Kernel* kernel = nullptr;
+};
+
+// RMSE in ampere, all of the objective compared. NaN: not asked for.
+struct RunRecord {
+  double searched_A = kUnknown;
+  double plain_polished_A = kUnknown;  // one bounded solve from the best bird
+  double own_polished_A = kUnknown;    // the best bird's own polish
+  double polished_A = kUnknown;        // the hybrid: best of all starts
+  std::int64_t evaluations = 0;
+  std::int64_t evaluations_to_target = -1;  // of the search alone; -1: never reached
+  double search_seconds = 0;
+  double polish_seconds = 0;
+};
+
+struct Spread {
+  double min = kUnknown;
+  double mean = kUnknown;
+  double median = kUnknown;
+  double max = kUnknown;
+  double std = kUnknown;  // n - 1 in the denominator; 0 for one run
+  int within_1e9 = 0;     // runs no more than that far (relative) above the reference
+  int within_1e6 = 0;
+};
+
+struct ContenderResult {
+  std::string name;
+  SearchOptions search;
+  std::vector<RunRecord> runs;
+  Spread searched;
+  Spread plain_polished;
+  Spread own_polished;
+  Spread polished;
+  int target_hits = 0;                     // runs whose search reached the target
+  double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
+                                           // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit
+  double search_seconds = 0;               // mean of a run
+  double polish_seconds = 0;
+  std::vector<TracePoint> trace;  // median over the runs of the best so far
+};
+
+// What the runs are measured against.
+struct Reference {
+  double rmse_A = kUnknown;
+  bool certified = false;  // proved: no parameters within the bounds are lower by 1e-9 or more
+  double lower_bound_A = kUnknown;  // proved lower bound, NaN: none
+  std::string origin;               // in plain words
+};
+
+// Ranks of the contenders with the runs as blocks.
+struct Ranking {
+  Friedman friedman;
+  std::vector<RankPair> pairs;  // every pair of contenders
+  struct SignedRank {
+    int first = 0;
+    int second = 0;
+    Wilcoxon test;
+    double p_holm = 1;  // over all pairs
+  };
+  std::vector<SignedRank> signed_ranks;  // every pair
+};
+
+// One curve with one model.
+struct ProblemResult {
+  std::string curve_name;
+  Model model = Model::kSingleDiode;
+  std::string bounds_name;
+  Reference reference;
+  std::vector<ContenderResult> contenders;
+  Ranking searched;
+  Ranking polished;  // the hybrid's figures; those within 1e-9 of each other count as equal
+};
+
+struct Comparison {
+  std::string version;
+  CompareOptions options;
+  std::vector<ProblemResult> problems;  // curves in the order given, each with all models
+  double seconds = 0;
+  bool interrupted = false;  // problems not complete are left out
+};
+
+// Runs every contender `runs` times on every curve with every model. Errors: an unusable curve,
+// options outside their ranges, bounds that do not fit a model, no or two equal contender names.
+Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
+                             const std::vector<Contender>& contenders,
+                             const CompareOptions& options = {}, const Observer& observer = {});
+
+// Contenders for the common studies. `search` gives population, iterations and the settings of the
+// algorithms.
+std::vector<Contender> PlainContenders(const std::vector<Algorithm>& algorithms,
+                                       const SearchOptions& search);
+// MLO at every Pm and gamma, Pm the outer loop.
+std::vector<Contender> SensitivityContenders(const std::vector<double>& memory_rates,
+                                             const std::vector<double>& distance_coefficients,
+                                             const SearchOptions& search);
+// Every algorithm with every budget of evaluations, the algorithm the outer loop. The population is
+// about the root of the budget, 4 to 100.
+std::vector<Contender> BudgetContenders(const std::vector<Algorithm>& algorithms,
+                                        const std::vector<std::int64_t>& budgets);
+
+}  // namespace lyrefit

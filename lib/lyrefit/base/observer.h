@@ -14,6 +14,7 @@ struct Progress {
   std::int64_t evaluations = 0;  // of the objective so far
   double best = 0;               // best objective value so far, in the objective's own unit
   double seconds = 0;            // since the stage began
+  double lower_bound = 0;        // proved for `best`, where the stage proves one
 };
 
 enum class ObserverAction { kContinue, kStop };

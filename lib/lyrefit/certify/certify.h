@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/device/device.h"
+
+namespace lyrefit {
+
+struct CertifyOptions {
+  double n_lower = 1;  // per cell
+  double n_upper = 2;
+  double rs_lower_ohm = 0;
+  double rs_upper_ohm = std::numeric_limits<double>::infinity();  // cut at the largest forward
+                                                                  // voltage / largest current
+  std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
+  ConstantSet constants = ConstantSet::kCodata;
+  double tolerance = 1e-10;     // relative gap of the RMSE that ends the proof
+  std::int64_t effort = 50000;  // convex problems solved for one floor or model before giving up
+};
+
+inline const std::array<OptionRow<CertifyOptions>, 6> kCertifyOptionTable = {{
+    {"n-lower", "", "smallest ideality factor", &CertifyOptions::n_lower, 0.05, 100},
+    {"n-upper", "", "largest ideality factor", &CertifyOptions::n_upper, 0.05, 100},
+    {"rs-lower", "ohm", "smallest series resistance", &CertifyOptions::rs_lower_ohm, 0, 1e12},
+    {"rs-upper", "ohm", "largest series resistance", &CertifyOptions::rs_upper_ohm, 0,
+     std::numeric_limits<double>::infinity()},
+    {"tolerance", "", "relative gap of the RMSE that ends the proof", &CertifyOptions::tolerance,
+     1e-12, 0.1},
+    {"effort", "", "convex problems solved for one floor or model before giving up",
+     &CertifyOptions::effort, 10, 1e9},
+}};
+
+// One diode of the mixture that attains the floor.
+struct FloorDiode {
+  double n = 0;
+  double saturation_current_A = 0;
+  double current_A = 0;  // at the reference voltage
+};
+
+// No measured-current RMSE below `lower_bound_A` is possible for any number of diodes in parallel
+// with n and Rs in the ranges asked for and Iph, Is, 1/Rsh >= 0, and `rmse_A` is attained.
+struct Floor {
+  double rmse_A = 0;
+  double lower_bound_A = 0;
+  double gap = 0;  // (rmse - lower bound) / rmse, over the whole range of Rs
+  double photocurrent_A = 0;
+  double resistance_series_ohm = 0;
+  double conductance_shunt_S = 0;
+  std::vector<FloorDiode> diodes;  // by falling n
+  // The certificate at that Rs: a vector y over the points, orthogonal to or pointing away from
+  // every admissible column, which proves b . y - |y|^2 / 2 <= half the sum of squares.
+  std::vector<double> dual_A;
+  double duality_gap = 0;  // relative, of the sum of squares, what is left of `excess` priced
+  double largest_correlation = 0;  // proved: of y with any diode column, over |y|; 0: none
+  std::int64_t solved = 0;         // convex problems
+};
+
+// The same for a model with a fixed number of diodes.
+struct ModelCertificate {
+  Model model = Model::kSingleDiode;
+  std::vector<double> parameters;  // the best there is, in the device's order
+  double rmse_A = 0;
+  double lower_bound_A = 0;
+  double gap = 0;           // (rmse - lower bound) / rmse
+  double above_floor = 0;   // rmse / floor - 1
+  bool certified = false;   // gap <= kCertifiedGap
+  std::int64_t solved = 0;  // convex problems beyond those of the floor; 0: the floor proves it
+};
+constexpr double kCertifiedGap = 1e-9;
+
+struct Certificate {
+  std::string version;
+  IvCurve curve;
+  CertifyOptions options;
+  double rs_upper_ohm = 0;  // the end of the range as used
+  double reference_voltage_V = 0;
+  double module_thermal_voltage_V = 0;  // Ns k T / q
+  Floor floor;
+  std::vector<ModelCertificate> models;
+  std::vector<OptionEcho> non_default_options;
+  double seconds = 0;
+  bool interrupted = false;
+};
+
+// Proves how low the measured-current RMSE (unweighted) of a curve can go. At each Rs the problem
+// over mixtures of diodes is convex: non-negative least squares over the continuum of n, whose dual
+// vector proves its value (weak duality). Between the Rs visited the interpolated dual vectors
+// prove a lower bound, and a branch and bound over Rs closes the gap. A fixed number of diodes is
+// bounded by mixtures over ever smaller windows of n, one for each diode. All bounds hold up to
+// rounding of double arithmetic. Errors: an unusable curve, no point that delivers current at a
+// forward voltage, options outside their ranges.
+Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options = {},
+                              const Observer& observer = {});
+
+}  // namespace lyrefit

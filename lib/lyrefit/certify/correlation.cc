@@ -1,0 +1,143 @@
+#include "lyrefit/certify/correlation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+// Pieces no wider than this in u x voltage, so that an exponential changes little within one.
+constexpr double kWidestPiece = 0.4;
+constexpr int kDeepest = 48;
+
+// Value and slope of the correlation at u, times a positive factor that is the same for the whole
+// piece: (exp(u0 Vref) - 1) is divided by for the piece's lower end u0, which only enlarges it.
+struct Piece {
+  double lower, upper;
+  int depth;
+};
+
+class Search {
+ public:
+  Search(const Eigen::VectorXd& vd, double reference, const Eigen::VectorXd& y, double allowed)
+      : vd_(vd.array()), y_(y.array()), reference_(reference), allowed_(allowed) {}
+
+  void Look(const Piece& first) {
+    std::vector<Piece> open = {first};
+    while (!open.empty()) {
+      const Piece piece = open.back();
+      open.pop_back();
+      const double middle = 0.5 * (piece.lower + piece.upper);
+      if (Settled(piece)) continue;
+      open.push_back({middle, piece.upper, piece.depth + 1});
+      open.push_back({piece.lower, middle, piece.depth + 1});
+    }
+  }
+
+  const Correlation1D& result() const { return result_; }
+
+ private:
+  // Bounds the piece; true if that ends the matter.
+  bool Settled(const Piece& piece) {
+    const double h = piece.upper - piece.lower;
+    const double factor = -1 / -std::expm1(-piece.lower * reference_);
+    const double floor = std::exp(-piece.lower * reference_);
+    const Eigen::ArrayXd low = ((vd_ - reference_) * piece.lower).exp();
+    const Eigen::ArrayXd high = (vd_ * piece.upper - reference_ * piece.lower).exp();
+    const double c0 = factor * (y_ * (low - floor)).sum();
+    const double c1 = factor * (y_ * (high - floor)).sum();
+    const double slope0 = factor * (y_ * vd_ * low).sum();
+    const double slope1 = factor * (y_ * vd_ * high).sum();
+    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vref), each exponential between its
+    // ends.
+    const Eigen::ArrayXd weight = factor * y_ * vd_.square();
+    const double bend_low = (weight * low).min(weight * high).sum();
+    const double bend_high = (weight * low).max(weight * high).sum();
+    Note(c0, piece.lower);
+    Note(c1, piece.upper);
+    const double ends = std::max(c0, c1);
+    double bound = ends + 0.125 * h * h * std::max(0.0, -bend_low);
+    if (bend_high <= 0) bound = std::min(bound, ConcaveBound(c0, c1, slope0, slope1, h));
+    const bool known_above = ends > allowed_ && bound <= 1.01 * ends;
+    if (bound > allowed_ && !known_above && piece.depth < kDeepest) return false;
+    result_.bound = std::max(result_.bound, bound);
+    return true;
+  }
+
+  static double ConcaveBound(double c0, double c1, double slope0, double slope1, double h) {
+    if (slope0 <= 0) return c0;
+    if (slope1 >= 0) return c1;
+    const double t = (c1 - c0 - slope1 * h) / (slope0 - slope1);
+    return std::max(std::max(c0, c1), c0 + slope0 * std::min(std::max(t, 0.0), h));
+  }
+
+  void Note(double c, double u) {
+    if (c <= result_.best) return;
+    result_.best = c;
+    result_.best_u = u;
+  }
+
+  const Eigen::ArrayXd vd_;
+  const Eigen::ArrayXd y_;
+  const double reference_;
+  const double allowed_;
+  Correlation1D result_;
+};
+
+int PieceCount(const Window& window, const Eigen::VectorXd& vd) {
+  const double span = (window.upper - window.lower) * vd.cwiseAbs().maxCoeff();
+  return std::max(1, static_cast<int>(std::ceil(span / kWidestPiece)));
+}
+
+}  // namespace
+
+Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double reference_voltage_V,
+                               const Eigen::VectorXd& y, const std::vector<Window>& windows,
+                               const std::vector<Atom>& marks, double allowed) {
+  Search search(vd, reference_voltage_V, y, allowed);
+  for (const Window& window : windows) {
+    std::vector<double> ends;
+    const int count = PieceCount(window, vd);
+    for (int i = 0; i <= count; ++i) {
+      ends.push_back(window.lower + (window.upper - window.lower) * i / count);
+    }
+    for (const Atom& mark : marks) {
+      if (mark.u > window.lower && mark.u < window.upper) ends.push_back(mark.u);
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) search.Look({ends[i], ends[i + 1], 0});
+  }
+  return search.result();
+}
+
+double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs, double dr,
+                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double reference_voltage_V) {
+  const Eigen::ArrayXd current = data.current_A.array();
+  const Eigen::ArrayXd v0 = data.voltage_V.array() + rs * current;
+  const Eigen::ArrayXd v1 = v0 + dr * current;
+  const Eigen::ArrayXd step = (y1 - y0).array();
+  const Eigen::ArrayXd y_high = y0.array().max(y1.array());
+  double bend = std::max(0.0, 2 * dr * (current * step).sum() / reference_voltage_V);
+  for (const Window& window : windows) {
+    const int count = std::max(PieceCount(window, v0.matrix()), PieceCount(window, v1.matrix()));
+    const double width = (window.upper - window.lower) / count;
+    for (int i = 0; i < count; ++i) {
+      const double u0 = window.lower + i * width;
+      const double u1 = u0 + width;
+      // Each point adds exp(u v) ((u dr I)^2 y + 2 u dr I dy), bounded term by term.
+      const Eigen::ArrayXd square = (dr * current).square() * y_high;
+      const Eigen::ArrayXd cross = 2 * dr * current * step;
+      const Eigen::ArrayXd factor =
+          (square * (u0 * u0)).max(square * (u1 * u1)) + (cross * u0).max(cross * u1);
+      const Eigen::ArrayXd exponent_low =
+          (v0 * u0).min(v0 * u1).min((v1 * u0).min(v1 * u1)) - u0 * reference_voltage_V;
+      const Eigen::ArrayXd exponent_high =
+          (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * reference_voltage_V;
+      const double sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
+      bend = std::max(bend, sum / -std::expm1(-u0 * reference_voltage_V));
+    }
+  }
+  return bend;
+}
+
+}  // namespace lyrefit

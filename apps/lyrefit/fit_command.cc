@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "interrupt.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/json_report.h"
@@ -14,8 +12,6 @@
 namespace lyrefit {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr char kFitFooter[] =
     "Examples:\n"
     "  lyrefit fit data/rtc_france --model sd\n"
@@ -23,44 +19,6 @@ constexpr char kFitFooter[] =
     "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 the fit is not usable.";
-
-// Bounds published for a data set lie beside its curve.
-Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string& curve_file) {
-  std::error_code error;
-  const fs::path curve(curve_file);
-  const fs::path folder = fs::is_directory(curve, error) ? curve : curve.parent_path();
-  const fs::path file = folder / ("bounds-" + name + ".json");
-  if (!fs::exists(file, error)) {
-    std::string others;
-    for (const char* other : {"paper", "literature"}) {
-      if (!fs::exists(folder / fmt::format("bounds-{}.json", other), error)) continue;
-      others += fmt::format("{}, ", other);
-    }
-    return Fail(
-        fmt::format("--bounds {}: there is no {} beside the curve; there are {}physical and wide",
-                    name, file.string(), others));
-  }
-  Expected<BoundsSpec> spec = ReadBoundsFile(file.string());
-  if (spec) spec->name = name;
-  return spec;
-}
-
-Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file) {
-  if (name == "physical" || name == "wide") {
-    BoundsSpec spec;
-    spec.name = name;
-    return spec;
-  }
-  if (name == "paper" || name == "literature") return PublishedBounds(name, curve_file);
-  std::error_code error;
-  if (!fs::exists(name, error)) {
-    return Fail(
-        fmt::format("--bounds: expected physical, wide, paper, literature or a JSON file, but "
-                    "there is no file '{}'",
-                    name));
-  }
-  return ReadBoundsFile(name);
-}
 
 }  // namespace
 
@@ -99,16 +57,7 @@ void FitCommand::AddModelFlags() {
   AddEnumFlag(command_, "--objective", "which residual is squared", &options_.objective)
       ->group("Model");
   AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Model");
-  command_
-      ->add_option(
-          "--bounds", bounds_,
-          "physical (derived from the curve), wide, paper or literature (published with the "
-          "curve), or a JSON file (default physical)")
-      ->type_name("NAME|FILE")
-      ->group("Model");
-  AddListFlag(command_, "--bound", "range of one parameter, Rs=0:0.5; once for each", &bound_list_)
-      ->type_name("P=LOWER:UPPER")
-      ->group("Model");
+  AddBoundsFlags(command_, "Model", &bounds_);
   AddListFlag(command_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
       ->type_name("P=VALUE")
       ->group("Model");
@@ -122,6 +71,10 @@ void FitCommand::AddSearchFlags() {
 
 void FitCommand::AddPolishFlags() {
   command_->add_flag("--no-polish", no_polish_, "answer with the search's best bird")
+      ->group("Polish");
+  command_
+      ->add_flag("--floor", options_.floor,
+                 "also prove how low the measured-current RMSE can go within the bounds")
       ->group("Polish");
   AddEnumFlag(command_, "--loss", "of the polish", &options_.loss)->group("Polish");
   command_
@@ -172,13 +125,8 @@ Expected<IvCurve> FitCommand::Curve() const {
 }
 
 Expected<void> FitCommand::SetBounds() {
-  Expected<BoundsSpec> spec = NamedBounds(bounds_, curve_file_);
+  Expected<BoundsSpec> spec = BoundsFromFlags(bounds_, curve_file_);
   if (!spec) return tl::unexpected(spec.error());
-  for (const std::string& text : bound_list_) {
-    const auto range = ParseRange("--bound", text);
-    if (!range) return tl::unexpected(range.error());
-    spec->overrides[range->first] = range->second;
-  }
   options_.bounds = std::move(*spec);
   return {};
 }

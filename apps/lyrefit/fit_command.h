@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bounds_flag.h"
 #include "flags.h"
 #include "lyrefit/fit/fit.h"
 
@@ -36,8 +37,7 @@ class FitCommand {
   ConditionFlags conditions_;
   bool auto_model_ = false;
   bool no_polish_ = false;
-  std::string bounds_ = "physical";
-  std::vector<std::string> bound_list_;
+  BoundsFlags bounds_;
   std::vector<std::string> fix_list_;
   std::string kernel_;
   std::string json_file_;

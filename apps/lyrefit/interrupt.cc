@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <string>
 
 namespace lyrefit {
 namespace {
@@ -19,13 +22,37 @@ void OnInterrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-void ShowProgress(const Progress& progress) {
+// "0:42", "1:02:03"
+std::string ClockText(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::min(seconds, 359999.0) + 0.5);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+// "compare [#########...........] 405 of 900, 0:21 left"
+std::string ProgressBar(const Progress& progress) {
+  constexpr std::size_t kWidth = 30;
+  const double part =
+      static_cast<double>(progress.iteration) / static_cast<double>(progress.iterations);
+  const auto filled = static_cast<std::size_t>(std::clamp(part, 0.0, 1.0) * kWidth);
+  std::string line =
+      fmt::format("{} [{}{}] {} of {}", progress.stage, std::string(filled, '#'),
+                  std::string(kWidth - filled, '.'), progress.iteration, progress.iterations);
+  if (part > 0) line += fmt::format(", {} left", ClockText(progress.seconds * (1 / part - 1)));
+  return line;
+}
+
+// One search, whose best is worth watching.
+std::string SearchLine(const Progress& progress) {
   const std::string planned =
       progress.iterations > 0 ? fmt::format(" of {}", progress.iterations) : std::string();
-  const std::string line =
-      fmt::format("{}: iteration {}{}, {} evaluations, best {:.6g}", progress.stage,
-                  progress.iteration, planned, progress.evaluations, progress.best);
-  fmt::print(stderr, "\r{:<79.79}", line);
+  return fmt::format("{}: iteration {}{}, {} evaluations, best {:.6g}", progress.stage,
+                     progress.iteration, planned, progress.evaluations, progress.best);
+}
+
+void ShowProgress(const Progress& progress) {
+  const bool counted = progress.iterations > 0 && progress.stage != "search";
+  fmt::print(stderr, "\r{:<79.79}", counted ? ProgressBar(progress) : SearchLine(progress));
   std::fflush(stderr);
 }
 

@@ -2,11 +2,18 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <string>
 
+#include "audit_command.h"
+#include "budget_command.h"
+#include "compare_command.h"
 #include "fit_command.h"
 #include "lyrefit/base/version.h"
 #include "output.h"
+#include "reproduce_command.h"
+#include "sensitivity_command.h"
 #include "simulate_command.h"
 
 namespace lyrefit {
@@ -17,8 +24,21 @@ constexpr char kFooter[] =
     "  lyrefit fit data/rtc_france\n"
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
     "  lyrefit simulate --from fit.json --out curve.csv\n"
+    "  lyrefit compare data/rtc_france --algorithms lo,mlo,de,random\n"
     "\n"
-    "lyrefit fit --help and lyrefit simulate --help list every flag.";
+    "lyrefit VERB --help lists every flag of a verb.";
+
+// A verb of the command line, whatever its class.
+struct Verb {
+  std::function<bool()> chosen;
+  std::function<int()> run;
+};
+
+template <class Command>
+Verb MakeVerb(CLI::App* app) {
+  const auto command = std::make_shared<Command>(app);
+  return {[command] { return command->Chosen(); }, [command] { return command->Run(); }};
+}
 
 void StartLogging(const char* program, int verbosity) {
   FLAGS_logtostderr = true;
@@ -49,8 +69,12 @@ int Main(int argc, char** argv) {
   app.fallthrough();
   int verbosity = 0;
   app.add_flag("-v,--v,--verbose", verbosity, "log what happens inside; twice for more");
-  FitCommand fit(&app);
-  SimulateCommand simulate(&app);
+  const Verb verbs[] = {
+      MakeVerb<FitCommand>(&app),         MakeVerb<SimulateCommand>(&app),
+      MakeVerb<CompareCommand>(&app),     MakeVerb<BudgetCommand>(&app),
+      MakeVerb<SensitivityCommand>(&app), MakeVerb<AuditCommand>(&app),
+      MakeVerb<ReproduceCommand>(&app),
+  };
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -58,7 +82,10 @@ int Main(int argc, char** argv) {
     return Refuse(CommandLineError(error));
   }
   StartLogging(argv[0], verbosity);
-  return fit.Chosen() ? fit.Run() : simulate.Run();
+  for (const Verb& verb : verbs) {
+    if (verb.chosen()) return verb.run();
+  }
+  return kExitBadInput;  // CLI11 has asked for a verb
 }
 
 }  // namespace

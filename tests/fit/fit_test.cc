@@ -42,6 +42,48 @@ TEST(Fit, SaysWhatIsWrongWithOptions) {
   EXPECT_EQ(ErrorOf(Rtc(), options), "every parameter is fixed: nothing is left to fit");
 }
 
+// Puts all its evaluations on one point.
+SearchSummary StandStill(const ObjectiveFunction& objective, const Box& box,
+                         const SearchOptions& options, const Observer& /*observer*/) {
+  Bird bird;
+  for (std::size_t j = 0; j < box.lower.size(); ++j) {
+    bird.x.push_back(0.5 * (box.lower[j] + box.upper[j]));
+  }
+  bird.objective = objective(bird.x.data());
+  SearchSummary summary;
+  summary.termination = SearchTermination::kEvaluations;
+  summary.best = bird;
+  summary.elites = {bird};
+  summary.evaluations = 1;
+  summary.trace = {{0, 1, bird.objective}};
+  EXPECT_EQ(options.seed, 7U);
+  return summary;
+}
+
+TEST(Fit, TakesASearchOfTheUsersOwn) {
+  FitOptions options;
+  options.searcher = StandStill;
+  options.search.seed = 7;
+  options.intervals = Intervals::kNone;
+  const auto report = Fit(Rtc(), options);
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->search.evaluations, 1);
+  EXPECT_DOUBLE_EQ(report->searched[IdealityIndex(0)], 1.5);
+  EXPECT_NEAR(report->rmse.refined.solved_current_A, 7.730062690e-4, 1e-12);
+  EXPECT_EQ(report->non_default_options.at(0).name, "searcher");
+}
+
+TEST(Fit, ShowsAPlainSolveBesideThePolishWhenAsked) {
+  FitOptions options;
+  options.model = Model::kDoubleDiode;
+  options.intervals = Intervals::kNone;
+  EXPECT_TRUE(std::isnan(Fit(Rtc(), options)->rmse.plain_polished.solved_current_A));
+  options.plain_polish = true;
+  const RmseTable rmse = Fit(Rtc(), options)->rmse;
+  EXPECT_LE(rmse.plain_polished.solved_current_A, rmse.searched.solved_current_A);
+  EXPECT_GE(rmse.plain_polished.solved_current_A, rmse.refined.solved_current_A * (1 - 1e-9));
+}
+
 TEST(Fit, RefusesFewerPointsThanParameters) {
   IvCurve curve = Rtc();
   curve.voltage_V.resize(4);

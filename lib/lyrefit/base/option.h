@@ -59,7 +59,7 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Table& table,
                        std::vector<OptionEcho>* echoes) {
-  const Options defaults{};
+  static const Options defaults;
   for (const OptionRow<Options>& row : table) {
     std::visit(
         [&](auto field) {

@@ -48,11 +48,17 @@ class Search {
     const double c1 = factor * (y_ * (high - floor)).sum();
     const double slope0 = factor * (y_ * vd_ * low).sum();
     const double slope1 = factor * (y_ * vd_ * high).sum();
-    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vref), each exponential between its
-    // ends.
+    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vref). Each exponential lies between
+    // its ends; and the sum stays near the straight line between its own ends, as far as the fourth
+    // derivative lets it.
     const Eigen::ArrayXd weight = factor * y_ * vd_.square();
-    const double bend_low = (weight * low).min(weight * high).sum();
-    const double bend_high = (weight * low).max(weight * high).sum();
+    const double bend0 = (weight * low).sum();
+    const double bend1 = (weight * high).sum();
+    const double bulge = 0.125 * h * h * (weight.abs() * vd_.square() * low.max(high)).sum();
+    const double bend_low =
+        std::max((weight * low).min(weight * high).sum(), std::min(bend0, bend1) - bulge);
+    const double bend_high =
+        std::min((weight * low).max(weight * high).sum(), std::max(bend0, bend1) + bulge);
     Note(c0, piece.lower);
     Note(c1, piece.upper);
     const double ends = std::max(c0, c1);

@@ -12,6 +12,7 @@
 #include "lyrefit/device/model_points.h"
 #include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fixed_values.h"
+#include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/robust.h"
@@ -173,6 +174,27 @@ void FillResults(const Job& job, FitReport* report) {
   report->usable = std::isfinite(solved) && solved < StraightLineRmse(curve);
 }
 
+// How far the answer lies above what any number of diodes could reach.
+void FindFloor(Job* job, FitReport* report) {
+  if (!job->options.floor || job->Stop("floor")) return;
+  const CertifyOptions options = RangesOf(job->bounds, job->options.constants, {});
+  const Expected<Certificate> certificate = Certify(job->curve, options, job->observer);
+  if (!certificate) {
+    report->warnings.push_back("No floor was found: " + certificate.error().message + ".");
+    return;
+  }
+  FloorReport floor;
+  floor.rmse_A = certificate->floor.rmse_A;
+  floor.lower_bound_A = certificate->floor.lower_bound_A;
+  floor.n_lower = options.n_lower;
+  floor.n_upper = options.n_upper;
+  floor.above = BothRmse(report->device, report->refined, job->curve).measured_current_A /
+                    certificate->floor.rmse_A -
+                1;
+  report->floor = floor;
+  job->stopped = job->stopped || certificate->interrupted;
+}
+
 void EchoOptions(const FitOptions& options, FitReport* report) {
   const FitOptions defaults;
   std::vector<OptionEcho>& echoes = report->non_default_options;
@@ -193,6 +215,7 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
   echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
   echo("polish", options.polish ? "yes" : "no", "yes");
+  echo("floor", options.floor ? "yes" : "no", "no");
   echo("loss", ToText(options.loss), ToText(defaults.loss));
   echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));
   echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
@@ -269,6 +292,8 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   FillResults(job, &report);
   report.interrupted = job.stopped;
   report.warnings = FindWarnings(report);
+  FindFloor(&job, &report);
+  report.interrupted = job.stopped;
   return report;
 }
 

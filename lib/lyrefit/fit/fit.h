@@ -51,6 +51,7 @@ struct FitOptions {
   bool polish = true;
   bool plain_polish =
       false;  // also try one bounded least-squares solve from the best bird, and nothing more
+  bool floor = false;  // also prove how low the measured-current RMSE can go within the bounds
   Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
   Intervals intervals =

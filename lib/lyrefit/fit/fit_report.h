@@ -71,6 +71,16 @@ struct RmseTable {
   RmsePair refined;             // the best end of all starts
 };
 
+// The lowest measured-current RMSE that any number of diodes in parallel can reach, n and Rs within
+// the bounds of the fit (see certify/certify.h).
+struct FloorReport {
+  double rmse_A = kUnknown;         // attained by a mixture of diodes
+  double lower_bound_A = kUnknown;  // proved
+  double n_lower = kUnknown;
+  double n_upper = kUnknown;
+  double above = kUnknown;  // refined measured-current RMSE / rmse_A - 1
+};
+
 // One start of the polish and where it ended. Starts whose descents come to the same curve, to a
 // thousandth of its RMSE, are polished once and share that end.
 struct StartReport {
@@ -147,6 +157,7 @@ struct FitReport {
   std::vector<Estimate> estimates;  // in the device's order
   double nNsVth = kUnknown;  // modified ideality of the first diode, in volt, as pvlib wants it
   RmseTable rmse;
+  std::optional<FloorReport> floor;  // where it was asked for
   KeyPoints measured;
   KeyPoints simulated;                  // of the refined model
   std::vector<double> model_current_A;  // I(V) of the refined model at the measured voltages

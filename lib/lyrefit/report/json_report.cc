@@ -72,8 +72,20 @@ Json RmseJson(const FitReport& report) {
   };
   return {{"random_baseline", pair(report.rmse.random_baseline, true)},
           {"searched", pair(report.rmse.searched, true)},
+          {"plain_polished", pair(report.rmse.plain_polished, true)},
           {"best_bird_polished", pair(report.rmse.best_bird_polished, report.polished)},
           {"refined", pair(report.rmse.refined, report.polished)}};
+}
+
+// Null where it was not asked for.
+Json FloorJson(const FitReport& report) {
+  if (!report.floor) return nullptr;
+  const FloorReport& floor = *report.floor;
+  return {{"measured_current_rmse_A", Number(floor.rmse_A)},
+          {"lower_bound_A", Number(floor.lower_bound_A)},
+          {"n_lower", Number(floor.n_lower)},
+          {"n_upper", Number(floor.n_upper)},
+          {"refined_above", Number(floor.above)}};
 }
 
 Json KeyPointsJson(const KeyPoints& k) {
@@ -174,6 +186,7 @@ void AddAnswer(const FitReport& report, Json* json) {
   j["nNsVth"] = Number(report.nNsVth);
   j["singlediode"] = SingleDiodeJson(report);
   j["rmse"] = RmseJson(report);
+  j["floor"] = FloorJson(report);
   j["largest_error"] = {{"current_A", Number(report.residuals.largest_A)},
                         {"voltage_V", Number(report.residuals.largest_at_V)}};
   j["key_points"] = {{"measured", KeyPointsJson(report.measured)},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_sections.h"
 
@@ -58,6 +59,20 @@ std::string Difference(double measured, double simulated) {
   return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
 }
 
+// How much room is left below, if that was asked for.
+std::string FloorNote(const FitReport& report) {
+  if (!report.floor) return "";
+  const FloorReport& floor = *report.floor;
+  const std::string range = fmt::format("n in [{:g}, {:g}]", floor.n_lower, floor.n_upper);
+  const std::string above = floor.above <= kCertifiedGap
+                                ? "and the refined answer attains it"
+                                : fmt::format("and the refined answer is {} % above it",
+                                              Significant(100 * floor.above, 3));
+  return Wrap("  ", fmt::format("Floor: no number of diodes with {} brings the measured-current "
+                                "RMSE below {} A, {}.",
+                                range, Scientific(floor.lower_bound_A, kRmseDigits), above));
+}
+
 }  // namespace
 
 std::string ParameterSection(const FitReport& report) {
@@ -94,7 +109,7 @@ std::string RmseSection(const FitReport& report) {
   table.Add(row("searched (best bird)", report.rmse.searched, true));
   table.Add(row("best bird polished", report.rmse.best_bird_polished, report.polished));
   table.Add(row("refined (best of all starts)", report.rmse.refined, report.polished));
-  return "RMSE in A   (* the objective that was fitted)\n" + table.Text();
+  return "RMSE in A   (* the objective that was fitted)\n" + table.Text() + FloorNote(report);
 }
 
 std::string KeyPointSection(const FitReport& report) {

@@ -16,7 +16,8 @@ namespace lyrefit {
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
 // run r all of ours start from the same first birds.
 struct Contender {
-  std::string name;  // as tables show it: "mlo", "pagmo:de1220"
+  std::string name;       // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
+  std::string algorithm;  // without its setting, "mlo"; empty: the name
   SearchOptions search;
   SearchFunction searcher;  // empty: Search()
 };
@@ -35,6 +36,7 @@ struct CompareOptions {
   double target_gap = 1e-3;  // relative distance from the reference that counts as "reached"
   bool polish = true;
   bool plain_polish = false;  // see FitOptions
+  bool rankings = true;       // rank tests of the contenders against each other
   int threads = 0;            // 0: all cores; never changes a result but the seconds
   const Kernel* kernel = nullptr;
 };
@@ -46,7 +48,8 @@ struct RunRecord {
   double own_polished_A = kUnknown;    // the best bird's own polish
   double polished_A = kUnknown;        // the hybrid: best of all starts
   std::int64_t evaluations = 0;
-  std::int64_t evaluations_to_target = -1;  // of the search alone; -1: never reached
+  // Of the search alone, counted in whole iterations; -1: never reached.
+  std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;
   double polish_seconds = 0;
 };
@@ -61,8 +64,15 @@ struct Spread {
   int within_1e6 = 0;
 };
 
+// A point of the median course of the searches.
+struct MedianPoint {
+  std::int64_t evaluations = 0;
+  double best_A = kUnknown;  // median over the runs of the best so far
+};
+
 struct ContenderResult {
   std::string name;
+  std::string algorithm;
   SearchOptions search;
   std::vector<RunRecord> runs;
   Spread searched;
@@ -72,9 +82,10 @@ struct ContenderResult {
   int target_hits = 0;                     // runs whose search reached the target
   double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
                                            // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit
-  double search_seconds = 0;               // mean of a run
+  double evaluations = 0;                  // mean of a run, as are the seconds
+  double search_seconds = 0;
   double polish_seconds = 0;
-  std::vector<TracePoint> trace;  // median over the runs of the best so far
+  std::vector<MedianPoint> trace;  // about 60 points, evenly spaced in the logarithm
 };
 
 // What the runs are measured against.
@@ -83,9 +94,10 @@ struct Reference {
   bool certified = false;  // proved: no parameters within the bounds are lower by 1e-9 or more
   double lower_bound_A = kUnknown;  // proved lower bound, NaN: none
   std::string origin;               // in plain words
+  std::vector<double> parameters;   // in the device's order
 };
 
-// Ranks of the contenders with the runs as blocks.
+// Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
 struct Ranking {
   Friedman friedman;
   std::vector<RankPair> pairs;  // every pair of contenders
@@ -117,8 +129,10 @@ struct Comparison {
   bool interrupted = false;  // problems not complete are left out
 };
 
-// Runs every contender `runs` times on every curve with every model. Errors: an unusable curve,
-// options outside their ranges, bounds that do not fit a model, no or two equal contender names.
+// Runs every contender `runs` times on every curve with every model. Everything is checked before
+// the first run. The observer hears of stage "compare" after every run (iteration: runs done of
+// those planned) and now and then in between. Errors: an unusable curve, options outside their
+// ranges, bounds that do not fit a model, no or two equal contender names.
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
                              const std::vector<Contender>& contenders,
                              const CompareOptions& options = {}, const Observer& observer = {});
@@ -127,13 +141,16 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
 // algorithms.
 std::vector<Contender> PlainContenders(const std::vector<Algorithm>& algorithms,
                                        const SearchOptions& search);
-// MLO at every Pm and gamma, Pm the outer loop.
+// MLO at every Pm and gamma, Pm the outer loop. Names read "Pm=0.5 gamma=0.25".
 std::vector<Contender> SensitivityContenders(const std::vector<double>& memory_rates,
                                              const std::vector<double>& distance_coefficients,
                                              const SearchOptions& search);
 // Every algorithm with every budget of evaluations, the algorithm the outer loop. The population is
-// about the root of the budget, 4 to 100.
+// about the root of the budget, 4 to 100. Names read "mlo@420".
 std::vector<Contender> BudgetContenders(const std::vector<Algorithm>& algorithms,
-                                        const std::vector<std::int64_t>& budgets);
+                                        const std::vector<std::int64_t>& budgets,
+                                        const SearchOptions& search = {});
+// `search` with population, iterations and the limit of evaluations that such a budget gets.
+SearchOptions BudgetSearch(std::int64_t budget, SearchOptions search = {});
 
 }  // namespace lyrefit

@@ -15,7 +15,8 @@ namespace lyrefit {
 std::vector<double> JoinEqual(std::vector<double> values, double relative);
 
 // Friedman's test (1937, doi:10.1080/01621459.1937.10503522) that all contenders rank alike, with
-// the correction for ties. `values[c][b]` is contender c in block b.
+// the correction for ties. `values[c][b]` is contender c in block b; at least two contenders and
+// one block (CHECKed).
 struct Friedman {
   int contenders = 0;
   int blocks = 0;
@@ -26,7 +27,8 @@ struct Friedman {
 Friedman FriedmanTest(const std::vector<std::vector<double>>& values);
 
 // One pair after Friedman: difference of mean ranks against the normal distribution (Dunn 1964,
-// doi:10.1080/00401706.1964.10490181), with the tie-corrected variance of the ranks.
+// doi:10.1080/00401706.1964.10490181), with the tie-corrected variance of the ranks. `values` are
+// those of the test: their ties enter the variance.
 struct RankPair {
   int first = 0;
   int second = 0;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "lyrefit/fit/bounds.h"
+
+namespace lyrefit {
+
+// --bounds and --bound, as every verb that fits understands them.
+struct BoundsFlags {
+  std::string name = "physical";
+  std::vector<std::string> ranges;  // "Rs=0:0.5"
+};
+
+void AddBoundsFlags(CLI::App* app, const std::string& group, BoundsFlags* flags);
+
+// The bounds for the curve in `curve_file`; those published for a data set lie beside its curve.
+Expected<BoundsSpec> BoundsFromFlags(const BoundsFlags& flags, const std::string& curve_file);
+
+}  // namespace lyrefit

@@ -1,0 +1,86 @@
+#include "budget_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/compare_plot.h"
+#include "lyrefit/report/compare_text.h"
+#include "output.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kLeast = 4;
+constexpr double kMost = 1e9;
+
+constexpr char kBudgetFooter[] =
+    "Examples:\n"
+    "  lyrefit budget data/rtc_france --algorithms mlo,de,random --plot budget.svg\n"
+    "  lyrefit budget data/rtc_france --models td --budgets 10,100,1000 --runs 20\n"
+    "\n"
+    "A hit is a run within 1e-6 (search alone) or 1e-9 (polished) of the reference.";
+
+Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
+  const auto numbers = ParseNumbers("--budgets", text);
+  if (!numbers) return tl::unexpected(numbers.error());
+  std::vector<std::int64_t> budgets;
+  for (const double number : *numbers) {
+    if (!(number >= kLeast && number <= kMost && number == std::floor(number))) {
+      return Fail(fmt::format("--budgets: expected whole numbers from {:g} to {:g}, found {:g}",
+                              kLeast, kMost, number));
+    }
+    budgets.push_back(static_cast<std::int64_t>(number));
+  }
+  return budgets;
+}
+
+}  // namespace
+
+BudgetCommand::BudgetCommand(CLI::App* app)
+    : command_(app->add_subcommand("budget",
+                                   "Evaluations each algorithm needs, by how far it is polished")) {
+  flags_.options.plain_polish = true;
+  flags_.options.rankings = false;
+  AddStudyFlags(command_, &flags_);
+  AddAlgorithmsFlag(command_, &flags_);
+  command_
+      ->add_option(
+          "--budgets", budgets_,
+          "list of evaluations; the population is about their root (default " + budgets_ + ")")
+      ->type_name("LIST")
+      ->group("Search");
+  AddSearchRows(command_,
+                {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
+                &flags_);
+  command_
+      ->add_option("--plot", plot_file_, "success rate over evaluations as a picture, .svg or .png")
+      ->type_name("FILE")
+      ->group("Output");
+  command_->footer(kBudgetFooter);
+}
+
+Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
+  const auto names = ParseList("--algorithms", flags_.algorithms);
+  if (!names) return tl::unexpected(names.error());
+  const auto budgets = ParseBudgets(budgets_);
+  if (!budgets) return tl::unexpected(budgets.error());
+  std::vector<Contender> contenders;
+  for (const std::string& name : *names) {
+    for (const std::int64_t budget : *budgets) {
+      auto contender = ParseContender(name, BudgetSearch(budget, flags_.search));
+      if (!contender) return tl::unexpected(contender.error());
+      contender->name = fmt::format("{}@{}", name, budget);
+      contenders.push_back(std::move(*contender));
+    }
+  }
+  return contenders;
+}
+
+int BudgetCommand::Run() {
+  const auto contenders = Contenders();
+  if (!contenders) return Refuse(contenders.error());
+  return RunStudy(flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
+}
+
+}  // namespace lyrefit

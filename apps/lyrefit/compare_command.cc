@@ -1,0 +1,55 @@
+#include "compare_command.h"
+
+#include "lyrefit/report/compare_plot.h"
+#include "lyrefit/report/compare_text.h"
+#include "output.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr char kCompareFooter[] =
+    "Examples:\n"
+    "  lyrefit compare data/rtc_france --runs 50\n"
+    "  lyrefit compare data/rtc_france --bounds literature --models td --algorithms lo,mlo,random\n"
+    "      --json compare.json --csv runs.csv\n"
+    "\n"
+    "Every algorithm has the same budget and, in run r, the same first points. RMSEs are of the\n"
+    "objective that is named beside them.";
+
+}  // namespace
+
+CompareCommand::CompareCommand(CLI::App* app)
+    : command_(app->add_subcommand(
+          "compare", "Compare search algorithms, pure and polished, over many runs")) {
+  flags_.search.population = 100;
+  flags_.search.iterations = 1000;
+  AddStudyFlags(command_, &flags_);
+  AddAlgorithmsFlag(command_, &flags_);
+  AddSearchRows(command_,
+                {"population", "iterations", "memory-rate", "distance-coefficient", "de-scale",
+                 "de-crossover", "max-evaluations", "elites"},
+                &flags_);
+  command_
+      ->add_option("--target-gap", flags_.options.target_gap,
+                   "relative distance from the reference that counts as reached (default " +
+                       NumberText(flags_.options.target_gap) + ")")
+      ->type_name("NUMBER")
+      ->group("Runs");
+  AddPolishLevelFlags(command_, &flags_);
+  const auto picture = [this](const char* flag, std::string* target, const char* doc) {
+    command_->add_option(flag, *target, doc)->type_name("FILE")->group("Output");
+  };
+  picture("--plot", &plot_file_, "box plots of all runs as a picture, .svg or .png");
+  picture("--convergence-plot", &convergence_file_,
+          "the median course of the searches as a picture, .svg or .png");
+  command_->footer(kCompareFooter);
+}
+
+int CompareCommand::Run() {
+  const auto contenders = ParseContenders(flags_);
+  if (!contenders) return Refuse(contenders.error());
+  return RunStudy(flags_, *contenders, CompareText,
+                  {{plot_file_, PlotBoxes}, {convergence_file_, PlotConvergence}});
+}
+
+}  // namespace lyrefit

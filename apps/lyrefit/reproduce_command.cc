@@ -1,0 +1,137 @@
+#include "reproduce_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "flags.h"
+#include "interrupt.h"
+#include "lyrefit/base/file.h"
+#include "lyrefit/report/compare_plot.h"
+#include "lyrefit/report/markdown.h"
+#include "lyrefit/report/paper_page.h"
+#include "lyrefit/report/plot.h"
+#include "output.h"
+#include "pagmo_searcher.h"
+#include "study_flags.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kReproduceFooter[] =
+    "Examples:\n"
+    "  lyrefit reproduce data/paper\n"
+    "  lyrefit reproduce data/paper --out /tmp/page --batches 2 --peers \"\"\n"
+    "\n"
+    "FOLDER holds published.csv, rows.csv and remarks.csv; the curves lie in the folders beside "
+    "it.\n"
+    "Takes minutes. Writes README.md and its pictures.";
+
+struct Picture {
+  const char* file;
+  Expected<void> (*draw)(const Comparison&, const std::string&);
+  Comparison PaperStudy::*comparison;
+};
+
+constexpr Picture kPictures[] = {
+    {"msx60.svg", PlotBoxes, &PaperStudy::msx60},
+    {"msx60-convergence.svg", PlotConvergence, &PaperStudy::msx60},
+    {"rtc_france-convergence.svg", PlotConvergence, &PaperStudy::rtc_france},
+    {"ranked.svg", PlotBoxes, &PaperStudy::ranked},
+    {"ranked-convergence.svg", PlotConvergence, &PaperStudy::ranked},
+    {"budget.svg", PlotBudget, &PaperStudy::budget},
+};
+
+// The tables of the study that other pages show between marks.
+Expected<void> Update(const PaperStudy& study, const std::string& page) {
+  constexpr std::uintmax_t kLargestPage = 1U << 22;
+  const auto text = ReadTextFile(page, kLargestPage);
+  if (!text) return tl::unexpected(text.error());
+  std::string updated = ReplaceBlock(*text, "certified", CertifiedTable(study));
+  updated = ReplaceBlock(updated, "ranked", RankedTable(study));
+  updated = ReplaceBlock(updated, "budget", BudgetTable(study));
+  return WriteTextFile(page, updated);
+}
+
+}  // namespace
+
+ReproduceCommand::ReproduceCommand(CLI::App* app)
+    : command_(app->add_subcommand(
+          "reproduce", "Do the published tables over again and write the page of results")) {
+  command_->add_option("FOLDER", folder_, "published.csv, rows.csv, remarks.csv")->required();
+  AddTableFlags(command_, kPaperStudyOptionTable, "Runs", &options_);
+  command_
+      ->add_option("--threads", options_.threads,
+                   "0: all cores; never changes a result but the seconds (default 0)")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N")
+      ->group("Runs");
+  command_
+      ->add_option("--peers", peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
+      ->type_name("LIST")
+      ->group("Runs");
+  command_->add_option("--out", output_, "folder to write into (default FOLDER)")
+      ->type_name("DIR")
+      ->group("Output");
+  AddListFlag(command_, "--update",
+              "a page whose blocks <!-- certified -->, <!-- ranked --> and <!-- budget --> are "
+              "written anew; once for each",
+              &pages_)
+      ->type_name("FILE")
+      ->group("Output");
+  command_->footer(kReproduceFooter);
+}
+
+Expected<void> ReproduceCommand::AddPeers() {
+  if (peers_.empty() || PagmoNames().empty()) return {};
+  const auto names = ParseList("--peers", peers_);
+  if (!names) return tl::unexpected(names.error());
+  SearchOptions search;
+  search.population = 100;
+  search.iterations = 1000;
+  for (const std::string& name : *names) {
+    auto peer = PagmoContender(name, search);
+    if (!peer) return tl::unexpected(peer.error());
+    options_.peers.push_back(std::move(*peer));
+  }
+  return {};
+}
+
+Expected<void> ReproduceCommand::Write(const PaperStudy& study) const {
+  const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
+  if (!remarks) return tl::unexpected(remarks.error());
+  const fs::path output(output_);
+  for (const Picture& picture : kPictures) {
+    auto drawn = picture.draw(study.*picture.comparison, (output / picture.file).string());
+    if (!drawn) return drawn;
+  }
+  for (const std::string& page : pages_) {
+    if (auto updated = Update(study, page); !updated) return updated;
+  }
+  return WriteTextFile((output / "README.md").string(), PaperPage(study, *remarks));
+}
+
+int ReproduceCommand::Run() {
+  if (output_.empty()) output_ = folder_;
+  if (auto peers = AddPeers(); !peers) return Refuse(peers.error());
+  const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
+  if (!remarks) return Refuse(remarks.error());
+  for (const Picture& picture : kPictures) {
+    const std::string path = (fs::path(output_) / picture.file).string();
+    if (auto drawable = CheckPlot(path); !drawable) return Refuse(drawable.error());
+    if (auto writable = CheckWritable(path); !writable) return Refuse(writable.error());
+  }
+  const InterruptGuard guard;
+  const auto study = ReproducePaper(folder_, options_, TerminalObserver());
+  ClearProgressLine();
+  if (!study) return Refuse(study.error());
+  if (auto written = Write(*study); !written) return Refuse(written.error());
+  const std::string done = fmt::format("written: {} ({:.0f} s)\n",
+                                       (fs::path(output_) / "README.md").string(), study->seconds);
+  if (auto written = WriteOutput("-", done); !written) return Refuse(written.error());
+  return kExitFine;
+}
+
+}  // namespace lyrefit

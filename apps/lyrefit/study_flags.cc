@@ -1,0 +1,217 @@
+#include "study_flags.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interrupt.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/report/compare_csv.h"
+#include "lyrefit/report/compare_json.h"
+#include "lyrefit/report/plot.h"
+#include "output.h"
+#include "pagmo_searcher.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<std::vector<Model>> ParseModels(const std::string& text) {
+  const auto names = ParseList("--models", text);
+  if (!names) return tl::unexpected(names.error());
+  std::vector<Model> models;
+  for (const std::string& name : *names) {
+    const std::optional<Model> model = FromText<Model>(name);
+    if (!model) {
+      return Fail(
+          fmt::format("--models: expected a list of {}, found '{}'", AllTexts<Model>(), name));
+    }
+    models.push_back(*model);
+  }
+  return models;
+}
+
+Expected<std::vector<CompareCurve>> ReadCurves(const StudyFlags& flags) {
+  std::vector<CompareCurve> curves;
+  for (const std::string& file : flags.curve_files) {
+    Expected<IvCurve> curve = ReadCurve(file, {});
+    if (!curve) return tl::unexpected(curve.error());
+    if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) {
+      return tl::unexpected(applied.error());
+    }
+    Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
+    if (!bounds) return tl::unexpected(bounds.error());
+    curves.push_back({std::move(*curve), std::move(*bounds)});
+  }
+  return curves;
+}
+
+Expected<void> CheckTargets(const StudyFlags& flags, const std::vector<StudyPicture>& pictures) {
+  if (flags.json_file == "-" && flags.csv_file == "-") {
+    return Fail("--json and --csv cannot both go to standard output");
+  }
+  for (const std::string& file : {flags.json_file, flags.csv_file}) {
+    if (auto writable = CheckWritable(file); !writable) return writable;
+  }
+  for (const StudyPicture& picture : pictures) {
+    if (picture.path.empty()) continue;
+    if (auto drawable = CheckPlot(picture.path); !drawable) return drawable;
+    if (auto writable = CheckWritable(picture.path); !writable) return writable;
+  }
+  return {};
+}
+
+Expected<void> Write(const StudyFlags& flags, const Comparison& comparison,
+                     const std::function<std::string(const Comparison&)>& text,
+                     const std::vector<StudyPicture>& pictures) {
+  if (!flags.json_file.empty()) {
+    auto written = WriteOutput(flags.json_file, CompareJson(comparison));
+    if (!written) return written;
+  }
+  if (!flags.csv_file.empty()) {
+    auto written = WriteOutput(flags.csv_file, CompareCsv(comparison));
+    if (!written) return written;
+  }
+  for (const StudyPicture& picture : pictures) {
+    if (picture.path.empty() || comparison.problems.empty()) continue;
+    if (auto drawn = picture.draw(comparison, picture.path); !drawn) return drawn;
+  }
+  if (flags.json_file == "-" || flags.csv_file == "-") return {};
+  return WriteOutput("-", text(comparison));
+}
+
+}  // namespace
+
+void AddStudyFlags(CLI::App* app, StudyFlags* flags) {
+  app->add_option("CURVE", flags->curve_files, "one or more curve files or folders")->required();
+  AddConditionFlags(app, &flags->conditions);
+  app->add_option("--models", flags->models,
+                  "list of " + AllTexts<Model>() + " (default " + flags->models + ")")
+      ->type_name("LIST")
+      ->group("Model");
+  AddEnumFlag(app, "--objective", "which residual is squared", &flags->options.objective)
+      ->group("Model");
+  AddEnumFlag(app, "--constants", "values of k and q", &flags->options.constants)->group("Model");
+  AddBoundsFlags(app, "Model", &flags->bounds);
+  const auto number = [app](const char* name, auto* target, const std::string& doc) {
+    app->add_option(name, *target, doc + " (default " + NumberText(*target) + ")")
+        ->type_name("NUMBER")
+        ->group("Runs");
+  };
+  number("--runs", &flags->options.runs, "runs of each algorithm on each problem");
+  number("--seed", &flags->options.seed, "seed of all runs; run r has its own stream");
+  app->add_option("--threads", flags->options.threads,
+                  "0: all cores; never changes a result but the seconds (default 0)")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N")
+      ->group("Runs");
+  app->add_option("--json", flags->json_file, "everything as JSON; - for standard output, alone")
+      ->type_name("FILE")
+      ->group("Output");
+  app->add_option("--csv", flags->csv_file, "one row a run; - for standard output, alone")
+      ->type_name("FILE")
+      ->group("Output");
+}
+
+void AddAlgorithmsFlag(CLI::App* app, StudyFlags* flags) {
+  const std::string peers = PagmoNames();
+  const std::string pagmo = peers.empty() ? "; pagmo:NAME in a build with pagmo2"
+                                          : "; pagmo:NAME with NAME one of " + peers;
+  app->add_option(
+         "--algorithms", flags->algorithms,
+         "list of " + AllTexts<Algorithm>() + pagmo + " (default " + flags->algorithms + ")")
+      ->type_name("LIST")
+      ->group("Search");
+}
+
+void AddSearchRows(CLI::App* app, const std::vector<std::string>& names, StudyFlags* flags) {
+  for (const OptionRow<SearchOptions>& row : kSearchOptionTable) {
+    if (std::find(names.begin(), names.end(), row.name) == names.end()) continue;
+    std::visit(
+        [&](auto field) {
+          app->add_option(std::string("--") + row.name, flags->search.*field,
+                          RowHelp(row, flags->search))
+              ->type_name(*row.unit != '\0' ? row.unit : "NUMBER")
+              ->group("Search");
+        },
+        row.field);
+  }
+}
+
+void AddPolishLevelFlags(CLI::App* app, StudyFlags* flags) {
+  app->add_flag("--no-polish", flags->no_polish, "the search alone")->group("Polish");
+  app->add_flag("--plain-polish", flags->options.plain_polish,
+                "also one bounded least-squares solve from the best bird, and nothing more")
+      ->group("Polish");
+}
+
+Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+    end = text.find(',', begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (parts.back().empty()) {
+      return Fail(fmt::format("{}: expected a list such as a,b,c, found '{}'", flag, text));
+    }
+  }
+  return parts;
+}
+
+Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text) {
+  const auto parts = ParseList(flag, text);
+  if (!parts) return tl::unexpected(parts.error());
+  std::vector<double> numbers;
+  for (const std::string& part : *parts) {
+    const std::optional<double> number = ParseNumber(part);
+    if (!number) return Fail(fmt::format("{}: expected a number, found '{}'", flag, part));
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search) {
+  const std::string pagmo = "pagmo:";
+  if (name.rfind(pagmo, 0) == 0) return PagmoContender(name.substr(pagmo.size()), search);
+  const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
+  if (!algorithm) {
+    return Fail(fmt::format("--algorithms: expected a list of {} or pagmo:NAME, found '{}'",
+                            AllTexts<Algorithm>(), name));
+  }
+  return PlainContenders({*algorithm}, search)[0];
+}
+
+Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags) {
+  const auto names = ParseList("--algorithms", flags.algorithms);
+  if (!names) return tl::unexpected(names.error());
+  std::vector<Contender> contenders;
+  for (const std::string& name : *names) {
+    auto contender = ParseContender(name, flags.search);
+    if (!contender) return tl::unexpected(contender.error());
+    contenders.push_back(std::move(*contender));
+  }
+  return contenders;
+}
+
+int RunStudy(const StudyFlags& flags, const std::vector<Contender>& contenders,
+             const std::function<std::string(const Comparison&)>& text,
+             const std::vector<StudyPicture>& pictures) {
+  CompareOptions options = flags.options;
+  options.polish = !flags.no_polish;
+  const auto models = ParseModels(flags.models);
+  if (!models) return Refuse(models.error());
+  options.models = *models;
+  if (auto checked = CheckTargets(flags, pictures); !checked) return Refuse(checked.error());
+  const auto curves = ReadCurves(flags);
+  if (!curves) return Refuse(curves.error());
+  const InterruptGuard guard;
+  const auto comparison = Compare(*curves, contenders, options, TerminalObserver());
+  ClearProgressLine();
+  if (!comparison) return Refuse(comparison.error());
+  if (auto written = Write(flags, *comparison, text, pictures); !written) {
+    return Refuse(written.error());
+  }
+  return kExitFine;
+}
+
+}  // namespace lyrefit

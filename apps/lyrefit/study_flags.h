@@ -1,0 +1,55 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bounds_flag.h"
+#include "flags.h"
+#include "lyrefit/study/compare.h"
+
+namespace lyrefit {
+
+// The flags of the verbs that run searches many times: compare, budget, sensitivity. Lists are one
+// text with commas.
+struct StudyFlags {
+  std::vector<std::string> curve_files;
+  std::string models = "sd,dd,td";
+  std::string algorithms = "lo,lo+mblss,lo+dmlss,mlo,de,random";
+  BoundsFlags bounds;
+  ConditionFlags conditions;
+  CompareOptions options;
+  SearchOptions search;
+  bool no_polish = false;
+  std::string json_file;
+  std::string csv_file;
+};
+
+// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
+void AddStudyFlags(CLI::App* app, StudyFlags* flags);
+void AddAlgorithmsFlag(CLI::App* app, StudyFlags* flags);
+// The rows of the search's option table with these names; `flags->search` holds the defaults.
+void AddSearchRows(CLI::App* app, const std::vector<std::string>& names, StudyFlags* flags);
+void AddPolishLevelFlags(CLI::App* app, StudyFlags* flags);
+
+// "a,b" as its parts; empty parts are refused in the name of `flag`.
+Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text);
+Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text);
+
+// One algorithm by its name, and those of --algorithms, with these settings.
+Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search);
+Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags);
+
+// One file to write when all is done.
+struct StudyPicture {
+  std::string path;  // empty: not wanted
+  std::function<Expected<void>(const Comparison&, const std::string& path)> draw;
+};
+
+// Reads the curves, compares, writes what is wanted; returns the exit code.
+int RunStudy(const StudyFlags& flags, const std::vector<Contender>& contenders,
+             const std::function<std::string(const Comparison&)>& text,
+             const std::vector<StudyPicture>& pictures);
+
+}  // namespace lyrefit

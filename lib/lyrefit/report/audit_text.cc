@@ -1,0 +1,155 @@
+#include "lyrefit/report/audit_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/study/audit_sentence.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kDigits = 7;
+
+std::string Rows(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "row" : "rows");
+}
+
+// "Table 10, rtc_france: 33 C, 1 cell in series"
+std::string Title(const AuditFinding& finding) {
+  const AuditReading& stated = finding.stated;
+  const std::string& source = finding.row.source;
+  return fmt::format("{}{}{}: {:g} C, {} {} in series", source, source.empty() ? "" : ", ",
+                     stated.curve, std::round(stated.temperature_C * 1e4) / 1e4, stated.cells,
+                     stated.cells == 1 ? "cell" : "cells");
+}
+
+// The head of the column that the claims are of has a star.
+std::string Head(const AuditReport& report, Objective objective) {
+  return ToText(objective) + (report.options.objective == objective ? " *" : "");
+}
+
+std::string Name(const AuditFinding& finding) {
+  return finding.row.algorithm.empty() ? fmt::format("line {}", finding.row.line)
+                                       : finding.row.algorithm;
+}
+
+std::string BoundsSentence(const AuditFinding& finding) {
+  const auto leaves = [&](const char* when, const AuditReading& reading) {
+    return fmt::format(" {} it leaves bounds-{}.json: {}.", when, finding.bounds_name,
+                       LeftBoundsText(reading.left_bounds));
+  };
+  if (finding.explanations.empty()) {
+    return finding.stated.left_bounds.empty() ? "" : leaves("As printed", finding.stated);
+  }
+  const AuditReading& changed = finding.explanations[0].reading;
+  return changed.left_bounds.empty() ? "" : leaves("So changed", changed);
+}
+
+// What is to be said about a row below its table; nothing about one without fault.
+std::string Remark(const AuditFinding& finding) {
+  const bool plain = finding.verdict == AuditVerdict::kReproduces;
+  const std::string text = (plain ? "" : finding.sentence) + BoundsSentence(finding);
+  return text.empty() ? "" : Wrap("  - ", Name(finding) + ": " + text);
+}
+
+// One table, from `begin` to `end`.
+std::string Section(const AuditReport& report, std::size_t begin, std::size_t end) {
+  TextTable table("llrrrl");
+  table.Add({"row", "model", "claimed", Head(report, Objective::kMeasuredCurrent),
+             Head(report, Objective::kSolvedCurrent), "verdict"});
+  std::string remarks;
+  for (std::size_t i = begin; i < end; ++i) {
+    const AuditFinding& finding = report.findings[i];
+    table.Add({Name(finding), ToText(finding.row.model), finding.row.rmse.text,
+               Scientific(finding.stated.rmse.measured_current_A, kDigits),
+               Scientific(finding.stated.rmse.solved_current_A, kDigits), ToText(finding.verdict)});
+    remarks += Remark(finding);
+  }
+  return Title(report.findings[begin]) + "\n" + table.Text() + remarks;
+}
+
+std::string Legend(const AuditReport& report) {
+  const std::string constants =
+      report.options.constants ? "the constants " + ToText(*report.options.constants)
+                               : "the constants that bring the claim back, or codata where none do";
+  return fmt::format(
+      "RMSE in A of the rows as stated, with {}; the claims are of the RMSE marked *.", constants);
+}
+
+std::string BadRows(const AuditReport& report) {
+  if (report.bad_rows.empty()) return "";
+  std::string text = fmt::format("{} could not be audited\n", Rows(report.bad_rows.size()));
+  for (const Error& error : report.bad_rows) text += Wrap("  - ", error.ToString());
+  return text;
+}
+
+// How many of the rows that reproduce do so with each set of constants.
+std::string ConstantsSummary(const AuditReport& report) {
+  if (report.options.constants) return "";
+  std::string text;
+  for (const auto& row : EnumTable<ConstantSet>::kRows) {
+    int count = 0;
+    for (const AuditFinding& finding : report.findings) {
+      if (finding.row.constants) continue;
+      const AuditReading& reading =
+          finding.explanations.empty() ? finding.stated : finding.explanations[0].reading;
+      count += static_cast<int>(
+          std::count(reading.constants.begin(), reading.constants.end(), row.value));
+    }
+    text += fmt::format("{}{} with {}", text.empty() ? "" : ", ", count, row.text);
+  }
+  return Wrap("", fmt::format("Claims that reproduce, by constants: {}.", text));
+}
+
+std::string Summary(const AuditReport& report) {
+  std::string text = Rows(report.findings.size()) + ": ";
+  bool first = true;
+  for (const auto& row : EnumTable<AuditVerdict>::kRows) {
+    const int count = CountFindings(report, row.value);
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", first ? "" : ", ", count, row.text);
+    first = false;
+  }
+  if (report.findings.empty()) text += "none audited";
+  if (!report.bad_rows.empty()) {
+    text += fmt::format("; {} more could not be audited", report.bad_rows.size());
+  }
+  return Wrap("", text + ".") + ConstantsSummary(report);
+}
+
+}  // namespace
+
+std::string AuditText(const AuditReport& report) {
+  std::string text = fmt::format("lyrefit {}: audit of {}\n", report.version, report.path);
+  text += Wrap("", Legend(report));
+  const std::vector<AuditFinding>& findings = report.findings;
+  for (std::size_t begin = 0; begin < findings.size();) {
+    std::size_t end = begin + 1;
+    while (end < findings.size() && Title(findings[end]) == Title(findings[begin])) ++end;
+    text += "\n" + Section(report, begin, end);
+    begin = end;
+  }
+  const std::string bad = BadRows(report);
+  if (!bad.empty()) text += "\n" + bad;
+  return text + "\n" + Summary(report);
+}
+
+std::string BriefAudit(const AuditReport& report) {
+  std::string text;
+  for (const AuditFinding& finding : report.findings) {
+    text += fmt::format(
+        "{}{}{}, {} of {}: claimed {} A, {} A measured-current, {} A "
+        "solved-current: {}\n",
+        finding.row.source, finding.row.source.empty() ? "" : ", ", Name(finding),
+        ToText(finding.row.model), finding.stated.curve, finding.row.rmse.text,
+        Scientific(finding.stated.rmse.measured_current_A, kDigits),
+        Scientific(finding.stated.rmse.solved_current_A, kDigits), ToText(finding.verdict));
+  }
+  for (const Error& error : report.bad_rows) text += error.ToString() + "\n";
+  return text + Summary(report);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,184 @@
+#include "lyrefit/report/compare_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lyrefit/device/device.h"
+
+namespace lyrefit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json Numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(Number(value));
+  return list;
+}
+
+Json Seconds(double value) { return {{"seconds", Number(value)}}; }
+
+Json ReferenceJson(const ProblemResult& problem) {
+  const Reference& reference = problem.reference;
+  const auto& infos = MakeDevice(problem.model, Conditions{}).parameters;
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < reference.parameters.size() && i < infos.size(); ++i) {
+    parameters[infos[i].name] = Number(reference.parameters[i]);
+  }
+  return {{"rmse_A", Number(reference.rmse_A)},
+          {"certified", reference.certified},
+          {"lower_bound_A", Number(reference.lower_bound_A)},
+          {"origin", reference.origin},
+          {"parameters", std::move(parameters)}};
+}
+
+// Null where that stage was not asked for.
+Json SpreadJson(const Spread& spread) {
+  if (std::isnan(spread.min)) return nullptr;
+  return {{"min_A", Number(spread.min)},       {"mean_A", Number(spread.mean)},
+          {"median_A", Number(spread.median)}, {"max_A", Number(spread.max)},
+          {"std_A", Number(spread.std)},       {"within_1e9", spread.within_1e9},
+          {"within_1e6", spread.within_1e6}};
+}
+
+Json RunsJson(const std::vector<RunRecord>& runs) {
+  Json list = Json::array();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const RunRecord& run = runs[r];
+    const bool hit = run.evaluations_to_target >= 0;
+    list.push_back({{"run", r},
+                    {"searched_A", Number(run.searched_A)},
+                    {"plain_polished_A", Number(run.plain_polished_A)},
+                    {"best_bird_polished_A", Number(run.own_polished_A)},
+                    {"refined_A", Number(run.polished_A)},
+                    {"evaluations", run.evaluations},
+                    {"evaluations_to_target", hit ? Json(run.evaluations_to_target) : Json()},
+                    {"search", Seconds(run.search_seconds)},
+                    {"refine", Seconds(run.polish_seconds)}});
+  }
+  return list;
+}
+
+// The settings that tell contenders apart; seed and run stand elsewhere.
+Json SettingsJson(const SearchOptions& search) {
+  const bool limited = search.max_evaluations < SearchOptions().max_evaluations;
+  return {{"population", search.population},
+          {"iterations", search.iterations},
+          {"memory_rate", search.memory_rate},
+          {"distance_coefficient", search.distance_coefficient},
+          {"de_scale", search.de_scale},
+          {"de_crossover", search.de_crossover},
+          {"max_evaluations", limited ? Json(search.max_evaluations) : Json()},
+          {"elites", search.elites}};
+}
+
+Json ContenderJson(const ContenderResult& contender) {
+  Json evaluations = Json::array();
+  Json best = Json::array();
+  for (const MedianPoint& point : contender.trace) {
+    evaluations.push_back(point.evaluations);
+    best.push_back(Number(point.best_A));
+  }
+  return {{"name", contender.name},
+          {"algorithm", contender.algorithm},
+          {"settings", SettingsJson(contender.search)},
+          {"searched", SpreadJson(contender.searched)},
+          {"plain_polished", SpreadJson(contender.plain_polished)},
+          {"best_bird_polished", SpreadJson(contender.own_polished)},
+          {"refined", SpreadJson(contender.polished)},
+          {"evaluations", Number(contender.evaluations)},
+          {"target",
+           {{"hits", contender.target_hits},
+            {"expected_evaluations", Number(contender.expected_evaluations)}}},
+          {"search", Seconds(contender.search_seconds)},
+          {"refine", Seconds(contender.polish_seconds)},
+          {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
+          {"runs", RunsJson(contender.runs)}};
+}
+
+Json PairsJson(const ProblemResult& problem, const Ranking& ranking) {
+  Json list = Json::array();
+  for (const RankPair& pair : ranking.pairs) {
+    list.push_back({{"first", problem.contenders[pair.first].name},
+                    {"second", problem.contenders[pair.second].name},
+                    {"mean_rank_difference", Number(pair.difference)},
+                    {"low_95", Number(pair.low_95)},
+                    {"high_95", Number(pair.high_95)},
+                    {"p_value", Number(pair.p_value)},
+                    {"p_sidak", Number(pair.p_sidak)},
+                    {"p_holm", Number(pair.p_holm)}});
+  }
+  return list;
+}
+
+Json SignedRanksJson(const ProblemResult& problem, const Ranking& ranking) {
+  Json list = Json::array();
+  for (const Ranking::SignedRank& pair : ranking.signed_ranks) {
+    const Wilcoxon& test = pair.test;
+    list.push_back({{"first", problem.contenders[pair.first].name},
+                    {"second", problem.contenders[pair.second].name},
+                    {"pairs", test.pairs},
+                    {"zeros", test.zeros},
+                    {"ties", test.ties},
+                    {"rank_sum_plus", Number(test.rank_sum_plus)},
+                    {"rank_sum_minus", Number(test.rank_sum_minus)},
+                    {"p_value", Number(test.p_value)},
+                    {"exact", test.exact},
+                    {"p_normal", Number(test.p_normal)},
+                    {"smallest_p", Number(test.smallest_p)},
+                    {"p_holm", Number(pair.p_holm)}});
+  }
+  return list;
+}
+
+// Null where nothing was ranked.
+Json RankingJson(const ProblemResult& problem, const Ranking& ranking) {
+  if (ranking.friedman.contenders == 0) return nullptr;
+  return {{"friedman",
+           {{"blocks", ranking.friedman.blocks},
+            {"mean_rank", Numbers(ranking.friedman.mean_rank)},
+            {"chi_square", Number(ranking.friedman.chi_square)},
+            {"p_value", Number(ranking.friedman.p_value)}}},
+          {"dunn", PairsJson(problem, ranking)},
+          {"wilcoxon", SignedRanksJson(problem, ranking)}};
+}
+
+Json ProblemJson(const ProblemResult& problem) {
+  Json contenders = Json::array();
+  for (const ContenderResult& c : problem.contenders) contenders.push_back(ContenderJson(c));
+  return {{"curve", problem.curve_name},
+          {"model", ToText(problem.model)},
+          {"bounds", problem.bounds_name},
+          {"reference", ReferenceJson(problem)},
+          {"contenders", std::move(contenders)},
+          {"ranking",
+           {{"searched", RankingJson(problem, problem.searched)},
+            {"refined", RankingJson(problem, problem.polished)}}}};
+}
+
+}  // namespace
+
+std::string CompareJson(const Comparison& comparison) {
+  const CompareOptions& options = comparison.options;
+  Json json;
+  json["lyrefit_version"] = comparison.version;
+  json["objective"] = ToText(options.objective);
+  json["constants"] = ToText(options.constants);
+  json["seed"] = options.seed;
+  json["runs"] = options.runs;
+  json["target_gap"] = Number(options.target_gap);
+  json["polish"] = options.polish;
+  json["plain_polish"] = options.plain_polish;
+  json["interrupted"] = comparison.interrupted;
+  json["seconds"] = Number(comparison.seconds);
+  json["problems"] = Json::array();
+  for (const ProblemResult& problem : comparison.problems) {
+    json["problems"].push_back(ProblemJson(problem));
+  }
+  // Names and files may hold bytes that are not UTF-8.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/study/compare.h"
+
+namespace lyrefit {
+
+// gnuplot commands that draw a comparison on standard output. `terminal` is "svg" or "png".
+std::string BoxScript(const Comparison& comparison, const std::string& terminal);
+std::string ConvergenceScript(const Comparison& comparison, const std::string& terminal);
+std::string BudgetScript(const Comparison& comparison, const std::string& terminal);
+
+}  // namespace lyrefit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/study/compare.h"
+
+// What the texts on comparisons share. Sections end with a newline, or are empty where there is
+// nothing to say.
+namespace lyrefit {
+
+// "rtc_france, double-diode model, bounds literature"
+std::string ProblemTitle(const ProblemResult& problem);
+
+// "curve" and "curves": "1 curve", "3 curves".
+std::string Counted(std::size_t count, const std::string& noun);
+
+// "INTERRUPTED: ..." or nothing.
+std::string InterruptedLine(const Comparison& comparison);
+
+// The facts that hold for every table: objective, budget, seed, target.
+std::string SetUpSection(const Comparison& comparison);
+
+// What the runs of a problem are measured against.
+std::string ReferenceField(const Comparison& comparison, const ProblemResult& problem);
+
+// compare_ranks.cc: Friedman and Wilcoxon of one problem.
+std::string RankSection(const ProblemResult& problem);
+
+// What the polish left of the ranking, in one sentence.
+std::string PolishVerdict(const ProblemResult& problem);
+
+}  // namespace lyrefit

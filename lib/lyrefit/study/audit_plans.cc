@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lyrefit/study/audit_reading.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kColdest_C = -20;
+constexpr int kHottest_C = 120;
+// Round temperatures in kelvin that publications take.
+constexpr double kRoundKelvin[] = {298, 300};
+// A temperature in degrees Celsius plus 273 instead of 273.15.
+constexpr double kShortZero_K = 273;
+
+struct CurrentUnit {
+  double in_ampere;
+  const char* name;
+};
+constexpr CurrentUnit kUnits[] = {{1, "A"}, {1e-3, "mA"}, {1e-6, "uA"}, {1e-9, "nA"}};
+
+const char* UnitName(double in_ampere) {
+  for (const CurrentUnit& unit : kUnits) {
+    if (unit.in_ampere == in_ampere) return unit.name;
+  }
+  return "?";
+}
+
+// Appends the alternatives of a plan along one kind of change.
+using Alternatives = std::vector<ReadingPlan>;
+
+void OtherCurves(const AuditSubject& subject, const ReadingPlan& plan, Alternatives* out) {
+  for (std::size_t c = 0; c < subject.shelf->curves.size(); ++c) {
+    if (static_cast<int>(c) == subject.stated.curve) continue;
+    ReadingPlan other = plan;
+    other.curve = static_cast<int>(c);
+    other.conditions = subject.shelf->curves[c].curve.conditions;
+    out->push_back(other);
+  }
+}
+
+void Resistances(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  if (plan.conditions.cells_in_series == 1) return;
+  out->push_back(plan);
+  out->back().resistances_per_cell = true;
+}
+
+void Ideality(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  if (plan.conditions.cells_in_series == 1) return;
+  out->push_back(plan);
+  out->back().ideality_of_module = true;
+}
+
+void SaturationCurrents(const AuditSubject& subject, const ReadingPlan& plan, Alternatives* out) {
+  const AuditRow& row = *subject.row;
+  std::vector<int> diodes;  // that carry current
+  for (int d = 0; d < static_cast<int>(row.model); ++d) {
+    if (row.parameters[SaturationCurrentIndex(d)].value > 0) diodes.push_back(d);
+  }
+  if (diodes.empty()) return;
+  const double first_unit = row.parameters[SaturationCurrentIndex(diodes[0])].factor;
+  for (const CurrentUnit& unit : kUnits) {
+    ReadingPlan other = plan;
+    other.unit = unit.in_ampere;
+    if (unit.in_ampere != first_unit) {
+      other.diode = ReadingPlan::kAllDiodes;
+      out->push_back(other);
+    }
+    for (const int d : diodes) {
+      if (diodes.size() == 1) break;
+      if (unit.in_ampere == row.parameters[SaturationCurrentIndex(d)].factor) continue;
+      other.diode = d;
+      out->push_back(other);
+    }
+  }
+}
+
+void Temperatures(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  const double said_K = plan.conditions.cell_temperature_K;
+  std::vector<double> kelvins;
+  for (int celsius = kColdest_C; celsius <= kHottest_C; ++celsius) {
+    kelvins.push_back(celsius + kZeroCelsius_K);
+  }
+  kelvins.insert(kelvins.end(), std::begin(kRoundKelvin), std::end(kRoundKelvin));
+  kelvins.push_back(said_K - kZeroCelsius_K + kShortZero_K);
+  std::vector<double> taken = {said_K};
+  for (const double kelvin : kelvins) {
+    const auto near = [&](double other) { return std::fabs(other - kelvin) < 1e-6; };
+    if (std::any_of(taken.begin(), taken.end(), near)) continue;
+    taken.push_back(kelvin);
+    out->push_back(plan);
+    out->back().conditions.cell_temperature_K = kelvin;
+  }
+}
+
+void OtherObjective(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  out->push_back(plan);
+  out->back().objective = plan.objective == Objective::kMeasuredCurrent
+                              ? Objective::kSolvedCurrent
+                              : Objective::kMeasuredCurrent;
+}
+
+void OtherConstants(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  if (!plan.constants) return;
+  for (const auto& row : EnumTable<ConstantSet>::kRows) {
+    if (row.value == *plan.constants) continue;
+    out->push_back(plan);
+    out->back().constants = row.value;
+  }
+}
+
+std::string TemperatureWords(double said_K, double kelvin) {
+  const auto celsius = [](double k) { return std::round((k - kZeroCelsius_K) * 1e4) / 1e4; };
+  const bool whole = std::fabs(kelvin - std::round(kelvin)) < 1e-6;
+  return fmt::format("at {:g} C{} in place of {:g} C", celsius(kelvin),
+                     whole ? fmt::format(" ({:g} K)", kelvin) : "", celsius(said_K));
+}
+
+std::string CurrentWords(const AuditSubject& subject, const ReadingPlan& plan) {
+  const AuditRow& row = *subject.row;
+  const Device device = MakeDevice(row.model, plan.conditions);
+  std::string names, printed;
+  int count = 0;
+  for (int d = 0; d < static_cast<int>(row.model); ++d) {
+    const int i = SaturationCurrentIndex(d);
+    if (plan.diode != d && plan.diode != ReadingPlan::kAllDiodes) continue;
+    if (row.parameters[i].value == 0) continue;
+    names += (count++ == 0 ? "" : ", ") + device.parameters[i].symbol;
+    printed = UnitName(row.parameters[i].factor);
+  }
+  return fmt::format("{} in {} instead of {}", names, UnitName(plan.unit), printed);
+}
+
+}  // namespace
+
+std::vector<ReadingPlan> ReadingPlans(const AuditSubject& subject, int most_changes) {
+  std::vector<ReadingPlan> plans = {subject.stated};
+  // A curve brings its own conditions, so it comes first.
+  for (const auto append : {OtherCurves, Resistances, Ideality, SaturationCurrents, Temperatures,
+                            OtherObjective, OtherConstants}) {
+    const std::size_t count = plans.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (plans[i].changes >= most_changes) continue;
+      Alternatives alternatives;
+      append(subject, plans[i], &alternatives);
+      for (ReadingPlan& alternative : alternatives) {
+        ++alternative.changes;
+        plans.push_back(alternative);
+      }
+    }
+  }
+  std::stable_sort(plans.begin(), plans.end(), [](const ReadingPlan& a, const ReadingPlan& b) {
+    return a.changes < b.changes;
+  });
+  return plans;
+}
+
+std::vector<std::string> ChangesOf(const AuditSubject& subject, const ReadingPlan& plan) {
+  const ReadingPlan& stated = subject.stated;
+  const AuditCurve& curve = subject.shelf->curves[plan.curve];
+  const int cells = plan.conditions.cells_in_series;
+  std::vector<std::string> changes;
+  if (plan.curve != stated.curve) {
+    changes.push_back(fmt::format("on the curve of {}", curve.curve.name));
+  }
+  if (plan.resistances_per_cell) {
+    changes.push_back(fmt::format("with Rs and Rsh per cell (x {})", cells));
+  }
+  if (plan.ideality_of_module) {
+    changes.push_back(fmt::format("with n of the whole module (/ {})", cells));
+  }
+  if (plan.diode != ReadingPlan::kNoDiode) {
+    changes.push_back("with " + CurrentWords(subject, plan));
+  }
+  const double said_K = plan.curve == stated.curve ? stated.conditions.cell_temperature_K
+                                                   : curve.curve.conditions.cell_temperature_K;
+  if (plan.conditions.cell_temperature_K != said_K) {
+    changes.push_back(TemperatureWords(said_K, plan.conditions.cell_temperature_K));
+  }
+  if (plan.objective != stated.objective) {
+    changes.push_back(fmt::format("as the {} RMSE", ToText(plan.objective)));
+  }
+  if (plan.constants != stated.constants) {
+    changes.push_back(fmt::format("with the constants {} in place of {}", ToText(*plan.constants),
+                                  ToText(*stated.constants)));
+  }
+  return changes;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,170 @@
+#include "lyrefit/study/audit_sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kOptimumWithin = 1e-4;  // of the optimum
+constexpr double kLargestIdeality = 5;   // above it n cannot be that of a cell
+
+std::string Ampere(double value) { return fmt::format("{:.6e} A", value); }
+
+// The sets that reproduce, or nothing where all of those that were open do.
+std::string ConstantsText(const AuditReading& reading) {
+  constexpr std::size_t kSets = std::size(EnumTable<ConstantSet>::kRows);
+  if (reading.constants.empty() || reading.constants.size() == kSets) return "";
+  std::string text;
+  for (const ConstantSet set : reading.constants) {
+    text += (text.empty() ? " with the constants " : " or ") + ToText(set);
+  }
+  return text;
+}
+
+std::string AsStated(const AuditFinding& finding) {
+  const AuditReading& stated = finding.stated;
+  return "As stated the row gives " + Ampere(stated.rmse.Of(stated.objective));
+}
+
+std::string ExplanationText(const AuditExplanation& explanation) {
+  const AuditReading& reading = explanation.reading;
+  std::string text = fmt::format("{}{}: {}", JoinedChanges(reading), ConstantsText(reading),
+                                 Ampere(reading.rmse.Of(reading.objective)));
+  if (!std::isnan(explanation.low_temperature_C)) {
+    const double reach = std::max(reading.temperature_C - explanation.low_temperature_C,
+                                  explanation.high_temperature_C - reading.temperature_C);
+    text += fmt::format(" (the temperature must be right to {:.1g} C)", reach);
+  }
+  return text;
+}
+
+std::string Explained(const AuditFinding& finding) {
+  std::string text = AsStated(finding) + "; the claim reproduces ";
+  for (std::size_t i = 0; i < finding.explanations.size(); ++i) {
+    if (i > 0) text += "; as plainly ";
+    text += ExplanationText(finding.explanations[i]);
+  }
+  return text + ".";
+}
+
+// What the temperature alone can and cannot do.
+std::string TemperatureText(const AuditFinding& finding) {
+  if (!finding.temperatures) return "";
+  const AuditTemperatures& t = *finding.temperatures;
+  if (t.at_claim_C.empty()) {
+    if (!(t.best_A > finding.row.rmse.value)) return "";
+    return fmt::format(" No temperature alone brings it below {} ({:.1f} C).", Ampere(t.best_A),
+                       t.best_C);
+  }
+  std::string list;
+  for (const double celsius : t.at_claim_C) {
+    list += fmt::format("{}{:.2f}", list.empty() ? "" : " and ", celsius);
+  }
+  return fmt::format(" By temperature alone the claim would need {} C.", list);
+}
+
+std::string NearestText(const AuditFinding& finding) {
+  if (!finding.nearest) return " No change tried reproduces the claim.";
+  const AuditExplanation& nearest = *finding.nearest;
+  const std::string text = ExplanationText(nearest);
+  if (nearest.reading.constants.empty()) return fmt::format(" Nearest comes, {}.", text);
+  return fmt::format(
+      " It would reproduce {}; but {} readings were tried, and {:.2g} such matches are to be "
+      "expected "
+      "by accident.",
+      text, nearest.readings_tried, nearest.chance);
+}
+
+bool IsOptimum(const AuditFinding& finding) {
+  const double rmse = finding.stated.rmse.Of(finding.stated.objective);
+  return rmse <= finding.optimum_A * (1 + kOptimumWithin);
+}
+
+std::string Better(const AuditFinding& finding) {
+  std::string text = AsStated(finding) + ", less than claimed";
+  if (IsOptimum(finding)) {
+    text += fmt::format("; that is the optimum, {}", Ampere(finding.optimum_A));
+  }
+  text += ".";
+  if (IsOptimum(finding)) return text;
+  return text + TemperatureText(finding) + NearestText(finding);
+}
+
+std::string OtherDevice(const AuditFinding& finding) {
+  const AuditRow& row = finding.row;
+  const double photocurrent_A = row.parameters[kIph].value;
+  std::string text =
+      fmt::format("{}. Its Iph of {:.4g} A is far from the Isc of {}, {:.4g} A", AsStated(finding),
+                  photocurrent_A, finding.stated.curve, finding.short_circuit_A);
+  if (finding.other_device) {
+    const AuditReading& other = *finding.other_device;
+    text += fmt::format("; it looks like a row of {}: {} the RMSE is {:.3g} A", other.curve,
+                        JoinedChanges(other), other.rmse.Of(other.objective));
+  } else {
+    text += fmt::format("; it belongs to another device, Isc about {:.3g} A, none of those at hand",
+                        photocurrent_A);
+  }
+  for (int d = 0; d < static_cast<int>(row.model); ++d) {
+    const double n = row.parameters[IdealityIndex(d)].value;
+    if (n > kLargestIdeality) {
+      text += fmt::format("; n of {:.4g} looks like n times the cells in series", n);
+    }
+  }
+  return text + ".";
+}
+
+std::string Fails(const AuditFinding& finding) {
+  std::string text = AsStated(finding) + ".";
+  const double claim = finding.row.rmse.value + finding.row.rmse.half_unit;
+  if (finding.optimum_A > claim) {
+    text += fmt::format(" No parameters give the claim there: the best fit has {}.",
+                        Ampere(finding.optimum_A));
+  }
+  return text + TemperatureText(finding) + NearestText(finding);
+}
+
+}  // namespace
+
+std::string JoinedChanges(const AuditReading& reading) {
+  std::string text;
+  for (std::size_t i = 0; i < reading.changes.size(); ++i) {
+    if (i > 0) text += i + 1 == reading.changes.size() ? " and " : ", ";
+    text += reading.changes[i];
+  }
+  return text;
+}
+
+std::string LeftBoundsText(const std::vector<LeftBound>& left) {
+  std::string text;
+  for (const LeftBound& bound : left) {
+    const bool below = bound.value < bound.lower;
+    text += fmt::format("{}{} {:.4g} {} {:g}", text.empty() ? "" : ", ", bound.info.symbol,
+                        bound.value, below ? "below" : "above", below ? bound.lower : bound.upper);
+  }
+  return text;
+}
+
+std::string AuditSentence(const AuditFinding& finding) {
+  switch (finding.verdict) {
+    case AuditVerdict::kReproduces:
+      return fmt::format("The claim comes out of the row{}: {}.", ConstantsText(finding.stated),
+                         Ampere(finding.stated.rmse.Of(finding.stated.objective)));
+    case AuditVerdict::kReproducesChanged:
+      return Explained(finding);
+    case AuditVerdict::kBetter:
+      return Better(finding);
+    case AuditVerdict::kOtherDevice:
+      return OtherDevice(finding);
+    case AuditVerdict::kTooCoarse:
+      return fmt::format("{}, and its printed digits leave room for {} more or less.",
+                         AsStated(finding), Ampere(finding.stated.tolerance_A));
+    case AuditVerdict::kFails:
+      return Fails(finding);
+  }
+  return "";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,233 @@
+#include "lyrefit/study/paper_study.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "lyrefit/base/version.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/fit/search_space.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The paper's settings: 100 birds, 1000 iterations.
+SearchOptions PaperSearch() {
+  SearchOptions search;
+  search.population = 100;
+  search.iterations = 1000;
+  return search;
+}
+
+const std::vector<Model> kModels = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
+
+class PaperRun {
+ public:
+  PaperRun(std::string folder, const PaperStudyOptions& options, const Observer& observer)
+      : folder_(std::move(folder)), observer_(observer) {
+    study_.options = options;
+  }
+
+  Expected<PaperStudy> Run() {
+    const auto begin = std::chrono::steady_clock::now();
+    study_.version = Version();
+    const auto published = ReadPublished((folder_ / "published.csv").string());
+    if (!published) return tl::unexpected(published.error());
+    // Times first, while nothing else has grown the process.
+    for (const auto step :
+         {&PaperRun::Time, &PaperRun::Audit, &PaperRun::Certify, &PaperRun::Msx60,
+          &PaperRun::RtcFrance, &PaperRun::Sensitivity, &PaperRun::Rank, &PaperRun::Budget}) {
+      if (auto done = (this->*step)(); !done) return tl::unexpected(done.error());
+    }
+    for (const PublishedValue& value : *published) {
+      if (value.table == "Table 9") study_.machine.push_back(value);
+    }
+    for (const Comparison* comparison : {&study_.msx60, &study_.rtc_france, &study_.sensitivity}) {
+      const auto checked = CheckPublished(*published, *comparison, study_.options.batch);
+      study_.values.insert(study_.values.end(), checked.begin(), checked.end());
+    }
+    study_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(study_);
+  }
+
+ private:
+  // A curve beside the paper's folder, with bounds published for it.
+  Expected<CompareCurve> Subject(const std::string& name, const std::string& bounds) const {
+    const fs::path folder = folder_.lexically_normal().parent_path() / name;
+    Expected<IvCurve> curve = ReadCurve(folder.string());
+    if (!curve) return tl::unexpected(curve.error());
+    Expected<BoundsSpec> spec = ReadBoundsFile((folder / ("bounds-" + bounds + ".json")).string());
+    if (!spec) return tl::unexpected(spec.error());
+    spec->name = bounds;
+    return CompareCurve{std::move(*curve), std::move(*spec)};
+  }
+
+  // The MSX-60 module as the paper ran it: at 75 C and with the literature's constants.
+  Expected<CompareCurve> PaperMsx60() const {
+    constexpr double kPaperTemperature_C = 75;
+    Expected<CompareCurve> subject = Subject("msx60", "paper");
+    if (subject) {
+      subject->curve.conditions.cell_temperature_K = kPaperTemperature_C + kZeroCelsius_K;
+    }
+    return subject;
+  }
+
+  CompareOptions Options(std::vector<Model> models, int runs) const {
+    CompareOptions options;
+    options.models = std::move(models);
+    options.seed = study_.options.seed;
+    options.runs = runs;
+    options.threads = study_.options.threads;
+    options.constants = ConstantSet::kLiterature;
+    options.rankings = false;
+    return options;
+  }
+
+  Expected<void> Study(const Expected<CompareCurve>& subject,
+                       const std::vector<Contender>& contenders, const CompareOptions& options,
+                       Comparison* result) const {
+    if (!subject) return tl::unexpected(subject.error());
+    Expected<Comparison> comparison = Compare({*subject}, contenders, options, observer_);
+    if (!comparison) return tl::unexpected(comparison.error());
+    if (comparison->interrupted) return Fail("stopped on request");
+    *result = std::move(*comparison);
+    return {};
+  }
+
+  Expected<void> Time() {
+    const Expected<CompareCurve> subject = PaperMsx60();
+    if (!subject) return tl::unexpected(subject.error());
+    for (const Algorithm algorithm : {Algorithm::kLo, Algorithm::kMlo}) {
+      FitOptions fit;
+      fit.model = Model::kTripleDiode;
+      fit.objective = Objective::kMeasuredCurrent;
+      fit.constants = ConstantSet::kLiterature;
+      fit.bounds = subject->bounds;
+      fit.search = PaperSearch();
+      fit.search.seed = study_.options.seed;
+      fit.search.algorithm = algorithm;
+      fit.polish = fit.random_baseline = false;
+      std::vector<double> seconds;
+      TimedSearch timed;
+      constexpr int kTimes = 5;
+      for (int i = 0; i < kTimes; ++i) {
+        const auto report = Fit(subject->curve, fit);
+        if (!report) return tl::unexpected(report.error());
+        seconds.push_back(report->search.seconds);
+        timed.evaluations = report->search.evaluations;
+      }
+      std::nth_element(seconds.begin(), seconds.begin() + kTimes / 2, seconds.end());
+      timed.algorithm = ToText(algorithm);
+      timed.seconds = seconds[kTimes / 2];
+      rusage usage{};
+      if (getrusage(RUSAGE_SELF, &usage) == 0) {
+        timed.memory_MB = static_cast<double>(usage.ru_maxrss) / 1024;  // kilobytes on Linux
+      }
+      study_.timed.push_back(timed);
+    }
+    return {};
+  }
+
+  Expected<void> Audit() {
+    Expected<AuditReport> audit = lyrefit::Audit((folder_ / "rows.csv").string(), {});
+    if (!audit) return tl::unexpected(audit.error());
+    study_.audit = std::move(*audit);
+    return {};
+  }
+
+  Expected<void> Certify() {
+    for (const char* name : {"rtc_france", "pwp201", "stm6_40_36", "stp6_120_36", "msx60"}) {
+      const fs::path folder = folder_.lexically_normal().parent_path() / name;
+      const Expected<IvCurve> curve = ReadCurve(folder.string());
+      if (!curve) return tl::unexpected(curve.error());
+      for (const auto& [lower, upper] : {std::pair(1.0, 2.0), std::pair(0.5, 4.0)}) {
+        CertifyOptions options;
+        options.n_lower = lower;
+        options.n_upper = upper;
+        Expected<Certificate> certificate = lyrefit::Certify(*curve, options, observer_);
+        if (!certificate) return tl::unexpected(certificate.error());
+        if (certificate->interrupted) return Fail("stopped on request");
+        study_.certificates.push_back(std::move(*certificate));
+      }
+    }
+    return {};
+  }
+
+  Expected<void> Msx60() {
+    const int runs = study_.options.batch * study_.options.batches;
+    return Study(PaperMsx60(), PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
+                 Options(kModels, runs), &study_.msx60);
+  }
+
+  Expected<void> RtcFrance() {
+    // Table 16's variants are the cells (Pm 0.25, gamma 0) and (Pm 0, gamma 0.5) of Table 17.
+    std::vector<Contender> contenders = PlainContenders(
+        {Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss, Algorithm::kMlo}, PaperSearch());
+    contenders[1].search.memory_rate = 0.25;
+    contenders[2].search.distance_coefficient = 0.5;
+    const int runs = study_.options.batch * study_.options.batches;
+    return Study(Subject("rtc_france", "literature"), contenders, Options(kModels, runs),
+                 &study_.rtc_france);
+  }
+
+  Expected<void> Sensitivity() {
+    const std::vector<double> steps = {0, 0.25, 0.5, 0.75, 1};
+    CompareOptions options =
+        Options({Model::kTripleDiode}, study_.options.batch * study_.options.sensitivity_batches);
+    options.polish = false;
+    return Study(Subject("rtc_france", "literature"),
+                 SensitivityContenders(steps, steps, PaperSearch()), options, &study_.sensitivity);
+  }
+
+  Expected<void> Rank() {
+    std::vector<Contender> contenders =
+        PlainContenders({Algorithm::kMlo, Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss,
+                         Algorithm::kDe, Algorithm::kRandom},
+                        PaperSearch());
+    for (Contender peer : study_.options.peers) {
+      peer.search.population = PaperSearch().population;
+      peer.search.iterations = PaperSearch().iterations;
+      contenders.push_back(std::move(peer));
+    }
+    CompareOptions options = Options({Model::kTripleDiode}, study_.options.ranked_runs);
+    options.rankings = true;
+    return Study(Subject("rtc_france", "literature"), contenders, options, &study_.ranked);
+  }
+
+  Expected<void> Budget() {
+    const std::vector<std::int64_t> budgets = {10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000};
+    CompareOptions options = Options(kModels, study_.options.budget_runs);
+    options.constants = ConstantSet::kCodata;
+    options.plain_polish = true;
+    return Study(
+        Subject("rtc_france", "paper"),
+        BudgetContenders({Algorithm::kMlo, Algorithm::kLo, Algorithm::kDe, Algorithm::kRandom},
+                         budgets),
+        options, &study_.budget);
+  }
+
+  const fs::path folder_;
+  const Observer& observer_;
+  PaperStudy study_;
+};
+
+}  // namespace
+
+Expected<PaperStudy> ReproducePaper(const std::string& folder, const PaperStudyOptions& options,
+                                    const Observer& observer) {
+  if (auto valid = ValidateOptions(options, kPaperStudyOptionTable); !valid) {
+    return tl::unexpected(valid.error());
+  }
+  // A trailing separator would make the folder its own parent.
+  fs::path path = fs::path(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return PaperRun(fs::absolute(path).string(), options, observer).Run();
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/study/audit.h"
+#include "lyrefit/study/compare.h"
+#include "lyrefit/study/published.h"
+
+namespace lyrefit {
+
+struct PaperStudyOptions {
+  std::uint64_t seed = 0;
+  int batch = 50;    // runs behind each figure of the paper
+  int batches = 10;  // batches of ours that say how far chance carries
+  int sensitivity_batches = 5;
+  int ranked_runs = 30;  // of each algorithm where algorithms are ranked, as in the paper
+  int budget_runs = 50;
+  std::vector<Contender> peers;  // further algorithms to rank, of another library
+  int threads = 0;
+};
+
+inline const std::array<OptionRow<PaperStudyOptions>, 6> kPaperStudyOptionTable = {{
+    {"seed", "", "seed of every run", &PaperStudyOptions::seed, 0, 1.8446744073709552e19},
+    {"batch", "runs", "runs behind each figure of the paper", &PaperStudyOptions::batch, 2, 1e6},
+    {"batches", "", "batches that say how far chance carries", &PaperStudyOptions::batches, 2, 1e4},
+    {"sensitivity-batches", "", "the same for the grid of Pm and gamma",
+     &PaperStudyOptions::sensitivity_batches, 2, 1e4},
+    {"ranked-runs", "runs", "runs of each algorithm that is ranked",
+     &PaperStudyOptions::ranked_runs, 2, 1e6},
+    {"budget-runs", "runs", "runs of each algorithm at each budget",
+     &PaperStudyOptions::budget_runs, 1, 1e6},
+}};
+
+// One search alone on the machine, as Table 9 has it.
+struct TimedSearch {
+  std::string algorithm;
+  std::int64_t evaluations = 0;
+  double seconds = 0;    // median of five
+  double memory_MB = 0;  // largest resident size of the whole process so far; 0: not known
+};
+
+// Everything that the modified-lyrebird paper (J. Ind. Manag. Optim. 22(1), 642-690) reports of
+// repeated runs, done again, and what it does not report.
+struct PaperStudy {
+  std::string version;
+  PaperStudyOptions options;
+  Comparison msx60;        // Tables 3, 5, 7; Figs. 5, 6, 9, 10, 13, 14: LO and MLO as the paper ran
+                           // them, at 75 C
+  Comparison rtc_france;   // Tables 10 to 12 and 16, Fig. 24: LO, MLO and the variants between
+  Comparison sensitivity;  // Tables 17 and 18
+  Comparison ranked;       // Tables 13 to 15, Fig. 21: all algorithms there are
+  Comparison budget;       // success against evaluations, with three kinds of polish
+  std::vector<TimedSearch> timed;         // Table 9
+  std::vector<PublishedValue> machine;    // what the paper prints of Table 9
+  std::vector<CheckedValue> values;       // printed statistics beside ours
+  AuditReport audit;                      // printed parameters
+  std::vector<Certificate> certificates;  // every curve, n in [1, 2] and in [0.5, 4]
+  double seconds = 0;
+};
+
+// Reads `folder` (published.csv and rows.csv, the curves in the folders beside it) and runs all
+// studies; takes minutes. Interrupted studies are an error. Errors: files missing or malformed,
+// options outside their ranges.
+Expected<PaperStudy> ReproducePaper(const std::string& folder,
+                                    const PaperStudyOptions& options = {},
+                                    const Observer& observer = {});
+
+}  // namespace lyrefit

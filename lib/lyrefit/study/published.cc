@@ -1,0 +1,192 @@
+#include "lyrefit/study/published.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <optional>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_lines.h"
+#include "lyrefit/study/summary.h"
+
+namespace lyrefit {
+namespace {
+
+const std::vector<std::string> kColumns = {"table",    "curve", "model", "algorithm",
+                                           "quantity", "value", "note"};
+enum Column { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kNote };
+
+// A small table whose columns are known by name and may stand in any order.
+class NamedTable {
+ public:
+  // Reads the file and its header; all `columns` must be there.
+  Expected<void> Open(const std::string& path, const std::vector<std::string>& columns) {
+    constexpr std::uintmax_t kLargestFile = 1U << 24;
+    auto text = ReadTextFile(path, kLargestFile);
+    if (!text) return tl::unexpected(text.error());
+    path_ = path;
+    text_ = std::move(*text);
+    lines_.emplace(text_);
+    if (!lines_->NextContent(&line_) || !fields_.Split(line_)) {
+      return Fail(
+          "expected a header line with the columns " + fmt::format("{}", fmt::join(columns, ", ")),
+          path, 1);
+    }
+    for (const std::string& column : columns) {
+      int at = 0;
+      while (at < static_cast<int>(fields_.size()) && fields_[at] != column) ++at;
+      if (at == static_cast<int>(fields_.size())) {
+        return Fail("expected a column '" + column + "'", path, lines_->number());
+      }
+      position_.push_back(at);
+    }
+    return {};
+  }
+
+  // The next row; false at the end of the file.
+  Expected<bool> Next() {
+    if (!lines_->NextContent(&line_)) return false;
+    if (!fields_.Split(line_)) return Fail("the quotes do not close", path_, lines_->number());
+    const int last = *std::max_element(position_.begin(), position_.end());
+    if (static_cast<int>(fields_.size()) <= last) {
+      return Fail(fmt::format("expected at least {} fields, found {}", last + 1, fields_.size()),
+                  path_, lines_->number());
+    }
+    return true;
+  }
+
+  std::string operator[](int column) const { return std::string(fields_[position_[column]]); }
+
+  tl::unexpected<Error> Refuse(int column, const std::string& expected) const {
+    return Fail(fmt::format("expected {}, found {}", expected, Quoted((*this)[column])), path_,
+                lines_->number(), FieldColumn(line_, ',', position_[column]));
+  }
+
+ private:
+  std::string path_;
+  std::string text_;
+  std::optional<LineReader> lines_;
+  LineSplitter fields_{','};
+  std::string_view line_;
+  std::vector<int> position_;
+};
+
+// One statistic of a batch of searched figures.
+double Statistic(const std::vector<double>& values, const std::string& quantity) {
+  const Spread spread = SpreadOf(values, 1);
+  if (quantity == "min") return spread.min;
+  if (quantity == "mean") return spread.mean;
+  if (quantity == "max") return spread.max;
+  if (quantity == "std") return spread.std;
+  return kUnknown;
+}
+
+// The statistic of every whole batch of the runs.
+std::vector<double> OverBatches(const ContenderResult& contender, const std::string& quantity,
+                                int batch) {
+  std::vector<double> statistics;
+  for (std::size_t begin = 0; begin + batch <= contender.runs.size(); begin += batch) {
+    std::vector<double> values;
+    for (int r = 0; r < batch; ++r) values.push_back(contender.runs[begin + r].searched_A);
+    statistics.push_back(Statistic(values, quantity));
+  }
+  return statistics;
+}
+
+void PredictBatch(const std::vector<double>& statistics, CheckedValue* checked) {
+  const auto count = static_cast<double>(statistics.size());
+  double mean = 0, square = 0;
+  for (const double s : statistics) mean += std::log(std::max(s, 1e-300)) / count;
+  for (const double s : statistics) square += std::pow(std::log(std::max(s, 1e-300)) - mean, 2);
+  const boost::math::students_t t(count - 1);
+  const double reach =
+      boost::math::quantile(t, 0.995) * std::sqrt(square / (count - 1)) * std::sqrt(1 + 1 / count);
+  const double half_unit = HalfUnit(checked->published.text);
+  checked->ours = std::exp(mean);
+  checked->low = std::exp(mean - reach) - half_unit;
+  checked->high = std::exp(mean + reach) + half_unit;
+  checked->batches = static_cast<int>(statistics.size());
+  const double value = checked->published.value;
+  if (value < checked->low || value > checked->high) {
+    checked->check = Check::kNotReproduced;
+  } else {
+    checked->check = checked->high > 10 * checked->low ? Check::kCannotTell : Check::kReproduced;
+  }
+}
+
+const ContenderResult* Find(const Comparison& comparison, const PublishedValue& published) {
+  for (const ProblemResult& problem : comparison.problems) {
+    if (problem.curve_name != published.curve || problem.model != published.model) continue;
+    for (const ContenderResult& contender : problem.contenders) {
+      if (contender.name == published.algorithm) return &contender;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Expected<std::vector<PublishedValue>> ReadPublished(const std::string& path) {
+  NamedTable table;
+  if (auto opened = table.Open(path, kColumns); !opened) return tl::unexpected(opened.error());
+  std::vector<PublishedValue> values;
+  while (true) {
+    const auto more = table.Next();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return values;
+    const std::optional<Model> model = FromText<Model>(table[kModel]);
+    const std::optional<double> number = ParseNumber(table[kValue]);
+    if (!model) return table.Refuse(kModel, "a model (" + AllTexts<Model>() + ")");
+    if (!number || !std::isfinite(*number)) return table.Refuse(kValue, "a number");
+    values.push_back({table[kTable], table[kCurve], *model, table[kAlgorithm], table[kQuantity],
+                      table[kValue], *number, table[kNote]});
+  }
+}
+
+Expected<std::map<std::string, std::string>> ReadRemarks(const std::string& path) {
+  NamedTable table;
+  if (auto opened = table.Open(path, {"table", "remark"}); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  std::map<std::string, std::string> remarks;
+  while (true) {
+    const auto more = table.Next();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return remarks;
+    remarks[table[0]] = table[1];
+  }
+}
+
+std::vector<CheckedValue> CheckPublished(const std::vector<PublishedValue>& published,
+                                         const Comparison& comparison, int batch) {
+  std::vector<CheckedValue> checked;
+  for (const PublishedValue& value : published) {
+    const ContenderResult* contender = Find(comparison, value);
+    if (contender == nullptr) continue;
+    const std::vector<double> statistics = OverBatches(*contender, value.quantity, batch);
+    if (statistics.size() < 2 || std::isnan(statistics[0])) continue;
+    CheckedValue one;
+    one.published = value;
+    PredictBatch(statistics, &one);
+    checked.push_back(std::move(one));
+  }
+  return checked;
+}
+
+double HalfUnit(const std::string& printed) {
+  const std::size_t exponent_at = printed.find_first_of("eE");
+  const std::string mantissa = printed.substr(0, exponent_at);
+  const double exponent = exponent_at == std::string::npos
+                              ? 0
+                              : ParseNumber(printed.substr(exponent_at + 1)).value_or(0);
+  const std::size_t point = mantissa.find('.');
+  const double decimals =
+      point == std::string::npos ? 0 : static_cast<double>(mantissa.size() - point - 1);
+  return 0.5 * std::pow(10.0, exponent - decimals);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,54 @@
+#include "lyrefit/study/reference.h"
+
+#include <fmt/format.h>
+
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/fit/floor.h"
+
+namespace lyrefit {
+namespace {
+
+// Convex problems to spend on one proof before the best of all runs has to do.
+constexpr std::int64_t kEffort = 20000;
+
+bool Within(const std::vector<double>& parameters, const std::vector<ParameterBounds>& bounds) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!(parameters[i] >= bounds[i].lower && parameters[i] <= bounds[i].upper)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Reference FindReference(const CompareCurve& subject, Model model, const CompareOptions& options,
+                        const BestFound& best) {
+  Reference reference;
+  reference.rmse_A = best.rmse_A;
+  reference.origin = "best of all runs";
+  reference.parameters = best.parameters;
+  if (options.objective != Objective::kMeasuredCurrent) return reference;
+  const Device device = MakeDevice(model, subject.curve.conditions, options.constants);
+  const auto bounds = MakeBounds(subject.bounds, device, subject.curve);
+  if (!bounds) return reference;
+  CertifyOptions certify = RangesOf(*bounds, options.constants, {model});
+  certify.effort = kEffort;
+  const auto certificate = Certify(subject.curve, certify);
+  if (!certificate) return reference;
+  const ModelCertificate& proof = certificate->models.at(0);
+  reference.lower_bound_A = proof.lower_bound_A;
+  if (proof.rmse_A < reference.rmse_A && Within(proof.parameters, *bounds)) {
+    reference.rmse_A = proof.rmse_A;
+    reference.parameters = proof.parameters;
+    reference.origin = "found by the proof";
+  }
+  const double gap = 1 - reference.lower_bound_A / reference.rmse_A;
+  reference.certified = gap <= kCertifiedGap;
+  if (reference.certified) {
+    reference.origin = "certified optimum";
+  } else {
+    reference.origin += fmt::format("; proved lower bound {:.3g} % below", 100 * gap);
+  }
+  return reference;
+}
+
+}  // namespace lyrefit

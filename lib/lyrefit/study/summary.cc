@@ -1,0 +1,173 @@
+#include "lyrefit/study/summary.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kEqual = 1e-9;  // relative: two polished answers are the same
+constexpr double kClose = 1e-6;
+
+double MedianOf(std::vector<double>* values) {
+  std::sort(values->begin(), values->end());
+  const std::size_t half = values->size() / 2;
+  if (values->size() % 2 == 1) return (*values)[half];
+  return 0.5 * ((*values)[half - 1] + (*values)[half]);
+}
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+// One figure of every run.
+template <class T>
+std::vector<double> Column(const std::vector<RunRecord>& runs, T RunRecord::*field) {
+  std::vector<double> values;
+  for (const RunRecord& run : runs) values.push_back(static_cast<double>(run.*field));
+  return values;
+}
+
+void CountHits(ContenderResult* result) {
+  double evaluations = 0;
+  for (const RunRecord& run : result->runs) {
+    const bool hit = run.evaluations_to_target >= 0;
+    result->target_hits += hit;
+    evaluations += static_cast<double>(hit ? run.evaluations_to_target : run.evaluations);
+  }
+  if (result->target_hits > 0) result->expected_evaluations = evaluations / result->target_hits;
+}
+
+}  // namespace
+
+std::vector<TracePoint> KeepGains(const std::vector<TracePoint>& trace) {
+  std::vector<TracePoint> gains;
+  for (const TracePoint& point : trace) {
+    if (gains.empty() || point.best < gains.back().best) gains.push_back(point);
+  }
+  if (!trace.empty() && gains.back().evaluations < trace.back().evaluations) {
+    gains.push_back(trace.back());
+  }
+  return gains;
+}
+
+std::int64_t EvaluationsTo(double target, const std::vector<TracePoint>& gains) {
+  for (const TracePoint& point : gains) {
+    if (point.best <= target) return point.evaluations;
+  }
+  return -1;
+}
+
+std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, int marks) {
+  CHECK(!outcomes.empty());
+  std::int64_t first = 1;
+  std::int64_t last = 1;
+  for (const RunOutcome& outcome : outcomes) {
+    first = std::max(first, outcome.gains.front().evaluations);
+    last = std::max(last, outcome.gains.back().evaluations);
+  }
+  std::vector<std::size_t> at(outcomes.size(), 0);
+  std::vector<double> best(outcomes.size());
+  std::vector<MedianPoint> course;
+  const double ratio = static_cast<double>(last) / static_cast<double>(first);
+  for (int m = 0; m < marks; ++m) {
+    const double exact = static_cast<double>(first) * std::pow(ratio, m / (marks - 1.0));
+    const std::int64_t mark = m + 1 < marks ? std::llround(exact) : last;
+    if (!course.empty() && mark <= course.back().evaluations) continue;
+    for (std::size_t r = 0; r < outcomes.size(); ++r) {
+      const std::vector<TracePoint>& gains = outcomes[r].gains;
+      while (at[r] + 1 < gains.size() && gains[at[r] + 1].evaluations <= mark) ++at[r];
+      best[r] = gains[at[r]].best;
+    }
+    course.push_back({mark, MedianOf(&best)});
+  }
+  return course;
+}
+
+Spread SpreadOf(std::vector<double> values, double reference) {
+  CHECK(!values.empty());
+  Spread spread;
+  const auto unknown = [](double value) { return std::isnan(value); };
+  if (std::any_of(values.begin(), values.end(), unknown)) return spread;
+  spread.median = MedianOf(&values);
+  spread.min = values.front();
+  spread.max = values.back();
+  // Rounding must not carry the mean of equal values out of their range.
+  spread.mean = std::clamp(Mean(values), spread.min, spread.max);
+  double squares = 0;
+  for (const double value : values) {
+    squares += (value - spread.mean) * (value - spread.mean);
+    spread.within_1e9 += value <= reference * (1 + kEqual);
+    spread.within_1e6 += value <= reference * (1 + kClose);
+  }
+  const bool alone = values.size() == 1;
+  spread.std = alone ? 0 : std::sqrt(squares / static_cast<double>(values.size() - 1));
+  return spread;
+}
+
+Ranking RankAll(std::vector<std::vector<double>> values) {
+  Ranking ranking;
+  if (values.size() < 2 || values[0].size() < 2) return ranking;
+  for (std::vector<double>& contender : values) {
+    for (double& value : contender) {
+      value = std::min(value, std::numeric_limits<double>::max());
+    }
+  }
+  ranking.friedman = FriedmanTest(values);
+  ranking.pairs = ComparePairs(ranking.friedman, values);
+  const int contenders = static_cast<int>(values.size());
+  std::vector<double> p_values;
+  for (int a = 0; a < contenders; ++a) {
+    for (int b = a + 1; b < contenders; ++b) {
+      ranking.signed_ranks.push_back({a, b, WilcoxonTest(values[a], values[b]), 1});
+      p_values.push_back(ranking.signed_ranks.back().test.p_value);
+    }
+  }
+  const std::vector<double> holm = HolmCorrection(p_values);
+  for (std::size_t i = 0; i < holm.size(); ++i) ranking.signed_ranks[i].p_holm = holm[i];
+  return ranking;
+}
+
+Ranking RankJoined(const std::vector<std::vector<double>>& values) {
+  std::vector<double> all;
+  for (const auto& contender : values) all.insert(all.end(), contender.begin(), contender.end());
+  all = JoinEqual(std::move(all), kEqual);
+  std::vector<std::vector<double>> joined;
+  auto next = all.begin();
+  for (const auto& contender : values) {
+    const auto end = next + static_cast<std::ptrdiff_t>(contender.size());
+    joined.emplace_back(next, end);
+    next = end;
+  }
+  return RankAll(std::move(joined));
+}
+
+ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
+                          double reference, double target_gap) {
+  ContenderResult result;
+  result.name = contender.name;
+  result.algorithm = contender.algorithm.empty() ? contender.name : contender.algorithm;
+  result.search = contender.search;
+  for (RunOutcome& outcome : *outcomes) {
+    outcome.record.evaluations_to_target =
+        EvaluationsTo(reference * (1 + target_gap), outcome.gains);
+    result.runs.push_back(outcome.record);
+  }
+  result.searched = SpreadOf(Column(result.runs, &RunRecord::searched_A), reference);
+  result.plain_polished = SpreadOf(Column(result.runs, &RunRecord::plain_polished_A), reference);
+  result.own_polished = SpreadOf(Column(result.runs, &RunRecord::own_polished_A), reference);
+  result.polished = SpreadOf(Column(result.runs, &RunRecord::polished_A), reference);
+  CountHits(&result);
+  result.evaluations = Mean(Column(result.runs, &RunRecord::evaluations));
+  result.search_seconds = Mean(Column(result.runs, &RunRecord::search_seconds));
+  result.polish_seconds = Mean(Column(result.runs, &RunRecord::polish_seconds));
+  result.trace = MedianCourse(*outcomes);
+  return result;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/study/compare.h"
+
+namespace lyrefit {
+
+// One run as the comparison keeps it until its problem is complete.
+struct RunOutcome {
+  RunRecord record;
+  std::vector<TracePoint> gains;   // the trace without the points that brought nothing; never empty
+  std::vector<double> parameters;  // of the run's answer
+};
+
+// The points of `trace` where the best became better, and the last one.
+std::vector<TracePoint> KeepGains(const std::vector<TracePoint>& trace);
+
+// Evaluations at the first point at or below `target`; -1: none.
+std::int64_t EvaluationsTo(double target, const std::vector<TracePoint>& gains);
+
+// Median over the runs of the best so far, at up to `marks` counts of evaluations evenly spaced in
+// the logarithm, from where every run has a value to the end of the longest.
+std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, int marks = 60);
+
+// `values` must not be empty; all NaN if one is NaN.
+Spread SpreadOf(std::vector<double> values, double reference);
+
+// Ranks of `values[c][b]`, contender c in run b; empty for fewer than two of either. Infinity
+// counts as the largest number.
+Ranking RankAll(std::vector<std::vector<double>> values);
+
+// The same with answers that agree within 1e-9 joined, whoever found them.
+Ranking RankJoined(const std::vector<std::vector<double>>& values);
+
+// Everything that the runs of one contender say together; fills their evaluations to target.
+ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
+                          double reference, double target_gap);
+
+}  // namespace lyrefit

@@ -1,0 +1,170 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string kRtc = DataFolder("rtc_france");
+const std::string kSmall = " --runs 3 --population 10 --iterations 20 ";
+
+json CompareJson(const std::string& arguments) {
+  const AppResult result = RunApp("compare " + arguments + " --json -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(CompareVerb, PrintsTheComparisonByDefault) {
+  const AppResult result = RunApp("compare " + kRtc + kSmall);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, StartsWith("lyrefit "));
+  EXPECT_THAT(result.out, HasSubstr("6 algorithms, 3 runs each, on 3 problems"));
+  EXPECT_THAT(result.out, HasSubstr("rtc_france, triple-diode model, bounds physical"));
+  EXPECT_THAT(result.out, HasSubstr("After the polish all 6 algorithms tie: 18 of 18 runs"));
+}
+
+TEST(CompareVerb, OffersEveryFlagOfTheContract) {
+  const std::string help = RunApp("compare --help").out;
+  for (const char* flag :
+       {"--models", "--objective", "--bounds", "--bound", "--runs", "--seed", "--population",
+        "--threads", "--iterations", "--algorithms", "--target-gap", "--no-polish", "--json",
+        "--csv", "--plot", "--plain-polish", "--memory-rate", "--de-scale", "--convergence-plot"}) {
+    EXPECT_THAT(help, HasSubstr(std::string("  ") + flag + " ")) << flag;
+  }
+  EXPECT_THAT(help, HasSubstr("(default 1000)"));
+  EXPECT_THAT(help, Not(HasSubstr("--patience")));
+}
+
+TEST(CompareVerb, GivesTheSameJsonOnAnyNumberOfThreads) {
+  const std::string arguments = kRtc + kSmall + "--models sd,dd --seed 5 --plain-polish";
+  json one = CompareJson(arguments + " --threads 1");
+  json two = CompareJson(arguments + " --threads 2");
+  RemoveSeconds(&one);
+  RemoveSeconds(&two);
+  EXPECT_EQ(one, two) << json::diff(one, two).dump();
+}
+
+TEST(CompareVerb, GoesByTheFlags) {
+  const json j = CompareJson(kRtc + " " + DataFolder("pwp201") +
+                             " --runs 2 --models dd --algorithms mlo,de --population 12 "
+                             "--iterations 15 --memory-rate 0.75 --de-scale 0.6 --seed 9 "
+                             "--objective solved-current --constants literature --bounds wide "
+                             "--target-gap 0.5 --no-polish");
+  ASSERT_EQ(j["problems"].size(), 2U);
+  EXPECT_EQ(j["problems"][1]["curve"], "pwp201");
+  EXPECT_EQ(j["problems"][0]["model"], "dd");
+  EXPECT_EQ(j["problems"][0]["bounds"], "wide");
+  EXPECT_EQ(j["objective"], "solved-current");
+  EXPECT_EQ(j["constants"], "literature");
+  EXPECT_EQ(j["seed"], 9);
+  EXPECT_EQ(j["target_gap"], 0.5);
+  EXPECT_EQ(j["polish"], false);
+  const json& mlo = j["problems"][0]["contenders"][0];
+  EXPECT_EQ(mlo["name"], "mlo");
+  EXPECT_EQ(mlo["runs"].size(), 2U);
+  EXPECT_EQ(mlo["settings"]["population"], 12);
+  EXPECT_EQ(mlo["settings"]["memory_rate"], 0.75);
+  EXPECT_TRUE(mlo["refined"].is_null());
+  const json& de = j["problems"][0]["contenders"][1];
+  EXPECT_EQ(de["settings"]["de_scale"], 0.6);
+  EXPECT_EQ(de["runs"][0]["evaluations"], 12 * 16);
+}
+
+TEST(CompareVerb, ConditionsReplaceThoseOfTheCurve) {
+  const std::string common = kRtc + kSmall + "--models sd --algorithms random";
+  const json told = CompareJson(common + " --temperature-C 60");
+  const json plain = CompareJson(common);
+  const char* n = "/problems/0/reference/parameters/n";
+  EXPECT_LT(told.at(json::json_pointer(n)), plain.at(json::json_pointer(n)));
+}
+
+TEST(CompareVerb, AgreesWithASingleFit) {
+  const json j = CompareJson(kRtc + kSmall + "--models dd --algorithms mlo --seed 4");
+  const json fit = FitJson(kRtc +
+                           " --model dd --objective measured-current --population 10 "
+                           "--iterations 20 --seed 4 --run 2");
+  const json& run = j["problems"][0]["contenders"][0]["runs"][2];
+  EXPECT_EQ(run["searched_A"], fit["rmse"]["searched"]["measured_current_A"]);
+  EXPECT_EQ(run["refined_A"], fit["rmse"]["refined"]["measured_current_A"]);
+}
+
+TEST(CompareVerb, WritesEveryFile) {
+  const TempFolder folder;
+  const AppResult result =
+      RunApp("compare " + kRtc + kSmall + "--models sd --json " + folder.Path("c.json") +
+             " --csv " + folder.Path("c.csv") + " --plot " + folder.Path("box.svg") +
+             " --convergence-plot " + folder.Path("course.png"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("lyrefit "));
+  EXPECT_TRUE(json::accept(FileText(folder.Path("c.json"))));
+  EXPECT_THAT(FileText(folder.Path("c.csv")), StartsWith("curve,model,objective,bounds,"));
+  EXPECT_THAT(FileText(folder.Path("box.svg")), HasSubstr("</svg>"));
+  EXPECT_THAT(FileText(folder.Path("course.png")), StartsWith("\x89PNG"));
+}
+
+TEST(CompareVerb, PutsTheTableOfRunsAloneOnStandardOutput) {
+  const AppResult result =
+      RunApp("compare " + kRtc + kSmall + "--models sd --algorithms mlo --csv -");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1 + 3);
+}
+
+TEST(CompareVerb, EndsCleanlyOnCtrlCWithWhatIsComplete) {
+  const TempFolder folder;
+  const AppResult result = RunApp(
+      "compare " + kRtc + " --models sd --algorithms mlo --population 1000 --iterations 1000000" +
+      " --json " + folder.Path("c.json") + " --plot " + folder.Path("box.svg") + " > " +
+      folder.Path("out.txt") + " & app=$!; sleep 0.5; kill -INT $app; wait $app");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(FileText(folder.Path("out.txt")), StartsWith("INTERRUPTED"));
+  const json j = json::parse(FileText(folder.Path("c.json")), nullptr, false);
+  ASSERT_TRUE(j.is_object());
+  EXPECT_EQ(j["interrupted"], true);
+  EXPECT_TRUE(j["problems"].empty());
+  EXPECT_LT(j["seconds"], 2);
+}
+
+TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
+  const TempFolder folder;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"--algorithms mlo,ant", "found 'ant'"},
+      {"--algorithms mlo,mlo", "the algorithm mlo is named twice"},
+      {"--algorithms mlo,,de", "expected a list such as"},
+      {"--algorithms ''", "--algorithms"},
+      {"--models ''", "--models"},
+      {"--models sd,qd", "expected a list of sd, dd, td, found 'qd'"},
+      {"--models sd,sd", "the model sd is named twice"},
+      {"--runs 0", "runs = 0 is outside"},
+      {"--runs many", "--runs"},
+      {"--population 2", "population = 2 is outside [4, 100000]"},
+      {"--target-gap 0", "target-gap"},
+      {"--bounds nowhere.json", "there is no file 'nowhere.json'"},
+      {"--bound Rs", "--bound"},
+      {"--temperature-C 300", "looks like kelvin"},
+      {"--plot " + folder.Path("box.gif"), ".svg or .png"},
+      {"--json - --csv -", "cannot both go to standard output"},
+      {"--json " + folder.Path("no/c.json"), "cannot write the file"},
+      {"no_such_curve.csv", "no_such_curve.csv"},
+  };
+  for (const auto& [flags, says] : cases) {
+    const AppResult result = RunApp("compare " + kRtc + " " + flags);
+    EXPECT_EQ(result.exit_code, 1) << flags;
+    EXPECT_EQ(result.out, "") << flags;
+    EXPECT_THAT(result.err, HasSubstr(says)) << flags;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << flags;
+  }
+  EXPECT_EQ(RunApp("compare").exit_code, 1);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.Path("")));
+}
+
+}  // namespace
+}  // namespace lyrefit

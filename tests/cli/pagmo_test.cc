@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string kRtc = DataFolder("rtc_france");
+const char kEverybody[] =
+    "pagmo:de,pagmo:sade,pagmo:de1220,pagmo:cmaes,pagmo:xnes,pagmo:pso,pagmo:pso_gen,pagmo:gwo,"
+    "pagmo:bee_colony,pagmo:gaco,pagmo:sga,pagmo:ihs,pagmo:sea,pagmo:simulated_annealing";
+
+// Builds without pagmo2 say so; the other tests then have nothing to look at.
+bool HasPagmo() {
+  return RunApp("compare --help").out.find("simulated_annealing") != std::string::npos;
+}
+
+json CompareJson(const std::string& arguments) {
+  const AppResult result = RunApp("compare " + kRtc + " --json - " + arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(Pagmo, IsAskedForWhereTheBuildHasNone) {
+  if (HasPagmo()) GTEST_SKIP() << "this build has pagmo2";
+  const AppResult result = RunApp("compare " + kRtc + " --algorithms mlo,pagmo:de");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("this build has no pagmo2: install libpagmo-dev"));
+}
+
+TEST(Pagmo, EveryAlgorithmSpendsTheSameBudgetFromTheSameFirstPoints) {
+  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
+  const std::vector<std::pair<std::string, int>> budgets = {
+      {"--iterations 30", 40 * 31}, {"--iterations 30 --max-evaluations 777", 777}};
+  for (const auto& [budget, evaluations] : budgets) {
+    const json j =
+        CompareJson(std::string("--models dd --runs 1 --population 40 --algorithms mlo,") +
+                    kEverybody + " " + budget);
+    const json& contenders = j["problems"][0]["contenders"];
+    ASSERT_EQ(contenders.size(), 15U);
+    const json first = contenders[0]["median_trace"]["best_A"][0];
+    for (std::size_t c = 1; c < contenders.size(); ++c) {
+      const json& contender = contenders[c];
+      SCOPED_TRACE(contender["name"].dump() + " " + budget);
+      EXPECT_EQ(contender["runs"][0]["evaluations"], evaluations);
+      EXPECT_EQ(contender["median_trace"]["evaluations"][0], 40);
+      EXPECT_EQ(contender["median_trace"]["best_A"][0], first);
+      EXPECT_DOUBLE_EQ(contender["median_trace"]["best_A"].back().get<double>(),
+                       contender["runs"][0]["searched_A"].get<double>());
+      EXPECT_LE(contender["runs"][0]["searched_A"], first);
+    }
+  }
+}
+
+TEST(Pagmo, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreads) {
+  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
+  const std::string arguments =
+      std::string("--models sd --runs 3 --population 20 --iterations 20 --algorithms ") +
+      kEverybody;
+  json one = CompareJson(arguments + " --seed 6 --threads 1");
+  json two = CompareJson(arguments + " --seed 6 --threads 2");
+  json other = CompareJson(arguments + " --seed 7");
+  RemoveSeconds(&one);
+  RemoveSeconds(&two);
+  EXPECT_EQ(one, two) << json::diff(one, two).dump();
+  for (int c = 0; c < 14; ++c) {
+    const auto searched = [c](const json& j) {
+      return j["problems"][0]["contenders"][c]["runs"][0]["searched_A"];
+    };
+    EXPECT_NE(searched(one), searched(other)) << kEverybody;
+  }
+}
+
+TEST(Pagmo, RefusesWhatItDoesNotKnowOrCannotDo) {
+  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"pagmo:bee", "pagmo:bee: expected one of de, sade"},
+      {"pagmo:", "expected one of de, sade"},
+      {"pagmo:de1220 --population 5", "pagmo:de1220 with a population of 5: "},
+      {"pagmo:de,pagmo:de", "the algorithm pagmo:de is named twice"},
+  };
+  for (const auto& [flags, says] : cases) {
+    const AppResult result = RunApp("compare " + kRtc + " --algorithms " + flags);
+    EXPECT_EQ(result.exit_code, 1) << flags;
+    EXPECT_THAT(result.err, HasSubstr(says)) << flags;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << flags;
+  }
+}
+
+TEST(Pagmo, JoinsTheBudgetStudy) {
+  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
+  const AppResult result = RunApp("budget " + kRtc +
+                                  " --models sd --runs 2 --budgets 100,1000 "
+                                  "--algorithms pagmo:cmaes,random");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("  pagmo:cmaes"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,286 @@
+#include "lyrefit/study/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "small_study.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// The same bits, NaN included.
+bool Same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+void ExpectSameRuns(const Comparison& a, const Comparison& b) {
+  ASSERT_EQ(a.problems.size(), b.problems.size());
+  for (std::size_t p = 0; p < a.problems.size(); ++p) {
+    EXPECT_TRUE(Same(a.problems[p].reference.rmse_A, b.problems[p].reference.rmse_A));
+    for (std::size_t c = 0; c < a.problems[p].contenders.size(); ++c) {
+      const ContenderResult& x = a.problems[p].contenders[c];
+      const ContenderResult& y = b.problems[p].contenders[c];
+      EXPECT_TRUE(Same(x.expected_evaluations, y.expected_evaluations));
+      ASSERT_EQ(x.runs.size(), y.runs.size());
+      for (std::size_t r = 0; r < x.runs.size(); ++r) {
+        EXPECT_TRUE(Same(x.runs[r].searched_A, y.runs[r].searched_A));
+        EXPECT_TRUE(Same(x.runs[r].plain_polished_A, y.runs[r].plain_polished_A));
+        EXPECT_TRUE(Same(x.runs[r].own_polished_A, y.runs[r].own_polished_A));
+        EXPECT_TRUE(Same(x.runs[r].polished_A, y.runs[r].polished_A));
+        EXPECT_EQ(x.runs[r].evaluations, y.runs[r].evaluations);
+        EXPECT_EQ(x.runs[r].evaluations_to_target, y.runs[r].evaluations_to_target);
+      }
+      ASSERT_EQ(x.trace.size(), y.trace.size());
+      for (std::size_t t = 0; t < x.trace.size(); ++t) {
+        EXPECT_EQ(x.trace[t].evaluations, y.trace[t].evaluations);
+        EXPECT_TRUE(Same(x.trace[t].best_A, y.trace[t].best_A));
+      }
+    }
+  }
+}
+
+Comparison Compared(const std::vector<Contender>& contenders, const CompareOptions& options,
+                    const Observer& observer = {}) {
+  auto comparison = Compare({RtcFrance()}, contenders, options, observer);
+  EXPECT_TRUE(comparison) << comparison.error().ToString();
+  return *comparison;
+}
+
+TEST(Compare, GivesTheSameBitsOnAnyNumberOfThreads) {
+  CompareOptions options = SmallOptions();
+  options.plain_polish = true;
+  options.threads = 1;
+  const Comparison one = Compared(SmallContenders(), options);
+  options.threads = 3;
+  ExpectSameRuns(one, Compared(SmallContenders(), options));
+}
+
+TEST(Compare, RunsEachContenderAsAFitOfItsOwnWould) {
+  const CompareOptions options = SmallOptions();
+  const Comparison comparison = Compared(SmallContenders(), options);
+  FitOptions fit;
+  fit.model = Model::kDoubleDiode;
+  fit.objective = options.objective;
+  fit.search = SmallSearch();
+  fit.search.algorithm = Algorithm::kDe;
+  fit.search.seed = options.seed;
+  fit.search.run = 2;
+  fit.intervals = Intervals::kNone;
+  const auto report = Fit(RtcFrance().curve, fit);
+  ASSERT_TRUE(report);
+  const RunRecord& run = comparison.problems[1].contenders[1].runs[2];
+  EXPECT_EQ(run.searched_A, report->rmse.searched.measured_current_A);
+  EXPECT_EQ(run.own_polished_A, report->rmse.best_bird_polished.measured_current_A);
+  EXPECT_EQ(run.polished_A, report->rmse.refined.measured_current_A);
+  EXPECT_TRUE(std::isnan(run.plain_polished_A));
+}
+
+TEST(Compare, GivesAllContendersTheSameBudget) {
+  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
+  for (const ContenderResult& contender : comparison.problems[0].contenders) {
+    for (const RunRecord& run : contender.runs) {
+      EXPECT_LE(run.evaluations, 210) << contender.name;
+      // The best lyrebird has nobody to flee to: half of its moves cost nothing.
+      EXPECT_GE(run.evaluations, contender.name == "mlo" ? 185 : 210) << contender.name;
+    }
+  }
+}
+
+TEST(Compare, StartsAllContendersOfARunFromTheSamePoints) {
+  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
+  const auto& contenders = comparison.problems[0].contenders;
+  for (const ContenderResult& contender : contenders) {
+    EXPECT_EQ(contender.trace.front().evaluations, 10);
+    EXPECT_EQ(contender.trace.front().best_A, contenders[0].trace.front().best_A);
+  }
+}
+
+TEST(Compare, OrdersProblemsByCurveThenModel) {
+  CompareOptions options = SmallOptions();
+  options.runs = 1;
+  options.polish = false;
+  const auto comparison = Compare({RtcFrance(), RtcFrance("wide")}, SmallContenders(), options);
+  ASSERT_TRUE(comparison);
+  std::vector<std::string> order;
+  for (const ProblemResult& problem : comparison->problems) {
+    order.push_back(problem.bounds_name + " " + ToText(problem.model));
+    EXPECT_EQ(problem.curve_name, "rtc_france");
+  }
+  EXPECT_THAT(order, ElementsAre("physical sd", "physical dd", "wide sd", "wide dd"));
+}
+
+TEST(Compare, MeasuresAgainstTheBestOfAllRuns) {
+  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
+  for (const ProblemResult& problem : comparison.problems) {
+    double best = kInfinity;
+    for (const ContenderResult& contender : problem.contenders) {
+      for (const RunRecord& run : contender.runs) best = std::min(best, run.polished_A);
+    }
+    EXPECT_EQ(problem.reference.rmse_A, best);
+    EXPECT_FALSE(problem.reference.certified);
+  }
+  EXPECT_NEAR(comparison.problems[0].reference.rmse_A, 9.860218779e-4, 1e-13);
+  EXPECT_EQ(comparison.problems[0].reference.parameters.size(), 5U);
+}
+
+TEST(Compare, LeavesOutWhatIsNotAskedFor) {
+  CompareOptions options = SmallOptions();
+  options.polish = false;
+  const Comparison pure = Compared(SmallContenders(), options);
+  const ProblemResult& problem = pure.problems[0];
+  EXPECT_TRUE(std::isnan(problem.contenders[0].polished.min));
+  EXPECT_TRUE(std::isnan(problem.contenders[0].plain_polished.mean));
+  EXPECT_FALSE(problem.searched.pairs.empty());
+  EXPECT_TRUE(problem.polished.pairs.empty());
+  options.rankings = false;
+  EXPECT_TRUE(Compared(SmallContenders(), options).problems[0].searched.pairs.empty());
+}
+
+TEST(Compare, RanksNothingForOneContenderOrOneRun) {
+  CompareOptions options = SmallOptions();
+  const Comparison alone = Compared({SmallContenders()[0]}, options);
+  EXPECT_TRUE(alone.problems[0].searched.pairs.empty());
+  EXPECT_EQ(alone.problems[0].polished.friedman.contenders, 0);
+  options.runs = 1;
+  const Comparison once = Compared(SmallContenders(), options);
+  EXPECT_TRUE(once.problems[0].searched.signed_ranks.empty());
+}
+
+TEST(Compare, TakesASearchOfTheUsersOwn) {
+  Contender own{"middle", {}, SmallSearch(), {}};
+  own.searcher = [](const ObjectiveFunction& objective, const Box& box, const SearchOptions&,
+                    const Observer&) {
+    SearchSummary summary;
+    for (std::size_t j = 0; j < box.lower.size(); ++j) {
+      summary.best.x.push_back(0.5 * (box.lower[j] + box.upper[j]));
+    }
+    summary.best.objective = objective(summary.best.x.data());
+    summary.elites = {summary.best};
+    summary.evaluations = 1;
+    return summary;  // keeps no trace
+  };
+  const Comparison comparison = Compared({own, SmallContenders()[0]}, SmallOptions());
+  const ContenderResult& result = comparison.problems[0].contenders[0];
+  EXPECT_EQ(result.algorithm, "middle");
+  EXPECT_EQ(result.runs[0].evaluations, 1);
+  EXPECT_EQ(result.searched.std, 0);
+  ASSERT_EQ(result.trace.size(), 1U);
+  EXPECT_EQ(result.trace[0].best_A, result.searched.min);
+}
+
+TEST(Compare, TellsTheObserverOfEveryRunOneThreadAtATime) {
+  std::atomic<int> inside{0};
+  std::vector<std::int64_t> done;
+  std::int64_t evaluations = 0;
+  const Observer observer = [&](const Progress& progress) {
+    EXPECT_EQ(++inside, 1);
+    EXPECT_EQ(progress.stage, "compare");
+    EXPECT_EQ(progress.iterations, 24);
+    EXPECT_GE(progress.evaluations, evaluations);
+    evaluations = progress.evaluations;
+    if (done.empty() || progress.iteration != done.back()) done.push_back(progress.iteration);
+    --inside;
+    return ObserverAction::kContinue;
+  };
+  Compared(SmallContenders(), SmallOptions(), observer);
+  std::vector<std::int64_t> all(24);
+  for (int i = 0; i < 24; ++i) all[i] = i + 1;
+  EXPECT_EQ(done, all);
+}
+
+TEST(Compare, KeepsCompleteProblemsWhenStopped) {
+  CompareOptions options = SmallOptions();
+  const Comparison whole = Compared(SmallContenders(), options);
+  const auto stop_after = [](std::int64_t runs) {
+    return [runs](const Progress& progress) {
+      return progress.iteration >= runs ? ObserverAction::kStop : ObserverAction::kContinue;
+    };
+  };
+  options.threads = 1;  // two could be at the first problem's last run and beyond it
+  const Comparison part = Compared(SmallContenders(), options, stop_after(14));
+  EXPECT_TRUE(part.interrupted);
+  ASSERT_EQ(part.problems.size(), 1U);
+  EXPECT_EQ(part.problems[0].contenders[2].runs[3].polished_A,
+            whole.problems[0].contenders[2].runs[3].polished_A);
+  const Comparison none = Compared(SmallContenders(), options, stop_after(0));
+  EXPECT_TRUE(none.interrupted);
+  EXPECT_TRUE(none.problems.empty());
+  EXPECT_FALSE(whole.interrupted);
+}
+
+TEST(Compare, StopsInsideALongRun) {
+  std::vector<Contender> contenders = {SmallContenders()[0]};
+  contenders[0].search.iterations = 100000000;
+  CompareOptions options = SmallOptions();
+  int calls = 0;
+  const Observer observer = [&](const Progress&) {
+    return ++calls > 1 ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+  const Comparison stopped = Compared(contenders, options, observer);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_LT(stopped.seconds, 5);
+}
+
+// The sentence with which a comparison is refused; no run may have been made before.
+std::string Refusal(const std::vector<CompareCurve>& curves,
+                    const std::vector<Contender>& contenders, const CompareOptions& options) {
+  bool ran = false;
+  const Observer observer = [&](const Progress&) {
+    ran = true;
+    return ObserverAction::kContinue;
+  };
+  const auto comparison = Compare(curves, contenders, options, observer);
+  EXPECT_FALSE(ran);
+  return comparison ? "not refused" : comparison.error().message;
+}
+
+TEST(Compare, RefusesBadContenders) {
+  const CompareOptions options = SmallOptions();
+  EXPECT_THAT(Refusal({RtcFrance()}, {}, options), HasSubstr("no algorithm"));
+  std::vector<Contender> twice = SmallContenders();
+  twice[2].name = "mlo";
+  EXPECT_EQ(Refusal({RtcFrance()}, twice, options), "the algorithm mlo is named twice");
+  std::vector<Contender> nameless = SmallContenders();
+  nameless[1].name = "";
+  EXPECT_EQ(Refusal({RtcFrance()}, nameless, options), "an algorithm has no name");
+  std::vector<Contender> tiny = SmallContenders();
+  tiny[1].search.population = 2;
+  EXPECT_EQ(Refusal({RtcFrance()}, tiny, options), "de: population = 2 is outside [4, 100000]");
+}
+
+TEST(Compare, RefusesBadOptions) {
+  const auto refusal = [](const auto& change) {
+    CompareOptions options = SmallOptions();
+    change(&options);
+    return Refusal({RtcFrance()}, SmallContenders(), options);
+  };
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->runs = 0; }), HasSubstr("runs = 0 is outside"));
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->models.clear(); }), HasSubstr("no model"));
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->models[1] = o->models[0]; }),
+              HasSubstr("the model sd is named twice"));
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->target_gap = 0; }), HasSubstr("target-gap"));
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->target_gap = kUnknown; }),
+              HasSubstr("target-gap"));
+  EXPECT_THAT(Refusal({}, SmallContenders(), SmallOptions()), HasSubstr("no curve"));
+}
+
+TEST(Compare, FindsTheMistakeInTheLastProblemBeforeTheFirstRun) {
+  CompareCurve reversed = RtcFrance();
+  reversed.bounds.overrides["n"] = {2, 1};
+  EXPECT_THAT(Refusal({RtcFrance(), reversed}, SmallContenders(), SmallOptions()),
+              HasSubstr("sd cannot be compared on rtc_france: "));
+  CompareCurve few = RtcFrance();  // enough for five parameters, not for seven
+  few.curve.voltage_V.resize(6);
+  few.curve.current_A.resize(6);
+  EXPECT_THAT(Refusal({RtcFrance(), few}, SmallContenders(), SmallOptions()),
+              HasSubstr("dd cannot be compared on rtc_france: 6 points"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -24,7 +24,7 @@ void OnInterrupt(int signal) {
 
 // "0:42", "1:02:03"
 std::string ClockText(double seconds) {
-  const auto whole = static_cast<std::int64_t>(std::min(seconds, 359999.0) + 0.5);
+  const auto whole = std::llround(std::min(seconds, 359999.0));
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }

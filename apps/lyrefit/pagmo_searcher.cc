@@ -6,113 +6,18 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <limits>
-#include <pagmo/algorithm.hpp>
-#include <pagmo/algorithms/bee_colony.hpp>
-#include <pagmo/algorithms/cmaes.hpp>
-#include <pagmo/algorithms/de.hpp>
-#include <pagmo/algorithms/de1220.hpp>
-#include <pagmo/algorithms/gaco.hpp>
-#include <pagmo/algorithms/gwo.hpp>
-#include <pagmo/algorithms/ihs.hpp>
-#include <pagmo/algorithms/pso.hpp>
-#include <pagmo/algorithms/pso_gen.hpp>
-#include <pagmo/algorithms/sade.hpp>
-#include <pagmo/algorithms/sea.hpp>
-#include <pagmo/algorithms/sga.hpp>
-#include <pagmo/algorithms/simulated_annealing.hpp>
-#include <pagmo/algorithms/xnes.hpp>
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 #include <utility>
 
 #include "lyrefit/base/random.h"
+#include "pagmo_peers.h"
 #include "recorder.h"
 
 namespace lyrefit {
 namespace {
-
-// What an algorithm has to be made for.
-struct Plan {
-  unsigned generations = 1;
-  unsigned seed = 0;
-  unsigned population = 0;
-  std::int64_t evaluations = 0;  // after the first birds
-  int dimensions = 0;
-  double level = 1;  // objective of the best first bird
-};
-
-struct Peer {
-  const char* name;
-  int per_bird;  // evaluations of a generation: so many a bird ...
-  int fixed;     // ... and so many on top
-  pagmo::algorithm (*make)(const Plan&);
-};
-
-constexpr unsigned kNever = std::numeric_limits<unsigned>::max();
-
-// The temperature falls from the level of the first birds by four decades in ten steps; ten changes
-// of range in each; the rest of the budget goes into the length of a step.
-pagmo::algorithm MakeAnnealing(const Plan& plan) {
-  constexpr std::int64_t kSteps = 10, kRanges = 10;
-  const std::int64_t bin = plan.evaluations / (kSteps * kRanges * plan.dimensions);
-  const auto bin_size = static_cast<unsigned>(std::clamp<std::int64_t>(bin, 1, 1000000000));
-  return pagmo::algorithm(pagmo::simulated_annealing(plan.level, 1e-4 * plan.level, kSteps, kRanges,
-                                                     bin_size, 1.0, plan.seed));
-}
-
-pagmo::algorithm MakeAntColony(const Plan& plan) {
-  return pagmo::algorithm(pagmo::gaco(plan.generations, std::min(63U, plan.population), 1.0, 0.0,
-                                      0.01, 1, 7, kNever, kNever, 0.0, false, plan.seed));
-}
-
-using pagmo::algorithm;
-const Peer kPeers[] = {
-    {"de", 1, 0,
-     [](const Plan& p) { return algorithm(pagmo::de(p.generations, 0.8, 0.9, 2, 0, 0, p.seed)); }},
-    {"sade", 1, 0,
-     [](const Plan& p) {
-       return algorithm(pagmo::sade(p.generations, 2, 1, 0, 0, false, p.seed));
-     }},
-    {"de1220", 1, 0,
-     [](const Plan& p) {
-       const auto& variants = pagmo::de1220_statics<void>::allowed_variants;
-       return algorithm(pagmo::de1220(p.generations, variants, 1, 0, 0, false, p.seed));
-     }},
-    {"cmaes", 1, 0,
-     [](const Plan& p) {
-       return algorithm(
-           pagmo::cmaes(p.generations, -1, -1, -1, -1, 0.5, 0, 0, false, true, p.seed));
-     }},
-    {"xnes", 1, 0,
-     [](const Plan& p) {
-       return algorithm(pagmo::xnes(p.generations, -1, -1, -1, -1, 0, 0, false, true, p.seed));
-     }},
-    {"pso", 1, 0,
-     [](const Plan& p) {
-       return algorithm(pagmo::pso(p.generations, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, false, p.seed));
-     }},
-    {"pso_gen", 1, 0,
-     [](const Plan& p) {
-       return algorithm(
-           pagmo::pso_gen(p.generations, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, false, p.seed));
-     }},
-    {"gwo", 1, 0, [](const Plan& p) { return algorithm(pagmo::gwo(p.generations, p.seed)); }},
-    {"bee_colony", 2, 0,
-     [](const Plan& p) { return algorithm(pagmo::bee_colony(p.generations, 20, p.seed)); }},
-    {"gaco", 1, 0, MakeAntColony},
-    {"sga", 1, 0,
-     [](const Plan& p) {
-       return algorithm(pagmo::sga(p.generations, 0.9, 1, 0.02, 1, 2, "exponential", "polynomial",
-                                   "tournament", p.seed));
-     }},
-    {"ihs", 0, 1,
-     [](const Plan& p) {
-       return algorithm(pagmo::ihs(p.generations, 0.85, 0.35, 0.99, 1e-5, 1, p.seed));
-     }},
-    {"sea", 0, 1, [](const Plan& p) { return algorithm(pagmo::sea(p.generations, p.seed)); }},
-    {"simulated_annealing", 0, 1, MakeAnnealing},
-};
 
 struct UnitBox {
   Recorder* recorder = nullptr;
@@ -136,7 +41,7 @@ std::string Complaint(const std::exception& error) {
 }
 
 // Draws the first birds as our own searches do and lets them evolve until the budget is used up.
-void Evolve(const Peer& peer, const SearchOptions& options, Recorder* recorder) {
+void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recorder) {
   RandomStream random(options.seed, options.run);
   std::vector<pagmo::vector_double> birds;
   std::vector<double> values;
@@ -145,7 +50,7 @@ void Evolve(const Peer& peer, const SearchOptions& options, Recorder* recorder) 
     for (int j = 0; j < recorder->dimensions(); ++j) birds.back().push_back(random.Uniform());
     values.push_back(std::min(recorder->Evaluate(birds.back().data()), 1e100));
   }
-  Plan plan;
+  PagmoPlan plan;
   plan.population = static_cast<unsigned>(options.population);
   plan.dimensions = recorder->dimensions();
   plan.level = *std::min_element(values.begin(), values.end());
@@ -158,14 +63,14 @@ void Evolve(const Peer& peer, const SearchOptions& options, Recorder* recorder) 
   for (std::int64_t before = -1; recorder->evaluations() > before;) {
     before = recorder->evaluations();
     plan.evaluations = recorder->budget() - before;
-    plan.generations = static_cast<unsigned>(
-        std::clamp<std::int64_t>((plan.evaluations + cost - 1) / cost, 1, kNever));
+    plan.generations = static_cast<unsigned>(std::clamp<std::int64_t>(
+        (plan.evaluations + cost - 1) / cost, 1, std::numeric_limits<unsigned>::max()));
     plan.seed = static_cast<unsigned>(random.Bits() >> 32);
     population = peer.make(plan).evolve(population);
   }
 }
 
-SearchSummary RunPeer(const Peer& peer, const ObjectiveFunction& objective, const Box& box,
+SearchSummary RunPeer(const PagmoPeer& peer, const ObjectiveFunction& objective, const Box& box,
                       const SearchOptions& options, const Observer& observer) {
   Recorder recorder(objective, box, options, observer);
   std::string message = "the budget is used up";
@@ -181,7 +86,7 @@ SearchSummary RunPeer(const Peer& peer, const ObjectiveFunction& objective, cons
 }
 
 // What pagmo has against such a population; empty if nothing.
-std::string Objection(const Peer& peer, const SearchOptions& search) {
+std::string Objection(const PagmoPeer& peer, const SearchOptions& search) {
   const Box box = {{0, 0}, {1, 1}};
   const ObjectiveFunction sphere = [](const double* x) { return x[0] * x[0] + x[1] * x[1]; };
   SearchOptions trial = search;
@@ -200,14 +105,16 @@ std::string Objection(const Peer& peer, const SearchOptions& search) {
 
 std::string PagmoNames() {
   std::string names;
-  for (const Peer& peer : kPeers) names += (names.empty() ? "" : ", ") + std::string(peer.name);
+  for (const PagmoPeer& peer : PagmoPeers())
+    names += (names.empty() ? "" : ", ") + std::string(peer.name);
   return names;
 }
 
 Expected<Contender> PagmoContender(const std::string& name, const SearchOptions& search) {
-  const auto* const peer = std::find_if(std::begin(kPeers), std::end(kPeers),
-                                        [&](const Peer& row) { return name == row.name; });
-  if (peer == std::end(kPeers)) {
+  const std::vector<PagmoPeer>& peers = PagmoPeers();
+  const auto peer = std::find_if(peers.begin(), peers.end(),
+                                 [&](const PagmoPeer& row) { return name == row.name; });
+  if (peer == peers.end()) {
     return Fail(fmt::format("pagmo:{}: expected one of {} behind pagmo:", name, PagmoNames()));
   }
   if (auto valid = ValidateOptions(search, kSearchOptionTable); !valid) {
@@ -218,9 +125,9 @@ Expected<Contender> PagmoContender(const std::string& name, const SearchOptions&
         fmt::format("pagmo:{} with a population of {}: {}", name, search.population, objection));
   }
   Contender contender{"pagmo:" + name, "pagmo:" + name, search, {}};
-  contender.searcher = [peer](const ObjectiveFunction& objective, const Box& box,
-                              const SearchOptions& options, const Observer& observer) {
-    return RunPeer(*peer, objective, box, options, observer);
+  contender.searcher = [&peer = *peer](const ObjectiveFunction& objective, const Box& box,
+                                       const SearchOptions& options, const Observer& observer) {
+    return RunPeer(peer, objective, box, options, observer);
   };
   return contender;
 }

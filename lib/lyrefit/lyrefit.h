@@ -1,7 +1,7 @@
 #pragma once
 
-// The beginner's door to lyrefit: everything that reading, fitting, simulating and reporting one
-// I-V curve takes.
+// The beginner's door to lyrefit: everything that reading, fitting, simulating, certifying and
+// comparing I-V curves takes.
 //
 //   #include <iostream>
 //   #include "lyrefit/lyrefit.h"

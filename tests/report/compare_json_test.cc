@@ -31,7 +31,7 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   const json& problem = j["problems"][0];
   EXPECT_EQ(Keys(problem), (Set{"curve", "model", "bounds", "reference", "contenders", "ranking"}));
   EXPECT_EQ(Keys(problem["reference"]),
-            (Set{"rmse_A", "certified", "lower_bound_A", "origin", "parameters"}));
+            (Set{"rmse_A", "certified", "lower_bound_A", "floor_A", "origin", "parameters"}));
   const json& contender = problem["contenders"][0];
   EXPECT_EQ(Keys(contender), (Set{"name", "algorithm", "settings", "searched", "plain_polished",
                                   "best_bird_polished", "refined", "evaluations", "target",

@@ -22,11 +22,31 @@ json Parsed(const FitReport& report) { return json::parse(JsonReport(report)); }
 
 TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
   const json j = Parsed(SampleReport());
-  const std::set<std::string> top = {
-      "lyrefit_version", "curve",     "model",        "objective", "constants",     "bounds",
-      "parameters",      "nNsVth",    "singlediode",  "rmse",      "largest_error", "key_points",
-      "information",     "residuals", "correlations", "search",    "refine",        "intervals",
-      "model_choice",    "options",   "interrupted",  "usable",    "warnings",      "data"};
+  const std::set<std::string> top = {"lyrefit_version",
+                                     "curve",
+                                     "model",
+                                     "objective",
+                                     "constants",
+                                     "bounds",
+                                     "floor",
+                                     "parameters",
+                                     "nNsVth",
+                                     "singlediode",
+                                     "rmse",
+                                     "largest_error",
+                                     "key_points",
+                                     "information",
+                                     "residuals",
+                                     "correlations",
+                                     "search",
+                                     "refine",
+                                     "intervals",
+                                     "model_choice",
+                                     "options",
+                                     "interrupted",
+                                     "usable",
+                                     "warnings",
+                                     "data"};
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
                                         "iterations", "evaluations", "termination", "message",
@@ -36,6 +56,17 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
                                         "agreeing",    "winner",  "projected_gradient",
                                         "condition",   "seconds", "start_list"};
   EXPECT_EQ(Keys(j["refine"]), refine);
+}
+
+TEST(JsonReport, TellsTheFloorWhereItWasAskedFor) {
+  FitReport report = SampleReport();
+  EXPECT_TRUE(Parsed(report)["floor"].is_null());
+  report.floor = {9.8e-4, 9.7e-4, 1, 2, 0.01};
+  const json floor = Parsed(report)["floor"];
+  EXPECT_EQ(Keys(floor), (std::set<std::string>{"measured_current_rmse_A", "lower_bound_A",
+                                                "n_lower", "n_upper", "refined_above"}));
+  EXPECT_EQ(floor["lower_bound_A"], 9.7e-4);
+  EXPECT_EQ(floor["refined_above"], 0.01);
 }
 
 TEST(JsonReport, NamesParametersAsPvlibDoes) {

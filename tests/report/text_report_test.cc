@@ -55,6 +55,17 @@ TEST(FullReport, LabelsBothRmsesAndMarksTheFittedOne) {
   EXPECT_THAT(FullReport(report), HasSubstr("measured-current *   solved-current"));
 }
 
+TEST(FullReport, SaysHowMuchRoomIsLeftBelowWhereThatWasAskedFor) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("Floor:")));
+  report.floor = {9.824848761e-4, 9.824848761e-4, 1, 2, 0.0036};
+  EXPECT_THAT(FullReport(report), HasSubstr("Floor: no number of diodes with n in [1, 2]"));
+  EXPECT_THAT(FullReport(report), HasSubstr("9.824848761e-04"));
+  EXPECT_THAT(FullReport(report), HasSubstr("0.360 %"));
+  report.floor->above = 1e-12;
+  EXPECT_THAT(FullReport(report), HasSubstr("attains"));
+}
+
 TEST(FullReport, SaysWhereThereWasNoPolish) {
   FitReport report = SampleReport();
   report.polished = false;

@@ -11,6 +11,11 @@
 namespace lyrefit {
 namespace {
 
+// An RMSE below this part of the largest current is rounding.
+constexpr double kRounding = 5e-16;
+// Generations of parts that are tried although better solutions at their ends are all they lack.
+constexpr int kMostStuck = 3;
+
 using MixturePtr = std::shared_ptr<const Mixture>;
 
 // A part of the region: Rs between the two solutions, one window for each diode (one in all where
@@ -20,6 +25,7 @@ struct Part {
   std::vector<Window> windows;
   double lower = 0;
   double ends = 0;  // dual value at the two ends alone
+  int stuck = 0;    // generations for which only rounding has kept the part from being settled
 };
 
 struct LowerFirst {
@@ -60,14 +66,14 @@ class Branch {
     Push(std::move(whole));
     while (!open_.empty()) {
       const Part part = open_.top();
-      if (part.lower >= primal_ * (1 - limits_.tolerance)) break;
+      if (part.lower >= Enough()) break;
       if (end_.solved >= limits_.most_solved) break;
       if (limits_.proceed && !limits_.proceed(end_.solved, primal_, part.lower)) break;
       open_.pop();
       Split(part);
     }
-    end_.complete = open_.empty() || open_.top().lower >= primal_ * (1 - limits_.tolerance);
     end_.lower = std::min(settled_, open_.empty() ? settled_ : open_.top().lower);
+    end_.complete = end_.lower >= Enough();
     return std::move(end_);
   }
 
@@ -87,6 +93,13 @@ class Branch {
   }
 
   double Scale() const { return data_.current_A.cwiseAbs().maxCoeff(); }
+
+  // The lower bound that settles a part.
+  double Enough() const {
+    const double rounding = kRounding * Scale() * std::sqrt(0.5 * data_.current_A.size());
+    const double root = std::sqrt(primal_ * (1 - limits_.tolerance)) - rounding;
+    return root > 0 ? root * root : 0;
+  }
 
   struct PriceTag {
     double current_A;
@@ -108,6 +121,15 @@ class Branch {
     return {std::max(difference, 0.0) / (1 - v_low / v_high), v_high};
   }
 
+  // The excess of a mixture with columns scaled at `voltage`.
+  static double Excess(const Mixture& mixture, const std::vector<Window>& windows, double voltage) {
+    const double above = mixture.scale_voltage_V - voltage;
+    if (above <= 0 || mixture.excess == 0) return mixture.excess;
+    double u = 0;
+    for (const Window& window : windows) u = std::max(u, window.upper);
+    return mixture.excess * (mixture.scale_voltage_V / voltage) * std::exp(u * above);
+  }
+
   double LargestPhotocurrent(double price) const {
     return data_.current_A.maxCoeff() + std::sqrt(2 * primal_) + price;
   }
@@ -116,7 +138,7 @@ class Branch {
     const Mixture &a = *part.left, &b = *part.right;
     const auto [price, voltage] = Price(a.rs, b.rs);
     const double lack =
-        price * std::max(a.excess, b.excess) +
+        price * std::max(Excess(a, part.windows, voltage), Excess(b, part.windows, voltage)) +
         LargestPhotocurrent(price) * std::max(a.photocurrent_excess, b.photocurrent_excess);
     part.ends = std::min(a.dual, b.dual);
     part.lower = std::isfinite(price) ? part.ends - lack : 0;
@@ -131,8 +153,10 @@ class Branch {
         part.lower = a.dual + t * rise + t * (1 - t) * curvature - lack;
       }
     }
+    const double lacking = std::max(a.relative_gap * a.primal, b.relative_gap * b.primal);
+    part.stuck = part.lower + lacking >= Enough() ? part.stuck + 1 : 0;
     if (!(part.lower > 0)) part.lower = 0;
-    if (part.lower >= primal_ * (1 - limits_.tolerance)) {
+    if (part.lower >= Enough() || part.stuck > kMostStuck) {
       settled_ = std::min(settled_, part.lower);
       return;
     }
@@ -141,7 +165,7 @@ class Branch {
 
   // Halves the windows where even the ends of the part lie too low, else the range of Rs.
   void Split(const Part& part) {
-    const bool ends_too_low = part.ends < primal_ * (1 - limits_.tolerance);
+    const bool ends_too_low = part.ends < Enough();
     if (diodes_ > 0 && (ends_too_low || !(part.right->rs > part.left->rs))) {
       SplitWindow(part);
     } else {

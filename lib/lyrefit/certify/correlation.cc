@@ -9,6 +9,8 @@ namespace {
 // Pieces no wider than this in u x voltage, so that an exponential changes little within one.
 constexpr double kWidestPiece = 0.4;
 constexpr int kDeepest = 48;
+// Exponents are cut here: what is bounded with them is beyond all use anyway, and never NaN.
+constexpr double kLargestExponent = 600;
 
 // Value and slope of the correlation at u, times a positive factor that is the same for the whole
 // piece: (exp(u0 Vref) - 1) is divided by for the piece's lower end u0, which only enlarges it.
@@ -19,8 +21,8 @@ struct Piece {
 
 class Search {
  public:
-  Search(const Eigen::VectorXd& vd, double reference, const Eigen::VectorXd& y, double allowed)
-      : vd_(vd.array()), y_(y.array()), reference_(reference), allowed_(allowed) {}
+  Search(const Eigen::VectorXd& vd, double scale, const Eigen::VectorXd& y, double allowed)
+      : vd_(vd.array()), y_(y.array()), scale_(scale), allowed_(allowed) {}
 
   void Look(const Piece& first) {
     std::vector<Piece> open = {first};
@@ -40,10 +42,10 @@ class Search {
   // Bounds the piece; true if that ends the matter.
   bool Settled(const Piece& piece) {
     const double h = piece.upper - piece.lower;
-    const double factor = -1 / -std::expm1(-piece.lower * reference_);
-    const double floor = std::exp(-piece.lower * reference_);
-    const Eigen::ArrayXd low = ((vd_ - reference_) * piece.lower).exp();
-    const Eigen::ArrayXd high = (vd_ * piece.upper - reference_ * piece.lower).exp();
+    const double factor = -1 / -std::expm1(-piece.lower * scale_);
+    const double floor = std::exp(-piece.lower * scale_);
+    const Eigen::ArrayXd low = ((vd_ - scale_) * piece.lower).exp();
+    const Eigen::ArrayXd high = (vd_ * piece.upper - scale_ * piece.lower).exp();
     const double c0 = factor * (y_ * (low - floor)).sum();
     const double c1 = factor * (y_ * (high - floor)).sum();
     const double slope0 = factor * (y_ * vd_ * low).sum();
@@ -85,7 +87,7 @@ class Search {
 
   const Eigen::ArrayXd vd_;
   const Eigen::ArrayXd y_;
-  const double reference_;
+  const double scale_;
   const double allowed_;
   Correlation1D result_;
 };
@@ -97,10 +99,10 @@ int PieceCount(const Window& window, const Eigen::VectorXd& vd) {
 
 }  // namespace
 
-Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double reference_voltage_V,
+Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double scale_voltage_V,
                                const Eigen::VectorXd& y, const std::vector<Window>& windows,
                                const std::vector<Atom>& marks, double allowed) {
-  Search search(vd, reference_voltage_V, y, allowed);
+  Search search(vd, scale_voltage_V, y, allowed);
   for (const Window& window : windows) {
     std::vector<double> ends;
     const int count = PieceCount(window, vd);
@@ -117,13 +119,13 @@ Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double reference_volta
 }
 
 double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs, double dr,
-                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double reference_voltage_V) {
+                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double scale_voltage_V) {
   const Eigen::ArrayXd current = data.current_A.array();
   const Eigen::ArrayXd v0 = data.voltage_V.array() + rs * current;
   const Eigen::ArrayXd v1 = v0 + dr * current;
   const Eigen::ArrayXd step = (y1 - y0).array();
   const Eigen::ArrayXd y_high = y0.array().max(y1.array());
-  double bend = std::max(0.0, 2 * dr * (current * step).sum() / reference_voltage_V);
+  double bend = std::max(0.0, 2 * dr * (current * step).sum() / scale_voltage_V);
   for (const Window& window : windows) {
     const int count = std::max(PieceCount(window, v0.matrix()), PieceCount(window, v1.matrix()));
     const double width = (window.upper - window.lower) / count;
@@ -136,11 +138,13 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
       const Eigen::ArrayXd factor =
           (square * (u0 * u0)).max(square * (u1 * u1)) + (cross * u0).max(cross * u1);
       const Eigen::ArrayXd exponent_low =
-          (v0 * u0).min(v0 * u1).min((v1 * u0).min(v1 * u1)) - u0 * reference_voltage_V;
+          (v0 * u0).min(v0 * u1).min((v1 * u0).min(v1 * u1)) - u0 * scale_voltage_V;
       const Eigen::ArrayXd exponent_high =
-          (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * reference_voltage_V;
-      const double sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
-      bend = std::max(bend, sum / -std::expm1(-u0 * reference_voltage_V));
+          (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * scale_voltage_V;
+      const double sum = (factor * exponent_low.min(kLargestExponent).exp())
+                             .max(factor * exponent_high.min(kLargestExponent).exp())
+                             .sum();
+      bend = std::max(bend, sum / -std::expm1(-u0 * scale_voltage_V));
     }
   }
   return bend;

@@ -17,7 +17,7 @@ struct Correlation1D {
 // Bisects the windows until every piece is proved to stay below `allowed` by bounds on the second
 // derivative, or is known to exceed it. `marks` are places where the correlation touches zero from
 // below, and which pieces should therefore end at. Rounding aside the bound is a proof.
-Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double reference_voltage_V,
+Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double scale_voltage_V,
                                const Eigen::VectorXd& y, const std::vector<Window>& windows,
                                const std::vector<Atom>& marks, double allowed);
 
@@ -25,8 +25,8 @@ Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double reference_volta
 // derivative, along t in [0, 1], of a(u; Rs + t dr) . (y0 + t (y1 - y0)) for every u of the windows
 // and for the shunt's column. Between the ends the correlation exceeds the straight line between
 // its ends by at most t (1 - t) / 2 times that. Here a diode's column is scaled to its current at
-// `reference_voltage_V`, and the shunt's as well.
+// `scale_voltage_V`, and the shunt's as well.
 double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs, double dr,
-                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double reference_voltage_V);
+                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double scale_voltage_V);
 
 }  // namespace lyrefit

@@ -13,8 +13,9 @@ namespace {
 
 constexpr int kMostRounds = 40;      // of adding an atom and sliding
 constexpr int kMostSlides = 30;      // Newton steps between two such rounds
-constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vref may be one in truth
-constexpr double kSameAtom = 1e-9;   // atoms closer than this in u Vref are one
+constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be one in truth
+constexpr double kSameAtom = 1e-9;   // atoms closer than this in u Vs are one
+constexpr double kRounding = 1e-17;  // a correlation below this part of |y| is rounding
 
 class Solver {
  public:
@@ -22,8 +23,8 @@ class Solver {
       : data_(data),
         windows_(windows),
         rs_(rs),
-        reference_(data.reference_voltage_V),
-        vd_(data.voltage_V + rs * data.current_A) {}
+        vd_(data.voltage_V + rs * data.current_A),
+        scale_(vd_.maxCoeff()) {}
 
   Mixture Run(const std::vector<Atom>& start, double tolerance, double price_A) {
     for (const Atom& atom : start) Add(atom.u);
@@ -33,9 +34,9 @@ class Solver {
       Slide();
       if (round % 3 == 2) MergeNeighbours();
       const Eigen::VectorXd y = CleanResidual();
-      const double allowed = 0.25 * tolerance * y.squaredNorm() / price_A;
-      const Correlation1D correlation =
-          BoundCorrelation(vd_, reference_, y, windows_, atoms_, allowed);
+      const double allowed =
+          std::max(0.25 * tolerance * y.squaredNorm() / price_A, kRounding * y.norm());
+      const Correlation1D correlation = BoundCorrelation(vd_, scale_, y, windows_, atoms_, allowed);
       if (round == 0 || correlation.bound < best.excess) {
         best = Finish(y, correlation.bound, price_A);
       }
@@ -60,7 +61,7 @@ class Solver {
     const Window* window = WindowOf(u);
     u = std::min(std::max(u, window->lower), window->upper);
     for (const Atom& atom : atoms_) {
-      if (std::fabs(atom.u - u) * reference_ < kSameAtom) return false;
+      if (std::fabs(atom.u - u) * scale_ < kSameAtom) return false;
     }
     atoms_.push_back({u, 0});
     std::sort(atoms_.begin(), atoms_.end(), [](const Atom& a, const Atom& b) { return a.u < b.u; });
@@ -70,9 +71,9 @@ class Solver {
   Eigen::MatrixXd Columns(const std::vector<Atom>& atoms) const {
     Eigen::MatrixXd a(vd_.size(), 2 + atoms.size());
     a.col(0).setOnes();
-    a.col(1) = -vd_ / reference_;
+    a.col(1) = -vd_ / scale_;
     for (std::size_t j = 0; j < atoms.size(); ++j) {
-      a.col(2 + j) = DiodeColumn(vd_, reference_, atoms[j].u);
+      a.col(2 + j) = DiodeColumn(vd_, scale_, atoms[j].u);
     }
     return a;
   }
@@ -88,8 +89,8 @@ class Solver {
   const MixtureData& data_;
   const std::vector<Window>& windows_;
   const double rs_;
-  const double reference_;
   const Eigen::VectorXd vd_;
+  const double scale_;  // Vs; everything here is scaled by it
   std::vector<Atom> atoms_;
   double photocurrent_ = 0;
   double shunt_ = 0;
@@ -176,7 +177,7 @@ void Solver::Slide() {
 // them where that costs nothing.
 void Solver::MergeNeighbours() {
   for (int j = 0; j + 1 < size(); ++j) {
-    if ((atoms_[j + 1].u - atoms_[j].u) * reference_ > kNeighbours) continue;
+    if ((atoms_[j + 1].u - atoms_[j].u) * scale_ > kNeighbours) continue;
     const Solver before = *this;
     const Atom &a = atoms_[j], &b = atoms_[j + 1];
     const double weight = a.current_A / (a.current_A + b.current_A);
@@ -209,8 +210,8 @@ bool Solver::SlideOnce(double* damping) {
   for (int j = 0; j < size(); ++j) {
     linear.push_back(2 + j);
     const double u = atoms_[j].u;
-    const double scale = 1 / -std::expm1(-u * reference_);
-    const Eigen::ArrayXd e = scale * ((vd_.array() - reference_) * u).exp();
+    const double scale = 1 / -std::expm1(-u * scale_);
+    const Eigen::ArrayXd e = scale * ((vd_.array() - scale_) * u).exp();
     slopes.col(j) = -(vd_.array() * e).matrix();
     bends[j] = -(vd_.array().square() * e * y_.array()).sum();
     gradient[j] = -atoms_[j].current_A * slopes.col(j).dot(y_);
@@ -258,13 +259,13 @@ bool Solver::SlideOnce(double* damping) {
         Atom& atom = atoms_[moving[i]];
         const Window* window = WindowOf(atom.u);
         const double u = std::min(std::max(atom.u - step[i], window->lower), window->upper);
-        largest = std::max(largest, std::fabs(u - atom.u) * reference_);
+        largest = std::max(largest, std::fabs(u - atom.u) * scale_);
         atom.u = u;
       }
       std::sort(atoms_.begin(), atoms_.end(),
                 [](const Atom& p, const Atom& q) { return p.u < q.u; });
       for (int j = size() - 1; j > 0; --j) {
-        if ((atoms_[j].u - atoms_[j - 1].u) * reference_ < kSameAtom) {
+        if ((atoms_[j].u - atoms_[j - 1].u) * scale_ < kSameAtom) {
           atoms_.erase(atoms_.begin() + j);
         }
       }
@@ -293,11 +294,12 @@ Eigen::VectorXd Solver::CleanResidual() const {
   if (photocurrent_ > 0) active.push_back(a.col(0));
   if (shunt_ > 0) active.push_back(a.col(1));
   for (int j = 0; j < size(); ++j) active.push_back(a.col(2 + j));
+  if (active.empty()) return y_;
   const std::size_t plain = active.size();
   for (int j = 0; j < size(); ++j) {
     const Window* window = WindowOf(atoms_[j].u);
     if (atoms_[j].u <= window->lower || atoms_[j].u >= window->upper) continue;
-    const Eigen::ArrayXd e = ((vd_.array() - reference_) * atoms_[j].u).exp();
+    const Eigen::ArrayXd e = ((vd_.array() - scale_) * atoms_[j].u).exp();
     active.push_back((vd_.array() * e / vd_.cwiseAbs().maxCoeff()).matrix());
   }
   for (const std::size_t count : {active.size(), plain}) {
@@ -314,22 +316,28 @@ Eigen::VectorXd Solver::CleanResidual() const {
 Mixture Solver::Finish(const Eigen::VectorXd& y, double excess, double price_A) const {
   Mixture mixture;
   mixture.rs = rs_;
+  mixture.scale_voltage_V = scale_;
   mixture.photocurrent_A = photocurrent_;
-  mixture.shunt_current_A = shunt_;
+  const double reference = data_.reference_voltage_V;
+  mixture.shunt_current_A = shunt_ * reference / scale_;
   mixture.atoms = atoms_;
+  for (Atom& atom : mixture.atoms) {
+    atom.current_A *= std::exp(-atom.u * (scale_ - reference)) * std::expm1(-atom.u * reference) /
+                      std::expm1(-atom.u * scale_);
+  }
   mixture.primal = 0.5 * y_.squaredNorm();
   mixture.y = y;
   mixture.dual = data_.current_A.dot(y) - 0.5 * y.squaredNorm();
-  mixture.excess = std::max(excess, -vd_.dot(y) / reference_);
+  mixture.excess = std::max(excess, -vd_.dot(y) / scale_);
   mixture.photocurrent_excess = std::max(0.0, y.sum());
   const double lack =
       mixture.excess * price_A + mixture.photocurrent_excess * (photocurrent_ + price_A);
   mixture.relative_gap =
       (std::fabs(mixture.primal - mixture.dual) + lack) / std::max(mixture.primal, 1e-300);
-  Eigen::ArrayXd slope = Eigen::ArrayXd::Constant(vd_.size(), -shunt_ / reference_);
+  Eigen::ArrayXd slope = Eigen::ArrayXd::Constant(vd_.size(), -shunt_ / scale_);
   for (const Atom& atom : atoms_) {
-    const double scale = atom.current_A / -std::expm1(-atom.u * reference_);
-    slope -= scale * atom.u * ((vd_.array() - reference_) * atom.u).exp();
+    const double scale = atom.current_A / -std::expm1(-atom.u * scale_);
+    slope -= scale * atom.u * ((vd_.array() - scale_) * atom.u).exp();
   }
   mixture.slope = -(slope * data_.current_A.array() * y_.array()).sum();
   return mixture;
@@ -337,10 +345,10 @@ Mixture Solver::Finish(const Eigen::VectorXd& y, double excess, double price_A) 
 
 }  // namespace
 
-Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double reference_voltage_V, double u) {
-  const double floor = std::exp(-u * reference_voltage_V);
-  const double scale = -1 / -std::expm1(-u * reference_voltage_V);
-  return (scale * (((vd.array() - reference_voltage_V) * u).exp() - floor)).matrix();
+Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, double u) {
+  const double floor = std::exp(-u * scale_voltage_V);
+  const double scale = -1 / -std::expm1(-u * scale_voltage_V);
+  return (scale * (((vd.array() - scale_voltage_V) * u).exp() - floor)).matrix();
 }
 
 Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows, double rs,

@@ -81,7 +81,10 @@ Json RowJson(const AuditRow& row) {
           {"model", ToText(row.model)},
           {"algorithm", row.algorithm},
           {"note", row.note},
-          {"claimed", {{"text", row.rmse.text}, {"rmse_A", Number(row.rmse.value)}}},
+          {"claimed",
+           {{"text", row.rmse.text},
+            {"rmse_A", Number(row.rmse.value)},
+            {"half_unit_A", Number(row.rmse.half_unit)}}},
           {"temperature_C", OrNull(row.temperature_C)},
           {"cells_in_series", OrNull(row.cells)},
           {"constants", ConstantsOrNull(row.constants)}};

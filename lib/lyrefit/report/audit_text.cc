@@ -86,16 +86,19 @@ std::string BadRows(const AuditReport& report) {
   return text;
 }
 
-// How many of the rows that reproduce do so with each set of constants.
+// How many claims that reproduce do so with each set of constants, where none was stated.
 std::string ConstantsSummary(const AuditReport& report) {
-  if (report.options.constants) return "";
+  const bool open =
+      std::any_of(report.findings.begin(), report.findings.end(),
+                  [](const AuditFinding& finding) { return finding.stated.any_constants; });
+  if (!open) return "";
   std::string text;
   for (const auto& row : EnumTable<ConstantSet>::kRows) {
     int count = 0;
     for (const AuditFinding& finding : report.findings) {
-      if (finding.row.constants) continue;
       const AuditReading& reading =
           finding.explanations.empty() ? finding.stated : finding.explanations[0].reading;
+      if (!reading.any_constants) continue;
       count += static_cast<int>(
           std::count(reading.constants.begin(), reading.constants.end(), row.value));
     }
@@ -110,7 +113,7 @@ std::string Summary(const AuditReport& report) {
   for (const auto& row : EnumTable<AuditVerdict>::kRows) {
     const int count = CountFindings(report, row.value);
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", first ? "" : ", ", count, row.text);
+    text += fmt::format("{}{} {}", first ? "" : ", ", row.text, count);
     first = false;
   }
   if (report.findings.empty()) text += "none audited";

@@ -30,6 +30,7 @@ Json ReferenceJson(const ProblemResult& problem) {
   return {{"rmse_A", Number(reference.rmse_A)},
           {"certified", reference.certified},
           {"lower_bound_A", Number(reference.lower_bound_A)},
+          {"floor_A", Number(reference.floor_A)},
           {"origin", reference.origin},
           {"parameters", std::move(parameters)}};
 }

@@ -59,6 +59,23 @@ std::string Winners(const ProblemResult& problem, const Ranking& ranking) {
   return text;
 }
 
+// Differences that are significant and mean nothing: both algorithms always end at the reference.
+std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
+  const auto always_there = [&](int c) {
+    const ContenderResult& contender = problem.contenders[c];
+    return contender.searched.within_1e9 == static_cast<int>(contender.runs.size());
+  };
+  const auto count = std::count_if(
+      ranking.signed_ranks.begin(), ranking.signed_ranks.end(), [&](const SignedRank& pair) {
+        return pair.p_holm < kSignificant && always_there(pair.first) && always_there(pair.second);
+      });
+  if (count == 0) return "";
+  return Wrap("    ",
+              fmt::format("{} of these differences {} rounding: all runs of both are within "
+                          "1e-9 of the reference",
+                          count, count == 1 ? "is" : "are"));
+}
+
 // "50", or "3 to 50" where pairs of contenders differ in that.
 struct Differing {
   int fewest = std::numeric_limits<int>::max();
@@ -74,6 +91,7 @@ struct Differing {
 
 // The pairs that chance explains, and how many of their runs differ at all.
 std::string Undecided(const ProblemResult& problem, const Ranking& ranking) {
+  if (ranking.friedman.contenders == 0) return "";
   const int runs = ranking.friedman.blocks;
   std::string text;
   Differing differing;
@@ -114,14 +132,15 @@ std::string TestsOf(const ProblemResult& problem, const Ranking& ranking, const 
       "  Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} apart)\n",
       stage, ranking.signed_ranks.size(),
       std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart));
-  return text + Winners(problem, ranking) + Undecided(problem, ranking);
+  return text + Winners(problem, ranking);
 }
 
 }  // namespace
 
 std::string RankSection(const ProblemResult& problem) {
   return TestsOf(problem, problem.searched, "search alone") +
-         TestsOf(problem, problem.polished, "polished");
+         RoundingNote(problem, problem.searched) + Undecided(problem, problem.searched) +
+         TestsOf(problem, problem.polished, "polished") + Undecided(problem, problem.polished);
 }
 
 std::string PolishVerdict(const ProblemResult& problem) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/report/compare_sections.h"
 #include "lyrefit/report/text_layout.h"
 
@@ -139,9 +140,17 @@ std::string SetUpSection(const Comparison& comparison) {
 std::string ReferenceField(const Comparison& comparison, const ProblemResult& problem) {
   const Reference& reference = problem.reference;
   const bool open = !reference.certified && std::isnan(reference.lower_bound_A);
-  return Field("reference", fmt::format("{} A {}, {}{}", Scientific(reference.rmse_A, 10),
-                                        ObjectiveText(comparison), reference.origin,
-                                        open ? "; not proved to be the lowest" : ""));
+  std::string text =
+      fmt::format("{} A {}, {}{}", Scientific(reference.rmse_A, 10), ObjectiveText(comparison),
+                  reference.origin, open ? "; not proved to be the lowest" : "");
+  if (!std::isnan(reference.floor_A)) {
+    const double above = reference.rmse_A / reference.floor_A - 1;
+    text += above <= kCertifiedGap
+                ? "; no number of diodes goes lower"
+                : fmt::format("; {} % above the floor of any number of diodes, {} A",
+                              Significant(100 * above, 3), Scientific(reference.floor_A, 10));
+  }
+  return Field("reference", text);
 }
 
 std::string CompareText(const Comparison& comparison) {

@@ -93,8 +93,9 @@ std::string PanelPage::Legend() const {
   const double left = kLeft + std::max(0.0, 0.5 * (w - kLeft - kRight - columns * EntryWidth()));
   std::string script;
   for (int i = 0; i < static_cast<int>(legend_.size()); ++i) {
+    const int row = i / columns;
     const double x = left + EntryWidth() * (i % columns);
-    const double y = 1 - (kTitle + kLegendRow * (0.5 + i / columns)) / h;
+    const double y = 1 - (kTitle + kLegendRow * (row + 0.5)) / h;
     const double end = (x + kLine) / w;
     if (mark_ == LegendMark::kBox) {
       script += fmt::format(

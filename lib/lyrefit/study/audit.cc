@@ -92,13 +92,13 @@ class Auditor {
       return;
     }
     finding->short_circuit_A = shelf_.curves[subject.stated.curve].short_circuit_A;
-    finding->optimum_A = optima_.Find(subject, subject.stated, finding->stated.shown);
     if (HasOtherPhotocurrent(subject)) {
       finding->verdict = AuditVerdict::kOtherDevice;
       finding->other_device = FindOtherDevice(subject);
       return;
     }
     finding->nearest = std::move(search.nearest);
+    finding->optimum_A = optima_.Find(subject, subject.stated, finding->stated.shown);
     finding->temperatures = ScanTemperatures(subject);
   }
 

@@ -59,6 +59,7 @@ struct AuditReading {
   double temperature_C = kUnknown;
   int cells = 1;
   Objective objective = Objective::kMeasuredCurrent;  // of the claim
+  bool any_constants = true;                          // none were stated, so all sets were tried
   std::vector<ConstantSet> constants;        // sets under which the claim reproduces, nearest first
   ConstantSet shown = ConstantSet::kCodata;  // the set of the figures below
   std::vector<double> parameters;            // ampere, ohm of the module, n per cell

@@ -8,10 +8,10 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMostChanges = 3;
-constexpr double kWindow = 0.5;         // of ln(RMSE / claim), to either side
-constexpr double kMostChance = 0.01;    // expected accidental matches
-constexpr double kMostTolerance = 0.1;  // of the claim; no match beyond is worth a look
-constexpr double kNear = 0.05;          // of ln(RMSE / claim): worth a word
+constexpr double kWindow = 0.5;       // of ln(RMSE / claim), to either side
+constexpr double kMostChance = 0.01;  // expected accidental matches
+constexpr double kFar = 0.1;          // of the claim; no match beyond is worth a look
+constexpr double kNear = 0.05;        // of ln(RMSE / claim): worth a word
 
 // A plan and the set of constants that brings it nearest to the claim.
 struct Candidate {
@@ -57,11 +57,8 @@ class Explainer {
       const double rmse = evaluator_.Rmse(plan, plan.objective, set);
       const double distance = std::fabs(std::log(std::max(rmse, 1e-300) / claim_));
       candidate.distance = std::min(candidate.distance, distance);
-      if (std::fabs(rmse - claim_) > kMostTolerance * claim_) continue;
-      const double tolerance = evaluator_.Tolerance(plan, set);
-      if (std::fabs(rmse - claim_) <= tolerance && tolerance <= kMostTolerance * claim_) {
-        candidate.matches = true;
-      }
+      if (std::fabs(rmse - claim_) > kFar * claim_) continue;
+      if (std::fabs(rmse - claim_) <= evaluator_.Tolerance(plan, set)) candidate.matches = true;
     }
     ++tried_;
     if (candidate.distance < kWindow) ++neighbours_;

@@ -16,6 +16,9 @@ constexpr double kRoundKelvin[] = {298, 300};
 // A temperature in degrees Celsius plus 273 instead of 273.15.
 constexpr double kShortZero_K = 273;
 
+// A photocurrent further from a curve's short-circuit current than this part of it rules it out.
+constexpr double kLikeCurrent = 0.1;
+
 struct CurrentUnit {
   double in_ampere;
   const char* name;
@@ -34,7 +37,10 @@ using Alternatives = std::vector<ReadingPlan>;
 
 void OtherCurves(const AuditSubject& subject, const ReadingPlan& plan, Alternatives* out) {
   for (std::size_t c = 0; c < subject.shelf->curves.size(); ++c) {
+    const double isc = subject.shelf->curves[c].short_circuit_A;
+    const double photocurrent_A = subject.row->parameters[kIph].value;
     if (static_cast<int>(c) == subject.stated.curve) continue;
+    if (!(std::fabs(photocurrent_A - isc) <= kLikeCurrent * isc)) continue;
     ReadingPlan other = plan;
     other.curve = static_cast<int>(c);
     other.conditions = subject.shelf->curves[c].curve.conditions;

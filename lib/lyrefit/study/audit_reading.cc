@@ -106,6 +106,7 @@ AuditReading ReadingEvaluator::Read(const ReadingPlan& plan) {
   reading.parameters = Parameters(plan);
   reading.half_units = HalfUnits(plan);
   const std::vector<ConstantSet> sets = SetsOf(plan);
+  reading.any_constants = !plan.constants;
   const auto miss = [&](ConstantSet set) {
     return std::fabs(Rmse(plan, plan.objective, set) - claim);
   };

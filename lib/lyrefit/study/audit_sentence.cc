@@ -13,10 +13,10 @@ constexpr double kLargestIdeality = 5;   // above it n cannot be that of a cell
 
 std::string Ampere(double value) { return fmt::format("{:.6e} A", value); }
 
-// The sets that reproduce, or nothing where all of those that were open do.
+// The sets that reproduce, where not all do and none was stated.
 std::string ConstantsText(const AuditReading& reading) {
   constexpr std::size_t kSets = std::size(EnumTable<ConstantSet>::kRows);
-  if (reading.constants.empty() || reading.constants.size() == kSets) return "";
+  if (!reading.any_constants || reading.constants.size() == kSets) return "";
   std::string text;
   for (const ConstantSet set : reading.constants) {
     text += (text.empty() ? " with the constants " : " or ") + ToText(set);
@@ -72,25 +72,22 @@ std::string NearestText(const AuditFinding& finding) {
   const std::string text = ExplanationText(nearest);
   if (nearest.reading.constants.empty()) return fmt::format(" Nearest comes, {}.", text);
   return fmt::format(
-      " It would reproduce {}; but {} readings were tried, and {:.2g} such matches are to be "
-      "expected "
-      "by accident.",
+      " It would reproduce {}; but of the {} readings tried {:.2g} may be expected to match by "
+      "accident.",
       text, nearest.readings_tried, nearest.chance);
 }
 
 bool IsOptimum(const AuditFinding& finding) {
   const double rmse = finding.stated.rmse.Of(finding.stated.objective);
-  return rmse <= finding.optimum_A * (1 + kOptimumWithin);
+  return std::fabs(rmse - finding.optimum_A) <= kOptimumWithin * finding.optimum_A;
 }
 
 std::string Better(const AuditFinding& finding) {
   std::string text = AsStated(finding) + ", less than claimed";
   if (IsOptimum(finding)) {
-    text += fmt::format("; that is the optimum, {}", Ampere(finding.optimum_A));
+    return text + fmt::format("; that is the optimum, {}.", Ampere(finding.optimum_A));
   }
-  text += ".";
-  if (IsOptimum(finding)) return text;
-  return text + TemperatureText(finding) + NearestText(finding);
+  return text + "." + TemperatureText(finding) + NearestText(finding);
 }
 
 std::string OtherDevice(const AuditFinding& finding) {
@@ -120,7 +117,7 @@ std::string Fails(const AuditFinding& finding) {
   std::string text = AsStated(finding) + ".";
   const double claim = finding.row.rmse.value + finding.row.rmse.half_unit;
   if (finding.optimum_A > claim) {
-    text += fmt::format(" No parameters give the claim there: the best fit has {}.",
+    text += fmt::format(" No parameters with n from 1 to 2 give the claim there: the best have {}.",
                         Ampere(finding.optimum_A));
   }
   return text + TemperatureText(finding) + NearestText(finding);

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 #include <glog/logging.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <mutex>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/reference.h"
 #include "lyrefit/study/summary.h"
 
@@ -20,7 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostRuns = 1000000;
 constexpr std::chrono::milliseconds kWatchPeriod(100);  // between calls from inside a run
 
 double SecondsSince(Clock::time_point begin) {
@@ -69,18 +67,6 @@ RunOutcome OutcomeOf(const FitReport& report, Objective objective) {
   }
   outcome.parameters = report.refined;
   return outcome;
-}
-
-BestFound BestOf(const std::vector<RunOutcome>& outcomes) {
-  BestFound best{kInfinity, {}};
-  for (const RunOutcome& outcome : outcomes) {
-    const RunRecord& run = outcome.record;
-    for (const double rmse :
-         {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
-      if (rmse < best.rmse_A) best = {rmse, outcome.parameters};  // false for what is not known
-    }
-  }
-  return best;
 }
 
 // The comparison as it goes on: jobs write to their own slot, and the last one of a problem sums it
@@ -209,50 +195,12 @@ class Study {
   std::int64_t evaluations_ = 0;
 };
 
-Expected<void> CheckOptions(std::size_t curves, std::size_t contenders,
-                            const CompareOptions& options) {
-  if (curves == 0) return Fail("no curve to compare on");
-  if (options.models.empty()) return Fail("no model to compare on");
-  for (auto model = options.models.begin(); model != options.models.end(); ++model) {
-    if (std::find(options.models.begin(), model, *model) == model) continue;
-    return Fail(fmt::format("the model {} is named twice", ToText(*model)));
-  }
-  if (options.runs < 1 || options.runs > kMostRuns) {
-    return Fail(fmt::format("runs = {} is outside [1, {}]", options.runs, kMostRuns));
-  }
-  if (!(options.target_gap > 0 && options.target_gap < kInfinity)) {
-    return Fail(fmt::format("target-gap = {:g} must be above 0", options.target_gap));
-  }
-  const double jobs = static_cast<double>(curves) * static_cast<double>(options.models.size()) *
-                      static_cast<double>(contenders) * options.runs;
-  if (jobs > std::numeric_limits<int>::max()) return Fail("more than 2147483647 runs in all");
-  return {};
-}
-
-Expected<void> CheckContenders(const std::vector<Contender>& contenders) {
-  if (contenders.empty()) return Fail("no algorithm to compare");
-  for (auto contender = contenders.begin(); contender != contenders.end(); ++contender) {
-    if (contender->name.empty()) return Fail("an algorithm has no name");
-    const bool twice = std::any_of(contenders.begin(), contender, [&](const Contender& other) {
-      return other.name == contender->name;
-    });
-    if (twice) return Fail(fmt::format("the algorithm {} is named twice", contender->name));
-    if (auto valid = ValidateOptions(contender->search, kSearchOptionTable); !valid) {
-      return Fail(fmt::format("{}: {}", contender->name, valid.error().message));
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
                              const std::vector<Contender>& contenders,
                              const CompareOptions& options, const Observer& observer) {
-  if (auto checked = CheckContenders(contenders); !checked) {
-    return tl::unexpected(checked.error());
-  }
-  if (auto checked = CheckOptions(curves.size(), contenders.size(), options); !checked) {
+  if (auto checked = CheckComparison(curves, contenders, options); !checked) {
     return tl::unexpected(checked.error());
   }
   Study study(curves, contenders, options, observer);

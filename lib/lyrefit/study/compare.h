@@ -93,6 +93,7 @@ struct Reference {
   double rmse_A = kUnknown;
   bool certified = false;  // proved: no parameters within the bounds are lower by 1e-9 or more
   double lower_bound_A = kUnknown;  // proved lower bound, NaN: none
+  double floor_A = kUnknown;        // what any number of diodes could reach, NaN: not known
   std::string origin;               // in plain words
   std::vector<double> parameters;   // in the device's order
 };

@@ -36,6 +36,7 @@ Reference FindReference(const CompareCurve& subject, Model model, const CompareO
   if (!certificate) return reference;
   const ModelCertificate& proof = certificate->models.at(0);
   reference.lower_bound_A = proof.lower_bound_A;
+  reference.floor_A = certificate->floor.rmse_A;
   if (proof.rmse_A < reference.rmse_A && Within(proof.parameters, *bounds)) {
     reference.rmse_A = proof.rmse_A;
     reference.parameters = proof.parameters;

@@ -29,6 +29,7 @@ double Mean(const std::vector<double>& values) {
 template <class T>
 std::vector<double> Column(const std::vector<RunRecord>& runs, T RunRecord::*field) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const RunRecord& run : runs) values.push_back(static_cast<double>(run.*field));
   return values;
 }
@@ -87,6 +88,18 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
     course.push_back({mark, MedianOf(&best)});
   }
   return course;
+}
+
+BestFound BestOf(const std::vector<RunOutcome>& outcomes) {
+  BestFound best{kInfinity, {}};
+  for (const RunOutcome& outcome : outcomes) {
+    const RunRecord& run = outcome.record;
+    for (const double rmse :
+         {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
+      if (rmse < best.rmse_A) best = {rmse, outcome.parameters};  // false for what is not known
+    }
+  }
+  return best;
 }
 
 Spread SpreadOf(std::vector<double> values, double reference) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lyrefit/study/compare.h"
+#include "lyrefit/study/reference.h"
 
 namespace lyrefit {
 
@@ -22,6 +23,9 @@ std::int64_t EvaluationsTo(double target, const std::vector<TracePoint>& gains);
 // Median over the runs of the best so far, at up to `marks` counts of evaluations evenly spaced in
 // the logarithm, from where every run has a value to the end of the longest.
 std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, int marks = 60);
+
+// The lowest RMSE of all stages of all runs.
+BestFound BestOf(const std::vector<RunOutcome>& outcomes);
 
 // `values` must not be empty; all NaN if one is NaN.
 Spread SpreadOf(std::vector<double> values, double reference);

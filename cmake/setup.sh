@@ -17,7 +17,8 @@ PackagesFor() {
     build)
       echo build-essential cmake libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
-    test) echo libgtest-dev libgmock-dev libpagmo-dev ;;  # pagmo2: its algorithms as contenders
+    test) echo libgtest-dev libgmock-dev ;;
+    peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;
     benchmark) echo libbenchmark-dev libnlopt-dev libnlopt-cxx-dev libpagmo-dev ;;
     *) Die "no package list named '$1'" ;;

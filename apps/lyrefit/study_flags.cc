@@ -97,6 +97,21 @@ Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::s
   return numbers;
 }
 
+Expected<std::vector<Model>> ParseModels(const std::string& text) {
+  const auto names = ParseList("--models", text);
+  if (!names) return tl::unexpected(names.error());
+  std::vector<Model> models;
+  for (const std::string& name : *names) {
+    const std::optional<Model> model = FromText<Model>(name);
+    if (!model) {
+      return Fail(
+          fmt::format("--models: expected a list of {}, found '{}'", AllTexts<Model>(), name));
+    }
+    models.push_back(*model);
+  }
+  return models;
+}
+
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search) {
   const std::string pagmo = "pagmo:";
   if (name.rfind(pagmo, 0) == 0) return PagmoContender(name.substr(pagmo.size()), search);

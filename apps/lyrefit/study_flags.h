@@ -35,6 +35,8 @@ void AddPolishLevelFlags(CLI::App* app, StudyFlags* flags);
 
 // "a,b" as its parts; empty parts are refused in the name of `flag`.
 Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text);
+// "sd,dd" given to --models.
+Expected<std::vector<Model>> ParseModels(const std::string& text);
 Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text);
 
 // One algorithm by its name, and those of --algorithms, with these settings.

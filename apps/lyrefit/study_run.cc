@@ -11,21 +11,6 @@
 namespace lyrefit {
 namespace {
 
-Expected<std::vector<Model>> ParseModels(const std::string& text) {
-  const auto names = ParseList("--models", text);
-  if (!names) return tl::unexpected(names.error());
-  std::vector<Model> models;
-  for (const std::string& name : *names) {
-    const std::optional<Model> model = FromText<Model>(name);
-    if (!model) {
-      return Fail(
-          fmt::format("--models: expected a list of {}, found '{}'", AllTexts<Model>(), name));
-    }
-    models.push_back(*model);
-  }
-  return models;
-}
-
 Expected<std::vector<CompareCurve>> ReadCurves(const StudyFlags& flags) {
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {

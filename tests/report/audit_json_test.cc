@@ -57,8 +57,8 @@ TEST(AuditJson, ListsBadRowsAndCountsVerdicts) {
   EXPECT_EQ(j["bad_rows"][0]["line"], 9);
   EXPECT_EQ(j["bad_rows"][0]["column"], 4);
   EXPECT_EQ(j["summary"]["reproduces"], 1);
-  EXPECT_EQ(j["summary"]["does not reproduce"], 1);
-  EXPECT_EQ(j["summary"]["another device"], 0);
+  EXPECT_EQ(j["summary"]["does_not_reproduce"], 1);
+  EXPECT_EQ(j["summary"]["another_device"], 0);
 }
 
 TEST(AuditJson, SurvivesTextThatIsNotUtf8) {

@@ -81,6 +81,16 @@ TEST(AuditText, NamesRowsWithoutAnAlgorithmByTheirLine) {
   EXPECT_THAT(AuditText(report), HasSubstr("  - line 7: What"));
 }
 
+TEST(AuditText, CutsLongNamesInTablesOnly) {
+  AuditReport report = SampleAudit();
+  report.findings[2].row.algorithm = "a comprehensive \u00e4lgorithm [74]";
+  const std::string text = AuditText(report);
+  EXPECT_THAT(text, HasSubstr("  a comprehensive..  sd "));
+  EXPECT_THAT(text, HasSubstr("  - a comprehensive \u00e4lgorithm [74]: "));
+  report.findings[2].row.algorithm = "abcdefghijklmn\u00e4opqrst";
+  EXPECT_THAT(AuditText(report), HasSubstr("  abcdefghijklmn..  sd "));
+}
+
 TEST(BriefAudit, IsOneLineARowAndTheSummary) {
   const std::string text = BriefAudit(SampleAudit());
   EXPECT_THAT(text, StartsWith("Table 1, good, sd of cell: claimed 9.8602E-04 A, 9.860219e-04 A "

@@ -118,6 +118,24 @@ TEST(CompareText, NamesTheAlgorithmsThatAreBetter) {
   EXPECT_THAT(text, HasSubstr("    mlo not told from de (p at least"));
 }
 
+TEST(CompareText, CallsRoundingWhatIsRounding) {
+  Comparison comparison = SampleComparison();
+  std::vector<std::vector<double>> values(3);
+  for (int r = 0; r < 20; ++r) {
+    values[0].push_back(1 + 1e-15 * r);
+    values[1].push_back(1 + 1e-13 + 1e-15 * r);
+    values[2].push_back(2 + r);
+  }
+  ProblemResult& problem = comparison.problems[0];
+  problem.searched = RankAll(values);
+  for (int c = 0; c < 2; ++c) problem.contenders[c].searched.within_1e9 = 4;
+  const std::string text = Unwrapped(CompareText(comparison));
+  EXPECT_THAT(text, HasSubstr("mlo below de, random"));
+  EXPECT_THAT(text,
+              HasSubstr("1 of these differences is rounding: all runs of both are within 1e-9 "
+                        "of the reference"));
+}
+
 TEST(CompareText, LeavesOutWhatWasNotDone) {
   Comparison comparison = SampleComparison();
   comparison.options.polish = comparison.options.plain_polish = false;

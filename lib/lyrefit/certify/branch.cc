@@ -12,7 +12,7 @@ namespace lyrefit {
 namespace {
 
 // An RMSE below this part of the largest current is rounding.
-constexpr double kRounding = 5e-16;
+constexpr double kRounding = 1e-14;
 // Generations of parts that are tried although better solutions at their ends are all they lack.
 constexpr int kMostStuck = 3;
 
@@ -96,9 +96,8 @@ class Branch {
 
   // The lower bound that settles a part.
   double Enough() const {
-    const double rounding = kRounding * Scale() * std::sqrt(0.5 * data_.current_A.size());
-    const double root = std::sqrt(primal_ * (1 - limits_.tolerance)) - rounding;
-    return root > 0 ? root * root : 0;
+    const double rmse = std::sqrt(2 * primal_ / data_.current_A.size());
+    return rmse <= kRounding * Scale() ? 0 : primal_ * (1 - limits_.tolerance);
   }
 
   struct PriceTag {

@@ -192,6 +192,21 @@ ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& 
 
 }  // namespace
 
+std::vector<double> DualCosines(const Certificate& certificate, const std::vector<double>& n) {
+  const auto points = static_cast<Eigen::Index>(certificate.curve.size());
+  const Eigen::Map<const Eigen::VectorXd> voltage(certificate.curve.voltage_V.data(), points);
+  const Eigen::Map<const Eigen::VectorXd> current(certificate.curve.current_A.data(), points);
+  const Eigen::Map<const Eigen::VectorXd> y(certificate.floor.dual_A.data(), points);
+  const Eigen::VectorXd vd = voltage + certificate.floor.resistance_series_ohm * current;
+  std::vector<double> cosines;
+  for (const double ideality : n) {
+    const Eigen::VectorXd column = DiodeColumn(
+        vd, certificate.reference_voltage_V, 1 / (ideality * certificate.module_thermal_voltage_V));
+    cosines.push_back(column.dot(y) / std::max(column.norm() * y.norm(), 1e-300));
+  }
+  return cosines;
+}
+
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
                               const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();

@@ -100,4 +100,9 @@ struct Certificate {
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options = {},
                               const Observer& observer = {});
 
+// Cosine between the floor's dual vector and the column of a diode with each of these n at the
+// floor's Rs: nowhere above zero within the range (rounding aside), zero at the diodes of the
+// floor.
+std::vector<double> DualCosines(const Certificate& certificate, const std::vector<double>& n);
+
 }  // namespace lyrefit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lyrefit {
 namespace {
@@ -9,8 +10,7 @@ namespace {
 // Pieces no wider than this in u x voltage, so that an exponential changes little within one.
 constexpr double kWidestPiece = 0.4;
 constexpr int kDeepest = 48;
-// Exponents are cut here: what is bounded with them is beyond all use anyway, and never NaN.
-constexpr double kLargestExponent = 600;
+constexpr double kHighestExponent = 600;  // beyond it nothing is bounded
 
 // Value and slope of the correlation at u, times a positive factor that is the same for the whole
 // piece: (exp(u0 Vref) - 1) is divided by for the piece's lower end u0, which only enlarges it.
@@ -92,6 +92,20 @@ class Search {
   Correlation1D result_;
 };
 
+// An upper bound of the correlation a(u) . y over u in [u0, u1], good enough to tell pieces where
+// it is far below zero.
+double RoughBound(const Eigen::ArrayXd& vd, double scale, const Eigen::ArrayXd& y, double u0,
+                  double u1) {
+  const Eigen::ArrayXd low = ((vd - scale) * u0).exp();
+  const Eigen::ArrayXd high = (vd * u1 - scale * u0).exp();
+  const double factor = 1 / std::expm1(-u0 * scale);
+  const double floor = std::exp(-u0 * scale);
+  const Eigen::ArrayXd bend = factor * y * vd.square();
+  const double below = (bend * low).min(bend * high).sum();
+  return factor * std::min((y * (low - floor)).sum(), (y * (high - floor)).sum()) +
+         0.125 * (u1 - u0) * (u1 - u0) * std::max(0.0, -below);
+}
+
 int PieceCount(const Window& window, const Eigen::VectorXd& vd) {
   const double span = (window.upper - window.lower) * vd.cwiseAbs().maxCoeff();
   return std::max(1, static_cast<int>(std::ceil(span / kWidestPiece)));
@@ -125,7 +139,13 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
   const Eigen::ArrayXd v1 = v0 + dr * current;
   const Eigen::ArrayXd step = (y1 - y0).array();
   const Eigen::ArrayXd y_high = y0.array().max(y1.array());
-  double bend = std::max(0.0, 2 * dr * (current * step).sum() / scale_voltage_V);
+  double bend = 0;
+  // Keeps the largest of those columns whose correlation can rise above zero between the ends.
+  const auto keep = [&bend](double column_bend, double ends) {
+    if (ends + 0.125 * column_bend > 0) bend = std::max(bend, column_bend);
+  };
+  keep(2 * dr * (current * step).sum() / scale_voltage_V,
+       -std::min((v0 * y0.array()).sum(), (v1 * y1.array()).sum()) / scale_voltage_V);
   for (const Window& window : windows) {
     const int count = std::max(PieceCount(window, v0.matrix()), PieceCount(window, v1.matrix()));
     const double width = (window.upper - window.lower) / count;
@@ -141,10 +161,14 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
           (v0 * u0).min(v0 * u1).min((v1 * u0).min(v1 * u1)) - u0 * scale_voltage_V;
       const Eigen::ArrayXd exponent_high =
           (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * scale_voltage_V;
-      const double sum = (factor * exponent_low.min(kLargestExponent).exp())
-                             .max(factor * exponent_high.min(kLargestExponent).exp())
-                             .sum();
-      bend = std::max(bend, sum / -std::expm1(-u0 * scale_voltage_V));
+      if (exponent_high.maxCoeff() > kHighestExponent) {
+        return std::numeric_limits<double>::infinity();
+      }
+      const double sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
+      const double column_bend = sum / -std::expm1(-u0 * scale_voltage_V);
+      if (column_bend <= bend) continue;
+      keep(column_bend, std::max(RoughBound(v0, scale_voltage_V, y0.array(), u0, u1),
+                                 RoughBound(v1, scale_voltage_V, y1.array(), u0, u1)));
     }
   }
   return bend;

@@ -15,7 +15,7 @@ constexpr int kMostRounds = 40;      // of adding an atom and sliding
 constexpr int kMostSlides = 30;      // Newton steps between two such rounds
 constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be one in truth
 constexpr double kSameAtom = 1e-9;   // atoms closer than this in u Vs are one
-constexpr double kRounding = 1e-17;  // a correlation below this part of |y| is rounding
+constexpr double kRounding = 1e-16;  // relative
 
 class Solver {
  public:
@@ -34,8 +34,7 @@ class Solver {
       Slide();
       if (round % 3 == 2) MergeNeighbours();
       const Eigen::VectorXd y = CleanResidual();
-      const double allowed =
-          std::max(0.25 * tolerance * y.squaredNorm() / price_A, kRounding * y.norm());
+      const double allowed = AllowedExcess(y.norm(), tolerance, price_A);
       const Correlation1D correlation = BoundCorrelation(vd_, scale_, y, windows_, atoms_, allowed);
       if (round == 0 || correlation.bound < best.excess) {
         best = Finish(y, correlation.bound, price_A);
@@ -48,6 +47,12 @@ class Solver {
 
  private:
   int size() const { return static_cast<int>(atoms_.size()); }
+
+  // What a correlation may be without opening the duality gap, or without rising above rounding.
+  double AllowedExcess(double y_norm, double tolerance, double price_A) const {
+    if (y_norm <= 10 * kRounding * data_.current_A.norm()) return y_norm;  // an exact fit
+    return std::max(0.25 * tolerance * y_norm * y_norm / price_A, kRounding * y_norm);
+  }
 
   const Window* WindowOf(double u) const {
     for (const Window& window : windows_) {

@@ -1,5 +1,6 @@
 #include "lyrefit/report/audit_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -131,7 +132,9 @@ std::string AuditJson(const AuditReport& report) {
   }
   json["summary"] = Json::object();
   for (const auto& row : EnumTable<AuditVerdict>::kRows) {
-    json["summary"][std::string(row.text)] = CountFindings(report, row.value);
+    std::string key(row.text);
+    std::replace(key.begin(), key.end(), ' ', '_');
+    json["summary"][key] = CountFindings(report, row.value);
   }
   // Rows and paths may hold bytes that are not UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

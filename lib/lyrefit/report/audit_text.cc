@@ -12,6 +12,7 @@ namespace lyrefit {
 namespace {
 
 constexpr int kDigits = 7;
+constexpr std::size_t kLongestName = 17;  // in a table; the remarks below it have all of it
 
 std::string Rows(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "row" : "rows");
@@ -34,6 +35,14 @@ std::string Head(const AuditReport& report, Objective objective) {
 std::string Name(const AuditFinding& finding) {
   return finding.row.algorithm.empty() ? fmt::format("line {}", finding.row.line)
                                        : finding.row.algorithm;
+}
+
+std::string ShortName(const AuditFinding& finding) {
+  std::string name = Name(finding);
+  if (name.size() <= kLongestName) return name;
+  std::size_t end = kLongestName - 2;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+  return name.substr(0, end) + "..";
 }
 
 std::string BoundsSentence(const AuditFinding& finding) {
@@ -63,7 +72,7 @@ std::string Section(const AuditReport& report, std::size_t begin, std::size_t en
   std::string remarks;
   for (std::size_t i = begin; i < end; ++i) {
     const AuditFinding& finding = report.findings[i];
-    table.Add({Name(finding), ToText(finding.row.model), finding.row.rmse.text,
+    table.Add({ShortName(finding), ToText(finding.row.model), finding.row.rmse.text,
                Scientific(finding.stated.rmse.measured_current_A, kDigits),
                Scientific(finding.stated.rmse.solved_current_A, kDigits), ToText(finding.verdict)});
     remarks += Remark(finding);

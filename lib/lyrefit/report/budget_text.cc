@@ -7,6 +7,7 @@
 #include "lyrefit/report/compare_sections.h"
 #include "lyrefit/report/compare_text.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -176,8 +177,8 @@ std::string ProblemText(const Comparison& comparison, const ProblemResult& probl
 std::string BudgetText(const Comparison& comparison) {
   std::string text = InterruptedLine(comparison);
   text += fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}\n",
-                      comparison.version, Counted(comparison.options.runs, "run"),
-                      Counted(comparison.problems.size(), "problem"));
+                      comparison.version, Plural(comparison.options.runs, "run"),
+                      Plural(comparison.problems.size(), "problem"));
   text += SetUpSection(comparison);
   text += Field("budget",
                 "columns are evaluations of one search; its population is about their root, 4 to "

@@ -1,22 +1,10 @@
 #include "lyrefit/report/compare_json.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "lyrefit/device/device.h"
+#include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(Number(value));
-  return list;
-}
 
 Json Seconds(double value) { return {{"seconds", Number(value)}}; }
 

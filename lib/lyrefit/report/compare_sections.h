@@ -11,9 +11,6 @@ namespace lyrefit {
 // "rtc_france, double-diode model, bounds literature"
 std::string ProblemTitle(const ProblemResult& problem);
 
-// "curve" and "curves": "1 curve", "3 curves".
-std::string Counted(std::size_t count, const std::string& noun);
-
 // "INTERRUPTED: ..." or nothing.
 std::string InterruptedLine(const Comparison& comparison);
 

@@ -8,6 +8,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/report/compare_sections.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -102,21 +103,16 @@ std::string ProblemText(const Comparison& comparison, const ProblemResult& probl
 std::string Title(const Comparison& comparison) {
   if (comparison.problems.empty()) return "nothing was completed";
   const std::size_t contenders = comparison.problems[0].contenders.size();
-  return fmt::format("{}, {} each, on {}", Counted(contenders, "algorithm"),
-                     Counted(comparison.options.runs, "run"),
-                     Counted(comparison.problems.size(), "problem"));
+  return fmt::format("{}, {} each, on {}", Plural(contenders, "algorithm"),
+                     Plural(comparison.options.runs, "run"),
+                     Plural(comparison.problems.size(), "problem"));
 }
 
 }  // namespace
 
-std::string Counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string ProblemTitle(const ProblemResult& problem) {
-  const char* const models[] = {"single-diode", "double-diode", "triple-diode"};
-  return fmt::format("{}, {} model, bounds {}", problem.curve_name,
-                     models[static_cast<int>(problem.model) - 1], problem.bounds_name);
+  return fmt::format("{}, {} model, bounds {}", problem.curve_name, ModelTitle(problem.model),
+                     problem.bounds_name);
 }
 
 std::string InterruptedLine(const Comparison& comparison) {
@@ -131,9 +127,9 @@ std::string SetUpSection(const Comparison& comparison) {
                                      ObjectiveText(comparison), ToText(options.constants)));
   const std::string budget = CommonBudget(comparison);
   if (!budget.empty()) text += Field("budget", budget + " a run");
+  const char* const common = budget.empty() ? "" : ": in each run all start from the same points";
   text +=
-      Field("runs", fmt::format("0 to {} of seed {}: in each run all start from the same points",
-                                options.runs - 1, options.seed));
+      Field("runs", fmt::format("0 to {} of seed {}{}", options.runs - 1, options.seed, common));
   return text;
 }
 

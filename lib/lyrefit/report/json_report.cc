@@ -1,35 +1,9 @@
 #include "lyrefit/report/json_report.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(Number(value));
-  return list;
-}
-
-Json CurveJson(const IvCurve& curve) {
-  const Conditions& c = curve.conditions;
-  // Rounded where the subtraction leaves 33.00000000000006.
-  const double temperature_C = std::round((c.cell_temperature_K - kZeroCelsius_K) * 1e9) / 1e9;
-  return {{"name", curve.name},
-          {"source", curve.source},
-          {"points", curve.size()},
-          {"conditions",
-           {{"cells_in_series", c.cells_in_series},
-            {"strings_in_parallel", c.strings_in_parallel},
-            {"cell_temperature_C", Number(temperature_C)},
-            {"irradiance_Wm2", Number(c.irradiance_W_m2)}}},
-          {"assumptions", curve.assumptions}};
-}
 
 Json ParametersJson(const FitReport& report) {
   Json parameters = Json::object();
@@ -168,15 +142,6 @@ Json ChoiceJson(const std::optional<ModelChoice>& choice) {
   return {{"chosen", ToText(choice->chosen)},
           {"sentence", choice->sentence},
           {"candidates", std::move(candidates)}};
-}
-
-Json OptionsJson(const std::vector<OptionEcho>& options) {
-  Json list = Json::array();
-  for (const OptionEcho& option : options) {
-    list.push_back(
-        {{"name", option.name}, {"value", option.value}, {"default", option.default_value}});
-  }
-  return list;
 }
 
 // What came out.

@@ -26,12 +26,18 @@ Expected<std::string> TerminalFor(const std::string& path) {
 
 }  // namespace
 
-Expected<void> PlotFit(const FitReport& report, const std::string& path) {
+Expected<void> DrawScript(const std::function<std::string(const std::string& terminal)>& script,
+                          const std::string& path) {
   const Expected<std::string> terminal = TerminalFor(path);
   if (!terminal) return tl::unexpected(terminal.error());
-  const Expected<std::string> picture = RunGnuplot(PlotScript(report, *terminal));
+  const Expected<std::string> picture = RunGnuplot(script(*terminal));
   if (!picture) return Fail(picture.error().message, path);
   return WriteTextFile(path, *picture);
+}
+
+Expected<void> PlotFit(const FitReport& report, const std::string& path) {
+  return DrawScript([&](const std::string& terminal) { return PlotScript(report, terminal); },
+                    path);
 }
 
 Expected<void> CheckPlot(const std::string& path) {

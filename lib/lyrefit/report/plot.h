@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "lyrefit/base/error.h"
@@ -12,6 +13,11 @@ namespace lyrefit {
 // RMSE. Written completely or not at all. Errors: another extension, gnuplot missing, `path` not
 // writable.
 Expected<void> PlotFit(const FitReport& report, const std::string& path);
+
+// Draws what `script` makes for a terminal, "svg" or "png" as the extension of `path` says. Errors
+// as of PlotFit.
+Expected<void> DrawScript(const std::function<std::string(const std::string& terminal)>& script,
+                          const std::string& path);
 
 // Whether PlotFit can draw into a file of this name: extension and gnuplot. To be asked before a
 // long fit.

@@ -7,6 +7,7 @@
 #include "lyrefit/report/compare_sections.h"
 #include "lyrefit/report/compare_text.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -96,8 +97,8 @@ std::string ProblemText(const Comparison& comparison, const ProblemResult& probl
 std::string SensitivityText(const Comparison& comparison) {
   std::string text = InterruptedLine(comparison);
   text += fmt::format("lyrefit {}: sensitivity of MLO to Pm and gamma, {} of each setting on {}\n",
-                      comparison.version, Counted(comparison.options.runs, "run"),
-                      Counted(comparison.problems.size(), "problem"));
+                      comparison.version, Plural(comparison.options.runs, "run"),
+                      Plural(comparison.problems.size(), "problem"));
   text += SetUpSection(comparison);
   text += Field("paper",
                 "J. Ind. Manag. Optim. 22(1), 642-690: its Table 17 is captioned minimum and holds "

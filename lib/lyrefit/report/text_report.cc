@@ -2,45 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/report/text_sections.h"
 
 namespace lyrefit {
 namespace {
-
-const char* ModelTitle(Model model) {
-  switch (model) {
-    case Model::kSingleDiode:
-      return "single-diode";
-    case Model::kDoubleDiode:
-      return "double-diode";
-    case Model::kTripleDiode:
-      return "triple-diode";
-  }
-  return "?";
-}
-
-std::string Plural(int count, const char* noun, const char* nouns) {
-  return fmt::format("{} {}", count, count == 1 ? noun : nouns);
-}
-
-std::string CurveText(const IvCurve& curve) {
-  std::string text = curve.name;
-  if (curve.size() > 0) {
-    const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
-    text += fmt::format(", {} points from {:.6g} to {:.6g} V", curve.size(), *low, *high);
-  }
-  return curve.source.empty() ? text : text + fmt::format(" ({})", curve.source);
-}
-
-std::string ConditionsText(const Conditions& c) {
-  return fmt::format("{:.6g} C, {:.6g} W/m2, {} in series, {} in parallel",
-                     c.cell_temperature_K - kZeroCelsius_K, c.irradiance_W_m2,
-                     Plural(c.cells_in_series, "cell", "cells"),
-                     Plural(c.strings_in_parallel, "string", "strings"));
-}
 
 std::string Header(const FitReport& report) {
   std::string text;
@@ -53,17 +20,9 @@ std::string Header(const FitReport& report) {
   }
   text += fmt::format("lyrefit {}: {} model of {}\n", report.version, ModelTitle(report.model),
                       report.curve.name);
-  text += Field("curve", CurveText(report.curve));
-  text += Field("conditions", ConditionsText(report.curve.conditions));
+  text += CurveFields(report.curve);
   text += Field("objective", fmt::format("{}; bounds {}; constants {}", ToText(report.objective),
                                          report.bounds_name, ToText(report.constants)));
-  return text;
-}
-
-std::string List(const char* title, const std::vector<std::string>& sentences) {
-  if (sentences.empty()) return "";
-  std::string text = std::string(title) + "\n";
-  for (const std::string& sentence : sentences) text += Wrap("  - ", sentence);
   return text;
 }
 
@@ -95,8 +54,7 @@ std::string BriefReport(const FitReport& report) {
   if (report.interrupted) text += ", INTERRUPTED";
   if (!report.usable) text += ", NOT USABLE";
   if (!report.warnings.empty()) {
-    text += fmt::format(", {}",
-                        Plural(static_cast<int>(report.warnings.size()), "warning", "warnings"));
+    text += fmt::format(", {}", Plural(report.warnings.size(), "warning"));
   }
   return text + "\n";
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kCoarse = 0.2;        // of the claim: a tolerance that lets almost anything pass
+constexpr double kCoarse = 0.1;        // of the claim: a tolerance that lets almost anything pass
 constexpr double kMatchesWell = 0.01;  // of the claim: a match even of coarse digits
 constexpr char kDefaultBounds[] = "paper";
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "lyrefit/study/audit_reading.h"
 
@@ -66,21 +65,20 @@ void SaturationCurrents(const AuditSubject& subject, const ReadingPlan& plan, Al
   for (int d = 0; d < static_cast<int>(row.model); ++d) {
     if (row.parameters[SaturationCurrentIndex(d)].value > 0) diodes.push_back(d);
   }
-  if (diodes.empty()) return;
-  const double first_unit = row.parameters[SaturationCurrentIndex(diodes[0])].factor;
   for (const CurrentUnit& unit : kUnits) {
+    std::vector<int> changed;
+    for (const int d : diodes) {
+      if (row.parameters[SaturationCurrentIndex(d)].factor != unit.in_ampere) changed.push_back(d);
+    }
     ReadingPlan other = plan;
     other.unit = unit.in_ampere;
-    if (unit.in_ampere != first_unit) {
-      other.diode = ReadingPlan::kAllDiodes;
-      out->push_back(other);
-    }
-    for (const int d : diodes) {
-      if (diodes.size() == 1) break;
-      if (unit.in_ampere == row.parameters[SaturationCurrentIndex(d)].factor) continue;
+    for (const int d : changed) {
       other.diode = d;
       out->push_back(other);
     }
+    if (changed.size() < 2 || changed.size() < diodes.size()) continue;
+    other.diode = ReadingPlan::kAllDiodes;
+    out->push_back(other);
   }
 }
 
@@ -129,13 +127,13 @@ std::string CurrentWords(const AuditSubject& subject, const ReadingPlan& plan) {
   const AuditRow& row = *subject.row;
   const Device device = MakeDevice(row.model, plan.conditions);
   std::string names, printed;
-  int count = 0;
   for (int d = 0; d < static_cast<int>(row.model); ++d) {
     const int i = SaturationCurrentIndex(d);
     if (plan.diode != d && plan.diode != ReadingPlan::kAllDiodes) continue;
     if (row.parameters[i].value == 0) continue;
-    names += (count++ == 0 ? "" : ", ") + device.parameters[i].symbol;
-    printed = UnitName(row.parameters[i].factor);
+    const std::string unit = UnitName(row.parameters[i].factor);
+    printed = names.empty() || printed == unit ? unit : "the units of their columns";
+    names += (names.empty() ? "" : ", ") + device.parameters[i].symbol;
   }
   return fmt::format("{} in {} instead of {}", names, UnitName(plan.unit), printed);
 }

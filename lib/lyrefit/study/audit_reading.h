@@ -37,10 +37,10 @@ AuditSubject MakeSubject(const AuditRow& row, int curve, const AuditShelf& shelf
                          const AuditOptions& options);
 
 // All plans with at most `most_changes` changes, those with fewer first. The changes are another
-// curve of the shelf at its own conditions, if its short-circuit current is about that of the row;
-// resistances per cell; n of the module; saturation
-// currents in another unit, of one diode or of all; another temperature (every whole degree from
-// -20 to 120 C and a few in kelvin); the other objective; constants other than stated.
+// curve of the shelf at its own conditions, if its short-circuit current is about the photocurrent
+// of the row; resistances per cell; n of the module; saturation currents in another unit, of one
+// diode or of all; another temperature (every whole degree from -20 to 120 C and a few in kelvin);
+// the other objective; constants other than stated.
 std::vector<ReadingPlan> ReadingPlans(const AuditSubject& subject, int most_changes);
 
 // The changes of a plan in plain words.

@@ -174,7 +174,7 @@ class RowReader {
     }
     number.value = *value * number.factor;
     const bool exact =
-        *value == 0 || (name[0] == 'n' && number.text.find('.') == std::string::npos);
+        *value == 0 || (name[0] == 'n' && number.text.find_first_of(".eE") == std::string::npos);
     number.half_unit = exact ? 0 : HalfUnit(number.text) * number.factor;
     return number;
   }

@@ -89,8 +89,8 @@ Expected<void> ReproduceCommand::AddPeers() {
   const auto names = ParseList("--peers", peers_);
   if (!names) return tl::unexpected(names.error());
   SearchOptions search;
-  search.population = 100;
-  search.iterations = 1000;
+  search.population = options_.population;
+  search.iterations = options_.iterations;
   for (const std::string& name : *names) {
     auto peer = PagmoContender(name, search);
     if (!peer) return tl::unexpected(peer.error());

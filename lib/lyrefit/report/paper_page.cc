@@ -149,10 +149,11 @@ std::string Introduction(const PaperStudy& study) {
              "A statistic of {} runs depends on chance, so ours come as {} batches of {} runs each "
              "(grid of Pm and gamma: {} batches): `ours` is their geometric mean, and a printed "
              "figure counts as reproduced if it lies in the range that one more batch would fall "
-             "into 99 times of 100. Seed {}; every RMSE is of the measured-current residual, in A; "
+             "into 99 times of 100. {} birds x {} iterations, seed {}; every RMSE is of the "
+             "measured-current residual, in A; "
              "constants of the literature. lyrefit {}.",
              options.batch, options.batches, options.batch, options.sensitivity_batches,
-             options.seed, study.version));
+             options.population, options.iterations, options.seed, study.version));
 }
 
 // One line a table of the paper.

@@ -16,14 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The paper's settings: 100 birds, 1000 iterations.
-SearchOptions PaperSearch() {
-  SearchOptions search;
-  search.population = 100;
-  search.iterations = 1000;
-  return search;
-}
-
 const std::vector<Model> kModels = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
 
 class PaperRun {
@@ -76,6 +68,13 @@ class PaperRun {
       subject->curve.conditions.cell_temperature_K = kPaperTemperature_C + kZeroCelsius_K;
     }
     return subject;
+  }
+
+  SearchOptions PaperSearch() const {
+    SearchOptions search;
+    search.population = study_.options.population;
+    search.iterations = study_.options.iterations;
+    return search;
   }
 
   CompareOptions Options(std::vector<Model> models, int runs) const {

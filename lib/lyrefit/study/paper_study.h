@@ -14,6 +14,8 @@ namespace lyrefit {
 
 struct PaperStudyOptions {
   std::uint64_t seed = 0;
+  int population = 100;  // as the paper has it, and so the iterations
+  int iterations = 1000;
   int batch = 50;    // runs behind each figure of the paper
   int batches = 10;  // batches of ours that say how far chance carries
   int sensitivity_batches = 5;
@@ -23,8 +25,12 @@ struct PaperStudyOptions {
   int threads = 0;
 };
 
-inline const std::array<OptionRow<PaperStudyOptions>, 6> kPaperStudyOptionTable = {{
+inline const std::array<OptionRow<PaperStudyOptions>, 8> kPaperStudyOptionTable = {{
     {"seed", "", "seed of every run", &PaperStudyOptions::seed, 0, 1.8446744073709552e19},
+    {"population", "birds", "birds of every search; the paper's 100",
+     &PaperStudyOptions::population, 10, 10000},
+    {"iterations", "", "iterations of every search; the paper's 1000",
+     &PaperStudyOptions::iterations, 1, 1e6},
     {"batch", "runs", "runs behind each figure of the paper", &PaperStudyOptions::batch, 2, 1e6},
     {"batches", "", "batches that say how far chance carries", &PaperStudyOptions::batches, 2, 1e4},
     {"sensitivity-batches", "", "the same for the grid of Pm and gamma",

@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string kRows = DataFolder("paper/rows.csv");
+const std::string kHead = "source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_A,n1\n";
+const std::string kGood =
+    "T,rtc_france,sd,a,9.8602E-04,0.760776,0.036377,53.7185,3.23021E-07,1.48118\n";
+
+TEST(AuditVerb, AuditsThePaperAndEndsWell) {
+  const AppResult result = RunApp("audit '" + kRows + "'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("per cell (x 36)"));
+  EXPECT_THAT(result.out, HasSubstr("at 75 C in place of 25 C"));
+  EXPECT_THAT(result.out, HasSubstr("Is2 in A instead of uA"));
+  EXPECT_THAT(result.out, HasSubstr("40 rows"));
+}
+
+TEST(AuditVerb, WritesJsonAloneOnRequest) {
+  const json j = json::parse(RunApp("audit '" + kRows + "' --json -").out, nullptr, false);
+  ASSERT_FALSE(j.is_discarded());
+  EXPECT_EQ(j["findings"].size(), 40U);
+}
+
+TEST(AuditVerb, ReportsBadRowsByLineAndAuditsTheRest) {
+  const TempFolder folder;
+  const std::string rows =
+      folder.Write("rows.csv", kHead + kGood + "T,nowhere,sd,b,1e-3,0.76,0.036,53,3e-7,1.48\n" +
+                                   "T,rtc_france,sd,c,1e-3,much,0.036,53,3e-7,1.48\n" + kGood);
+  const AppResult result = RunApp("audit '" + rows + "' --curves '" + DataFolder("") + "'");
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string all = result.out + result.err;
+  EXPECT_THAT(all, HasSubstr("rows.csv:3"));
+  EXPECT_THAT(all, HasSubstr("nowhere"));
+  EXPECT_THAT(all, HasSubstr("rows.csv:4"));
+  EXPECT_THAT(all, HasSubstr("much"));
+  EXPECT_THAT(result.out, HasSubstr("2 rows: reproduces 2; 2 more could not be audited"));
+}
+
+TEST(AuditVerb, RefusesATableWithoutAColumnItNeeds) {
+  const TempFolder folder;
+  const std::string rows = folder.Write("rows.csv", "source,device,model,algorithm,Iph_A\n");
+  const AppResult result = RunApp("audit '" + rows + "'");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("rows.csv:1"));
+  EXPECT_THAT(result.err, HasSubstr("rmse_A"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,78 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kRtc = DataFolder("rtc_france");
+
+TEST(CertifyVerb, PrintsTheCertificateByDefault) {
+  const AppResult result = RunApp("certify " + kRtc);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("how low the RMSE of rtc_france can go"));
+  EXPECT_THAT(result.out, HasSubstr("2 diodes attain the floor"));
+}
+
+TEST(CertifyVerb, WritesJsonAloneOnRequest) {
+  const AppResult result = RunApp("certify " + kRtc + " --models sd --json -");
+  EXPECT_EQ(result.exit_code, 0);
+  const json j = json::parse(result.out, nullptr, false);
+  ASSERT_FALSE(j.is_discarded());
+  EXPECT_NEAR(j["floor"]["rmse_A"].get<double>(), 9.824848761e-4, 1e-12);
+  EXPECT_EQ(j["models"].size(), 1U);
+  EXPECT_EQ(j["models"][0]["certified"], true);
+}
+
+TEST(CertifyVerb, TakesRangesAndDrawsPictures) {
+  const TempFolder folder;
+  const std::string picture = folder.Path("proof.svg");
+  const AppResult result =
+      RunApp("certify " + kRtc + " --n-lower 0.5 --n-upper 4 --models td --brief --plot '" +
+             picture + "'");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, StartsWith("rtc_france: floor 9.449435199e-04 A measured-current"));
+  EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
+}
+
+TEST(CertifyVerb, EndsWith2WhereSomethingIsNotCertified) {
+  const AppResult result = RunApp("certify " + DataFolder("msx60") + " --models dd --effort 20");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, HasSubstr("NO"));
+}
+
+TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
+  const struct {
+    std::string arguments;
+    std::string complaint;
+  } cases[] = {
+      {"no_such_file", "no_such_file"},
+      {kRtc + " --n-lower 3", "n-lower = 3 must be below n-upper = 2"},
+      {kRtc + " --rs-lower 5", "rs-lower = 5"},
+      {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
+      {kRtc + " --plot x.pdf", ".svg or .png"},
+      {kRtc + " --tolerance 0", "--tolerance"},
+  };
+  for (const auto& one : cases) {
+    const AppResult result = RunApp("certify " + one.arguments);
+    EXPECT_EQ(result.exit_code, 1) << one.arguments;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, StartsWith("lyrefit: "));
+    EXPECT_THAT(result.err, HasSubstr(one.complaint));
+  }
+}
+
+TEST(FitVerb, PrintsTheFloorWhenAsked) {
+  const AppResult result = RunApp("fit " + kRtc + " --floor --intervals none");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("Floor: no number of diodes with n in [1, 2]"));
+}
+
+}  // namespace
+}  // namespace lyrefit

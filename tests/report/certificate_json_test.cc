@@ -1,0 +1,80 @@
+#include "lyrefit/report/certificate_json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sample_certificate.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using Set = std::set<std::string>;
+
+Set Keys(const json& j) {
+  Set keys;
+  for (const auto& [key, value] : j.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
+  const json j = json::parse(CertificateJson(RtcCertificate()));
+  EXPECT_EQ(Keys(j),
+            (Set{"lyrefit_version", "curve", "objective", "constants", "n_lower", "n_upper",
+                 "rs_lower_ohm", "rs_upper_ohm", "reference_voltage_V", "module_thermal_voltage_V",
+                 "floor", "models", "options", "interrupted", "seconds", "data"}));
+  EXPECT_EQ(Keys(j["floor"]),
+            (Set{"rmse_A", "lower_bound_A", "gap", "photocurrent", "resistance_series",
+                 "conductance_shunt", "diodes", "duality_gap", "largest_correlation", "dual_A",
+                 "problems_solved"}));
+  EXPECT_EQ(Keys(j["models"][0]), (Set{"model", "rmse_A", "lower_bound_A", "gap", "above_floor",
+                                       "certified", "problems_solved", "parameters"}));
+  EXPECT_EQ(Keys(j["models"][1]["parameters"]),
+            (Set{"photocurrent", "saturation_current", "n", "resistance_series", "resistance_shunt",
+                 "saturation_current_2", "n_2"}));
+}
+
+// The check that the header describes, from the JSON alone.
+TEST(CertificateJson, ProvesTheFloorToAnyoneWhoCanMultiply) {
+  const json j = json::parse(CertificateJson(RtcCertificate()));
+  const auto voltage = j["data"]["voltage_V"].get<std::vector<double>>();
+  const auto current = j["data"]["current_A"].get<std::vector<double>>();
+  const auto y = j["floor"]["dual_A"].get<std::vector<double>>();
+  const double rs = j["floor"]["resistance_series"];
+  const double vt = j["module_thermal_voltage_V"];
+  const double rounding = 1e-16;  // A^2, against y'y of 2.5e-5
+  double ones = 0, shunt = 0, bound = 0;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    ones += y[k];
+    shunt -= y[k] * (voltage[k] + rs * current[k]);
+    bound += current[k] * y[k] - 0.5 * y[k] * y[k];
+  }
+  EXPECT_LE(ones, rounding);
+  EXPECT_LE(shunt, rounding);
+  double highest = -1;
+  for (double n = 1; n <= 2; n += 1e-4) {
+    double diode = 0, length = 0;
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      const double column = std::expm1((voltage[k] + rs * current[k]) / (n * vt));
+      diode -= y[k] * column;
+      length += column * column;
+    }
+    highest = std::max(highest, diode / std::sqrt(length));
+  }
+  EXPECT_LE(highest, rounding);
+  EXPECT_GT(highest, -1e-9) << "touches zero at the diodes of the floor";
+  const double rmse = j["floor"]["rmse_A"];
+  EXPECT_NEAR(bound / (0.5 * static_cast<double>(y.size()) * rmse * rmse), 1, 1e-12);
+}
+
+TEST(CertificateJson, WritesNullForWhatIsNotFinite) {
+  Certificate certificate = RtcCertificate();
+  certificate.floor.duality_gap = std::nan("");
+  EXPECT_TRUE(json::parse(CertificateJson(certificate))["floor"]["duality_gap"].is_null());
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,58 @@
+#include "lyrefit/report/certificate_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "lyrefit/report/text_layout.h"
+#include "sample_certificate.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(CertificateText, TellsFloorProofAndModels) {
+  const std::string text = CertificateText(RtcCertificate());
+  EXPECT_THAT(text, HasSubstr("measured-current"));
+  EXPECT_THAT(text, HasSubstr("reached       9.824848761e-04 A"));
+  EXPECT_THAT(text, HasSubstr("nothing lies below 9.824848"));
+  EXPECT_THAT(text, HasSubstr("1.451018"));
+  EXPECT_THAT(text, HasSubstr("Duality gap"));
+  EXPECT_THAT(text, HasSubstr("0.360 %  yes"));
+  EXPECT_THAT(text, HasSubstr("attains it  yes"));
+  EXPECT_THAT(text, HasSubstr("2 diodes attain the floor"));
+  EXPECT_THAT(text, Not(HasSubstr("INTERRUPTED")));
+}
+
+TEST(CertificateText, FitsATerminalOf100Columns) {
+  std::istringstream lines(CertificateText(RtcCertificate()));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth)) << line;
+  }
+}
+
+TEST(CertificateText, SaysWhatIsNotCertified) {
+  Certificate certificate = RtcCertificate();
+  certificate.interrupted = true;
+  certificate.models[1].certified = false;
+  certificate.models[1].gap = 0.002;
+  const std::string text = CertificateText(certificate);
+  EXPECT_THAT(text, StartsWith("INTERRUPTED"));
+  EXPECT_THAT(text, HasSubstr("dd: not certified, a lower RMSE by up to 0.2 %"));
+  EXPECT_THAT(BriefCertificate(certificate), HasSubstr("NOT CERTIFIED"));
+  certificate.floor.gap = 0.01;
+  EXPECT_THAT(CertificateText(certificate), HasSubstr("1 % apart"));
+}
+
+TEST(BriefCertificate, IsOneLine) {
+  const std::string text = BriefCertificate(RtcCertificate());
+  EXPECT_THAT(text, StartsWith("rtc_france: floor 9.824848761e-04 A measured-current"));
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/curve/read_curve.h"
+
+namespace lyrefit {
+
+// The certificate of the RTC France cell, n in [1, 2]; takes some hundredths of a second.
+inline const Certificate& RtcCertificate() {
+  static const Certificate certificate =
+      *Certify(*ReadCurve(std::string(LYREFIT_DATA_DIR) + "/rtc_france"));
+  return certificate;
+}
+
+}  // namespace lyrefit

@@ -17,6 +17,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/portable_exp.h
   base/random.h
   base/version.h
+  certify/certify.h
   curve/iv_curve.h
   curve/key_points.h
   curve/read_curve.h
@@ -33,10 +34,24 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/fit_report.h
   fit/simulate.h
   fit/statistics.h
+  report/audit_csv.h
+  report/audit_json.h
+  report/audit_text.h
+  report/certificate_json.h
+  report/certificate_plot.h
+  report/certificate_text.h
+  report/compare_csv.h
+  report/compare_json.h
+  report/compare_plot.h
+  report/compare_text.h
   report/json_report.h
   report/plot.h
   report/text_report.h
-  search/search.h)
+  search/search.h
+  study/audit.h
+  study/compare.h
+  study/rank_tests.h
+  study/read_audit_rows.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})

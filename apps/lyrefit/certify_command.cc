@@ -1,11 +1,9 @@
 #include "certify_command.h"
 
 #include "interrupt.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/certificate_json.h"
 #include "lyrefit/report/certificate_plot.h"
 #include "lyrefit/report/certificate_text.h"
-#include "lyrefit/report/plot.h"
 #include "output.h"
 #include "study_flags.h"
 
@@ -30,13 +28,7 @@ bool AllCertified(const Certificate& certificate) {
 CertifyCommand::CertifyCommand(CLI::App* app)
     : command_(app->add_subcommand("certify",
                                    "Prove how low the measured-current RMSE of a curve can go")) {
-  command_
-      ->add_option("CURVE", curve_file_, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
-      ->required();
-  command_->add_option("--curve", curve_index_, "which curve of a file that holds several")
-      ->type_name("INDEX")
-      ->group("Conditions");
-  AddConditionFlags(command_, &conditions_);
+  AddCurveFlags(command_, &curve_);
   command_
       ->add_option("--models", models_,
                    "models to certify beside the floor (default " + models_ + ")")
@@ -44,55 +36,30 @@ CertifyCommand::CertifyCommand(CLI::App* app)
       ->group("Proof");
   AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Proof");
   AddTableFlags(command_, kCertifyOptionTable, "Proof", &options_);
-  command_
-      ->add_option("--json", json_file_, "the certificate as JSON; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->add_option("--plot", plot_file_, "the dual certificate as a picture, .svg or .png")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->add_flag("--brief", brief_, "one line instead of the whole report")->group("Output");
-  command_->add_flag("--quiet", quiet_, "no text report")->group("Output");
+  AddReportFlags(command_, "certificate", "dual certificate", &output_);
   command_->footer(kCertifyFooter);
 }
 
-Expected<IvCurve> CertifyCommand::Curve() const {
-  ReadOptions read;
-  read.curve = curve_index_;
-  Expected<IvCurve> curve = ReadCurve(curve_file_, read);
-  if (!curve) return curve;
-  if (auto applied = ApplyConditionFlags(conditions_, &*curve); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  return curve;
-}
-
-Expected<void> CertifyCommand::CheckTargets() const {
-  if (auto writable = CheckWritable(json_file_); !writable) return writable;
-  if (plot_file_.empty()) return {};
-  if (auto drawable = CheckPlot(plot_file_); !drawable) return drawable;
-  return CheckWritable(plot_file_);
-}
-
 Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
-  if (!json_file_.empty()) {
-    if (auto written = WriteOutput(json_file_, CertificateJson(certificate)); !written) {
+  if (!output_.json_file.empty()) {
+    if (auto written = WriteOutput(output_.json_file, CertificateJson(certificate)); !written) {
       return written;
     }
   }
-  if (!plot_file_.empty()) {
-    if (auto drawn = PlotCertificate(certificate, plot_file_); !drawn) return drawn;
+  if (!output_.plot_file.empty()) {
+    if (auto drawn = PlotCertificate(certificate, output_.plot_file); !drawn) return drawn;
   }
-  if (quiet_ || json_file_ == "-") return {};
-  return WriteOutput("-", brief_ ? BriefCertificate(certificate) : CertificateText(certificate));
+  if (!output_.text()) return {};
+  return WriteOutput("-",
+                     output_.brief ? BriefCertificate(certificate) : CertificateText(certificate));
 }
 
 int CertifyCommand::Run() {
   const auto models = ParseModels(models_);
   if (!models) return Refuse(models.error());
   options_.models = *models;
-  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
-  const Expected<IvCurve> curve = Curve();
+  if (auto checked = CheckReportFlags(output_); !checked) return Refuse(checked.error());
+  const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(curve.error());
   const InterruptGuard guard;
   const Expected<Certificate> certificate = Certify(*curve, options_, TerminalObserver());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
 #include "flags.h"
@@ -17,20 +16,13 @@ class CertifyCommand {
   int Run();
 
  private:
-  Expected<IvCurve> Curve() const;
-  Expected<void> CheckTargets() const;
   Expected<void> Write(const Certificate& certificate) const;
 
   CLI::App* command_;
   CertifyOptions options_;
-  ConditionFlags conditions_;
-  std::string curve_file_;
-  std::optional<int> curve_index_;
+  CurveFlags curve_;
   std::string models_ = "sd,dd,td";
-  std::string json_file_;
-  std::string plot_file_;
-  bool brief_ = false;
-  bool quiet_ = false;
+  ReportFlags output_;
 };
 
 }  // namespace lyrefit

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "interrupt.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_report.h"
@@ -24,17 +23,11 @@ constexpr char kFitFooter[] =
 
 FitCommand::FitCommand(CLI::App* app)
     : command_(app->add_subcommand("fit", "Fit diode-model parameters to a measured I-V curve")) {
-  command_
-      ->add_option("CURVE", curve_file_, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
-      ->required();
-  command_->add_option("--curve", curve_index_, "which curve of a file that holds several")
-      ->type_name("INDEX")
-      ->group("Conditions");
-  AddConditionFlags(command_, &conditions_);
+  AddCurveFlags(command_, &curve_);
   AddModelFlags();
   AddSearchFlags();
   AddPolishFlags();
-  AddOutputFlags();
+  AddReportFlags(command_, "report", "fit", &output_);
   command_->footer(kFitFooter);
 }
 
@@ -102,30 +95,8 @@ void FitCommand::AddPolishFlags() {
       ->group("Polish");
 }
 
-void FitCommand::AddOutputFlags() {
-  command_->add_option("--json", json_file_, "the report as JSON; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->add_option("--plot", plot_file_, "the fit as a picture, .svg or .png")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->add_flag("--brief", brief_, "one line instead of the whole report")->group("Output");
-  command_->add_flag("--quiet", quiet_, "no text report")->group("Output");
-}
-
-Expected<IvCurve> FitCommand::Curve() const {
-  ReadOptions read;
-  read.curve = curve_index_;
-  Expected<IvCurve> curve = ReadCurve(curve_file_, read);
-  if (!curve) return curve;
-  if (auto applied = ApplyConditionFlags(conditions_, &*curve); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  return curve;
-}
-
 Expected<void> FitCommand::SetBounds() {
-  Expected<BoundsSpec> spec = BoundsFromFlags(bounds_, curve_file_);
+  Expected<BoundsSpec> spec = BoundsFromFlags(bounds_, curve_.file);
   if (!spec) return tl::unexpected(spec.error());
   options_.bounds = std::move(*spec);
   return {};
@@ -153,30 +124,23 @@ Expected<void> FitCommand::SetKernel() {
   return Fail(fmt::format("--kernel: this processor runs {}, not '{}'", names, kernel_));
 }
 
-Expected<void> FitCommand::CheckTargets() const {
-  if (auto writable = CheckWritable(json_file_); !writable) return writable;
-  if (plot_file_.empty()) return {};
-  if (auto drawable = CheckPlot(plot_file_); !drawable) return drawable;
-  return CheckWritable(plot_file_);
-}
-
 Expected<void> FitCommand::Write(const FitReport& report) const {
-  if (!json_file_.empty()) {
-    if (auto written = WriteOutput(json_file_, JsonReport(report)); !written) return written;
+  if (!output_.json_file.empty()) {
+    if (auto written = WriteOutput(output_.json_file, JsonReport(report)); !written) return written;
   }
-  if (!plot_file_.empty()) {
-    if (auto drawn = PlotFit(report, plot_file_); !drawn) return drawn;
+  if (!output_.plot_file.empty()) {
+    if (auto drawn = PlotFit(report, output_.plot_file); !drawn) return drawn;
   }
-  if (quiet_ || json_file_ == "-") return {};
-  return WriteOutput("-", brief_ ? BriefReport(report) : FullReport(report));
+  if (!output_.text()) return {};
+  return WriteOutput("-", output_.brief ? BriefReport(report) : FullReport(report));
 }
 
 int FitCommand::Run() {
   options_.polish = !no_polish_;
-  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckTargets()}) {
+  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckReportFlags(output_)}) {
     if (!checked) return Refuse(checked.error());
   }
-  const Expected<IvCurve> curve = Curve();
+  const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(curve.error());
   const InterruptGuard guard;
   const Expected<FitReport> report = auto_model_ ? FitAuto(*curve, options_, TerminalObserver())

@@ -22,28 +22,20 @@ class FitCommand {
   void AddModelFlags();
   void AddSearchFlags();
   void AddPolishFlags();
-  void AddOutputFlags();
-  Expected<IvCurve> Curve() const;
   Expected<void> SetBounds();
   Expected<void> SetFixed();
   Expected<void> SetKernel();
-  Expected<void> CheckTargets() const;
   Expected<void> Write(const FitReport& report) const;
 
   CLI::App* command_;
   FitOptions options_;
-  std::string curve_file_;
-  std::optional<int> curve_index_;
-  ConditionFlags conditions_;
+  CurveFlags curve_;
   bool auto_model_ = false;
   bool no_polish_ = false;
   BoundsFlags bounds_;
   std::vector<std::string> fix_list_;
   std::string kernel_;
-  std::string json_file_;
-  std::string plot_file_;
-  bool brief_ = false;
-  bool quiet_ = false;
+  ReportFlags output_;
 };
 
 }  // namespace lyrefit

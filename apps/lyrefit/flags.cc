@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/report/plot.h"
+#include "output.h"
 
 namespace lyrefit {
 namespace {
@@ -135,6 +138,46 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) 
     ForgetAssumptions("irradiance", &curve->assumptions);
   }
   return {};
+}
+
+void AddCurveFlags(CLI::App* app, CurveFlags* flags) {
+  app->add_option("CURVE", flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
+      ->required();
+  app->add_option("--curve", flags->index, "which curve of a file that holds several")
+      ->type_name("INDEX")
+      ->group("Conditions");
+  AddConditionFlags(app, &flags->conditions);
+}
+
+Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
+  ReadOptions read;
+  read.curve = flags.index;
+  Expected<IvCurve> curve = ReadCurve(flags.file, read);
+  if (!curve) return curve;
+  if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return curve;
+}
+
+void AddReportFlags(CLI::App* app, const std::string& what, const std::string& picture,
+                    ReportFlags* flags) {
+  app->add_option("--json", flags->json_file,
+                  "the " + what + " as JSON; - for standard output, alone")
+      ->type_name("FILE")
+      ->group("Output");
+  app->add_option("--plot", flags->plot_file, "the " + picture + " as a picture, .svg or .png")
+      ->type_name("FILE")
+      ->group("Output");
+  app->add_flag("--brief", flags->brief, "one line instead of the whole report")->group("Output");
+  app->add_flag("--quiet", flags->quiet, "no text report")->group("Output");
+}
+
+Expected<void> CheckReportFlags(const ReportFlags& flags) {
+  if (auto writable = CheckWritable(flags.json_file); !writable) return writable;
+  if (flags.plot_file.empty()) return {};
+  if (auto drawable = CheckPlot(flags.plot_file); !drawable) return drawable;
+  return CheckWritable(flags.plot_file);
 }
 
 }  // namespace lyrefit

@@ -100,4 +100,29 @@ void AddConditionFlags(CLI::App* app, ConditionFlags* flags);
 // Checks the flags and puts them into `curve`, where they replace what was assumed.
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve);
 
+// One curve and what is said about it.
+struct CurveFlags {
+  std::string file;
+  std::optional<int> index;
+  ConditionFlags conditions;
+};
+
+void AddCurveFlags(CLI::App* app, CurveFlags* flags);
+Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
+
+// What a verb on one curve writes.
+struct ReportFlags {
+  std::string json_file;
+  std::string plot_file;
+  bool brief = false;
+  bool quiet = false;
+  bool text() const { return !quiet && json_file != "-"; }
+};
+
+// `what` names the report in the help, `picture` the plot.
+void AddReportFlags(CLI::App* app, const std::string& what, const std::string& picture,
+                    ReportFlags* flags);
+// Whether both files can be written; to be asked before the work.
+Expected<void> CheckReportFlags(const ReportFlags& flags);
+
 }  // namespace lyrefit

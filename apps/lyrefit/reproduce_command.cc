@@ -51,7 +51,7 @@ Expected<void> Update(const PaperStudy& study, const std::string& page) {
   if (!text) return tl::unexpected(text.error());
   std::string updated = ReplaceBlock(*text, "certified", CertifiedTable(study));
   updated = ReplaceBlock(updated, "ranked", RankedTable(study));
-  updated = ReplaceBlock(updated, "budget", BudgetTable(study));
+  updated = ReplaceBlock(updated, "budget", BudgetSummary(study));
   return WriteTextFile(page, updated);
 }
 

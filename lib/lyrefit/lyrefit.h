@@ -17,13 +17,28 @@
 // Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one
 // sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
+// Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
+// other, Audit checks published parameters.
 
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/simulate.h"
+#include "lyrefit/report/audit_csv.h"
+#include "lyrefit/report/audit_json.h"
+#include "lyrefit/report/audit_text.h"
+#include "lyrefit/report/certificate_json.h"
+#include "lyrefit/report/certificate_plot.h"
+#include "lyrefit/report/certificate_text.h"
+#include "lyrefit/report/compare_csv.h"
+#include "lyrefit/report/compare_json.h"
+#include "lyrefit/report/compare_plot.h"
+#include "lyrefit/report/compare_text.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_report.h"
+#include "lyrefit/study/audit.h"
+#include "lyrefit/study/compare.h"

@@ -13,5 +13,9 @@ int main(int argc, char** argv) {
       7.730062689942e-4;  // data/rtc_france/expected.json, SD, solved current
   const double rmse = report->rmse.refined.solved_current_A;
   std::printf("RMSE %.12e A, certified %.12e A\n", rmse, kCertified);
-  return std::abs(rmse / kCertified - 1.0) <= 1e-9 ? 0 : 1;
+  if (!(std::abs(rmse / kCertified - 1.0) <= 1e-9)) return 1;
+  const auto certificate = lyrefit::Certify(*curve);
+  if (!certificate) return std::puts(certificate.error().ToString().c_str()), 1;
+  std::fputs(lyrefit::BriefCertificate(*certificate).c_str(), stdout);
+  return certificate->models[0].certified ? 0 : 1;
 }

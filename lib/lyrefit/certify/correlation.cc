@@ -50,17 +50,18 @@ class Search {
     const double c1 = factor * (y_ * (high - floor)).sum();
     const double slope0 = factor * (y_ * vd_ * low).sum();
     const double slope1 = factor * (y_ * vd_ * high).sum();
-    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vref). Each exponential lies between
-    // its ends; and the sum stays near the straight line between its own ends, as far as the fourth
-    // derivative lets it.
+    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vs). It lies between the least and the
+    // largest of the four control points of the cubic through its values and slopes at both ends,
+    // as far as its own fourth derivative lets it.
     const Eigen::ArrayXd weight = factor * y_ * vd_.square();
     const double bend0 = (weight * low).sum();
     const double bend1 = (weight * high).sum();
-    const double bulge = 0.125 * h * h * (weight.abs() * vd_.square() * low.max(high)).sum();
-    const double bend_low =
-        std::max((weight * low).min(weight * high).sum(), std::min(bend0, bend1) - bulge);
-    const double bend_high =
-        std::min((weight * low).max(weight * high).sum(), std::max(bend0, bend1) + bulge);
+    const double inner0 = bend0 + h / 3 * (weight * vd_ * low).sum();
+    const double inner1 = bend1 - h / 3 * (weight * vd_ * high).sum();
+    const double bulge =
+        h * h * h * h / 384 * (weight.abs() * vd_.square().square() * low.max(high)).sum();
+    const double bend_low = std::min({bend0, inner0, inner1, bend1}) - bulge;
+    const double bend_high = std::max({bend0, inner0, inner1, bend1}) + bulge;
     Note(c0, piece.lower);
     Note(c1, piece.upper);
     const double ends = std::max(c0, c1);

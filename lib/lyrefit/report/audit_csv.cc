@@ -2,28 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 
+#include "lyrefit/report/csv_parts.h"
 #include "lyrefit/study/audit_sentence.h"
 
 namespace lyrefit {
-namespace {
-
-std::string Field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-std::string Field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
-
-}  // namespace
-
 std::string AuditCsv(const AuditReport& report) {
   std::string csv =
       "source,device,model,algorithm,claimed_A,measured_current_A,solved_current_A,tolerance_A,"
@@ -38,12 +22,13 @@ std::string AuditCsv(const AuditReport& report) {
       constants += (constants.empty() ? "" : " ") + ToText(set);
     }
     fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                   Field(row.source), Field(row.device), ToText(row.model), Field(row.algorithm),
-                   Field(row.rmse.value), Field(stated.rmse.measured_current_A),
-                   Field(stated.rmse.solved_current_A), Field(stated.tolerance_A),
-                   ToText(finding.verdict), constants, Field(JoinedChanges(answer)),
-                   changed ? Field(answer.rmse.Of(answer.objective)) : "",
-                   Field(LeftBoundsText(answer.left_bounds)), Field(finding.sentence));
+                   CsvField(row.source), CsvField(row.device), ToText(row.model),
+                   CsvField(row.algorithm), CsvField(row.rmse.value),
+                   CsvField(stated.rmse.measured_current_A), CsvField(stated.rmse.solved_current_A),
+                   CsvField(stated.tolerance_A), ToText(finding.verdict), constants,
+                   CsvField(JoinedChanges(answer)),
+                   changed ? CsvField(answer.rmse.Of(answer.objective)) : "",
+                   CsvField(LeftBoundsText(answer.left_bounds)), CsvField(finding.sentence));
   }
   return csv;
 }

@@ -173,6 +173,29 @@ std::string Overview(const PaperStudy& study) {
   return table.Text();
 }
 
+std::string BudgetTable(const PaperStudy& study) {
+  std::string text;
+  for (const ProblemResult& problem : study.budget.problems) {
+    std::vector<std::string> head = {"algorithm"};
+    std::vector<std::vector<std::string>> rows;
+    for (const ContenderResult& contender : problem.contenders) {
+      const std::string budget = contender.name.substr(contender.name.find('@') + 1);
+      if (rows.empty() || rows.back()[0] != contender.algorithm) {
+        rows.push_back({contender.algorithm});
+      }
+      if (rows.size() == 1) head.push_back(budget);
+      rows.back().push_back(fmt::format(
+          "{} / {} / {} / {}", contender.searched.within_1e6, contender.plain_polished.within_1e9,
+          contender.own_polished.within_1e9, contender.polished.within_1e9));
+    }
+    MarkdownTable table("l" + std::string(head.size() - 1, 'r'));
+    table.Add(head);
+    for (auto& row : rows) table.Add(std::move(row));
+    text += ProblemTitle(problem) + ":\n\n" + table.Text();
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string CertifiedTable(const PaperStudy& study) {
@@ -198,27 +221,28 @@ std::string CertifiedTable(const PaperStudy& study) {
   return table.Text();
 }
 
-std::string BudgetTable(const PaperStudy& study) {
-  std::string text;
+std::string BudgetSummary(const PaperStudy& study) {
+  MarkdownTable table("llrrrr");
+  table.Add({"model", "search", "search alone", "and one plain solve", "and the best bird's polish",
+             "and all starts"});
   for (const ProblemResult& problem : study.budget.problems) {
-    std::vector<std::string> head = {"algorithm"};
     std::vector<std::vector<std::string>> rows;
     for (const ContenderResult& contender : problem.contenders) {
-      const std::string budget = contender.name.substr(contender.name.find('@') + 1);
-      if (rows.empty() || rows.back()[0] != contender.algorithm) {
-        rows.push_back({contender.algorithm});
+      const std::int64_t budget = std::stoll(contender.name.substr(contender.name.find('@') + 1));
+      if (rows.empty() || rows.back()[1] != contender.algorithm) {
+        rows.push_back({ToText(problem.model), contender.algorithm, "", "", "", ""});
       }
-      if (rows.size() == 1) head.push_back(budget);
-      rows.back().push_back(fmt::format(
-          "{} / {} / {} / {}", contender.searched.within_1e6, contender.plain_polished.within_1e9,
-          contender.own_polished.within_1e9, contender.polished.within_1e9));
+      if (budget != 10 && budget != 1000 && budget != 100000) continue;
+      const int hits[] = {contender.searched.within_1e6, contender.plain_polished.within_1e9,
+                          contender.own_polished.within_1e9, contender.polished.within_1e9};
+      for (int level = 0; level < 4; ++level) {
+        std::string& cell = rows.back()[2 + level];
+        cell += (cell.empty() ? "" : " / ") + std::to_string(hits[level]);
+      }
     }
-    MarkdownTable table("l" + std::string(head.size() - 1, 'r'));
-    table.Add(head);
     for (auto& row : rows) table.Add(std::move(row));
-    text += ProblemTitle(problem) + ":\n\n" + table.Text();
   }
-  return text;
+  return table.Text();
 }
 
 std::string RankedTable(const PaperStudy& study) {

@@ -11,9 +11,9 @@ namespace lyrefit {
 // same, and why not. `remarks` holds a paragraph for each table, by its name ("Table 12").
 std::string PaperPage(const PaperStudy& study, const std::map<std::string, std::string>& remarks);
 
-// Tables of that page which the project's own README shows as well.
+// What the project's own README shows of it.
 std::string CertifiedTable(const PaperStudy& study);
-std::string BudgetTable(const PaperStudy& study);
 std::string RankedTable(const PaperStudy& study);
+std::string BudgetSummary(const PaperStudy& study);
 
 }  // namespace lyrefit

@@ -51,7 +51,7 @@ class PaperRun {
  private:
   // A curve beside the paper's folder, with bounds published for it.
   Expected<CompareCurve> Subject(const std::string& name, const std::string& bounds) const {
-    const fs::path folder = folder_.lexically_normal().parent_path() / name;
+    const fs::path folder = (folder_ / ".." / name).lexically_normal();
     Expected<IvCurve> curve = ReadCurve(folder.string());
     if (!curve) return tl::unexpected(curve.error());
     Expected<BoundsSpec> spec = ReadBoundsFile((folder / ("bounds-" + bounds + ".json")).string());
@@ -137,12 +137,13 @@ class PaperRun {
     Expected<AuditReport> audit = lyrefit::Audit((folder_ / "rows.csv").string(), {});
     if (!audit) return tl::unexpected(audit.error());
     study_.audit = std::move(*audit);
+    study_.audit.path = "rows.csv";  // wherever the folder lies
     return {};
   }
 
   Expected<void> Certify() {
     for (const char* name : {"rtc_france", "pwp201", "stm6_40_36", "stp6_120_36", "msx60"}) {
-      const fs::path folder = folder_.lexically_normal().parent_path() / name;
+      const fs::path folder = (folder_ / ".." / name).lexically_normal();
       const Expected<IvCurve> curve = ReadCurve(folder.string());
       if (!curve) return tl::unexpected(curve.error());
       for (const auto& [lower, upper] : {std::pair(1.0, 2.0), std::pair(0.5, 4.0)}) {
@@ -223,10 +224,7 @@ Expected<PaperStudy> ReproducePaper(const std::string& folder, const PaperStudyO
   if (auto valid = ValidateOptions(options, kPaperStudyOptionTable); !valid) {
     return tl::unexpected(valid.error());
   }
-  // A trailing separator would make the folder its own parent.
-  fs::path path = fs::path(folder).lexically_normal();
-  if (!path.has_filename()) path = path.parent_path();
-  return PaperRun(fs::absolute(path).string(), options, observer).Run();
+  return PaperRun(folder, options, observer).Run();
 }
 
 }  // namespace lyrefit

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "lyrefit/base/version.h"
+#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/beyond.h"
 #include "lyrefit/certify/branch.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
 namespace {
@@ -23,6 +23,8 @@ struct Proof {
   Window window;
   BranchLimits limits;
   double thermal_voltage_V = 0;
+  double beyond = std::numeric_limits<double>::infinity();  // half sum of squares at larger Rs
+  double rounding_A = 0;  // RMSEs no further apart than this are equal
   bool stopped = false;
 
   double Rmse(double half_sum_of_squares) const {
@@ -46,6 +48,20 @@ Expected<void> CheckOptions(const CertifyOptions& options) {
                             options.rs_upper_ohm));
   }
   return {};
+}
+
+// The device takes the flattest diode there may be at face value.
+Expected<void> CheckExponents(const Proof& proof) {
+  const MixtureData& data = proof.data;
+  const double voltage = (data.voltage_V + proof.limits.rs_lower * data.current_A).maxCoeff();
+  const double exponent = voltage * proof.window.lower;
+  if (exponent <= kLargestExponent) return {};
+  return Fail(
+      fmt::format("at n-upper = {:g} a diode's exponent is {:.3g} at {:.6g} V, beyond {:g}: "
+                  "is the number of cells in series, {}, right?",
+                  proof.options.n_upper, exponent, voltage, kLargestExponent,
+                  proof.curve.conditions.cells_in_series),
+      proof.curve.source);
 }
 
 Expected<void> Prepare(Proof* proof) {
@@ -81,7 +97,9 @@ Expected<void> Prepare(Proof* proof) {
   }
   limits.tolerance = 2 * options.tolerance;  // of the sum of squares
   limits.most_solved = static_cast<int>(options.effort);
-  return {};
+  if (limits.rs_upper < options.rs_upper_ohm) proof->beyond = BoundBeyond(data, limits.rs_upper);
+  proof->rounding_A = kCertifiedRounding * data.current_A.cwiseAbs().maxCoeff();
+  return CheckExponents(*proof);
 }
 
 double Gap(double value, double lower) { return value > 0 ? std::max(0.0, 1 - lower / value) : 0; }
@@ -105,88 +123,34 @@ Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   return floor;
 }
 
-// The model's own least-squares problem within the ranges of the proof.
-RefineProblem ModelProblem(const Proof& proof, Model model) {
-  const IvCurve& curve = proof.curve;
-  Device device = MakeDevice(model, curve.conditions, proof.options.constants);
-  const double current = proof.data.current_A.cwiseAbs().maxCoeff();
-  const double resistance = proof.data.reference_voltage_V / current;
-  std::vector<double> lower(device.size(), 0), upper(device.size(), 10 * current);
-  lower[kRs] = proof.limits.rs_lower;
-  upper[kRs] = proof.limits.rs_upper;
-  lower[kRsh] = 1e-6 * resistance;
-  upper[kRsh] = 1e15 * resistance;
-  for (int d = 0; d < DiodeCount(device); ++d) {
-    lower[IdealityIndex(d)] = proof.options.n_lower;
-    upper[IdealityIndex(d)] = proof.options.n_upper;
-  }
-  return MakeRefineProblem(std::move(device), Objective::kMeasuredCurrent, curve.voltage_V,
-                           curve.current_A, {}, std::move(lower), std::move(upper));
-}
-
-// A mixture as parameters of a model: its strongest diodes.
-std::vector<double> FromMixture(const Proof& proof, const RefineProblem& problem,
-                                const Mixture& mixture) {
-  std::vector<Atom> atoms = mixture.atoms;
-  std::sort(atoms.begin(), atoms.end(),
-            [](const Atom& a, const Atom& b) { return a.current_A > b.current_A; });
-  std::vector<double> p(problem.device.size());
-  p[kIph] = mixture.photocurrent_A;
-  p[kRs] = mixture.rs;
-  p[kRsh] = std::min(proof.data.reference_voltage_V / std::max(mixture.shunt_current_A, 1e-300),
-                     problem.upper[kRsh]);
-  for (int d = 0; d < DiodeCount(problem.device); ++d) {
-    const bool there = d < static_cast<int>(atoms.size());
-    p[SaturationCurrentIndex(d)] = there ? proof.SaturationCurrent(atoms[d]) : 0;
-    const double n = there ? proof.Ideality(atoms[d].u) : problem.upper[IdealityIndex(d)];
-    p[IdealityIndex(d)] =
-        std::min(std::max(n, problem.lower[IdealityIndex(d)]), problem.upper[IdealityIndex(d)]);
-  }
-  return p;
-}
-
-// Polishes a mixture, and a few starts that owe nothing to it; keeps the better of `end` and what
-// comes out.
-void Improve(const Proof& proof, const RefineProblem& problem, const Mixture& mixture,
-             RefineEnd* end) {
-  constexpr int kGrid = 4;
-  std::vector<std::vector<double>> starts = {FromMixture(proof, problem, mixture)};
-  for (SeparableStart& start : SeparableStarts(problem, mixture.rs, kGrid)) {
-    starts.push_back(std::move(start.p));
-  }
-  for (const std::vector<double>& start : starts) {
-    const RefineEnd refined = Refine(problem, SeparableDescent(problem, start));
-    if (end->p.empty() || refined.mean_square < end->mean_square) *end = refined;
-    if (MeanSquare(problem, start) < end->mean_square) {
-      end->p = start;
-      end->mean_square = MeanSquare(problem, start);
-    }
-  }
-}
-
 ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& floor) {
-  const RefineProblem problem = ModelProblem(proof, model);
-  RefineEnd best;
-  Improve(proof, problem, floor.best, &best);
+  const CertifyOptions& options = proof.options;
+  const BranchLimits& limits = proof.limits;
+  const RefineProblem problem =
+      ModelProblem(proof.curve, MakeDevice(model, proof.curve.conditions, options.constants),
+                   {options.n_lower, options.n_upper, limits.rs_lower, limits.rs_upper,
+                    proof.data.reference_voltage_V});
+  const int diodes = DiodeCount(problem.device);
+  Attained best;
+  Attain(problem, proof.data, floor.best, &best);
+  const auto half = [&] { return proof.Half(std::sqrt(best.mean_square)); };
   ModelCertificate certificate;
   certificate.model = model;
   double lower = floor.lower;
-  const bool floor_proves =
-      lower >= proof.Half(std::sqrt(best.mean_square)) * (1 - 2 * proof.limits.tolerance);
+  const bool floor_proves = static_cast<int>(floor.best.atoms.size()) <= diodes ||
+                            lower >= half() * (1 - 2 * limits.tolerance);
   if (!floor_proves) {
-    const BranchEnd end = BranchOverDiodes(proof.data, proof.window, DiodeCount(problem.device),
-                                           proof.Half(std::sqrt(best.mean_square)), proof.limits);
+    const BranchEnd end = BranchOverDiodes(proof.data, proof.window, diodes, half(), limits);
     certificate.solved = end.solved;
-    lower = std::max(lower, end.lower);
-    if (end.best.primal < proof.Half(std::sqrt(best.mean_square)) * (1 - 1e-9)) {
-      Improve(proof, problem, end.best, &best);
-    }
+    lower = std::max(lower, std::min(end.lower, proof.beyond));
+    if (end.best.primal < half() * (1 - 1e-9)) Attain(problem, proof.data, end.best, &best);
   }
   certificate.parameters = best.p;
   certificate.rmse_A = std::sqrt(best.mean_square);
   certificate.lower_bound_A = std::min(proof.Rmse(lower), certificate.rmse_A);
   certificate.gap = Gap(certificate.rmse_A, certificate.lower_bound_A);
-  certificate.certified = certificate.gap <= kCertifiedGap;
+  certificate.certified = certificate.rmse_A - certificate.lower_bound_A <=
+                          std::max(kCertifiedGap * certificate.rmse_A, proof.rounding_A);
   return certificate;
 }
 
@@ -213,7 +177,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  Proof proof{curve, options, observer, {}, {}, {}, 0, false};
+  Proof proof{curve, options, observer, {}, {}, {}};
   if (auto ready = Prepare(&proof); !ready) return tl::unexpected(ready.error());
   const char* stage = "floor";
   proof.limits.proceed = [&](std::int64_t solved, double best, double lower) {
@@ -231,7 +195,8 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
   AppendNonDefaults(options, kCertifyOptionTable, &certificate.non_default_options);
-  const BranchEnd floor = BranchOverResistance(proof.data, proof.window, proof.limits);
+  BranchEnd floor = BranchOverResistance(proof.data, proof.window, proof.limits);
+  floor.lower = std::min(floor.lower, proof.beyond);
   certificate.floor = FillFloor(proof, floor);
   for (const Model model : options.models) {
     if (proof.stopped) break;
@@ -239,7 +204,8 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
     stage = name.c_str();
     certificate.models.push_back(CertifyModel(proof, model, floor));
     ModelCertificate& last = certificate.models.back();
-    last.above_floor = std::max(0.0, last.rmse_A / certificate.floor.rmse_A - 1);
+    const double above = last.rmse_A - certificate.floor.rmse_A;
+    last.above_floor = above > proof.rounding_A ? above / certificate.floor.rmse_A : 0;
   }
   certificate.interrupted = proof.stopped;
   certificate.seconds = seconds();

@@ -18,8 +18,7 @@ struct CertifyOptions {
   double n_lower = 1;  // per cell
   double n_upper = 2;
   double rs_lower_ohm = 0;
-  double rs_upper_ohm = std::numeric_limits<double>::infinity();  // cut at the largest forward
-                                                                  // voltage / largest current
+  double rs_upper_ohm = std::numeric_limits<double>::infinity();
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
   ConstantSet constants = ConstantSet::kCodata;
   double tolerance = 1e-10;     // relative gap of the RMSE that ends the proof
@@ -70,17 +69,21 @@ struct ModelCertificate {
   double rmse_A = 0;
   double lower_bound_A = 0;
   double gap = 0;           // (rmse - lower bound) / rmse
-  double above_floor = 0;   // rmse / floor - 1
-  bool certified = false;   // gap <= kCertifiedGap
+  double above_floor = 0;   // rmse / floor - 1; 0 where only rounding lies between them
+  bool certified = false;   // the gap is at most kCertifiedGap, or rounding
   std::int64_t solved = 0;  // convex problems beyond those of the floor; 0: the floor proves it
 };
 constexpr double kCertifiedGap = 1e-9;
+constexpr double kCertifiedRounding = 1e-14;  // of the largest current: no difference of RMSEs
 
 struct Certificate {
   std::string version;
   IvCurve curve;
   CertifyOptions options;
-  double rs_upper_ohm = 0;  // the end of the range as used
+  // End of the range of Rs that is gone through: at most the largest forward voltage over the
+  // largest current. Beyond it the points come in the wrong order of junction voltage, which bounds
+  // every model at once; the lower bounds hold for the whole range asked for.
+  double rs_upper_ohm = 0;
   double reference_voltage_V = 0;
   double module_thermal_voltage_V = 0;  // Ns k T / q
   Floor floor;
@@ -95,8 +98,9 @@ struct Certificate {
 // vector proves its value (weak duality). Between the Rs visited the interpolated dual vectors
 // prove a lower bound, and a branch and bound over Rs closes the gap. A fixed number of diodes is
 // bounded by mixtures over ever smaller windows of n, one for each diode. All bounds hold up to
-// rounding of double arithmetic. Errors: an unusable curve, no point that delivers current at a
-// forward voltage, options outside their ranges.
+// rounding of double arithmetic, some 1e-15 of the largest current. Errors: an unusable curve, no
+// point that delivers current at a forward voltage, so few cells that every diode's exponent is
+// absurd, options outside their ranges.
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options = {},
                               const Observer& observer = {});
 

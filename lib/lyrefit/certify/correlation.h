@@ -23,9 +23,10 @@ Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double scale_voltage_V
 
 // The same for a pair of solutions at Rs and Rs + dr: bounds from above the negative second
 // derivative, along t in [0, 1], of a(u; Rs + t dr) . (y0 + t (y1 - y0)) for every u of the windows
-// and for the shunt's column. Between the ends the correlation exceeds the straight line between
-// its ends by at most t (1 - t) / 2 times that. Here a diode's column is scaled to its current at
-// `scale_voltage_V`, and the shunt's as well.
+// and for the shunt's column. Between the ends the correlation exceeds the larger of its ends, or
+// zero, by at most t (1 - t) / 2 times that; pieces that lie too far below zero to rise above it
+// are left out. Here a diode's column is scaled to its current at `scale_voltage_V`, and the
+// shunt's as well.
 double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs, double dr,
                  const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double scale_voltage_V);
 

@@ -1,0 +1,79 @@
+#include "lyrefit/certify/correlation.h"
+
+#include <gtest/gtest.h>
+
+#include "certify/made.h"
+
+namespace lyrefit {
+namespace {
+
+Eigen::VectorXd RandomVector(Eigen::Index size, RandomStream* random) {
+  Eigen::VectorXd y(size);
+  for (double& value : y) value = random->Normal();
+  return y;
+}
+
+double LargestOnGrid(const Eigen::VectorXd& vd, double scale, const Eigen::VectorXd& y,
+                     const std::vector<Window>& windows) {
+  constexpr int kSteps = 4000;
+  double largest = -1e300;
+  for (const Window& window : windows) {
+    for (int i = 0; i <= kSteps; ++i) {
+      const double u = window.lower + (window.upper - window.lower) * i / kSteps;
+      largest = std::max(largest, DiodeColumn(vd, scale, u).dot(y));
+    }
+  }
+  return largest;
+}
+
+TEST(BoundCorrelation, IsNeverBelowTheLargestValueAndNotFarAboveIt) {
+  const IvCurve curve = Shipped("rtc_france");
+  const MixtureData data = DataOf(curve);
+  RandomStream random(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Eigen::VectorXd vd = data.voltage_V + 0.06 * random.Uniform() * data.current_A;
+    const Eigen::VectorXd y = RandomVector(vd.size(), &random);
+    Window wide = WindowOf(curve, 0.5, 4);
+    const double a = wide.lower + random.Uniform() * (wide.upper - wide.lower);
+    const double b = a + 0.01 * random.Uniform() * (wide.upper - a);
+    for (const std::vector<Window>& windows :
+         {std::vector<Window>{wide}, {{a, b}}, {{wide.lower, a}, {b, wide.upper}}}) {
+      const double largest = LargestOnGrid(vd, data.reference_voltage_V, y, windows);
+      const auto found = BoundCorrelation(vd, data.reference_voltage_V, y, windows, {}, 1e-9);
+      EXPECT_GE(found.bound, largest * (1 - 1e-12));
+      // Where there is an excess, it is bounded on the coarse scale of the first pieces.
+      EXPECT_LE(found.bound, std::max(1e-9, 1.6 * std::max(largest, 0.0)));
+      EXPECT_GE(found.best, std::max(0.0, 0.9 * largest));
+    }
+  }
+}
+
+TEST(BoundBend, BoundsWhatTheCorrelationRisesBetweenTwoResistances) {
+  const IvCurve curve = Shipped("rtc_france");
+  const MixtureData data = DataOf(curve);
+  const Window window = WindowOf(curve, 0.5, 4);
+  const double scale = data.reference_voltage_V;
+  RandomStream random(2);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double rs = 0.06 * random.Uniform();
+    const double dr = 0.02 * random.Uniform();
+    const Eigen::VectorXd y0 = RandomVector(data.voltage_V.size(), &random);
+    const Eigen::VectorXd y1 = y0 + 0.1 * RandomVector(y0.size(), &random);
+    const double bend = BoundBend(data, {window}, rs, dr, y0, y1, scale);
+    const auto correlation = [&](double u, double t) {
+      const Eigen::VectorXd vd = data.voltage_V + (rs + t * dr) * data.current_A;
+      const Eigen::VectorXd y = y0 + t * (y1 - y0);
+      return u > 0 ? DiodeColumn(vd, scale, u).dot(y) : -vd.dot(y) / scale;
+    };
+    for (int i = -1; i <= 100; ++i) {  // -1: the shunt
+      const double u = i < 0 ? 0 : window.lower + (window.upper - window.lower) * i / 100;
+      const double ends = std::max({0.0, correlation(u, 0), correlation(u, 1)});
+      for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        EXPECT_LE(correlation(u, t), ends + 0.5 * t * (1 - t) * bend + 1e-12);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -4,9 +4,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/certify/correlation.h"
+#include "lyrefit/certify/non_negative.h"
 
 namespace lyrefit {
 namespace {
@@ -16,6 +16,23 @@ constexpr int kMostSlides = 30;      // Newton steps between two such rounds
 constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be one in truth
 constexpr double kSameAtom = 1e-9;   // atoms closer than this in u Vs are one
 constexpr double kRounding = 1e-16;  // relative
+
+// A mixture on the way: the scaled unknowns and the residual measured - modelled.
+struct State {
+  std::vector<Atom> atoms;
+  double photocurrent = 0;
+  double shunt = 0;
+  Eigen::VectorXd y;
+};
+
+// The sum of squares around a state as a quadratic in the u of the atoms that may move, the linear
+// unknowns following.
+struct Slope {
+  std::vector<int> moving;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd squares;  // of the derivative columns, the natural sizes of the hessian
+};
 
 class Solver {
  public:
@@ -35,7 +52,8 @@ class Solver {
       if (round % 3 == 2) MergeNeighbours();
       const Eigen::VectorXd y = CleanResidual();
       const double allowed = AllowedExcess(y.norm(), tolerance, price_A);
-      const Correlation1D correlation = BoundCorrelation(vd_, scale_, y, windows_, atoms_, allowed);
+      const Correlation1D correlation =
+          BoundCorrelation(vd_, scale_, y, windows_, state_.atoms, allowed);
       if (round == 0 || correlation.bound < best.excess) {
         best = Finish(y, correlation.bound, price_A);
       }
@@ -46,7 +64,7 @@ class Solver {
   }
 
  private:
-  int size() const { return static_cast<int>(atoms_.size()); }
+  int size() const { return static_cast<int>(state_.atoms.size()); }
 
   // What a correlation may be without opening the duality gap, or without rising above rounding.
   double AllowedExcess(double y_norm, double tolerance, double price_A) const {
@@ -65,11 +83,12 @@ class Solver {
   bool Add(double u) {
     const Window* window = WindowOf(u);
     u = std::min(std::max(u, window->lower), window->upper);
-    for (const Atom& atom : atoms_) {
+    for (const Atom& atom : state_.atoms) {
       if (std::fabs(atom.u - u) * scale_ < kSameAtom) return false;
     }
-    atoms_.push_back({u, 0});
-    std::sort(atoms_.begin(), atoms_.end(), [](const Atom& a, const Atom& b) { return a.u < b.u; });
+    state_.atoms.push_back({u, 0});
+    std::sort(state_.atoms.begin(), state_.atoms.end(),
+              [](const Atom& a, const Atom& b) { return a.u < b.u; });
     return true;
   }
 
@@ -87,6 +106,8 @@ class Solver {
   void SolveLinear();
   void Slide();
   void MergeNeighbours();
+  Slope SlopeHere() const;
+  double Move(const std::vector<int>& moving, const Eigen::VectorXd& step);
   bool SlideOnce(double* damping);
   Eigen::VectorXd CleanResidual() const;
   Mixture Finish(const Eigen::VectorXd& y, double excess, double price_A) const;
@@ -96,79 +117,24 @@ class Solver {
   const double rs_;
   const Eigen::VectorXd vd_;
   const double scale_;  // Vs; everything here is scaled by it
-  std::vector<Atom> atoms_;
-  double photocurrent_ = 0;
-  double shunt_ = 0;
-  Eigen::VectorXd y_;
+  State state_;
 };
 
-// Least squares over the columns in `active`; zeros elsewhere.
-Eigen::VectorXd SolveActive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
-                            const std::vector<int>& active) {
-  Eigen::MatrixXd columns(a.rows(), active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) columns.col(i) = a.col(active[i]);
-  const Eigen::VectorXd solution = columns.colPivHouseholderQr().solve(b);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
-  for (std::size_t i = 0; i < active.size(); ++i) x[active[i]] = solution[i];
-  return x;
-}
-
-// Non-negative least squares (Lawson and Hanson 1974, chapter 23) from a feasible start; its zeros
-// may enter at once, without being priced, since rounding hides what a column next to another one
-// has to give.
-Eigen::VectorXd SolveNonNegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
-                                 Eigen::VectorXd x) {
-  const int count = static_cast<int>(a.cols());
-  std::vector<int> active(count);
-  std::iota(active.begin(), active.end(), 0);
-  for (int round = 0; round < 6 * count; ++round) {
-    while (!active.empty()) {
-      const Eigen::VectorXd target = SolveActive(a, b, active);
-      double reach = 1;
-      int blocking = -1;
-      for (const int i : active) {
-        if (target[i] > 0) continue;
-        const double fraction = x[i] > 0 ? x[i] / (x[i] - target[i]) : 0;
-        if (blocking >= 0 && fraction >= reach) continue;
-        reach = fraction;
-        blocking = i;
-      }
-      x += reach * (target - x);
-      if (blocking < 0) break;
-      x[blocking] = 0;
-      active.erase(std::find(active.begin(), active.end(), blocking));
-    }
-    const Eigen::VectorXd y = b - a * x;
-    int best = -1;
-    double strongest = 1e-15 * b.norm();
-    for (int i = 0; i < count; ++i) {
-      if (std::find(active.begin(), active.end(), i) != active.end()) continue;
-      const double pull = a.col(i).dot(y) / a.col(i).norm();
-      if (pull <= strongest) continue;
-      strongest = pull;
-      best = i;
-    }
-    if (best < 0) break;
-    active.push_back(best);
-  }
-  return x;
-}
-
 void Solver::SolveLinear() {
-  const Eigen::MatrixXd a = Columns(atoms_);
+  const Eigen::MatrixXd a = Columns(state_.atoms);
   Eigen::VectorXd x(a.cols());
-  x[0] = photocurrent_;
-  x[1] = shunt_;
-  for (int j = 0; j < size(); ++j) x[2 + j] = atoms_[j].current_A;
+  x[0] = state_.photocurrent;
+  x[1] = state_.shunt;
+  for (int j = 0; j < size(); ++j) x[2 + j] = state_.atoms[j].current_A;
   x = SolveNonNegative(a, data_.current_A, x);
-  photocurrent_ = x[0];
-  shunt_ = x[1];
+  state_.photocurrent = x[0];
+  state_.shunt = x[1];
   std::vector<Atom> left;
   for (int j = 0; j < size(); ++j) {
-    if (x[2 + j] > 0) left.push_back({atoms_[j].u, x[2 + j]});
+    if (x[2 + j] > 0) left.push_back({state_.atoms[j].u, x[2 + j]});
   }
-  atoms_ = left;
-  y_ = data_.current_A - a * x;
+  state_.atoms = left;
+  state_.y = data_.current_A - a * x;
 }
 
 void Solver::Slide() {
@@ -182,108 +148,104 @@ void Solver::Slide() {
 // them where that costs nothing.
 void Solver::MergeNeighbours() {
   for (int j = 0; j + 1 < size(); ++j) {
-    if ((atoms_[j + 1].u - atoms_[j].u) * scale_ > kNeighbours) continue;
-    const Solver before = *this;
-    const Atom &a = atoms_[j], &b = atoms_[j + 1];
+    if ((state_.atoms[j + 1].u - state_.atoms[j].u) * scale_ > kNeighbours) continue;
+    const State before = state_;
+    const Atom &a = state_.atoms[j], &b = state_.atoms[j + 1];
     const double weight = a.current_A / (a.current_A + b.current_A);
-    atoms_[j].u = weight * a.u + (1 - weight) * b.u;
-    atoms_.erase(atoms_.begin() + j + 1);
+    state_.atoms[j].u = weight * a.u + (1 - weight) * b.u;
+    state_.atoms.erase(state_.atoms.begin() + j + 1);
     SolveLinear();
     Slide();
-    if (y_.squaredNorm() <= before.y_.squaredNorm() * (1 + 1e-13)) {
+    if (state_.y.squaredNorm() <= before.y.squaredNorm() * (1 + 1e-13)) {
       --j;
-      continue;
+    } else {
+      state_ = before;
     }
-    atoms_ = before.atoms_;
-    photocurrent_ = before.photocurrent_;
-    shunt_ = before.shunt_;
-    y_ = before.y_;
   }
+}
+
+Slope Solver::SlopeHere() const {
+  const Eigen::MatrixXd a = Columns(state_.atoms);
+  Slope slope;
+  Eigen::MatrixXd slopes(vd_.size(), size());
+  Eigen::VectorXd gradient(size()), bends(size());
+  std::vector<int> linear;  // columns off zero
+  if (state_.photocurrent > 0) linear.push_back(0);
+  if (state_.shunt > 0) linear.push_back(1);
+  for (int j = 0; j < size(); ++j) {
+    linear.push_back(2 + j);
+    const double u = state_.atoms[j].u;
+    const Eigen::ArrayXd e =
+        ((vd_.array() - scale_) * u).exp() * (state_.atoms[j].current_A / -std::expm1(-u * scale_));
+    slopes.col(j) = -(vd_.array() * e).matrix();
+    bends[j] = -(vd_.array().square() * e * state_.y.array()).sum();
+    gradient[j] = -slopes.col(j).dot(state_.y);
+    const Window* window = WindowOf(u);
+    const bool pressed =
+        (u <= window->lower && gradient[j] >= 0) || (u >= window->upper && gradient[j] <= 0);
+    if (!pressed) slope.moving.push_back(j);
+  }
+  const auto count = static_cast<Eigen::Index>(slope.moving.size());
+  const Eigen::MatrixXd columns = a(Eigen::all, linear);
+  const Eigen::MatrixXd b = slopes(Eigen::all, slope.moving);
+  // Mixed block A'B - diag(slope . y), each slope for a current of 1.
+  Eigen::MatrixXd mixed = columns.transpose() * b;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int j = slope.moving[i];
+    const auto row = std::find(linear.begin(), linear.end(), 2 + j) - linear.begin();
+    mixed(row, i) += gradient[j] / state_.atoms[j].current_A;
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  const Eigen::MatrixXd r = qr.matrixQR().topRows(columns.cols());
+  const Eigen::MatrixXd w = r.triangularView<Eigen::Upper>().transpose().solve(mixed);
+  slope.gradient = gradient(slope.moving);
+  slope.hessian = b.transpose() * b - w.transpose() * w;
+  slope.hessian.diagonal() -= bends(slope.moving);
+  slope.squares = b.colwise().squaredNorm();
+  return slope;
+}
+
+// Moves the atoms by -step within their windows and solves for the rest; returns the largest move
+// in u Vs.
+double Solver::Move(const std::vector<int>& moving, const Eigen::VectorXd& step) {
+  std::vector<Atom>& atoms = state_.atoms;
+  double largest = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Atom& atom = atoms[moving[i]];
+    const Window* window = WindowOf(atom.u);
+    const double u = std::min(std::max(atom.u - step[static_cast<Eigen::Index>(i)], window->lower),
+                              window->upper);
+    largest = std::max(largest, std::fabs(u - atom.u) * scale_);
+    atom.u = u;
+  }
+  std::sort(atoms.begin(), atoms.end(), [](const Atom& p, const Atom& q) { return p.u < q.u; });
+  for (int j = size() - 1; j > 0; --j) {
+    if ((atoms[j].u - atoms[j - 1].u) * scale_ < kSameAtom) atoms.erase(atoms.begin() + j);
+  }
+  SolveLinear();
+  return largest;
 }
 
 // One Newton step of the atoms' u, the linear unknowns following. False when nothing moves any
 // more.
 bool Solver::SlideOnce(double* damping) {
-  const Eigen::MatrixXd a = Columns(atoms_);
-  std::vector<int> linear;
-  if (photocurrent_ > 0) linear.push_back(0);
-  if (shunt_ > 0) linear.push_back(1);
-  std::vector<int> moving;
-  Eigen::VectorXd gradient(size());
-  Eigen::MatrixXd slopes(vd_.size(), size());
-  Eigen::VectorXd bends(size());
-  for (int j = 0; j < size(); ++j) {
-    linear.push_back(2 + j);
-    const double u = atoms_[j].u;
-    const double scale = 1 / -std::expm1(-u * scale_);
-    const Eigen::ArrayXd e = scale * ((vd_.array() - scale_) * u).exp();
-    slopes.col(j) = -(vd_.array() * e).matrix();
-    bends[j] = -(vd_.array().square() * e * y_.array()).sum();
-    gradient[j] = -atoms_[j].current_A * slopes.col(j).dot(y_);
-    const Window* window = WindowOf(u);
-    const bool pressed =
-        (u <= window->lower && gradient[j] >= 0) || (u >= window->upper && gradient[j] <= 0);
-    if (!pressed) moving.push_back(j);
-  }
-  if (moving.empty()) return false;
-  const int m = static_cast<int>(moving.size());
-  const int l = static_cast<int>(linear.size());
-  Eigen::MatrixXd columns(a.rows(), l);
-  for (int i = 0; i < l; ++i) columns.col(i) = a.col(linear[i]);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::MatrixXd b(a.rows(), m);
-  for (int i = 0; i < m; ++i) b.col(i) = atoms_[moving[i]].current_A * slopes.col(moving[i]);
-  // Mixed block A'B - diag(slope . y), then reduced to the moving atoms.
-  Eigen::MatrixXd mixed = columns.transpose() * b;
-  for (int i = 0; i < m; ++i) {
-    const int row =
-        static_cast<int>(std::find(linear.begin(), linear.end(), 2 + moving[i]) - linear.begin());
-    mixed(row, i) -= slopes.col(moving[i]).dot(y_);
-  }
-  const Eigen::MatrixXd r = qr.matrixQR().topRows(l);
-  const Eigen::MatrixXd w = r.triangularView<Eigen::Upper>().transpose().solve(mixed);
-  Eigen::MatrixXd hessian = b.transpose() * b - w.transpose() * w;
-  Eigen::VectorXd g(m);
-  for (int i = 0; i < m; ++i) {
-    hessian(i, i) -= atoms_[moving[i]].current_A * bends[moving[i]];
-    g[i] = gradient[moving[i]];
-  }
-  const double before = y_.squaredNorm();
-  const std::vector<Atom> atoms_before = atoms_;
-  const double photocurrent_before = photocurrent_;
-  const double shunt_before = shunt_;
-  const Eigen::VectorXd y_before = y_;
-  for (int attempt = 0; attempt < 12; ++attempt) {
-    Eigen::MatrixXd damped = hessian;
-    for (int i = 0; i < m; ++i) damped(i, i) += *damping * b.col(i).squaredNorm();
+  constexpr int kAttempts = 12;
+  const Slope slope = SlopeHere();
+  if (slope.moving.empty()) return false;
+  const State before = state_;
+  const double square = before.y.squaredNorm();
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    Eigen::MatrixXd damped = slope.hessian;
+    damped.diagonal() += *damping * slope.squares;
     const Eigen::LLT<Eigen::MatrixXd> llt(damped);
     if (llt.info() == Eigen::Success) {
-      const Eigen::VectorXd step = llt.solve(g);
-      double largest = 0;
-      for (int i = 0; i < m; ++i) {
-        Atom& atom = atoms_[moving[i]];
-        const Window* window = WindowOf(atom.u);
-        const double u = std::min(std::max(atom.u - step[i], window->lower), window->upper);
-        largest = std::max(largest, std::fabs(u - atom.u) * scale_);
-        atom.u = u;
-      }
-      std::sort(atoms_.begin(), atoms_.end(),
-                [](const Atom& p, const Atom& q) { return p.u < q.u; });
-      for (int j = size() - 1; j > 0; --j) {
-        if ((atoms_[j].u - atoms_[j - 1].u) * scale_ < kSameAtom) {
-          atoms_.erase(atoms_.begin() + j);
-        }
-      }
-      SolveLinear();
-      const double after = y_.squaredNorm();
-      if (after <= before * (1 + 1e-15)) {
+      const double largest = Move(slope.moving, llt.solve(slope.gradient));
+      const double after = state_.y.squaredNorm();
+      if (after <= square * (1 + 1e-15)) {
         *damping = *damping > 1e-9 ? *damping * 0.1 : 0;
-        return largest > 1e-13 && (after < before * (1 - 1e-15) || largest > 1e-9);
+        return largest > 1e-13 && (after < square * (1 - 1e-15) || largest > 1e-9);
       }
-      atoms_ = atoms_before;
-      photocurrent_ = photocurrent_before;
-      shunt_ = shunt_before;
-      y_ = y_before;
+      state_ = before;
     }
     *damping = std::max(*damping * 10, 1e-6);
   }
@@ -294,57 +256,57 @@ bool Solver::SlideOnce(double* damping) {
 // derivatives of the columns that touch zero inside a window, so that the correlation has its
 // maximum there.
 Eigen::VectorXd Solver::CleanResidual() const {
-  const Eigen::MatrixXd a = Columns(atoms_);
+  const Eigen::MatrixXd a = Columns(state_.atoms);
   std::vector<Eigen::VectorXd> active;
-  if (photocurrent_ > 0) active.push_back(a.col(0));
-  if (shunt_ > 0) active.push_back(a.col(1));
+  if (state_.photocurrent > 0) active.push_back(a.col(0));
+  if (state_.shunt > 0) active.push_back(a.col(1));
   for (int j = 0; j < size(); ++j) active.push_back(a.col(2 + j));
-  if (active.empty()) return y_;
+  if (active.empty()) return state_.y;
   const std::size_t plain = active.size();
   for (int j = 0; j < size(); ++j) {
-    const Window* window = WindowOf(atoms_[j].u);
-    if (atoms_[j].u <= window->lower || atoms_[j].u >= window->upper) continue;
-    const Eigen::ArrayXd e = ((vd_.array() - scale_) * atoms_[j].u).exp();
+    const Window* window = WindowOf(state_.atoms[j].u);
+    if (state_.atoms[j].u <= window->lower || state_.atoms[j].u >= window->upper) continue;
+    const Eigen::ArrayXd e = ((vd_.array() - scale_) * state_.atoms[j].u).exp();
     active.push_back((vd_.array() * e / vd_.cwiseAbs().maxCoeff()).matrix());
   }
   for (const std::size_t count : {active.size(), plain}) {
     Eigen::MatrixXd columns(vd_.size(), count);
     for (std::size_t i = 0; i < count; ++i) columns.col(i) = active[i];
     const auto qr = columns.colPivHouseholderQr();
-    Eigen::VectorXd y = y_;
+    Eigen::VectorXd y = state_.y;
     for (int round = 0; round < 2; ++round) y -= columns * qr.solve(y);
-    if ((y - y_).norm() <= 1e-5 * y_.norm() || count == plain) return y;
+    if ((y - state_.y).norm() <= 1e-5 * state_.y.norm() || count == plain) return y;
   }
-  return y_;
+  return state_.y;
 }
 
 Mixture Solver::Finish(const Eigen::VectorXd& y, double excess, double price_A) const {
   Mixture mixture;
   mixture.rs = rs_;
   mixture.scale_voltage_V = scale_;
-  mixture.photocurrent_A = photocurrent_;
+  mixture.photocurrent_A = state_.photocurrent;
   const double reference = data_.reference_voltage_V;
-  mixture.shunt_current_A = shunt_ * reference / scale_;
-  mixture.atoms = atoms_;
+  mixture.shunt_current_A = state_.shunt * reference / scale_;
+  mixture.atoms = state_.atoms;
   for (Atom& atom : mixture.atoms) {
     atom.current_A *= std::exp(-atom.u * (scale_ - reference)) * std::expm1(-atom.u * reference) /
                       std::expm1(-atom.u * scale_);
   }
-  mixture.primal = 0.5 * y_.squaredNorm();
+  mixture.primal = 0.5 * state_.y.squaredNorm();
   mixture.y = y;
   mixture.dual = data_.current_A.dot(y) - 0.5 * y.squaredNorm();
   mixture.excess = std::max(excess, -vd_.dot(y) / scale_);
   mixture.photocurrent_excess = std::max(0.0, y.sum());
   const double lack =
-      mixture.excess * price_A + mixture.photocurrent_excess * (photocurrent_ + price_A);
+      mixture.excess * price_A + mixture.photocurrent_excess * (state_.photocurrent + price_A);
   mixture.relative_gap =
       (std::fabs(mixture.primal - mixture.dual) + lack) / std::max(mixture.primal, 1e-300);
-  Eigen::ArrayXd slope = Eigen::ArrayXd::Constant(vd_.size(), -shunt_ / scale_);
-  for (const Atom& atom : atoms_) {
+  Eigen::ArrayXd slope = Eigen::ArrayXd::Constant(vd_.size(), -state_.shunt / scale_);
+  for (const Atom& atom : state_.atoms) {
     const double scale = atom.current_A / -std::expm1(-atom.u * scale_);
     slope -= scale * atom.u * ((vd_.array() - scale_) * atom.u).exp();
   }
-  mixture.slope = -(slope * data_.current_A.array() * y_.array()).sum();
+  mixture.slope = -(slope * data_.current_A.array() * state_.y.array()).sum();
   return mixture;
 }
 

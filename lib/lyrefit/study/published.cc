@@ -90,8 +90,10 @@ std::vector<double> OverBatches(const ContenderResult& contender, const std::str
                                 int batch) {
   std::vector<double> statistics;
   for (std::size_t begin = 0; begin + batch <= contender.runs.size(); begin += batch) {
-    std::vector<double> values;
-    for (int r = 0; r < batch; ++r) values.push_back(contender.runs[begin + r].searched_A);
+    std::vector<double> values(static_cast<std::size_t>(batch));
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      values[r] = contender.runs[begin + r].searched_A;
+    }
     statistics.push_back(Statistic(values, quantity));
   }
   return statistics;

@@ -14,10 +14,18 @@ namespace {
 constexpr int kRmseDigits = 10;
 constexpr int kValueDigits = 6;
 
+// Whether larger Rs than those gone through were asked for.
+bool OpenRange(const Certificate& certificate) {
+  return certificate.options.rs_upper_ohm > certificate.rs_upper_ohm;
+}
+
 std::string Ranges(const Certificate& certificate) {
-  return fmt::format("n in [{:g}, {:g}] and Rs in [{:g}, {:.4g}] ohm", certificate.options.n_lower,
-                     certificate.options.n_upper, certificate.options.rs_lower_ohm,
-                     certificate.rs_upper_ohm);
+  const CertifyOptions& options = certificate.options;
+  const std::string rs =
+      OpenRange(certificate)
+          ? fmt::format("any Rs from {:g} ohm up", options.rs_lower_ohm)
+          : fmt::format("Rs in [{:g}, {:.4g}] ohm", options.rs_lower_ohm, options.rs_upper_ohm);
+  return fmt::format("n in [{:g}, {:g}] and {}", options.n_lower, options.n_upper, rs);
 }
 
 std::string Header(const Certificate& certificate) {
@@ -77,8 +85,12 @@ std::string ProofSection(const Certificate& certificate) {
                                  correlation, GapText(floor.duality_gap)));
   text += Wrap("  ", fmt::format("Between the Rs visited the dual vectors of both neighbours, "
                                  "interpolated, bound the RMSE from below: {} convex problems "
-                                 "settled the whole range.",
-                                 floor.solved));
+                                 "settled Rs up to {:.4g} ohm.{}",
+                                 floor.solved, certificate.rs_upper_ohm,
+                                 OpenRange(certificate)
+                                     ? " Beyond that the points come in the wrong order of "
+                                       "junction voltage for any model."
+                                     : ""));
   return text;
 }
 

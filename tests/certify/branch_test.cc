@@ -31,6 +31,24 @@ TEST(BranchOverResistance, BoundsEveryResistanceAndAttainsTheBest) {
   }
 }
 
+// A coarse tolerance leaves much excess in every mixture, which has to be priced in full.
+TEST(BranchOverResistance, HoldsWithCoarseMixturesToo) {
+  for (std::uint64_t seed = 110; seed < 120; ++seed) {
+    const IvCurve curve = RandomCurve(seed);
+    const MixtureData data = DataOf(curve);
+    const Window window = WindowOf(curve, 0.5, 4);
+    BranchLimits limits = LimitsOf(data);
+    for (const double tolerance : {0.9, 0.3, 1e-2, 1e-4}) {
+      limits.tolerance = tolerance;
+      const BranchEnd coarse = BranchOverResistance(data, window, limits);
+      limits.tolerance = 1e-8;
+      const double lowest = BranchOverResistance(data, window, limits).best.primal;
+      EXPECT_LE(coarse.lower, lowest * (1 + 1e-9)) << curve.name;
+      EXPECT_GE(coarse.lower, coarse.best.primal * (1 - tolerance) * (1 - 1e-9)) << curve.name;
+    }
+  }
+}
+
 TEST(BranchOverDiodes, FindsTheBestSingleDiodeByItself) {
   const IvCurve curve = Shipped("rtc_france");
   const MixtureData data = DataOf(curve);
@@ -41,6 +59,18 @@ TEST(BranchOverDiodes, FindsTheBestSingleDiodeByItself) {
   EXPECT_NEAR(end.best.primal / certified, 1, 1e-9);
   EXPECT_NEAR(end.lower / certified, 1, 1e-9);
   EXPECT_EQ(end.best.atoms.size(), 1U);
+}
+
+TEST(BranchOverDiodes, FindsTheBestTwoDiodesWhereTheFloorNeedsThree) {
+  const IvCurve curve = Shipped("msx60");
+  const MixtureData data = DataOf(curve);
+  const double certified = 0.5 * 15 * 2.216617042418e-5 * 2.216617042418e-5;
+  const BranchEnd end =
+      BranchOverDiodes(data, WindowOf(curve, 1, 2), 2, 1.5 * certified, LimitsOf(data));
+  EXPECT_TRUE(end.complete);
+  EXPECT_NEAR(end.best.primal / certified, 1, 1e-8);
+  EXPECT_LE(end.lower, certified * (1 + 1e-9));
+  EXPECT_GE(end.lower, end.best.primal * (1 - 1e-9));
 }
 
 TEST(BranchOverDiodes, StopsAtOnceWhereTheValueCannotBeReached) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "certify/made.h"
 
 namespace lyrefit {
@@ -46,6 +48,65 @@ TEST(BoundCorrelation, IsNeverBelowTheLargestValueAndNotFarAboveIt) {
       EXPECT_GE(found.best, std::max(0.0, 0.9 * largest));
     }
   }
+}
+
+// `y` moved as little as possible to make its products with the columns what is wanted.
+Eigen::VectorXd Moved(const Eigen::VectorXd& y, const Eigen::MatrixXd& columns,
+                      const Eigen::VectorXd& wanted) {
+  return y +
+         columns * (columns.transpose() * columns).ldlt().solve(wanted - columns.transpose() * y);
+}
+
+// One look at a window where the correlation is zero at both ends and bulges between them: there
+// the bound is tight.
+TEST(BoundCorrelation, IsNotBelowABulgeBetweenTheEndsOfAPiece) {
+  const IvCurve curve = Shipped("rtc_france");
+  const Eigen::VectorXd vd = DataOf(curve).voltage_V;
+  const double scale = vd.maxCoeff();
+  const Window wide = WindowOf(curve, 0.5, 4);
+  RandomStream random(3);
+  int seen = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double u = wide.lower + random.Uniform() * (wide.upper - wide.lower);
+    const std::vector<Window> window = {{u, u + 0.3 * random.Uniform()}};
+    Eigen::MatrixXd ends(vd.size(), 2);
+    ends << DiodeColumn(vd, scale, u), DiodeColumn(vd, scale, window[0].upper);
+    const Eigen::VectorXd y =
+        Moved(RandomVector(vd.size(), &random), ends, Eigen::Vector2d::Zero());
+    const double largest = LargestOnGrid(vd, scale, y, window);
+    if (largest < 1e-9) continue;
+    ++seen;
+    EXPECT_GE(BoundCorrelation(vd, scale, y, window, {}, 1e9).bound, largest);
+  }
+  EXPECT_GT(seen, 50);
+}
+
+// A correlation that is negative at both ends and positive between them may not be left out.
+TEST(BoundBend, SeesWhatRisesAboveZeroBetweenTwoResistances) {
+  const IvCurve curve = Shipped("rtc_france");
+  const MixtureData data = DataOf(curve);
+  const double scale = data.reference_voltage_V;
+  RandomStream random(4);
+  int seen = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double u = WindowOf(curve, 1, 2).lower * (1 + random.Uniform());
+    const double rs = 0.06 * random.Uniform();
+    const double dr = 0.05 * random.Uniform();
+    const auto column = [&](double t) {
+      return DiodeColumn(data.voltage_V + (rs + t * dr) * data.current_A, scale, u);
+    };
+    Eigen::MatrixXd ends(data.voltage_V.size(), 2);
+    ends << column(0), column(1);
+    const Eigen::VectorXd y =
+        Moved(RandomVector(ends.rows(), &random), ends, Eigen::Vector2d(-1e-9, -1e-9));
+    if (column(0.5).dot(y) <= 1e-6) continue;
+    ++seen;
+    const double bend = BoundBend(data, {{u, u * (1 + 1e-6)}}, rs, dr, y, y, scale);
+    for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      EXPECT_LE(column(t).dot(y), 0.5 * t * (1 - t) * bend * (1 + 1e-9));
+    }
+  }
+  EXPECT_GT(seen, 20);
 }
 
 TEST(BoundBend, BoundsWhatTheCorrelationRisesBetweenTwoResistances) {

@@ -67,7 +67,8 @@ TEST(SolveMixture, IsNoWorseThanTheBestOnAGrid) {
     const Mixture mixture = SolveMixture(data, {window}, rs, {}, kTolerance, Price(data));
     const double grid = OnGrid(data, window, rs, 21);
     EXPECT_LE(mixture.primal, grid * (1 + 1e-9)) << rs;
-    EXPECT_LE(mixture.dual, grid * (1 + 1e-12)) << rs << ": the lower bound holds for every mixture";
+    EXPECT_LE(mixture.dual, grid * (1 + 1e-12))
+        << rs << ": the lower bound holds for every mixture";
     EXPECT_GE(mixture.primal, grid * 0.8) << rs << ": the grid comes near";
   }
 }

@@ -59,6 +59,7 @@ class Solver {
       }
       if (correlation.best <= allowed || !Add(correlation.best_u)) break;
       SolveLinear();
+      if (!Has(correlation.best_u) && !SplitNearest(correlation.best_u)) break;
     }
     return best;
   }
@@ -77,6 +78,11 @@ class Solver {
       if (u <= window.upper) return &window;
     }
     return &windows_.back();
+  }
+
+  bool Has(double u) const {
+    return std::any_of(state_.atoms.begin(), state_.atoms.end(),
+                       [u](const Atom& atom) { return atom.u == u; });
   }
 
   // False if there is an atom already.
@@ -106,6 +112,7 @@ class Solver {
   void SolveLinear();
   void Slide();
   void MergeNeighbours();
+  bool SplitNearest(double u);
   Slope SlopeHere() const;
   double Move(const std::vector<int>& moving, const Eigen::VectorXd& step);
   bool SlideOnce(double* damping);
@@ -224,6 +231,29 @@ double Solver::Move(const std::vector<int>& moving, const Eigen::VectorXd& step)
   }
   SolveLinear();
   return largest;
+}
+
+// An atom that may not stand beside another one although the residual asks for it: the other one
+// sits on a saddle and has to go both ways at once. False if that gains nothing.
+bool Solver::SplitNearest(double u) {
+  const State before = state_;
+  const Window* window = WindowOf(u);
+  int nearest = -1;
+  for (int j = 0; j < size(); ++j) {
+    if (WindowOf(state_.atoms[j].u) != window) continue;
+    const double distance = std::fabs(state_.atoms[j].u - u);
+    if (nearest < 0 || distance < std::fabs(state_.atoms[nearest].u - u)) nearest = j;
+  }
+  if (nearest < 0) return false;
+  const double opposite = 2 * state_.atoms[nearest].u - u;
+  state_.atoms.erase(state_.atoms.begin() + nearest);
+  Add(u);
+  Add(std::min(std::max(opposite, window->lower), window->upper));
+  SolveLinear();
+  Slide();
+  if (state_.y.squaredNorm() < before.y.squaredNorm()) return true;
+  state_ = before;
+  return false;
 }
 
 // One Newton step of the atoms' u, the linear unknowns following. False when nothing moves any

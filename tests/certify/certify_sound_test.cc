@@ -1,0 +1,219 @@
+// What nobody may ever find: parameters below a proved bound.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "certify/made.h"
+#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/refine/refine.h"
+#include "lyrefit/refine/separable.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+double LargestCurrent(const IvCurve& curve) {
+  return DataOf(curve).current_A.cwiseAbs().maxCoeff();
+}
+
+RefineProblem ProblemOf(const Certificate& certificate, Model model) {
+  const IvCurve& curve = certificate.curve;
+  const CertifyOptions& options = certificate.options;
+  return ModelProblem(curve, MakeDevice(model, curve.conditions, options.constants),
+                      {options.n_lower, options.n_upper, options.rs_lower_ohm,
+                       certificate.rs_upper_ohm, certificate.reference_voltage_V});
+}
+
+std::vector<double> RandomPoint(const RefineProblem& problem, double reference_V,
+                                RandomStream* random) {
+  std::vector<double> p(problem.device.size());
+  const double current = problem.current_scale_A;
+  p[kIph] = 2 * current * random->Uniform();
+  p[kRs] = problem.lower[kRs] +
+           (problem.upper[kRs] - problem.lower[kRs]) * random->Uniform() * random->Uniform();
+  p[kRsh] = reference_V / current * std::pow(10, 4 * random->Uniform());
+  for (int d = 0; d < DiodeCount(problem.device); ++d) {
+    const int n = IdealityIndex(d);
+    p[n] = problem.lower[n] + (problem.upper[n] - problem.lower[n]) * random->Uniform();
+    p[SaturationCurrentIndex(d)] =
+        current * random->Uniform() /
+        std::expm1(reference_V / (p[n] * problem.device.module_thermal_voltage_V));
+  }
+  return p;
+}
+
+// Random parameters of every model, as they are and refined, against the bounds of that model and
+// of the floor. Double arithmetic rounds at some 1e-15 of the current.
+void ExpectNotUndercut(const Certificate& certificate, std::uint64_t seed) {
+  const double rounding = 1e-14 * LargestCurrent(certificate.curve);
+  RandomStream random(seed);
+  for (const ModelCertificate& model : certificate.models) {
+    const RefineProblem problem = ProblemOf(certificate, model.model);
+    EXPECT_GE(model.rmse_A, certificate.floor.lower_bound_A - rounding);
+    EXPECT_NEAR(std::sqrt(MeanSquare(problem, model.parameters)), model.rmse_A, rounding);
+    for (int start = 0; start < 3; ++start) {
+      const auto drawn = RandomPoint(problem, certificate.reference_voltage_V, &random);
+      EXPECT_GE(std::sqrt(MeanSquare(problem, drawn)), model.lower_bound_A);
+      const RefineEnd end = Refine(problem, SeparableDescent(problem, drawn));
+      EXPECT_GE(std::sqrt(end.mean_square), model.lower_bound_A - rounding)
+          << certificate.curve.name << " " << ToText(model.model);
+      EXPECT_GE(std::sqrt(end.mean_square), certificate.floor.lower_bound_A - rounding);
+    }
+  }
+}
+
+TEST(CertifySound, NoRefinedStartOfAnyModelUndercutsIt) {
+  for (std::uint64_t seed = 500; seed < 540; ++seed) {
+    CertifyOptions options;
+    if (seed % 2 == 1) {
+      options.n_lower = 0.5;
+      options.n_upper = 4;
+    }
+    const auto certificate = Certify(RandomCurve(seed), options);
+    ASSERT_TRUE(certificate) << certificate.error().ToString();
+    for (const ModelCertificate& model : certificate->models) EXPECT_TRUE(model.certified) << seed;
+    ExpectNotUndercut(*certificate, seed);
+  }
+}
+
+TEST(CertifySound, NoFitUndercutsIt) {
+  for (std::uint64_t seed = 600; seed < 606; ++seed) {
+    const IvCurve curve = RandomCurve(seed);
+    const auto certificate = Certify(curve);
+    ASSERT_TRUE(certificate) << certificate.error().ToString();
+    for (const ModelCertificate& model : certificate->models) {
+      FitOptions options;
+      options.model = model.model;
+      options.objective = Objective::kMeasuredCurrent;
+      options.intervals = Intervals::kNone;
+      const auto report = Fit(curve, options);
+      if (!report) continue;  // fewer points than parameters
+      EXPECT_GE(report->rmse.refined.measured_current_A, model.lower_bound_A)
+          << curve.name << " " << ToText(model.model);
+    }
+  }
+}
+
+// The bounds of curves with next to no noise are limited by rounding, and say so.
+TEST(CertifySound, HoldsWhereThereIsHardlyAnyNoise) {
+  for (const double noise : {1e-7, 1e-9, 0.0}) {
+    IvCurve curve = Shipped("rtc_france");
+    const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
+    const std::vector<double> truth = {0.76, 2e-7, 1.45, 0.036, 55, 7e-7, 1.9};
+    curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+    RandomStream random(7);
+    for (double& i : curve.current_A) i += noise * random.Normal();
+    const auto certificate = Certify(curve);
+    ASSERT_TRUE(certificate) << certificate.error().ToString();
+    EXPECT_LT(certificate->floor.rmse_A, 1.5 * noise + 1e-14);
+    EXPECT_LT(certificate->floor.rmse_A - certificate->floor.lower_bound_A, 1e-13) << noise;
+    for (const ModelCertificate& model : certificate->models) {
+      EXPECT_LT(model.solved, 10000) << noise << ": goes on although rounding ends it";
+    }
+    ExpectNotUndercut(*certificate, 1);
+  }
+}
+
+struct Ugly {
+  const char* name;
+  std::vector<double> voltage_V, current_A;
+  bool exact;  // some model goes through all points
+};
+
+TEST(CertifySound, TakesUglyCurves) {
+  const Ugly curves[] = {
+      {"two points", {0, 0.5}, {0.76, 0.5}, true},
+      {"three points, unsorted", {0.5, 0, 0.4}, {0.5, 0.76, 0.7}, true},
+      {"constant", {0, 0.1, 0.2, 0.3, 0.4}, {1, 1, 1, 1, 1}, true},
+      {"straight line", {0, 0.1, 0.2, 0.3, 0.4, 0.5}, {1, 0.8, 0.6, 0.4, 0.2, 0}, true},
+      {"around Voc", {0.55, 0.56}, {0.01, -0.01}, false},
+      {"noise at Isc", {0, 0.02, 0.04, 0.06, 0.08}, {0.76, 0.759, 0.7605, 0.7591, 0.7603}, false},
+      {"rising", {0, 0.1, 0.2, 0.3, 0.4, 0.5}, {0, 0.2, 0.4, 0.6, 0.8, 1}, false},
+      {"duplicates", {0, 0, 0.3, 0.3, 0.5, 0.5}, {0.76, 0.75, 0.7, 0.71, 0.3, 0.31}, false},
+      {"step", {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6}, {1, 1, 1, 0.5, 0.5, 0.5, 0.2, 0}, false},
+      {"nanoamperes", {0, 0.2, 0.4, 0.5, 0.55, 0.6}, {1e-9, 1e-9, 9e-10, 8e-10, 5e-10, 0}, false},
+      {"far beyond Voc", {0, 0.3, 0.6, 0.7, 0.8}, {1, 0.9, -0.5, -4, -20}, false}};
+  for (const Ugly& ugly : curves) {
+    IvCurve curve;
+    curve.name = ugly.name;
+    curve.voltage_V = ugly.voltage_V;
+    curve.current_A = ugly.current_A;
+    const auto certificate = Certify(curve);
+    ASSERT_TRUE(certificate) << ugly.name << ": " << certificate.error().ToString();
+    EXPECT_LT(certificate->seconds, 2) << ugly.name;
+    EXPECT_TRUE(!ugly.exact || certificate->floor.gap == 0) << ugly.name;
+    for (const ModelCertificate& model : certificate->models) {
+      EXPECT_TRUE(!ugly.exact || model.certified) << ugly.name;
+      EXPECT_TRUE(std::isfinite(model.above_floor)) << ugly.name;
+    }
+    ExpectNotUndercut(*certificate, 3);
+  }
+}
+
+// Points around Isc alone shut out no resistance, and the bound says so.
+TEST(CertifySound, ClaimsNoMoreThanIsProvedBeyondTheResistancesGoneThrough) {
+  IvCurve curve;
+  curve.voltage_V = {0, 0.02, 0.04, 0.06, 0.08};
+  curve.current_A = {0.76, 0.759, 0.7605, 0.7591, 0.7603};
+  const auto open = Certify(curve);
+  ASSERT_TRUE(open) << open.error().ToString();
+  const double beyond = BoundBeyond(DataOf(curve), open->rs_upper_ohm);
+  EXPECT_NEAR(open->floor.lower_bound_A, std::sqrt(2 * beyond / 5), 1e-15);
+  EXPECT_FALSE(open->models[0].certified);
+  CertifyOptions options;
+  options.rs_upper_ohm = open->rs_upper_ohm;
+  const auto closed = Certify(curve, options);
+  ASSERT_TRUE(closed) << closed.error().ToString();
+  EXPECT_LE(closed->floor.gap, 1e-9);
+  EXPECT_TRUE(closed->models[0].certified);
+}
+
+TEST(CertifySound, HoldsBeyondTheResistancesGoneThrough) {
+  const IvCurve curve = Shipped("rtc_france");
+  CertifyOptions options;
+  options.models = {Model::kSingleDiode};
+  const auto certificate = Certify(curve, options);
+  ASSERT_TRUE(certificate);
+  const MixtureData data = DataOf(curve);
+  for (const double rs : {1.0, 2.0, 10.0, 100.0}) {
+    const Mixture mixture =
+        SolveMixture(data, {WindowOf(curve, 1, 2)}, rs * certificate->rs_upper_ohm, {}, 1e-6, 2);
+    EXPECT_GT(std::sqrt(2 * mixture.primal / 26), certificate->floor.rmse_A) << rs;
+  }
+}
+
+TEST(CertifySound, AsksForTheCellsOfAModule) {
+  IvCurve module = Shipped("msx60");
+  module.conditions.cells_in_series = 1;
+  const auto certificate = Certify(module);
+  ASSERT_FALSE(certificate);
+  EXPECT_THAT(certificate.error().message,
+              HasSubstr("is the number of cells in series, 1, right?"));
+}
+
+TEST(CertifySound, StoppedAnywhereGivesBoundsThatHold) {
+  const double final_rmse[] = {1.575186424e-4, 2.216617042e-5, 2.172427937e-5};
+  for (const int most : {1, 4, 40, 150, 400, 800}) {
+    int calls = 0;
+    const auto certificate = Certify(Shipped("msx60"), {}, [&](const Progress& progress) {
+      EXPECT_LE(progress.lower_bound, progress.best * (1 + 1e-9));
+      return ++calls >= most ? ObserverAction::kStop : ObserverAction::kContinue;
+    });
+    ASSERT_TRUE(certificate);
+    EXPECT_EQ(calls, most) << "asked again after the stop";
+    EXPECT_TRUE(certificate->interrupted);
+    EXPECT_LE(certificate->floor.lower_bound_A, 2.172427937e-5 * (1 + 1e-9));
+    EXPECT_GE(certificate->floor.rmse_A, 2.172427937e-5 * (1 - 1e-9));
+    for (const ModelCertificate& model : certificate->models) {
+      const double known = final_rmse[static_cast<int>(model.model) - 1];
+      EXPECT_LE(model.lower_bound_A, known * (1 + 1e-9)) << most;
+      EXPECT_GE(model.rmse_A, known * (1 - 1e-9)) << most;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

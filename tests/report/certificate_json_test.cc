@@ -70,6 +70,12 @@ TEST(CertificateJson, ProvesTheFloorToAnyoneWhoCanMultiply) {
   EXPECT_NEAR(bound / (0.5 * static_cast<double>(y.size()) * rmse * rmse), 1, 1e-12);
 }
 
+TEST(CertificateJson, TakesNamesThatAreNotUtf8) {
+  Certificate certificate = RtcCertificate();
+  certificate.curve.name = "caf\xe9";
+  EXPECT_TRUE(json::accept(CertificateJson(certificate)));
+}
+
 TEST(CertificateJson, WritesNullForWhatIsNotFinite) {
   Certificate certificate = RtcCertificate();
   certificate.floor.duality_gap = std::nan("");

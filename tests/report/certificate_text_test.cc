@@ -48,6 +48,34 @@ TEST(CertificateText, SaysWhatIsNotCertified) {
   EXPECT_THAT(CertificateText(certificate), HasSubstr("1 % apart"));
 }
 
+TEST(CertificateText, RoundsNoProvedBoundUp) {
+  Certificate certificate = RtcCertificate();
+  certificate.floor.lower_bound_A = 9.8248487609e-4;
+  certificate.models[0].lower_bound_A = 9.86021877888e-4;
+  const std::string text = CertificateText(certificate);
+  EXPECT_THAT(text, HasSubstr("nothing lies below 9.824848760e-04 A"));
+  EXPECT_THAT(text, HasSubstr("9.860218779e-04   9.860218778e-04"));
+}
+
+TEST(CertificateText, TellsAnExactFit) {
+  IvCurve line;
+  line.name = "line";
+  line.voltage_V = {0, 0.1, 0.2, 0.3};
+  line.current_A = {1, 0.8, 0.6, 0.4};
+  const std::string text = CertificateText(*Certify(line));
+  EXPECT_THAT(text, HasSubstr("nothing can be lower: this is rounding"));
+  EXPECT_THAT(text, HasSubstr("The floor is zero"));
+  EXPECT_THAT(text, Not(HasSubstr("Duality gap")));
+}
+
+TEST(CertificateText, CountsNoDiode) {
+  Certificate certificate = RtcCertificate();
+  certificate.floor.diodes.clear();
+  const std::string text = CertificateText(certificate);
+  EXPECT_THAT(text, HasSubstr("and no diode\n"));
+  EXPECT_THAT(text, HasSubstr("No diode is needed to attain the floor"));
+}
+
 TEST(BriefCertificate, IsOneLine) {
   const std::string text = BriefCertificate(RtcCertificate());
   EXPECT_THAT(text, StartsWith("rtc_france: floor 9.824848761e-04 A measured-current"));

@@ -19,8 +19,7 @@ CertifyOptions RangesOf(const std::vector<ParameterBounds>& bounds, ConstantSet 
     options.n_lower = std::min(options.n_lower, bounds[IdealityIndex(d)].lower);
     options.n_upper = std::max(options.n_upper, bounds[IdealityIndex(d)].upper);
   }
-  // A single value of n is a narrow range, and no diode has n = 0.
-  options.n_lower = std::max(options.n_lower, 0.05);
+  // A single value of n is a narrow range.
   if (!(options.n_lower < options.n_upper)) options.n_upper = options.n_lower * (1 + 1e-9);
   return options;
 }

@@ -66,7 +66,8 @@ std::string CertificateJson(const Certificate& certificate) {
                      {"data",
                       {{"voltage_V", Numbers(certificate.curve.voltage_V)},
                        {"current_A", Numbers(certificate.curve.current_A)}}}};
-  return json.dump(2) + "\n";
+  // Names and files may hold bytes that are not UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lyrefit

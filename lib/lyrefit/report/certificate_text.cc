@@ -44,22 +44,27 @@ std::string Header(const Certificate& certificate) {
   return text;
 }
 
-// What is below: a gap as text, "none" for what rounding leaves.
 std::string GapText(double gap) { return fmt::format("{:.1e}", gap); }
+
+// A mixture goes through all points.
+bool Exact(const Floor& floor) { return floor.gap == 0 && floor.lower_bound_A == 0; }
 
 std::string FloorSection(const Certificate& certificate) {
   const Floor& floor = certificate.floor;
   std::string text = "Floor: the lowest RMSE of any number of diodes\n";
   text += Field("reached", Scientific(floor.rmse_A, kRmseDigits) + " A");
-  text += Field("proved",
-                fmt::format("nothing lies below {} A: a relative gap of {}",
-                            Scientific(floor.lower_bound_A, kRmseDigits), GapText(floor.gap)));
+  text += Field("proved", Exact(floor)
+                              ? "nothing can be lower: this is rounding"
+                              : fmt::format("nothing lies below {} A: a relative gap of {}",
+                                            BoundText(floor.lower_bound_A), GapText(floor.gap)));
   const double shunt = floor.conductance_shunt_S;
-  text += Field("reached by",
-                fmt::format("Iph {} A, Rs {} ohm, Rsh {} ohm, and",
-                            Significant(floor.photocurrent_A, kValueDigits),
-                            Significant(floor.resistance_series_ohm, kValueDigits),
-                            shunt > 0 ? Significant(1 / shunt, kValueDigits) : "infinite"));
+  text +=
+      Field("reached by", fmt::format("Iph {} A, Rs {} ohm, Rsh {} ohm, and{}",
+                                      Significant(floor.photocurrent_A, kValueDigits),
+                                      Significant(floor.resistance_series_ohm, kValueDigits),
+                                      shunt > 0 ? Significant(1 / shunt, kValueDigits) : "infinite",
+                                      floor.diodes.empty() ? " no diode" : ""));
+  if (floor.diodes.empty()) return text;
   TextTable table("rrrr");
   table.Add({"diode", "n", "Is (A)",
              fmt::format("current at {:.5g} V (A)", certificate.reference_voltage_V)});
@@ -74,6 +79,7 @@ std::string FloorSection(const Certificate& certificate) {
 
 std::string ProofSection(const Certificate& certificate) {
   const Floor& floor = certificate.floor;
+  if (Exact(floor)) return "";
   const std::string correlation =
       floor.largest_correlation > 0 ? fmt::format("exceeds {:.0e} of its length, which is rounding",
                                                   floor.largest_correlation)
@@ -102,7 +108,7 @@ std::string ModelSection(const Certificate& certificate) {
   for (const ModelCertificate& model : certificate.models) {
     const bool attains = model.above_floor <= kCertifiedGap;
     table.Add({ToText(model.model), Scientific(model.rmse_A, kRmseDigits),
-               Scientific(model.lower_bound_A, kRmseDigits), GapText(model.gap),
+               BoundText(model.lower_bound_A), GapText(model.gap),
                attains ? "attains it" : Significant(100 * model.above_floor, 3) + " %",
                model.certified ? "yes" : "NO",
                model.solved > 0 ? std::to_string(model.solved) : "the floor's"});
@@ -132,10 +138,12 @@ std::string Conclusion(const Certificate& certificate) {
         "apart.",
         100 * gap);
   }
-  std::string text = fmt::format(
-      "{} attain{} the floor: with {} no further diode can lower the "
-      "RMSE.",
-      Plural(diodes, "diode"), diodes == 1 ? "s" : "", Ranges(certificate));
+  std::string text =
+      Exact(certificate.floor)
+          ? "The floor is zero: diodes in parallel go through all points, to rounding."
+          : fmt::format("{} attain{} the floor: with {} no further diode can lower the RMSE.",
+                        diodes == 0 ? "No diode is needed to" : Plural(diodes, "diode"),
+                        diodes == 1 ? "s" : "", Ranges(certificate));
   for (const ModelCertificate& model : certificate.models) {
     if (model.certified) continue;
     text += fmt::format(" {}: not certified, a lower RMSE by up to {:.2g} % is not excluded.",

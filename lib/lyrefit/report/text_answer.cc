@@ -4,6 +4,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/report/text_sections.h"
 
 namespace lyrefit {
@@ -70,7 +71,7 @@ std::string FloorNote(const FitReport& report) {
                                               Significant(100 * floor.above, 3));
   return Wrap("  ", fmt::format("Floor: no number of diodes with {} brings the measured-current "
                                 "RMSE below {} A, {}.",
-                                range, Scientific(floor.lower_bound_A, kRmseDigits), above));
+                                range, BoundText(floor.lower_bound_A), above));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lyrefit/report/text_layout.h"
 
@@ -37,6 +38,13 @@ std::string CurveFields(const IvCurve& curve) {
                   c.cell_temperature_K - kZeroCelsius_K, c.irradiance_W_m2,
                   Plural(c.cells_in_series, "cell"), Plural(c.strings_in_parallel, "string"));
   return Field("curve", text) + Field("conditions", conditions);
+}
+
+// A proved bound, which must not be rounded up.
+std::string BoundText(double bound) {
+  if (!(bound > 0)) return "0";
+  const double unit = std::pow(10, std::floor(std::log10(bound)) - (10 - 1));
+  return Scientific(std::floor(bound / unit) * unit, 10);
 }
 
 std::string List(const std::string& title, const std::vector<std::string>& sentences) {

@@ -18,6 +18,9 @@ std::string Plural(std::size_t count, const std::string& noun);
 // The lines "curve" and "conditions" of a report's head.
 std::string CurveFields(const IvCurve& curve);
 
+// A proved bound, which must not be rounded up.
+std::string BoundText(double bound);
+
 // A title and a list of sentences; nothing without sentences.
 std::string List(const std::string& title, const std::vector<std::string>& sentences);
 

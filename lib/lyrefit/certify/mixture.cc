@@ -192,6 +192,7 @@ Slope Solver::SlopeHere() const {
         (u <= window->lower && gradient[j] >= 0) || (u >= window->upper && gradient[j] <= 0);
     if (!pressed) slope.moving.push_back(j);
   }
+  if (slope.moving.empty()) return slope;
   const auto count = static_cast<Eigen::Index>(slope.moving.size());
   const Eigen::MatrixXd columns = a(Eigen::all, linear);
   const Eigen::MatrixXd b = slopes(Eigen::all, slope.moving);

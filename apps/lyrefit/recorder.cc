@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -23,15 +24,15 @@ std::int64_t Budget(const SearchOptions& options) {
 
 }  // namespace
 
-Recorder::Recorder(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
-                   const Observer& observer)
-    : objective_(objective),
-      box_(box),
+Recorder::Recorder(ObjectiveFunction objective, Box box, const SearchOptions& options,
+                   Observer observer)
+    : objective_(std::move(objective)),
+      box_(std::move(box)),
       options_(options),
-      observer_(observer),
+      observer_(std::move(observer)),
       budget_(Budget(options)),
-      unit_(box.lower.size()),
-      x_(box.lower.size()) {}
+      unit_(box_.lower.size()),
+      x_(box_.lower.size()) {}
 
 double Recorder::Evaluate(const double* unit) {
   if (summary_.evaluations >= budget_) throw SearchOver();

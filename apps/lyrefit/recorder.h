@@ -15,8 +15,7 @@ struct SearchOver {};
 // points and the trace, and ends the search at the very evaluation.
 class Recorder {
  public:
-  Recorder(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
-           const Observer& observer);
+  Recorder(ObjectiveFunction objective, Box box, const SearchOptions& options, Observer observer);
 
   // Objective at a point of the unit box; what lies outside is clamped, NaN is infinity. Throws
   // SearchOver instead of a call beyond the budget.
@@ -37,10 +36,10 @@ class Recorder {
     double value;
   };
 
-  const ObjectiveFunction& objective_;
-  const Box& box_;
-  const SearchOptions& options_;
-  const Observer& observer_;
+  const ObjectiveFunction objective_;
+  const Box box_;
+  const SearchOptions options_;
+  const Observer observer_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::int64_t budget_;
   std::vector<double> unit_;

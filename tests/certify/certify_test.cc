@@ -18,6 +18,7 @@ TEST(Certify, ProvesTheFloorOfTheRtcFranceCell) {
   const Floor& floor = certificate->floor;
   EXPECT_NEAR(floor.rmse_A / 9.824848761e-4, 1, 1e-9);
   EXPECT_LT(floor.gap, 1e-9);
+  EXPECT_TRUE(floor.certified);
   EXPECT_LT(floor.duality_gap, 1e-12);
   ASSERT_EQ(floor.diodes.size(), 2U);
   EXPECT_NEAR(floor.diodes[0].n, 2, 1e-12);

@@ -10,14 +10,12 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 const std::string kRtc = DataFolder("rtc_france");
+
+#ifdef LYREFIT_HAS_PAGMO
+
 const char kEverybody[] =
     "pagmo:de,pagmo:sade,pagmo:de1220,pagmo:cmaes,pagmo:xnes,pagmo:pso,pagmo:pso_gen,pagmo:gwo,"
     "pagmo:bee_colony,pagmo:gaco,pagmo:sga,pagmo:ihs,pagmo:sea,pagmo:simulated_annealing";
-
-// Builds without pagmo2 say so; the other tests then have nothing to look at.
-bool HasPagmo() {
-  return RunApp("compare --help").out.find("simulated_annealing") != std::string::npos;
-}
 
 json CompareJson(const std::string& arguments) {
   const AppResult result = RunApp("compare " + kRtc + " --json - " + arguments);
@@ -25,15 +23,7 @@ json CompareJson(const std::string& arguments) {
   return json::parse(result.out, nullptr, false);
 }
 
-TEST(Pagmo, IsAskedForWhereTheBuildHasNone) {
-  if (HasPagmo()) GTEST_SKIP() << "this build has pagmo2";
-  const AppResult result = RunApp("compare " + kRtc + " --algorithms mlo,pagmo:de");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("this build has no pagmo2: install libpagmo-dev"));
-}
-
 TEST(Pagmo, EveryAlgorithmSpendsTheSameBudgetFromTheSameFirstPoints) {
-  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
   const std::vector<std::pair<std::string, int>> budgets = {
       {"--iterations 30", 40 * 31}, {"--iterations 30 --max-evaluations 777", 777}};
   for (const auto& [budget, evaluations] : budgets) {
@@ -57,7 +47,6 @@ TEST(Pagmo, EveryAlgorithmSpendsTheSameBudgetFromTheSameFirstPoints) {
 }
 
 TEST(Pagmo, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreads) {
-  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
   const std::string arguments =
       std::string("--models sd --runs 3 --population 20 --iterations 20 --algorithms ") +
       kEverybody;
@@ -76,7 +65,6 @@ TEST(Pagmo, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreads) {
 }
 
 TEST(Pagmo, RefusesWhatItDoesNotKnowOrCannotDo) {
-  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"pagmo:bee", "pagmo:bee: expected one of de, sade"},
       {"pagmo:", "expected one of de, sade"},
@@ -92,13 +80,22 @@ TEST(Pagmo, RefusesWhatItDoesNotKnowOrCannotDo) {
 }
 
 TEST(Pagmo, JoinsTheBudgetStudy) {
-  if (!HasPagmo()) GTEST_SKIP() << "this build has no pagmo2";
   const AppResult result = RunApp("budget " + kRtc +
                                   " --models sd --runs 2 --budgets 100,1000 "
                                   "--algorithms pagmo:cmaes,random");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("  pagmo:cmaes"));
 }
+
+#else
+
+TEST(Pagmo, IsAskedForWhereTheBuildHasNone) {
+  const AppResult result = RunApp("compare " + kRtc + " --algorithms mlo,pagmo:de");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("this build has no pagmo2: install libpagmo-dev"));
+}
+
+#endif
 
 }  // namespace
 }  // namespace lyrefit

@@ -27,7 +27,7 @@ TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
                  "rs_lower_ohm", "rs_upper_ohm", "reference_voltage_V", "module_thermal_voltage_V",
                  "floor", "models", "options", "interrupted", "seconds", "data"}));
   EXPECT_EQ(Keys(j["floor"]),
-            (Set{"rmse_A", "lower_bound_A", "gap", "photocurrent", "resistance_series",
+            (Set{"rmse_A", "lower_bound_A", "gap", "certified", "photocurrent", "resistance_series",
                  "conductance_shunt", "diodes", "duality_gap", "largest_correlation", "dual_A",
                  "problems_solved"}));
   EXPECT_EQ(Keys(j["models"][0]), (Set{"model", "rmse_A", "lower_bound_A", "gap", "above_floor",

@@ -45,6 +45,7 @@ TEST(CertificateText, SaysWhatIsNotCertified) {
   EXPECT_THAT(text, HasSubstr("dd: not certified, a lower RMSE by up to 0.2 %"));
   EXPECT_THAT(BriefCertificate(certificate), HasSubstr("NOT CERTIFIED"));
   certificate.floor.gap = 0.01;
+  certificate.floor.certified = false;
   EXPECT_THAT(CertificateText(certificate), HasSubstr("1 % apart"));
 }
 

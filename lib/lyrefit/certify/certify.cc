@@ -107,12 +107,17 @@ double Gap(const Proof& proof, double rmse, double lower) {
   return rmse > proof.rounding_A ? std::max(0.0, 1 - lower / rmse) : 0;
 }
 
+bool Certified(const Proof& proof, double rmse, double lower) {
+  return rmse - lower <= std::max(kCertifiedGap * rmse, proof.rounding_A);
+}
+
 Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   const Mixture& best = end.best;
   Floor floor;
   floor.rmse_A = proof.Rmse(best.primal);
   floor.lower_bound_A = std::min(proof.Rmse(end.lower), floor.rmse_A);
   floor.gap = Gap(proof, floor.rmse_A, floor.lower_bound_A);
+  floor.certified = Certified(proof, floor.rmse_A, floor.lower_bound_A);
   floor.photocurrent_A = best.photocurrent_A;
   floor.resistance_series_ohm = best.rs;
   floor.conductance_shunt_S = best.shunt_current_A / proof.data.reference_voltage_V;
@@ -152,8 +157,7 @@ ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& 
   certificate.rmse_A = std::sqrt(best.mean_square);
   certificate.lower_bound_A = std::min(proof.Rmse(lower), certificate.rmse_A);
   certificate.gap = Gap(proof, certificate.rmse_A, certificate.lower_bound_A);
-  certificate.certified = certificate.rmse_A - certificate.lower_bound_A <=
-                          std::max(kCertifiedGap * certificate.rmse_A, proof.rounding_A);
+  certificate.certified = Certified(proof, certificate.rmse_A, certificate.lower_bound_A);
   return certificate;
 }
 

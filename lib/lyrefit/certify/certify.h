@@ -49,7 +49,8 @@ struct FloorDiode {
 struct Floor {
   double rmse_A = 0;
   double lower_bound_A = 0;
-  double gap = 0;  // (rmse - lower bound) / rmse, over the whole range of Rs
+  double gap = 0;          // (rmse - lower bound) / rmse, over the whole range of Rs
+  bool certified = false;  // the gap is at most kCertifiedGap, or rounding
   double photocurrent_A = 0;
   double resistance_series_ohm = 0;
   double conductance_shunt_S = 0;

@@ -15,6 +15,7 @@ Json FloorJson(const Floor& floor) {
   return {{"rmse_A", Number(floor.rmse_A)},
           {"lower_bound_A", Number(floor.lower_bound_A)},
           {"gap", Number(floor.gap)},
+          {"certified", floor.certified},
           {"photocurrent", Number(floor.photocurrent_A)},
           {"resistance_series", Number(floor.resistance_series_ohm)},
           {"conductance_shunt", Number(floor.conductance_shunt_S)},

@@ -132,7 +132,7 @@ std::string ModelSection(const Certificate& certificate) {
 std::string Conclusion(const Certificate& certificate) {
   const std::size_t diodes = certificate.floor.diodes.size();
   const double gap = certificate.floor.gap;
-  if (gap > kCertifiedGap) {
+  if (!certificate.floor.certified) {
     return fmt::format(
         "The floor lies between the proved bound and what was reached, {:.2g} % "
         "apart.",

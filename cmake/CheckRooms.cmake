@@ -11,11 +11,12 @@ set(ALLOWED_search base)  # knows no photovoltaics
 set(ALLOWED_refine base curve device)
 set(ALLOWED_certify base curve device refine)
 set(ALLOWED_fit base curve device search refine certify)
-set(ALLOWED_study base curve device search refine certify fit)
+set(ALLOWED_family base curve device search refine fit)
+set(ALLOWED_study base curve device search refine certify fit family)
 set(ALLOWED_effects base curve device)  # knows no fitting
-set(ALLOWED_diagnose base curve device search refine fit effects)
-set(ALLOWED_report base curve device search certify fit study diagnose)  # computes nothing
-set(ROOMS base curve device search refine certify fit study effects diagnose report)
+set(ALLOWED_diagnose base curve device search refine fit family effects)
+set(ALLOWED_report base curve device search certify fit family study diagnose)  # computes nothing
+set(ROOMS base curve device search refine certify fit family study effects diagnose report)
 
 set(BROKEN 0)
 macro(complain text)

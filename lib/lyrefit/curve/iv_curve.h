@@ -50,6 +50,8 @@ struct IvCurve {
   std::vector<double> irradiance_W_m2;
   std::vector<double> temperature_C;
   std::vector<std::string> assumptions;  // plain sentences: what the reader had to assume
+  bool irradiance_known = true;          // false: nobody stated it, the conditions hold a default
+  bool temperature_known = true;
 
   std::size_t size() const { return voltage_V.size(); }
 };

@@ -1,0 +1,77 @@
+#include "lyrefit/device/translation.h"
+
+namespace lyrefit {
+namespace {
+
+int Add(ParameterInfo info, Translation* translation) {
+  translation->parameters.push_back(std::move(info));
+  return translation->size() - 1;
+}
+
+void AddShunt(Translation* t) {
+  if (t->spec.shunt != ShuntLaw::kExponential) return;
+  t->resistance_shunt_dark = Add({"Rsh0", "R_sh_0", "ohm", "shunt resistance in the dark"}, t);
+  t->shunt_exponent = Add({"Rexp", "R_sh_exp", "", "how fast the shunt follows irradiance"}, t);
+}
+
+}  // namespace
+
+std::optional<int> Translation::Find(const std::string& symbol_or_name) const {
+  for (int i = 0; i < size(); ++i) {
+    if (parameters[i].symbol == symbol_or_name || parameters[i].name == symbol_or_name) return i;
+  }
+  return std::nullopt;
+}
+
+Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
+  const bool pvsyst = spec.law == TranslationLaw::kPvsyst;
+  if (spec.model == Model::kTripleDiode) {
+    return Fail("a family is fitted with one or two diodes: expected sd or dd, found td");
+  }
+  if (spec.recombination && !pvsyst) {
+    return Fail("the recombination loss belongs to the law pvsyst, not to desoto");
+  }
+  Translation t;
+  t.spec = spec;
+  Conditions reference;
+  reference.cell_temperature_K = kReferenceTemperature_K;
+  reference.cells_in_series = spec.cells_in_series;
+  t.device = MakeDevice(spec.model, reference, spec.constants);
+  t.photocurrent = Add({"Iph", "I_L_ref", "A", "photocurrent at the reference"}, &t);
+  t.saturation_current = Add({"Is1", "I_o_ref", "A", "saturation current at the reference"}, &t);
+  t.n = pvsyst ? Add({"n1", "gamma_ref", "", "ideality at the reference, per cell"}, &t)
+               : Add({"n1", "n", "", "ideality, per cell"}, &t);
+  t.resistance_series = Add({"Rs", "R_s", "ohm", "series resistance"}, &t);
+  t.resistance_shunt = Add({"Rsh", "R_sh_ref", "ohm", "shunt resistance at the reference"}, &t);
+  t.alpha_sc = Add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"}, &t);
+  t.bandgap = Add({"Eg", "EgRef", "eV", "band gap at the reference"}, &t);
+  if (pvsyst) {
+    t.n_slope = Add({"mu", "mu_gamma", "1/K", "temperature coefficient of the ideality"}, &t);
+  } else {
+    t.bandgap_slope =
+        Add({"dEg", "dEgdT", "1/K", "relative temperature coefficient of the band gap"}, &t);
+  }
+  AddShunt(&t);
+  if (spec.model == Model::kDoubleDiode) {
+    t.saturation_current_2 =
+        Add({"Is2", "I_o_ref_2", "A", "saturation current of diode 2 at the reference"}, &t);
+    t.n_2 = Add({"n2", "n_2", "", "ideality of diode 2, per cell"}, &t);
+  }
+  return t;
+}
+
+TranslatedDevice TranslateTo(const Translation& translation, const std::vector<double>& shared,
+                             double irradiance_W_m2, double temperature_K) {
+  TranslatedDevice result;
+  result.device = translation.device;
+  result.parameters.resize(result.device.size());
+  Translate(translation, shared.data(), irradiance_W_m2, temperature_K, result.parameters.data());
+  const double ratio = temperature_K / kReferenceTemperature_K;
+  result.device.module_thermal_voltage_V *= ratio;
+  for (int diode = 0; diode < static_cast<int>(translation.spec.model); ++diode) {
+    result.parameters[IdealityIndex(diode)] /= ratio;
+  }
+  return result;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/device/device.h"
+
+namespace lyrefit {
+
+// How a device's parameters follow irradiance G and cell temperature T from their values at the
+// reference (1000 W/m2, 25 C).
+enum class TranslationLaw { kDeSoto, kPvsyst };
+
+template <>
+struct EnumTable<TranslationLaw> {
+  static constexpr EnumText<TranslationLaw> kRows[] = {{TranslationLaw::kDeSoto, "desoto"},
+                                                       {TranslationLaw::kPvsyst, "pvsyst"}};
+};
+
+// How the shunt follows irradiance.
+enum class ShuntLaw {
+  kInverse,      // Rsh = Rsh_ref Gref / G                                        De Soto
+  kConstant,     // Rsh = Rsh_ref
+  kExponential,  // between R_sh_0 in the dark and R_sh_ref, exponential in G     PVsyst
+};
+
+template <>
+struct EnumTable<ShuntLaw> {
+  static constexpr EnumText<ShuntLaw> kRows[] = {{ShuntLaw::kInverse, "inverse"},
+                                                 {ShuntLaw::kConstant, "constant"},
+                                                 {ShuntLaw::kExponential, "exponential"}};
+};
+
+constexpr double kReferenceIrradiance_W_m2 = 1000;
+constexpr double kReferenceTemperature_K = 298.15;
+
+struct TranslationSpec {
+  TranslationLaw law = TranslationLaw::kDeSoto;
+  Model model = Model::kSingleDiode;  // sd or dd
+  ShuntLaw shunt = ShuntLaw::kInverse;
+  bool recombination = false;  // PVsyst's loss in the i-layer: parameters d2mutau and NsVbi
+  int cells_in_series = 1;
+  ConstantSet constants = ConstantSet::kCodata;
+};
+
+// The shared parameters of a law, in a fixed order that `parameters` names (symbols are the
+// papers', names are pvlib's), and the device they lead to. See translation.cc for equations and
+// sources.
+struct Translation {
+  TranslationSpec spec;
+  std::vector<ParameterInfo> parameters;
+  // The device at the reference temperature. Its thermal voltage stays the reference's: an ideality
+  // handed to it is n T / Tref, so that one device serves every temperature.
+  Device device;
+  // Positions in the shared vector, -1 where the law has no such parameter.
+  int photocurrent = -1;           // IL_ref, A
+  int saturation_current = -1;     // Io_ref, A
+  int n = -1;                      // n of De Soto, gamma_ref of PVsyst; per cell
+  int resistance_series = -1;      // Rs, ohm
+  int resistance_shunt = -1;       // Rsh_ref, ohm
+  int alpha_sc = -1;               // A/K
+  int bandgap = -1;                // EgRef, eV
+  int bandgap_slope = -1;          // dEgdT, 1/K                    De Soto
+  int n_slope = -1;                // mu_gamma, 1/K                 PVsyst
+  int resistance_shunt_dark = -1;  // R_sh_0, ohm                   exponential shunt
+  int shunt_exponent = -1;         // R_sh_exp                      exponential shunt
+  int saturation_current_2 = -1;   // Io2_ref, A                    dd
+  int n_2 = -1;                    // n2, per cell                  dd
+  int recombination = -1;          // d2mutau, V                    recombination
+  int built_in_voltage = -1;       // NsVbi, V                      recombination
+
+  int size() const { return static_cast<int>(parameters.size()); }
+  std::optional<int> Find(const std::string& symbol_or_name) const;
+};
+
+// Errors: td, recombination or exponential shunt where the law has none (De Soto has neither).
+Expected<Translation> MakeTranslation(const TranslationSpec& spec);
+
+// Shunt resistance at g = G / Gref.
+template <class S>
+S ShuntAt(const Translation& at, const S* shared, const S& g) {
+  using std::exp;
+  const S& reference = shared[at.resistance_shunt];
+  if (at.spec.shunt == ShuntLaw::kConstant) return reference;
+  if (at.spec.shunt == ShuntLaw::kInverse) return reference / g;
+  const S fade = exp(-shared[at.shunt_exponent]);
+  const S base = (reference - shared[at.resistance_shunt_dark] * fade) / (1.0 - fade);
+  return base + (shared[at.resistance_shunt_dark] - base) * exp(-shared[at.shunt_exponent] * g);
+}
+
+// Parameters of `translation.device` (in its order; idealities times T / Tref) at irradiance G in
+// W/m2 and cell temperature T in kelvin. S may be a dual number.
+//
+//   IL  = G / Gref (IL_ref + alpha_sc (T - Tref))
+//   De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010), eqs. 16 to 18, 21, 22:
+//     Io  = Io_ref (T / Tref)^3 exp(EgRef / (k Tref) - Eg / (k T)),  Eg = EgRef (1 + dEgdT (T -
+//     Tref)) n constant, Rsh = Rsh_ref Gref / G
+//   PVsyst (Mermoud and Lejeune 2010; Sauer, Roessler and Hansen 2015,
+//   doi:10.1109/JPHOTOV.2014.2364133):
+//     gamma = gamma_ref + mu_gamma (T - Tref)
+//     Io    = Io_ref (T / Tref)^3 exp(EgRef / (k gamma) (1 / Tref - 1 / T))
+//     Rsh   = base + (R_sh_0 - base) exp(-R_sh_exp G / Gref), so that Rsh(Gref) = R_sh_ref
+//   recombination diode (Gow and Manning 1999, doi:10.1049/ip-epa:19990116):
+//     Io2 = Io2_ref (T / Tref)^(5/2) exp((EgRef / (k Tref) - Eg / (k T)) / 2)
+template <class S>
+void Translate(const Translation& translation, const S* shared, const S& irradiance_W_m2,
+               const S& temperature_K, S* device) {
+  using std::exp;
+  using std::sqrt;
+  const Translation& at = translation;
+  const double k_eV = ThermalVoltage(1.0, at.spec.constants);  // k / q: eV per kelvin
+  const S g = irradiance_W_m2 / kReferenceIrradiance_W_m2;
+  const S dt = temperature_K - kReferenceTemperature_K;
+  const S ratio = temperature_K / kReferenceTemperature_K;
+  const S& gap = shared[at.bandgap];
+  const bool pvsyst = at.spec.law == TranslationLaw::kPvsyst;
+  const S n = pvsyst ? S(shared[at.n] + shared[at.n_slope] * dt) : S(shared[at.n]);
+  // EgRef / (k Tref) - Eg(T) / (k T)
+  const S slope = pvsyst ? S(0.0) : S(shared[at.bandgap_slope] * dt);
+  const S barrier =
+      gap / (k_eV * kReferenceTemperature_K) - gap * (1.0 + slope) / (k_eV * temperature_K);
+  device[kIph] = g * (shared[at.photocurrent] + shared[at.alpha_sc] * dt);
+  device[SaturationCurrentIndex(0)] = shared[at.saturation_current] * ratio * ratio * ratio *
+                                      exp(pvsyst ? S(barrier / n) : barrier);
+  device[IdealityIndex(0)] = n * ratio;
+  device[kRs] = shared[at.resistance_series];
+  device[kRsh] = ShuntAt(at, shared, g);
+  if (at.n_2 >= 0) {
+    device[SaturationCurrentIndex(1)] =
+        shared[at.saturation_current_2] * ratio * ratio * sqrt(ratio) * exp(0.5 * barrier);
+    device[IdealityIndex(1)] = shared[at.n_2] * ratio;
+  }
+  if (at.recombination >= 0) {
+    const int last = at.device.size();
+    device[last - 2] = shared[at.recombination];
+    device[last - 1] = shared[at.built_in_voltage];
+  }
+}
+
+// The same for plain numbers, as a device of its own temperature: idealities as they are.
+struct TranslatedDevice {
+  Device device;
+  std::vector<double> parameters;
+};
+TranslatedDevice TranslateTo(const Translation& translation, const std::vector<double>& shared,
+                             double irradiance_W_m2, double temperature_K);
+
+}  // namespace lyrefit

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/device/translation.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+
+// A value with its standard error and 95 % interval; NaN where not known.
+struct Interval {
+  double value = kUnknown;
+  double standard_error = kUnknown;
+  double low_95 = kUnknown;
+  double high_95 = kUnknown;
+};
+
+enum class CurveRole {
+  kFitted,
+  kHeldOut,  // not fitted, only tested
+  kLeftOut,  // neither: see `reason`
+};
+
+template <>
+struct EnumTable<CurveRole> {
+  static constexpr EnumText<CurveRole> kRows[] = {{CurveRole::kFitted, "fitted"},
+                                                  {CurveRole::kHeldOut, "held-out"},
+                                                  {CurveRole::kLeftOut, "left-out"}};
+};
+
+// One curve under the joint parameters.
+struct FamilyCurve {
+  std::string id;
+  CurveRole role = CurveRole::kFitted;
+  std::string reason;  // why left out
+  std::size_t points = 0;
+  double irradiance_W_m2 = 0;  // as stated (a start where nobody stated it)
+  double temperature_C = 0;
+  bool irradiance_known = true;
+  bool temperature_known = true;
+  // What the fit adds to the stated values for this curve alone; all NaN without such unknowns.
+  Interval irradiance_offset_W_m2;
+  Interval temperature_offset_K;
+  double short_circuit_current_A = kUnknown;  // measured
+  std::vector<double> parameters;             // of the translated device, n at its own temperature
+  RmsePair rmse;
+  double mean_residual_A = kUnknown;  // solved-current
+  std::vector<double> residual_A;     // model - measured, solved-current
+  // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
+  std::vector<double> free_parameters;  // empty: not done
+  RmsePair free_rmse;
+  bool odd = false;  // does not belong to the device of the others
+};
+
+struct FamilyRmseTable {
+  RmsePair random_baseline;  // on the curves of the search
+  RmsePair searched;         // on the curves of the search
+  RmsePair searched_all;     // the same bird on all fitted curves
+  RmsePair refined;          // on all fitted curves
+};
+
+// Errors of whole curves that were not fitted.
+struct HeldOut {
+  std::string how;  // "548 curves not fitted", "5 folds of whole curves"
+  int curves = 0;
+  RmsePair rmse;                    // over all points
+  double median_rmse_A = kUnknown;  // of the curves, solved-current
+  double largest_rmse_A = kUnknown;
+  std::string largest_id;
+  double median_free_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
+};
+
+// What one law says, beside others.
+struct FamilyCandidate {
+  TranslationLaw law = TranslationLaw::kDeSoto;
+  Model model = Model::kSingleDiode;
+  RmsePair rmse;
+  double held_out_median_A = kUnknown;
+  double held_out_rmse_A = kUnknown;  // solved-current
+  int free_parameters = 0;
+  bool chosen = false;
+};
+
+// The fit without the curves that look like another device's.
+struct WithoutOdd {
+  std::vector<std::string> ids;
+  RmsePair rmse;
+  std::vector<double> shared;
+};
+
+// A temperature coefficient of the device at the reference, from its own model.
+struct Coefficient {
+  std::string name;  // "alpha_sc", "beta_oc", "gamma_pmp"
+  std::string unit;  // "A/K", "V/K", "%/K"
+  Interval value;
+};
+
+struct FamilyReport {
+  std::string version;
+  std::string name;
+  std::string source;
+  Translation translation;
+  Objective objective = Objective::kSolvedCurrent;
+  int cells_in_series = 1;
+  std::vector<double> searched;  // shared parameters in the translation's order
+  std::vector<double> refined;
+  std::vector<Estimate> estimates;  // shared parameters, same order
+  Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN where not asked for
+  Interval temperature_offset_K;
+  std::vector<Coefficient> coefficients;
+  KeyPoints reference;  // of the model at 1000 W/m2 and 25 C
+  FamilyRmseTable rmse;
+  double noise_A = kUnknown;        // residual standard deviation (weighted, scaled to ampere)
+  std::vector<FamilyCurve> curves;  // in the set's order
+  std::vector<std::string> search_ids;
+  std::optional<HeldOut> held_out;
+  std::optional<WithoutOdd> without_odd;
+  std::vector<FamilyCandidate> candidates;  // of auto
+  std::vector<Correlation> correlations;    // |value| > 0.9 among shared parameters
+  // Half width of the shared intervals when whole curves, not points, are taken as independent
+  // (delete-one-curve jackknife); in the order of `estimates`, empty where not done.
+  std::vector<Interval> jackknife;
+  SearchOptions search_options;
+  SearchSummary search;
+  std::string termination;  // of the joint fit
+  double projected_gradient = kUnknown;
+  double seconds = 0;
+  double free_seconds = 0;              // of the fits one by one
+  std::vector<RejectedCurve> rejected;  // files or curves that could not be read
+  std::vector<OptionEcho> non_default_options;
+  std::vector<std::string> assumptions;
+  std::vector<std::string> warnings;
+  bool interrupted = false;
+  bool usable = true;
+};
+
+}  // namespace lyrefit

@@ -51,8 +51,11 @@ struct FamilyCurve {
   RmsePair rmse;
   double mean_residual_A = kUnknown;  // solved-current
   std::vector<double> residual_A;     // model - measured, solved-current
-  // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
-  std::vector<double> free_parameters;  // empty: not done
+  std::vector<double> voltage_V;      // as measured
+  std::vector<double> current_A;
+  // The same curve fitted alone by the same number of diodes.
+  std::vector<double> free_parameters;  // in the order of MakeDevice; empty: not done
+  std::vector<Estimate> free_estimates;
   RmsePair free_rmse;
   bool odd = false;  // does not belong to the device of the others
 };
@@ -104,6 +107,7 @@ struct FamilyReport {
   std::string version;
   std::string name;
   std::string source;
+  bool free = false;  // every curve on its own: no shared parameters
   Translation translation;
   Objective objective = Objective::kSolvedCurrent;
   int cells_in_series = 1;

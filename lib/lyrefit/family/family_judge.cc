@@ -1,0 +1,315 @@
+#include "lyrefit/family/family_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/device/model_points.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/joint_linear.h"
+#include "lyrefit/refine/joint_profile.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kStrongCorrelation = 0.9;
+constexpr double kLinearReach = 0.3;       // of a symmetric interval, in parts of the value
+constexpr double kNearPerfectShunt = 1e6;  // x V0 / I0
+
+Interval Symmetric(double value, double standard_error, double t) {
+  Interval interval;
+  interval.value = value;
+  interval.standard_error = standard_error;
+  interval.low_95 = value - t * standard_error;
+  interval.high_95 = value + t * standard_error;
+  return interval;
+}
+
+KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared,
+                      double temperature_K) {
+  const TranslatedDevice at =
+      TranslateTo(translation, shared, kReferenceIrradiance_W_m2, temperature_K);
+  return ModelKeyPoints(at.device, at.parameters.data());
+}
+
+class Judge {
+ public:
+  Judge(const FamilyProblem& family, const FamilyOptions& options, const JointProblem& problem,
+        const JointEnd& end, FamilyReport* report)
+      : family_(family), options_(options), problem_(problem), end_(end), r_(*report) {}
+
+  void Run() {
+    const std::vector<double>& shared = end_.point.shared;
+    const int count = family_.translation.size();
+    r_.refined.assign(shared.begin(), shared.begin() + count);
+    JointSpread spread = FindJointSpread(problem_, end_, 1.0);
+    const double degrees = JointDegrees(problem_, family_.free_parameters, spread.local_degrees);
+    variance_ = end_.squares / degrees;
+    r_.noise_A = std::sqrt(variance_);
+    t_ = StudentT95(static_cast<int>(degrees));
+    spread = FindJointSpread(problem_, end_, variance_);
+    r_.estimates.clear();
+    for (int i = 0; i < count; ++i) r_.estimates.push_back(Describe(i, spread));
+    if (options_.intervals) {
+      ProfileWhereNeeded();
+      FindCoefficients(spread);
+      FindCorrelations(spread);
+    }
+    SensorErrors(spread);
+    r_.reference = AtReference(family_.translation, r_.refined, kReferenceTemperature_K);
+    local_error_ = spread.local_error;
+  }
+
+  double t() const { return t_; }
+  const std::vector<JointLocal>& local_error() const { return local_error_; }
+
+ private:
+  bool IsSaturation(int i) const {
+    return i == family_.translation.saturation_current ||
+           i == family_.translation.saturation_current_2;
+  }
+  bool IsShunt(int i) const {
+    return i == family_.translation.resistance_shunt ||
+           i == family_.translation.resistance_shunt_dark;
+  }
+
+  Estimate Describe(int i, const JointSpread& spread) const {
+    Estimate e;
+    e.info = family_.translation.parameters[i];
+    e.bounds = family_.bounds[i];
+    e.fixed = !std::isnan(family_.fixed[i]);
+    e.searched = r_.searched.empty() ? kUnknown : r_.searched[i];
+    e.refined = end_.point.shared[i];
+    if (e.fixed) return e;
+    if (end_.held[i]) MarkHeld(i, &e);
+    e.standard_error = spread.standard_error[i];
+    const double reach = t_ * e.standard_error;
+    if (!options_.intervals || !std::isfinite(reach)) {
+      if (!end_.held[i]) {
+        e.identifiable = false;
+        e.reason = "the data do not fix it: another parameter takes its place";
+      }
+      return e;
+    }
+    e.interval = IntervalMethod::kSymmetric;
+    if (IsSaturation(i)) {
+      e.low_95 = e.refined * std::exp(-reach / e.refined);
+      e.high_95 = e.refined * std::exp(reach / e.refined);
+    } else if (IsShunt(i)) {
+      const double conductance = 1 / e.refined;
+      const double part = reach / (e.refined * e.refined);
+      e.low_95 = 1 / (conductance + part);
+      e.high_95 = conductance > part ? 1 / (conductance - part) : kInfinity;
+    } else {
+      e.low_95 = e.refined - reach;
+      e.high_95 = e.refined + reach;
+    }
+    return e;
+  }
+
+  void MarkHeld(int i, Estimate* e) const {
+    const Translation& at = family_.translation;
+    const double resistance = problem_.voltage_scale_V / problem_.current_scale_A;
+    if (i == at.saturation_current_2 || i == at.n_2) {
+      e->identifiable = false;
+      e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
+      if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
+    } else if (IsShunt(i)) {
+      const bool perfect = e->refined > kNearPerfectShunt * resistance;
+      e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
+    } else {
+      const bool low = e->refined - e->bounds.lower < e->bounds.upper - e->refined;
+      e->at_bound = low ? BoundSide::kLower : BoundSide::kUpper;
+    }
+  }
+
+  bool NeedsProfile(int i) const {
+    const Estimate& e = r_.estimates[i];
+    if (e.fixed || (IsSaturation(i) && end_.held[i]) || i == family_.translation.n_2) return false;
+    // An ideality and what goes with it are exact in their own coordinates.
+    if (e.at_bound != BoundSide::kNone) return true;
+    if (e.interval == IntervalMethod::kNone) return false;
+    if (e.low_95 < e.bounds.lower || e.high_95 > e.bounds.upper) return true;
+    const bool signed_value = e.bounds.lower < 0;
+    if (signed_value) return false;
+    return t_ * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
+  }
+
+  void ProfileWhereNeeded() {
+    std::vector<JointProfileQuery> queries;
+    for (int i = 0; i < family_.translation.size(); ++i) {
+      if (!NeedsProfile(i)) continue;
+      for (const bool upper : {false, true}) {
+        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error});
+      }
+    }
+    std::vector<JointProfileSide> sides(queries.size());
+    ParallelFor(static_cast<int>(queries.size()), options_.threads,
+                [&](int q) { sides[q] = FindJointProfileSide(problem_, end_, queries[q]); });
+    for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
+      const int i = queries[q].parameter;
+      Estimate& e = r_.estimates[i];
+      e.interval = IntervalMethod::kProfile;
+      e.low_95 = std::max(sides[q].value, e.bounds.lower);
+      e.high_95 = sides[q + 1].at_bound && IsShunt(i) ? kInfinity : sides[q + 1].value;
+      if (IsShunt(i) && std::isinf(e.high_95)) {
+        e.identifiable = false;
+        e.reason = "only a lower limit is known";
+      } else if (sides[q].at_bound && sides[q + 1].at_bound) {
+        e.identifiable = false;
+        e.reason = "the data allow its whole range";
+      }
+    }
+  }
+
+  // Gradient of a function of the shared parameters by central differences, and the spread that
+  // follows.
+  Interval Derived(const std::function<double(const std::vector<double>&)>& value,
+                   const JointSpread& spread) const {
+    const int count = family_.translation.size();
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
+    for (int i = 0; i < count; ++i) {
+      const double step = 1e-3 * spread.standard_error[i];
+      if (!(step > 0)) continue;
+      std::vector<double> up = r_.refined, down = r_.refined;
+      up[i] += step;
+      down[i] -= step;
+      gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+    }
+    const double variance = gradient.dot(spread.covariance * gradient);
+    return Symmetric(value(r_.refined), std::sqrt(std::max(variance, 0.0)), t_);
+  }
+
+  void FindCoefficients(const JointSpread& spread) {
+    constexpr double kStep_K = 0.5;
+    const auto slope = [&](double KeyPoints::*field, bool relative) {
+      return [this, field, relative](const std::vector<double>& shared) {
+        const KeyPoints warm =
+            AtReference(family_.translation, shared, kReferenceTemperature_K + kStep_K);
+        const KeyPoints cold =
+            AtReference(family_.translation, shared, kReferenceTemperature_K - kStep_K);
+        const double rise = (warm.*field - cold.*field) / (2 * kStep_K);
+        return relative ? 200 * rise / (warm.*field + cold.*field) : rise;
+      };
+    };
+    r_.coefficients = {
+        {"alpha_isc", "A/K", Derived(slope(&KeyPoints::short_circuit_current_A, false), spread)},
+        {"beta_voc", "V/K", Derived(slope(&KeyPoints::open_circuit_voltage_V, false), spread)},
+        {"gamma_pmp", "%/K", Derived(slope(&KeyPoints::max_power_W, true), spread)}};
+  }
+
+  void FindCorrelations(const JointSpread& spread) {
+    r_.correlations.clear();
+    const auto symbol = [&](int i) -> std::string {
+      if (i == problem_.irradiance_offset()) return "dG";
+      if (i == problem_.temperature_offset()) return "dT";
+      return family_.translation.parameters[i].symbol;
+    };
+    for (int i = 0; i < problem_.shared(); ++i) {
+      for (int j = i + 1; j < problem_.shared(); ++j) {
+        const double value = spread.correlation(i, j);
+        if (std::fabs(value) <= kStrongCorrelation) continue;
+        r_.correlations.push_back({symbol(i), symbol(j), value});
+      }
+    }
+    std::stable_sort(r_.correlations.begin(), r_.correlations.end(),
+                     [](const Correlation& a, const Correlation& b) {
+                       return std::fabs(a.value) > std::fabs(b.value);
+                     });
+  }
+
+  void SensorErrors(const JointSpread& spread) {
+    const int g = problem_.irradiance_offset(), d = problem_.temperature_offset();
+    if (options_.irradiance_offset) {
+      r_.irradiance_offset_W_m2 = Symmetric(end_.point.shared[g], spread.standard_error[g], t_);
+    }
+    if (options_.temperature_offset) {
+      r_.temperature_offset_K = Symmetric(end_.point.shared[d], spread.standard_error[d], t_);
+    }
+  }
+
+  const FamilyProblem& family_;
+  const FamilyOptions& options_;
+  const JointProblem& problem_;
+  const JointEnd& end_;
+  FamilyReport& r_;
+  double variance_ = 0;
+  double t_ = 2;
+  std::vector<JointLocal> local_error_;
+};
+
+}  // namespace
+
+double JointDegrees(const JointProblem& problem, int free_parameters, double local_degrees) {
+  double points = 0;
+  for (const JointCurve& curve : problem.curves) {
+    points += static_cast<double>(curve.voltage_V.size());
+  }
+  return std::max(points - free_parameters - local_degrees, 1.0);
+}
+
+void JudgeFamily(const FamilyProblem& family, const FamilyOptions& options,
+                 const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+  Judge judge(family, options, problem, end, report);
+  judge.Run();
+  for (std::size_t k = 0; k < family.curves.fitted.size(); ++k) {
+    const JointCurve& curve = problem.curves[k];
+    FamilyCurve& row = report->curves[family.curves.fitted[k]];
+    const JointLocal& error = judge.local_error()[k];
+    if (curve.irradiance_sd > 0) {
+      row.irradiance_offset_W_m2 = Symmetric(end.point.local[k][0] * curve.irradiance_W_m2,
+                                             error[0] * curve.irradiance_W_m2, judge.t());
+    }
+    if (curve.temperature_sd_K > 0) {
+      row.temperature_offset_K = Symmetric(end.point.local[k][1], error[1], judge.t());
+    }
+  }
+}
+
+void Jackknife(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end,
+               int threads, FamilyReport* report) {
+  const int curves = static_cast<int>(problem.curves.size());
+  const int count = family.translation.size();
+  std::vector<std::vector<double>> without(curves);
+  ParallelFor(curves, threads, [&](int c) {
+    JointProblem rest = problem;
+    JointPoint start = end.point;
+    rest.curves.erase(rest.curves.begin() + c);
+    start.local.erase(start.local.begin() + c);
+    JointOptions quick;
+    quick.function_tolerance = 1e-9;
+    without[c] = RefineJointly(rest, start, quick).point.shared;
+  });
+  const double t = StudentT95(std::max(curves - 1, 1));
+  const Translation& at = family.translation;
+  report->jackknife.clear();
+  for (int i = 0; i < count; ++i) {
+    Interval interval;
+    interval.value = end.point.shared[i];
+    if (std::isnan(family.fixed[i]) && curves > 2) {
+      // Logarithms and conductances, as for the other intervals.
+      const bool log = i == at.saturation_current || i == at.saturation_current_2;
+      const bool shunt = i == at.resistance_shunt || i == at.resistance_shunt_dark;
+      const auto scale = [&](double x) { return log ? std::log(x) : shunt ? 1 / x : x; };
+      double mean = 0, squares = 0;
+      for (const auto& shared : without) mean += scale(shared[i]) / curves;
+      for (const auto& shared : without) {
+        squares += (scale(shared[i]) - mean) * (scale(shared[i]) - mean);
+      }
+      const double error = std::sqrt(squares * (curves - 1) / curves);
+      const double middle = scale(interval.value);
+      const double low = middle - t * error, high = middle + t * error;
+      interval.low_95 = log ? std::exp(low) : shunt ? 1 / high : low;
+      interval.high_95 = log ? std::exp(high) : shunt ? (low > 0 ? 1 / low : kInfinity) : high;
+      interval.standard_error = log     ? error * interval.value
+                                : shunt ? error * interval.value * interval.value
+                                        : error;
+    }
+    report->jackknife.push_back(interval);
+  }
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/refine/joint.h"
+
+namespace lyrefit {
+
+// What a curve is to a family fit.
+struct FamilyMember {
+  CurveRole role = CurveRole::kFitted;
+  std::string reason;
+  JointCurve joint;  // with the conditions as stated, or guessed where nobody stated them
+  double short_circuit_current_A = kUnknown;
+  bool irradiance_known = true;
+  bool temperature_known = true;
+};
+
+struct FamilyMembers {
+  std::vector<FamilyMember> members;  // one for each curve of the set
+  std::vector<int> fitted;            // positions in the set
+  std::vector<int> held_out;
+  double reference_current_A = 0;  // Isc at 1000 W/m2, from the data
+  std::vector<std::string> notes;  // what had to be assumed
+};
+
+// Errors: fewer than two light curves, ids that occur twice or not at all, unusable curves.
+Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options);
+
+}  // namespace lyrefit

@@ -1,0 +1,307 @@
+#include "lyrefit/family/fit_family.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lyrefit/base/version.h"
+#include "lyrefit/device/kernel.h"
+#include "lyrefit/family/family_echo.h"
+#include "lyrefit/family/family_held_out.h"
+#include "lyrefit/family/family_judge.h"
+#include "lyrefit/family/family_search.h"
+#include "lyrefit/family/free_fits.h"
+#include "lyrefit/family/joint_fit.h"
+#include "lyrefit/family/odd_curves.h"
+#include "lyrefit/family/spread_curves.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kMostJackknifed = 60;  // curves; beyond that it says little new and takes long
+
+// What the stages of one family fit hand to each other.
+struct Job {
+  const CurveSet& set;
+  const FamilyOptions& options;
+  const Observer& observer;
+  FamilyProblem family;
+  std::vector<int> search_curves;
+  FreeFits free;
+  std::vector<JointPoint> starts;
+  JointPoint searched;
+  bool stopped = false;
+
+  bool Stop(std::string_view stage) {
+    if (!stopped && StopRequested(observer, {stage, 0, 0, 0, 0, 0})) stopped = true;
+    return stopped;
+  }
+};
+
+FitOptions SingleFitOptions(const FamilyOptions& options) {
+  FitOptions fit;
+  fit.model = options.model;
+  fit.objective = options.objective;
+  fit.constants = options.constants;
+  fit.random_baseline = false;
+  fit.intervals = Intervals::kNone;
+  fit.threads = 1;
+  fit.search.seed = options.search.seed;
+  // Two idealities of one curve say little; the law holds the second one too.
+  if (options.model == Model::kDoubleDiode) fit.fixed["n2"] = 2;
+  return fit;
+}
+
+void DescribeCurves(const Job& job, FamilyReport* report) {
+  for (std::size_t c = 0; c < job.set.curves.size(); ++c) {
+    const FamilyMember& member = job.family.curves.members[c];
+    FamilyCurve row = DescribeCurve(job.set.curves[c]);
+    row.role = member.role;
+    row.reason = member.reason;
+    row.short_circuit_current_A = member.short_circuit_current_A;
+    if (member.role != CurveRole::kLeftOut) {
+      row.irradiance_W_m2 = member.joint.irradiance_W_m2;
+      row.temperature_C = member.joint.temperature_K - kZeroCelsius_K;
+    }
+    report->curves.push_back(std::move(row));
+  }
+}
+
+void FitFreely(Job* job, FamilyReport* report) {
+  std::vector<const IvCurve*> curves;
+  std::vector<int> rows;
+  // One start for the joint fit is worth a fit even where the floor is not asked for.
+  std::vector<int> wanted = job->search_curves;
+  if (job->options.free_fits) {
+    wanted = job->family.curves.fitted;
+    const std::vector<int>& held = job->family.curves.held_out;
+    wanted.insert(wanted.end(), held.begin(), held.end());
+  }
+  for (const int c : wanted) {
+    curves.push_back(&job->set.curves[c]);
+    rows.push_back(c);
+  }
+  job->free =
+      FitEveryCurve(curves, SingleFitOptions(job->options), job->options.threads, job->observer);
+  job->stopped = job->stopped || job->free.interrupted;
+  report->free_seconds = job->free.seconds;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::optional<Expected<FitReport>>& one = job->free.reports[k];
+    if (!one || !*one) continue;
+    FamilyCurve& row = report->curves[rows[k]];
+    FillFreeFit(**one, &row);
+    const std::vector<int>& search = job->search_curves;
+    if (std::find(search.begin(), search.end(), rows[k]) == search.end()) continue;
+    std::vector<double> start = StartFromFreeFit(
+        job->family, job->family.curves.members[rows[k]].joint, row.free_parameters);
+    if (!start.empty()) job->starts.push_back({std::move(start), {}});
+  }
+}
+
+void SearchShared(Job* job, FamilyReport* report) {
+  const FamilySearchEnd end =
+      SearchFamily(job->family, job->options, job->search_curves, job->observer);
+  job->stopped = end.summary.termination == SearchTermination::kInterrupted;
+  report->search = end.summary;
+  for (const int c : job->search_curves) report->search_ids.push_back(job->set.curves[c].name);
+  const JointProblem problem = JointProblemOn(job->family, job->options, job->search_curves);
+  job->searched = end.elites[0];
+  report->rmse.searched = FamilyRmse(problem, job->searched);
+  if (end.has_random) report->rmse.random_baseline = FamilyRmse(problem, end.random);
+  job->starts = end.elites;
+  const std::vector<double>& shared = job->searched.shared;
+  report->searched.assign(shared.begin(), shared.begin() + job->family.translation.size());
+}
+
+void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end,
+                FamilyReport* report) {
+  const auto fill = [&](const JointProblem& from, const JointPoint& point, int k, int c) {
+    FamilyCurve& row = report->curves[c];
+    row.rmse = CurveRmse(from, point, k);
+    const TrueConditions at = ConditionsAt(from, point, k);
+    const TranslatedDevice device =
+        TranslateTo(job.family.translation, report->refined, at.irradiance_W_m2, at.temperature_K);
+    row.parameters = device.parameters;
+    const std::vector<double> model =
+        SolveCurrents(device.device, row.parameters.data(), row.voltage_V);
+    double sum = 0;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+      row.residual_A.push_back(model[i] - row.current_A[i]);
+      sum += row.residual_A.back();
+    }
+    row.mean_residual_A = sum / static_cast<double>(model.size());
+  };
+  const std::vector<int>& fitted = job.family.curves.fitted;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    fill(problem, end.point, static_cast<int>(k), fitted[k]);
+  }
+  const std::vector<int>& held = job.family.curves.held_out;
+  if (held.empty()) return;
+  const JointProblem rest = JointProblemOn(job.family, job.options, held);
+  const JointPoint point{end.point.shared, std::vector<JointLocal>(held.size(), {0, 0})};
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    fill(rest, point, static_cast<int>(k), held[k]);
+  }
+}
+
+void FindHeldOut(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+  const FamilyMembers& curves = job->family.curves;
+  std::vector<int> tested = curves.held_out;
+  HeldOut held;
+  if (!tested.empty()) {
+    held = TestOn(job->set, job->family, job->options, end.point.shared, tested);
+  } else if (job->options.folds > 0 && curves.fitted.size() >= 4) {
+    held = TestByFolds(job->set, job->family, job->options, problem, end);
+    tested = curves.fitted;
+  }
+  if (held.curves == 0) return;
+  std::vector<double> floor;
+  for (const int c : tested) {
+    const double rmse = report->curves[c].free_rmse.solved_current_A;
+    if (std::isfinite(rmse)) floor.push_back(rmse);
+  }
+  held.median_free_rmse_A = Median(floor);
+  report->held_out = held;
+}
+
+void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+  const std::vector<int> odd = FindOddCurves(problem, end);
+  if (odd.empty()) return;
+  WithoutOdd without;
+  JointProblem rest = problem;
+  JointPoint start = end.point;
+  for (auto c = odd.rbegin(); c != odd.rend(); ++c) {
+    rest.curves.erase(rest.curves.begin() + *c);
+    start.local.erase(start.local.begin() + *c);
+  }
+  for (const int c : odd) {
+    FamilyCurve& row = report->curves[job->family.curves.fitted[c]];
+    row.odd = true;
+    without.ids.push_back(row.id);
+  }
+  const JointEnd refit = RefineJointly(rest, start);
+  const std::vector<double>& shared = refit.point.shared;
+  without.rmse = FamilyRmse(rest, refit.point);
+  without.shared.assign(shared.begin(), shared.begin() + job->family.translation.size());
+  report->without_odd = std::move(without);
+}
+
+FamilyReport Head(const Job& job) {
+  FamilyReport report;
+  report.version = Version();
+  report.name = job.set.name;
+  report.source = job.set.source;
+  report.translation = job.family.translation;
+  report.objective = job.options.objective;
+  report.cells_in_series = job.family.translation.spec.cells_in_series;
+  report.rejected = job.set.rejected;
+  report.assumptions = job.set.assumptions;
+  report.assumptions.insert(report.assumptions.end(), job.family.notes.begin(),
+                            job.family.notes.end());
+  report.search_options = job.options.search;
+  report.non_default_options = FamilyEcho(job.options);
+  report.termination = "not run";
+  return report;
+}
+
+void Refine(Job* job, FamilyReport* report) {
+  JointProblem problem = JointProblemOn(job->family, job->options, job->family.curves.fitted);
+  JointPoint bird = job->searched;
+  bird.local.assign(problem.curves.size(), {0, 0});
+  report->rmse.searched_all = FamilyRmse(problem, bird);
+  const JointEnd end =
+      FitJointly(job->family, job->options, job->search_curves, job->starts, &problem);
+  report->termination = end.converged ? "converged" : "no convergence";
+  report->projected_gradient = end.projected_gradient;
+  report->rmse.refined = FamilyRmse(problem, end.point);
+  JudgeFamily(job->family, job->options, problem, end, report);
+  FillCurves(*job, problem, end, report);
+  if (!job->Stop("held out")) FindHeldOut(job, problem, end, report);
+  if (!job->Stop("odd curves")) FindOdd(job, problem, end, report);
+  const std::size_t curves = problem.curves.size();
+  if (job->options.intervals && curves > 2 && curves <= kMostJackknifed &&
+      !job->Stop("jackknife")) {
+    Jackknife(job->family, problem, end, job->options.threads, report);
+  }
+}
+
+}  // namespace
+
+Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
+                                 const Observer& observer) {
+  const auto begin = std::chrono::steady_clock::now();
+  Expected<FamilyProblem> family = MakeFamilyProblem(set, options);
+  if (!family) return tl::unexpected(family.error());
+  Job job{set, options, observer, std::move(*family), {}, {}, {}, {}, false};
+  const std::vector<int>& fitted = job.family.curves.fitted;
+  std::size_t points = 0;
+  for (const int c : fitted) points += set.curves[c].size();
+  if (static_cast<int>(points) <= job.family.free_parameters) {
+    return Fail(fmt::format("{} points cannot determine {} shared parameters", points,
+                            job.family.free_parameters),
+                set.source);
+  }
+  job.search_curves = SpreadCurves(set, fitted, options.search_curves);
+  FamilyReport report = Head(job);
+  DescribeCurves(job, &report);
+  SearchShared(&job, &report);
+  if (!job.stopped) FitFreely(&job, &report);
+  if (!job.stopped) {
+    Refine(&job, &report);
+  } else {
+    report.refined = report.searched;
+  }
+  report.interrupted = job.stopped;
+  report.warnings = FamilyWarnings(report, options);
+  const double isc = job.family.curves.reference_current_A;
+  const double solved = report.rmse.refined.solved_current_A;
+  report.usable = std::isfinite(solved) && solved < 0.2 * isc;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& options,
+                                     const Observer& observer) {
+  std::optional<FamilyReport> best;
+  std::vector<FamilyCandidate> candidates;
+  double seconds = 0;
+  for (const TranslationLaw law : {TranslationLaw::kDeSoto, TranslationLaw::kPvsyst}) {
+    for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
+      FamilyOptions trial = options;
+      trial.law = law;
+      trial.model = model;
+      Expected<FamilyReport> report = FitFamily(set, trial, observer);
+      if (!report) return report;
+      FamilyCandidate candidate;
+      candidate.law = law;
+      candidate.model = model;
+      candidate.rmse = report->rmse.refined;
+      for (const Estimate& e : report->estimates) candidate.free_parameters += !e.fixed;
+      if (report->held_out) {
+        candidate.held_out_median_A = report->held_out->median_rmse_A;
+        candidate.held_out_rmse_A = report->held_out->rmse.solved_current_A;
+      }
+      candidates.push_back(candidate);
+      seconds += report->seconds;
+      const bool interrupted = report->interrupted;
+      // The first, simpler one stays unless the next is better by more than a thousandth.
+      const bool better =
+          !best || !best->held_out ||
+          candidate.held_out_rmse_A < best->held_out->rmse.solved_current_A * (1 - 1e-3);
+      if (better) best = std::move(*report);
+      if (interrupted) break;
+    }
+  }
+  for (FamilyCandidate& candidate : candidates) {
+    candidate.chosen = candidate.law == best->translation.spec.law &&
+                       candidate.model == best->translation.spec.model;
+  }
+  best->candidates = candidates;
+  best->seconds = seconds;
+  return *best;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,133 @@
+#include "lyrefit/family/fit_free.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/family/free_fits.h"
+
+namespace lyrefit {
+namespace {
+
+double Seconds(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
+                       int threads, const Observer& observer) {
+  const auto begin = std::chrono::steady_clock::now();
+  FreeFits fits;
+  fits.reports.resize(curves.size());
+  std::mutex mutex;
+  std::int64_t done = 0;
+  ParallelFor(static_cast<int>(curves.size()), threads, [&](int c) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (fits.interrupted) return;
+    }
+    Expected<FitReport> report = Fit(*curves[c], options);
+    const std::lock_guard<std::mutex> lock(mutex);
+    const std::int64_t planned = static_cast<std::int64_t>(curves.size());
+    fits.interrupted = fits.interrupted ||
+                       StopRequested(observer, {"curves", ++done, planned, 0, 0, Seconds(begin)});
+    fits.reports[c] = std::move(report);
+  });
+  fits.seconds = Seconds(begin);
+  return fits;
+}
+
+void FillFreeFit(const FitReport& fit, FamilyCurve* curve) {
+  curve->free_parameters = fit.refined;
+  curve->free_estimates = fit.estimates;
+  curve->free_rmse = fit.polished ? fit.rmse.refined : fit.rmse.searched;
+}
+
+FamilyCurve DescribeCurve(const IvCurve& curve) {
+  FamilyCurve described;
+  described.id = curve.name;
+  described.points = curve.size();
+  described.irradiance_W_m2 = curve.conditions.irradiance_W_m2;
+  described.temperature_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
+  described.irradiance_known = curve.irradiance_known;
+  described.temperature_known = curve.temperature_known;
+  described.voltage_V = curve.voltage_V;
+  described.current_A = curve.current_A;
+  described.short_circuit_current_A =
+      FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
+  return described;
+}
+
+Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
+                               const Observer& observer) {
+  FamilyReport report;
+  report.version = Version();
+  report.name = set.name;
+  report.source = set.source;
+  report.free = true;
+  report.objective = options.objective;
+  report.translation.spec.model = options.model;
+  report.rejected = set.rejected;
+  report.assumptions = set.assumptions;
+  report.search_options = options.search;
+  report.termination = "not run";
+  FitOptions fit;
+  fit.model = options.model;
+  fit.objective = options.objective;
+  fit.constants = options.constants;
+  fit.fixed = options.fixed;
+  fit.search = options.search;
+  fit.random_baseline = false;
+  fit.intervals = options.intervals ? Intervals::kProfile : Intervals::kNone;
+  fit.threads = 1;
+  std::vector<const IvCurve*> curves;
+  for (const IvCurve& curve : set.curves) {
+    report.curves.push_back(DescribeCurve(curve));
+    const bool unwanted = std::find(options.leave_out.begin(), options.leave_out.end(),
+                                    curve.name) != options.leave_out.end();
+    FamilyCurve& described = report.curves.back();
+    if (unwanted) described.reason = "left out as asked";
+    if (unwanted) described.role = CurveRole::kLeftOut;
+    if (!unwanted) curves.push_back(&curve);
+  }
+  for (const std::string& id : options.leave_out) {
+    const bool found = std::any_of(set.curves.begin(), set.curves.end(),
+                                   [&](const IvCurve& curve) { return curve.name == id; });
+    if (!found) return Fail(fmt::format("leave-out: the set has no curve {}", id));
+  }
+  if (curves.empty()) return Fail("expected at least one curve, found none", set.source);
+  report.cells_in_series = curves[0]->conditions.cells_in_series;
+  const FreeFits fits = FitEveryCurve(curves, fit, options.threads, observer);
+  report.free_seconds = report.seconds = fits.seconds;
+  report.interrupted = fits.interrupted;
+  std::size_t next = 0;
+  int failed = 0, fitted = 0;
+  for (FamilyCurve& curve : report.curves) {
+    if (curve.role == CurveRole::kLeftOut) continue;
+    const std::optional<Expected<FitReport>>& one = fits.reports[next++];
+    if (one && *one) {
+      FillFreeFit(**one, &curve);
+      fitted += (*one)->usable;
+      failed += !(*one)->usable;
+      continue;
+    }
+    curve.role = CurveRole::kLeftOut;
+    curve.reason = one ? one->error().message : "interrupted before its turn";
+    // An option that no curve can be fitted with is an error of the option.
+    if (one && next == 1) return tl::unexpected(one->error());
+  }
+  if (failed > 0) {
+    report.warnings.push_back(
+        fmt::format("{} of {} fits are worse than a straight line.", failed, failed + fitted));
+  }
+  report.usable = fitted > 0;
+  return report;
+}
+
+}  // namespace lyrefit

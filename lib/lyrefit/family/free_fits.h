@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lyrefit/family/family_report.h"
+#include "lyrefit/fit/fit.h"
+
+namespace lyrefit {
+
+// Curves fitted one by one.
+struct FreeFits {
+  std::vector<std::optional<Expected<FitReport>>> reports;  // empty: interrupted before
+  double seconds = 0;
+  bool interrupted = false;
+};
+
+FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
+                       int threads, const Observer& observer);
+
+// What of a fit of its own goes into the family report.
+void FillFreeFit(const FitReport& fit, FamilyCurve* curve);
+
+// Id, points and conditions as stated.
+FamilyCurve DescribeCurve(const IvCurve& curve);
+
+}  // namespace lyrefit

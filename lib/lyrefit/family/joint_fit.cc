@@ -1,0 +1,111 @@
+#include "lyrefit/family/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/family/family_judge.h"
+#include "lyrefit/refine/joint_linear.h"
+
+namespace lyrefit {
+namespace {
+
+double Total(const JointEnd& end) { return end.squares + end.prior_squares; }
+
+bool HasPriors(const JointProblem& problem) {
+  return std::any_of(problem.curves.begin(), problem.curves.end(), [](const JointCurve& curve) {
+    return (curve.irradiance_sd > 0 && std::isfinite(curve.irradiance_sd)) ||
+           (curve.temperature_sd_K > 0 && std::isfinite(curve.temperature_sd_K));
+  });
+}
+
+// The noise of a point of weight 1 that a fit leaves.
+double NoiseOf(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end) {
+  const JointSpread spread = FindJointSpread(problem, end, problem.noise_A * problem.noise_A);
+  const double degrees = JointDegrees(problem, family.free_parameters, spread.local_degrees);
+  return std::sqrt(end.squares / degrees);
+}
+
+}  // namespace
+
+JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
+                    JointProblem* problem) {
+  JointProblem small = JointProblemOn(family, options, search_curves);
+  // Priors count from the start; a wide guess of the noise lets the data speak first.
+  small.noise_A = problem->noise_A = 1e-3 * problem->current_scale_A;
+  std::vector<JointEnd> ends(starts.size());
+  ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
+    JointPoint start = starts[s];
+    start.local.assign(small.curves.size(), {0, 0});
+    JointOptions quick;
+    quick.function_tolerance = 1e-10;
+    ends[s] = RefineJointly(small, start, quick);
+  });
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const JointEnd& a, const JointEnd& b) { return Total(a) < Total(b); });
+  constexpr std::size_t kBest = 2;
+  JointEnd best;
+  for (std::size_t s = 0; s < std::min(ends.size(), kBest); ++s) {
+    const bool repeats = s > 0 && Total(ends[s]) < Total(ends[0]) * (1 + 1e-6);
+    if (repeats) continue;
+    JointPoint start = ends[s].point;
+    start.local.assign(problem->curves.size(), {0, 0});
+    JointEnd end = RefineJointly(*problem, start);
+    if (s == 0 || Total(end) < Total(best)) best = std::move(end);
+  }
+  constexpr int kRounds = 4;
+  for (int round = 0; HasPriors(*problem) && round < kRounds; ++round) {
+    const double before = problem->noise_A;
+    problem->noise_A = std::max(NoiseOf(family, *problem, best), 1e-9 * problem->current_scale_A);
+    best = RefineJointly(*problem, best.point);
+    if (std::fabs(problem->noise_A / before - 1) < 1e-3) break;
+  }
+  return best;
+}
+
+std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,
+                                     const std::vector<double>& free_parameters) {
+  const Translation& at = family.translation;
+  std::vector<double> shared(at.size() + 2, 0);
+  for (int i = 0; i < at.size() + 2; ++i) {
+    const ParameterBounds& b = family.bounds[i];
+    shared[i] =
+        std::isnan(family.fixed[i]) ? 0.5 * (b.search_lower + b.search_upper) : family.fixed[i];
+  }
+  const auto set = [&](int i, double value) {
+    if (i >= 0 && std::isnan(family.fixed[i])) shared[i] = value;
+  };
+  const double g = curve.irradiance_W_m2 / kReferenceIrradiance_W_m2;
+  set(at.bandgap, 1.121);
+  set(at.alpha_sc, 5e-4 * family.curves.reference_current_A);
+  set(at.n_slope, 0);
+  set(at.n, free_parameters[IdealityIndex(0)]);
+  const double dt = curve.temperature_K - kReferenceTemperature_K;
+  set(at.photocurrent, free_parameters[kIph] / g - shared[at.alpha_sc] * dt);
+  set(at.resistance_series, free_parameters[kRs]);
+  const double resistance = family.bounds[at.resistance_series].upper;
+  const double shunt = std::min(free_parameters[kRsh], 1e5 * resistance);
+  set(at.resistance_shunt, at.spec.shunt == ShuntLaw::kConstant ? shunt : shunt * g);
+  if (at.resistance_shunt_dark >= 0) set(at.resistance_shunt_dark, 4 * shared[at.resistance_shunt]);
+  if (at.recombination >= 0) set(at.recombination, 0);
+  // What Io_ref has to be for the law to lead to this curve's saturation current.
+  shared[at.saturation_current] = 1;
+  if (at.n_2 >= 0) shared[at.saturation_current_2] = 0;
+  std::vector<double> device(at.device.size());
+  Translate(at, shared.data(), curve.irradiance_W_m2, curve.temperature_K, device.data());
+  const double factor = device[SaturationCurrentIndex(0)];
+  const double saturation = free_parameters[SaturationCurrentIndex(0)];
+  if (!(factor > 0) || !(saturation > 0) || !std::isfinite(factor)) return {};
+  set(at.saturation_current, saturation / factor);
+  if (!std::isnan(family.fixed[at.saturation_current])) {
+    shared[at.saturation_current] = family.fixed[at.saturation_current];
+  }
+  if (at.saturation_current_2 >= 0) {
+    const ParameterBounds& range = family.bounds[at.saturation_current_2];
+    set(at.saturation_current_2, std::sqrt(range.search_lower * range.search_upper));
+  }
+  return shared;
+}
+
+}  // namespace lyrefit

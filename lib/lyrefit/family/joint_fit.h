@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/family/family_problem.h"
+#include "lyrefit/refine/joint.h"
+
+namespace lyrefit {
+
+// The joint fit of some curves from several starts: every start is refined on the curves of the
+// search, the best two on all. With priors the noise that they are weighed against is found on the
+// way. `problem` (on `curves`) gets that noise.
+JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
+                    JointProblem* problem);
+
+// A start from a curve's own fit: its parameters brought to the reference by the usual
+// coefficients. Empty where they do not go there.
+std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,
+                                     const std::vector<double>& free_parameters);
+
+}  // namespace lyrefit

@@ -1,0 +1,61 @@
+#include "lyrefit/family/odd_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/family/family_search.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+double CurveSquare(const JointProblem& problem, const JointPoint& point, int c) {
+  const RmsePair rmse = CurveRmse(problem, point, c);
+  const double one = rmse.Of(problem.objective);
+  return one * one * problem.curves[c].weight[0];
+}
+
+}  // namespace
+
+std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end) {
+  constexpr double kSuspicious = 4;  // times the median RMSE
+  constexpr double kOdd = 6;
+  constexpr double kVisible = 5e-3;  // of the largest current
+  constexpr int kRounds = 6;
+  const int curves = static_cast<int>(problem.curves.size());
+  if (curves < 4) return {};
+  std::vector<double> rmse(curves);
+  const auto measure = [&](const JointPoint& point) {
+    for (int c = 0; c < curves; ++c) rmse[c] = std::sqrt(CurveSquare(problem, point, c));
+    return Median(rmse);
+  };
+  double median = measure(end.point);
+  const auto largest = [&] { return *std::max_element(rmse.begin(), rmse.end()); };
+  const double visible = kVisible * problem.current_scale_A;
+  if (!(largest() > kSuspicious * median) && !(median > visible)) return {};
+  // Cauchy weights for whole curves.
+  JointProblem robust = problem;
+  JointPoint point = end.point;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int c = 0; c < curves; ++c) {
+      const double ratio = rmse[c] / (2 * median);
+      const double factor = 1 / (1 + ratio * ratio);
+      for (std::size_t k = 0; k < robust.curves[c].weight.size(); ++k) {
+        robust.curves[c].weight[k] = problem.curves[c].weight[k] * factor * factor;
+      }
+    }
+    JointOptions quick;
+    quick.function_tolerance = 1e-8;
+    point = RefineJointly(robust, point, quick).point;
+    median = measure(point);
+  }
+  std::vector<int> odd;
+  for (int c = 0; c < curves; ++c) {
+    if (rmse[c] > kOdd * median && rmse[c] > visible) odd.push_back(c);
+  }
+  // More than a third cannot be the exception.
+  if (3 * static_cast<int>(odd.size()) > curves) odd.clear();
+  return odd;
+}
+
+}  // namespace lyrefit

@@ -31,6 +31,7 @@ set(LYREFIT_PUBLIC_HEADERS
   device/term.h
   device/translation.h
   family/coefficients.h
+  family/data_sheet.h
   family/pvlib_parameters.h
   fit/bounds.h
   fit/fit.h

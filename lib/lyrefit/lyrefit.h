@@ -18,13 +18,18 @@
 // sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
-// other, Audit checks published parameters.
+// other, Audit checks published parameters. FitDataSheet finds a device from a data sheet alone,
+// PvlibParameters hands one to pvlib.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
+#include "lyrefit/device/translation.h"
+#include "lyrefit/family/coefficients.h"
+#include "lyrefit/family/data_sheet.h"
+#include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/simulate.h"

@@ -29,6 +29,9 @@ set(LYREFIT_PUBLIC_HEADERS
   device/parameter.h
   device/solve.h
   device/term.h
+  device/translation.h
+  family/coefficients.h
+  family/pvlib_parameters.h
   fit/bounds.h
   fit/fit.h
   fit/fit_report.h

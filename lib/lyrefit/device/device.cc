@@ -20,9 +20,9 @@ Device MakeDevice(Model model, const Conditions& conditions, ConstantSet constan
       {"Rs", "resistance_series", "ohm", "series resistance of the whole device"},
       {"Rsh", "resistance_shunt", "ohm", "shunt resistance of the whole device"},
   };
-  device.terms = {{TermKind::kPhotocurrent, {kIph, -1}},
-                  {TermKind::kShunt, {kRsh, -1}},
-                  {TermKind::kDiode, {SaturationCurrentIndex(0), IdealityIndex(0)}}};
+  device.terms = {{TermKind::kPhotocurrent, {kIph, -1, -1}},
+                  {TermKind::kShunt, {kRsh, -1, -1}},
+                  {TermKind::kDiode, {SaturationCurrentIndex(0), IdealityIndex(0), -1}}};
   for (int diode = 1; diode < static_cast<int>(model); ++diode) {
     const std::string number = std::to_string(diode + 1);
     device.parameters.push_back({"Is" + number, "saturation_current_" + number, "A",
@@ -30,9 +30,17 @@ Device MakeDevice(Model model, const Conditions& conditions, ConstantSet constan
     device.parameters.push_back(
         {"n" + number, "n_" + number, "", "ideality of diode " + number + ", per cell"});
     device.terms.push_back(
-        {TermKind::kDiode, {SaturationCurrentIndex(diode), IdealityIndex(diode)}});
+        {TermKind::kDiode, {SaturationCurrentIndex(diode), IdealityIndex(diode), -1}});
   }
   return device;
+}
+
+void AddRecombination(Device* device) {
+  const int first = device->size();
+  device->parameters.push_back(
+      {"d2mutau", "d2mutau", "V", "i-layer thickness squared over mobility times lifetime"});
+  device->parameters.push_back({"NsVbi", "NsVbi", "V", "built-in voltage of all cells in series"});
+  device->terms.push_back({TermKind::kRecombination, {kIph, first, first + 1}});
 }
 
 }  // namespace lyrefit

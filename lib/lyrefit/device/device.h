@@ -40,8 +40,8 @@ struct EnumTable<Objective> {
 
 // A device model: a sum of terms over the junction voltage behind one series resistance. Parameter
 // vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3,
-// n3, so that a model's vector starts with that of the model with one diode less. Resistances are
-// those of the whole module, n is per cell.
+// n3, so that a model's vector starts with that of the model with one diode less; what
+// AddRecombination appends stands last. Resistances are those of the whole module, n is per cell.
 struct Device {
   std::vector<ParameterInfo> parameters;
   std::vector<Term> terms;
@@ -56,20 +56,28 @@ struct Device {
 Device MakeDevice(Model model, const Conditions& conditions,
                   ConstantSet constants = ConstantSet::kCodata);
 
+// Appends PVsyst's recombination in the i-layer (TermKind::kRecombination) and its parameters
+// d2mutau and NsVbi, both in volt, at the end. Once per device.
+void AddRecombination(Device* device);
+
 // Positions every diode device has.
 constexpr int kIph = 0;
 constexpr int kRs = 3;
 constexpr int kRsh = 4;
 constexpr int SaturationCurrentIndex(int diode) { return diode == 0 ? 1 : 3 + 2 * diode; }
 constexpr int IdealityIndex(int diode) { return SaturationCurrentIndex(diode) + 1; }
-inline int DiodeCount(const Device& device) { return (device.size() - 3) / 2; }
+inline int DiodeCount(const Device& device) {
+  int count = 0;
+  for (const Term& term : device.terms) count += term.kind == TermKind::kDiode ? 1 : 0;
+  return count;
+}
 
 // F(Vd): the current of all terms at junction voltage vd. T = S for automatic differentiation.
 template <class S, class T>
 T JunctionCurrent(const Device& device, const S* p, const T& vd) {
   T current = T(0.0);
   for (const Term& term : device.terms) {
-    PreparedTerm<S> prepared;
+    PreparedTerm<S> prepared{};
     PrepareTerm(term, p, device.module_thermal_voltage_V, &prepared);
     current = current + TermCurrent(prepared, vd);
   }

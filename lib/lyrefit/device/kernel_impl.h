@@ -117,7 +117,11 @@ LYREFIT_OP Pack MeasuredSquares(const PreparedDevice& d, const Block* voltage, c
   }
   for (int t = 0; t < d.count; ++t) {
     const PreparedTerm<double> term = d.terms[t];
-    for (int k = 0; k < kCount; ++k) model[k] = model[k] + TermCurrent(term, vd[k]);
+    if (__builtin_expect(term.kind == TermKind::kRecombination, 0)) {
+      for (int k = 0; k < kCount; ++k) model[k] = model[k] + RecombinationCurrent(term, vd[k]);
+      continue;
+    }
+    for (int k = 0; k < kCount; ++k) model[k] = model[k] + UsualTermCurrent(term, vd[k]);
   }
   Pack sum(0.0);
   for (int k = 0; k < kCount; ++k) sum = sum + model[k] * model[k] * Load(weight[k]);

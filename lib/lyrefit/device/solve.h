@@ -32,6 +32,10 @@ struct Slope {
   }
   friend Slope operator-(const Slope& a) { return {-a.value, -a.slope}; }
   friend Slope operator*(const Slope& a, double b) { return {a.value * b, a.slope * b}; }
+  friend Slope operator/(const Slope& a, const Slope& b) {
+    const T ratio = a.value / b.value;
+    return {ratio, (a.slope - ratio * b.slope) / b.value};
+  }
   friend Slope exp(const Slope& a) {
     using std::exp;
     const T e = exp(a.value);
@@ -52,7 +56,7 @@ struct PreparedDevice {
   double rs = 0;
   double largest_current = 0;  // Iph + sum of Is: F(Vd) <= this - Vd / Rsh
   double shunt_conductance = 0;
-  double steepest = 1e-6;  // largest 1 / (n Ns Vt) of the diodes, in 1/V
+  double steepest = 1e-6;  // largest ratio of curvature and slope of a term, 1 / (n Ns Vt), in 1/V
 };
 
 inline void PrepareDevice(const Term* terms, int count, int rs, double module_thermal_voltage_V,
@@ -64,8 +68,10 @@ inline void PrepareDevice(const Term* terms, int count, int rs, double module_th
     PrepareTerm(terms[t], p, module_thermal_voltage_V, &term);
     if (term.kind == TermKind::kShunt) {
       d->shunt_conductance += term.a;
-    } else {
+    } else if (term.kind != TermKind::kRecombination) {
       d->largest_current += term.a;
+    } else if (term.a > 0) {
+      d->steepest = Larger(d->steepest, 1.0 / (kClosestToPole * term.b));
     }
     if (term.kind == TermKind::kDiode) {
       d->steepest = Larger(d->steepest, term.b);
@@ -80,14 +86,28 @@ T PreparedCurrent(const PreparedDevice& d, const T& vd) {
   return current;
 }
 
-// No root lies above this for terminal voltages up to `voltage_V`: where a single diode alone would
-// already carry more than the whole device can. Exponents stay small below it.
+// Where the recombination alone drops `reach` over Rs: b - Rs a / reach, short of the pole at b.
+// Beyond the place where the term goes on along its tangent, the same on the tangent.
+inline double RecombinationVoltageLimit(const PreparedTerm<double>& term, double rs, double reach) {
+  const double closest = term.b * kClosestToPole;
+  const double gap = rs * term.a / reach;
+  if (!(gap > 0)) return std::numeric_limits<double>::max();
+  if (gap >= closest) return Larger(term.b - gap, 0.0);
+  return (term.b - closest) + closest * (closest / gap - 1.0);
+}
+
+// No root lies above this for terminal voltages up to `voltage_V`: where a single diode alone, or
+// the recombination alone, would already carry more than the whole device can. Exponents stay small
+// below it.
 inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   const double reach =
       voltage_V + d.rs * d.largest_current;  // bound of Rs x diode current, Vd >= 0
   double limit = std::numeric_limits<double>::max();
   if (!(reach > 0)) return limit;
   for (int t = 0; t < d.count; ++t) {
+    if (d.terms[t].kind == TermKind::kRecombination) {
+      limit = Smaller(limit, RecombinationVoltageLimit(d.terms[t], d.rs, reach));
+    }
     if (d.terms[t].kind != TermKind::kDiode) continue;
     const double scale = d.rs * d.terms[t].a;
     if (!(scale > 0)) continue;

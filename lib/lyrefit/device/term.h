@@ -20,11 +20,15 @@ enum class TermKind {
   kPhotocurrent,  // {Iph}      I = Iph
   kDiode,         // {Is, n}    I = -Is (exp(Vd / (n Ns Vt)) - 1)                    Shockley
   kShunt,         // {Rsh}      I = -Vd / Rsh
+  // {Iph, d2mutau, NsVbi}  I = -Iph d2mutau / (NsVbi - Vd): what recombines in the i-layer of
+  // amorphous silicon and CdTe, d2mutau in volt, NsVbi the built-in voltage of all cells (Merten et
+  // al. 1998, doi:10.1109/16.661229; PVsyst; pvlib's bishop88).
+  kRecombination,
 };
 
 struct Term {
   TermKind kind;
-  int parameter[2];  // positions in the device's parameter vector, -1 where unused
+  int parameter[3];  // positions in the device's parameter vector, -1 where unused
 };
 
 // What of a term does not depend on the voltage.
@@ -41,6 +45,10 @@ constexpr double kLargestExponent = 230;
 // Smallest shunt resistance and n that are told from 0, so that a bound of 0 is legal.
 constexpr double kSmallestResistance_ohm = 1e-9;
 constexpr double kSmallestIdeality = 1e-3;
+constexpr double kSmallestBuiltInVoltage_V = 1e-3;
+// Closer to its pole than this part of NsVbi, the recombination goes on along its tangent: falling
+// and concave at every voltage, and never a division by 0.
+constexpr double kClosestToPole = 1e-3;
 
 template <class T>
 [[gnu::always_inline]] inline T Smaller(const T& a, const T& b) {
@@ -70,11 +78,25 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
       // bound.
       prepared->a = 1.0 / (first < S(0.0) ? first : Larger(first, S(kSmallestResistance_ohm)));
       break;
+    case TermKind::kRecombination:
+      prepared->a = first * p[term.parameter[1]];
+      prepared->b = Larger(p[term.parameter[2]], S(kSmallestBuiltInVoltage_V));
+      break;
   }
 }
 
 template <class S, class T>
-inline T TermCurrent(const PreparedTerm<S>& term, const T& vd) {
+[[gnu::always_inline]] inline T RecombinationCurrent(const PreparedTerm<S>& term, const T& vd) {
+  const S closest = term.b * kClosestToPole;
+  const T below = Smaller(vd, T(term.b - closest));
+  const T gap = T(term.b) - below;
+  return -(T(term.a) / gap + (vd - below) * (term.a / (closest * closest)));
+}
+
+// The terms of every device, all but the rare recombination: apart, so that loops over points can
+// ask for the rare one once outside.
+template <class S, class T>
+[[gnu::always_inline]] inline T UsualTermCurrent(const PreparedTerm<S>& term, const T& vd) {
   using std::exp;
   switch (term.kind) {
     case TermKind::kPhotocurrent:
@@ -83,8 +105,18 @@ inline T TermCurrent(const PreparedTerm<S>& term, const T& vd) {
       return T(term.a) - exp(Smaller(vd * term.b, T(kLargestExponent))) * term.a;
     case TermKind::kShunt:
       return -(vd * term.a);
+    case TermKind::kRecombination:
+      break;
   }
   return T(0.0);
+}
+
+template <class S, class T>
+inline T TermCurrent(const PreparedTerm<S>& term, const T& vd) {
+  if (__builtin_expect(term.kind == TermKind::kRecombination, 0)) {
+    return RecombinationCurrent(term, vd);
+  }
+  return UsualTermCurrent(term, vd);
 }
 
 }  // namespace lyrefit

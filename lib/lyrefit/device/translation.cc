@@ -31,6 +31,9 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
   if (spec.recombination && !pvsyst) {
     return Fail("the recombination loss belongs to the law pvsyst, not to desoto");
   }
+  if (spec.shunt == ShuntLaw::kExponential && !pvsyst) {
+    return Fail("the exponential shunt belongs to the law pvsyst, not to desoto");
+  }
   Translation t;
   t.spec = spec;
   Conditions reference;
@@ -56,6 +59,11 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
     t.saturation_current_2 =
         Add({"Is2", "I_o_ref_2", "A", "saturation current of diode 2 at the reference"}, &t);
     t.n_2 = Add({"n2", "n_2", "", "ideality of diode 2, per cell"}, &t);
+  }
+  if (spec.recombination) {
+    AddRecombination(&t.device);
+    t.recombination = Add(t.device.parameters[t.device.size() - 2], &t);
+    t.built_in_voltage = Add(t.device.parameters[t.device.size() - 1], &t);
   }
   return t;
 }

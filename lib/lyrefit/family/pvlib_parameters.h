@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/device/translation.h"
+
+namespace lyrefit {
+
+struct NamedValue {
+  std::string name;
+  double value;
+};
+
+// The shared parameters of a family under the names and in the units of pvlib-python: the keywords
+// of calcparams_desoto (with cells_in_series beside them) or of calcparams_pvsyst, d2mutau and
+// NsVbi where the translation has them. pvlib's equations then give the same curves; since pvlib
+// computes with CODATA constants alone, fits with other constants are restated in those. An
+// infinite R_sh_ref stays infinite.
+// Errors: two diodes, a shunt that does not follow irradiance as the law of pvlib has it, as many
+// values as the translation has not.
+Expected<std::vector<NamedValue>> PvlibParameters(const Translation& translation,
+                                                  const std::vector<double>& shared);
+
+// One row of SAM's library of CEC modules (Dobos 2012, doi:10.1115/1.4005759), the columns from
+// which SAM and pvlib's calcparams_cec compute: N_s, I_sc_ref, V_oc_ref, I_mp_ref, V_mp_ref (A, V),
+// alpha_sc (A/K), beta_oc (V/K), a_ref (V), I_L_ref, I_o_ref (A), R_s, R_sh_ref (ohm), Adjust (0),
+// gamma_r (%/K).
+struct CecModule {
+  std::string name;
+  std::string technology;
+  std::vector<NamedValue> values;
+};
+
+// Errors: those of PvlibParameters; a law other than De Soto's, or a band gap other than the
+// EgRef = 1.121 eV and dEgdT = -0.0002677 1/K that are not columns of such a row; a device that
+// gives no power.
+Expected<CecModule> CecRow(const Translation& translation, const std::vector<double>& shared,
+                           const std::string& name, const std::string& technology);
+
+}  // namespace lyrefit

@@ -141,7 +141,7 @@ std::string ColourBar(const FamilyData& data) {
   return fmt::format(
       "set palette defined (0 '#0072B2', 0.5 '#8C8C8C', 1 '#D55E00')\n"
       "set cbrange [{:g}:{:g}]\n"
-      "set colorbox horizontal user origin screen 0.36, screen 0.085 size screen 0.28, screen "
+      "set colorbox horizontal user origin screen 0.36, screen 0.105 size screen 0.28, screen "
       "0.025\n"
       "set cblabel 'Cell temperature (C)' offset 0,0.4\n",
       one ? data.coldest_C - 1 : data.coldest_C, one ? data.hottest_C + 1 : data.hottest_C);
@@ -188,6 +188,7 @@ std::string Script(const FamilyReport& report, const FamilyData& data,
       page.Place(1, {data.held_out.empty() ? "RMSE of each curve (mA, solved-current)"
                                            : "RMSE of each curve (mA, solved-current; o held out)",
                      "Irradiance (W/m2)", ""});
+  script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
   script += "set yrange [0:*]\n" + Panel(errors);
   std::string mean;
   Join(data.mean,

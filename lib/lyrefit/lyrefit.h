@@ -19,7 +19,8 @@
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // FitFamily fits one device to curves under different irradiance and temperature.
 // Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
-// other, Audit checks published parameters.
+// other, Audit checks published parameters. FitDataSheet finds a device from a data sheet alone,
+// PvlibParameters hands one to pvlib.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/curve_set.h"

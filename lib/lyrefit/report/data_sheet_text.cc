@@ -32,9 +32,10 @@ std::string ParameterSection(const DataSheetFit& fit) {
   }
   std::string text = "Parameters at 1000 W/m2 and 25 C\n" + table.Text();
   if (fit.ranges.empty()) return text;
-  return text + Wrap("  ",
-                     "within the rounding: while each printed value moves by half a unit of its "
-                     "last digit, one at a time");
+  return text +
+         Wrap("  ",
+              "within the rounding: how far a parameter moves while the printed values move, "
+              "together, within half a unit of their last digits");
 }
 
 std::string CheckSection(const DataSheetFit& fit) {

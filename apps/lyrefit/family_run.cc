@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "interrupt.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
@@ -116,9 +118,12 @@ Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
   if (flags.index || !HoldsCurveSet(flags.file)) return found;
   const Expected<CurveSet> set = ReadCurveSet(flags.file);
   if (!set || set->curves.size() < 2) return found;
-  return {fmt::format("this is a set of {} curves: choose one with --curve INDEX, or fit all of "
-                      "them with --family desoto|pvsyst|free|auto",
-                      set->curves.size()),
+  std::error_code error;
+  const bool folder = std::filesystem::is_directory(flags.file, error);
+  return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
+                      "desoto|pvsyst|free|auto",
+                      set->curves.size(),
+                      folder ? "give one of its files" : "choose one with --curve INDEX"),
           flags.file};
 }
 

@@ -222,8 +222,13 @@ TEST_F(FamilyVerbOnASet, IsBriefOnRequest) {
 
 TEST_F(FamilyVerbOnASet, IsNamedWhereOneCurveWasExpected) {
   ExpectRefused(Set(),
-                "this is a set of 6 curves: choose one with --curve INDEX, or fit all of "
-                "them with --family desoto|pvsyst|free|auto");
+                "this is a set of 6 curves: give one of its files, or fit all of them with "
+                "--family desoto|pvsyst|free|auto");
+  const std::string table = folder_.Write(
+      "two.csv",
+      "curve,voltage_V,current_A,irradiance_Wm2\n1,0,1,1000\n1,0.3,0.9,1000\n1,0.5,0.1,1000\n"
+      "2,0,0.5,500\n2,0.3,0.45,500\n2,0.48,0.05,500\n");
+  ExpectRefused("'" + table + "'", "this is a set of 2 curves: choose one with --curve INDEX, or");
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ std::string Stated(double value, bool known) {
 }
 
 std::string Marks(const FamilyCurve& curve) {
-  const std::string odd = curve.odd ? "odd" : "";
-  if (curve.role == CurveRole::kFitted) return odd;
+  if (curve.role == CurveRole::kFitted) return curve.odd ? "odd" : "";
   if (curve.odd) return "odd, out";
   return curve.role == CurveRole::kHeldOut ? "held out" : "left out";
 }

@@ -19,7 +19,7 @@ TEST(DataSheetText, TellsParametersChecksAndWarnings) {
   EXPECT_THAT(text, HasSubstr("single-diode device by the law of De Soto behind a data sheet"));
   EXPECT_THAT(text, HasSubstr("36 cells in series"));
   EXPECT_THAT(text, HasSubstr("infinite"));
-  EXPECT_THAT(text, HasSubstr("0.370 .. 0.410"));
+  EXPECT_THAT(text, HasSubstr("0.3700 .. 0.4100"));
   EXPECT_THAT(text, HasSubstr("+0.1316 %  V/K"));
   EXPECT_THAT(text, HasSubstr("no shunt is needed"));
   std::istringstream lines(text);

@@ -33,6 +33,9 @@ set(LYREFIT_PUBLIC_HEADERS
   device/translation.h
   family/coefficients.h
   family/data_sheet.h
+  family/family_report.h
+  family/fit_family.h
+  family/fit_free.h
   family/pvlib_parameters.h
   fit/bounds.h
   fit/fit.h
@@ -49,8 +52,15 @@ set(LYREFIT_PUBLIC_HEADERS
   report/compare_json.h
   report/compare_plot.h
   report/compare_text.h
+  report/data_sheet_json.h
+  report/data_sheet_text.h
+  report/family_csv.h
+  report/family_json.h
+  report/family_plot.h
+  report/family_text.h
   report/json_report.h
   report/plot.h
+  report/pvlib_json.h
   report/text_report.h
   search/search.h
   study/audit.h

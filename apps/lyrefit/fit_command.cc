@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "family_run.h"
 #include "interrupt.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
@@ -16,6 +17,8 @@ constexpr char kFitFooter[] =
     "  lyrefit fit data/rtc_france --model sd\n"
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
     "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
+    "  lyrefit fit folder_of_curves --family desoto --pvlib module.json --plot module.svg\n"
+    "  lyrefit fit sweeps.csv --family auto --irradiance-accuracy 2% --leave-out 17,18\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 the fit is not usable.";
 
@@ -27,6 +30,7 @@ FitCommand::FitCommand(CLI::App* app)
   AddModelFlags();
   AddSearchFlags();
   AddPolishFlags();
+  AddFamilyFlags(command_, &family_);
   AddReportFlags(command_, "report", "fit", &output_);
   command_->footer(kFitFooter);
 }
@@ -135,13 +139,29 @@ Expected<void> FitCommand::Write(const FitReport& report) const {
   return WriteOutput("-", output_.brief ? BriefReport(report) : FullReport(report));
 }
 
+int FitCommand::RunFamilyFit() {
+  if (auto_model_) {
+    return Refuse(
+        {"--model auto is for one curve: --family auto chooses among laws and diodes", {}});
+  }
+  if (auto fixed = SetFixed(); !fixed) return Refuse(fixed.error());
+  const Expected<FamilyOptions> options =
+      FamilyOptionsFromFlags(*command_, family_, options_, bounds_.ranges);
+  if (!options) return Refuse(options.error());
+  return RunFamily(curve_, family_, *options, output_);
+}
+
 int FitCommand::Run() {
+  if (auto checked = CheckFamilyFlags(*command_, family_); !checked) {
+    return Refuse(checked.error());
+  }
+  if (family_.family) return RunFamilyFit();
   options_.polish = !no_polish_;
   for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckReportFlags(output_)}) {
     if (!checked) return Refuse(checked.error());
   }
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
-  if (!curve) return Refuse(curve.error());
+  if (!curve) return Refuse(WhyNotOneCurve(curve_, curve.error()));
   const InterruptGuard guard;
   const Expected<FitReport> report = auto_model_ ? FitAuto(*curve, options_, TerminalObserver())
                                                  : Fit(*curve, options_, TerminalObserver());

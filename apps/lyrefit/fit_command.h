@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "bounds_flag.h"
+#include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/fit/fit.h"
 
 namespace lyrefit {
 
-// `lyrefit fit`: reads a curve, fits it, writes the report.
+// `lyrefit fit`: reads a curve or a set of curves, fits it, writes the report.
 class FitCommand {
  public:
   explicit FitCommand(CLI::App* app);
@@ -22,6 +23,7 @@ class FitCommand {
   void AddModelFlags();
   void AddSearchFlags();
   void AddPolishFlags();
+  int RunFamilyFit();
   Expected<void> SetBounds();
   Expected<void> SetFixed();
   Expected<void> SetKernel();
@@ -35,6 +37,7 @@ class FitCommand {
   BoundsFlags bounds_;
   std::vector<std::string> fix_list_;
   std::string kernel_;
+  FamilyFlags family_;
   ReportFlags output_;
 };
 

@@ -10,6 +10,7 @@
 #include "budget_command.h"
 #include "certify_command.h"
 #include "compare_command.h"
+#include "data_sheet_command.h"
 #include "fit_command.h"
 #include "lyrefit/base/version.h"
 #include "output.h"
@@ -24,6 +25,7 @@ constexpr char kFooter[] =
     "Examples:\n"
     "  lyrefit fit data/rtc_france\n"
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
+    "  lyrefit fit folder_of_curves --family desoto\n"
     "  lyrefit simulate --from fit.json --out curve.csv\n"
     "  lyrefit compare data/rtc_france --algorithms lo,mlo,de,random\n"
     "\n"
@@ -71,10 +73,11 @@ int Main(int argc, char** argv) {
   int verbosity = 0;
   app.add_flag("-v,--v,--verbose", verbosity, "log what happens inside; twice for more");
   const Verb verbs[] = {
-      MakeVerb<FitCommand>(&app),     MakeVerb<SimulateCommand>(&app),
-      MakeVerb<CertifyCommand>(&app), MakeVerb<CompareCommand>(&app),
-      MakeVerb<BudgetCommand>(&app),  MakeVerb<SensitivityCommand>(&app),
-      MakeVerb<AuditCommand>(&app),   MakeVerb<ReproduceCommand>(&app),
+      MakeVerb<FitCommand>(&app),       MakeVerb<SimulateCommand>(&app),
+      MakeVerb<CertifyCommand>(&app),   MakeVerb<CompareCommand>(&app),
+      MakeVerb<BudgetCommand>(&app),    MakeVerb<SensitivityCommand>(&app),
+      MakeVerb<DataSheetCommand>(&app), MakeVerb<AuditCommand>(&app),
+      MakeVerb<ReproduceCommand>(&app),
   };
   try {
     app.parse(argc, argv);

@@ -17,6 +17,7 @@
 // Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one
 // sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
+// FitFamily fits one device to curves under different irradiance and temperature.
 // Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
 // other, Audit checks published parameters. FitDataSheet finds a device from a data sheet alone,
 // PvlibParameters hands one to pvlib.
@@ -29,6 +30,9 @@
 #include "lyrefit/device/translation.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet.h"
+#include "lyrefit/family/family_report.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/fit_free.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
@@ -43,8 +47,15 @@
 #include "lyrefit/report/compare_json.h"
 #include "lyrefit/report/compare_plot.h"
 #include "lyrefit/report/compare_text.h"
+#include "lyrefit/report/data_sheet_json.h"
+#include "lyrefit/report/data_sheet_text.h"
+#include "lyrefit/report/family_csv.h"
+#include "lyrefit/report/family_json.h"
+#include "lyrefit/report/family_plot.h"
+#include "lyrefit/report/family_text.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
+#include "lyrefit/report/pvlib_json.h"
 #include "lyrefit/report/text_report.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"

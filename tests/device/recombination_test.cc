@@ -1,8 +1,10 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/multiprecision/float128.hpp>
 #include <cmath>
+#include <limits>
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/device/current.h"

@@ -1,6 +1,6 @@
 #include "lyrefit/report/json_report.h"
 
-#include "lyrefit/report/json_parts.h"
+#include "lyrefit/report/fit_json_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -8,22 +8,7 @@ namespace {
 Json ParametersJson(const FitReport& report) {
   Json parameters = Json::object();
   for (const Estimate& e : report.estimates) {
-    const bool at_bound = e.at_bound != BoundSide::kNone;
-    parameters[e.info.name] = {{"symbol", e.info.symbol},
-                               {"unit", e.info.unit},
-                               {"searched", Number(e.searched)},
-                               {"refined", report.polished ? Number(e.refined) : Json(nullptr)},
-                               {"standard_error", Number(e.standard_error)},
-                               {"low_95", Number(e.low_95)},
-                               {"high_95", Number(e.high_95)},
-                               {"interval", ToText(e.interval)},
-                               {"at_bound", at_bound},
-                               {"bound_side", at_bound ? Json(ToText(e.at_bound)) : Json(nullptr)},
-                               {"identifiable", e.identifiable},
-                               {"reason", e.reason},
-                               {"fixed", e.fixed},
-                               {"lower", Number(e.bounds.lower)},
-                               {"upper", Number(e.bounds.upper)}};
+    parameters[e.info.name] = EstimateJson(e, report.polished);
   }
   return parameters;
 }
@@ -40,9 +25,7 @@ Json SingleDiodeJson(const FitReport& report) {
 
 Json RmseJson(const FitReport& report) {
   const auto pair = [](const RmsePair& rmse, bool known) {
-    const RmsePair shown = known ? rmse : RmsePair{};
-    return Json{{"measured_current_A", Number(shown.measured_current_A)},
-                {"solved_current_A", Number(shown.solved_current_A)}};
+    return RmsePairJson(known ? rmse : RmsePair{});
   };
   return {{"random_baseline", pair(report.rmse.random_baseline, true)},
           {"searched", pair(report.rmse.searched, true)},
@@ -62,51 +45,12 @@ Json FloorJson(const FitReport& report) {
           {"refined_above", Number(floor.above)}};
 }
 
-Json KeyPointsJson(const KeyPoints& k) {
-  return {{"short_circuit_current_A", Number(k.short_circuit_current_A)},
-          {"open_circuit_voltage_V", Number(k.open_circuit_voltage_V)},
-          {"max_power_voltage_V", Number(k.max_power_voltage_V)},
-          {"max_power_current_A", Number(k.max_power_current_A)},
-          {"max_power_W", Number(k.max_power_W)},
-          {"fill_factor", Number(k.fill_factor)}};
-}
-
 Json ResidualsJson(const ResidualStatistics& r) {
   return {{"mean_A", Number(r.mean_A)},
           {"runs", r.runs},
           {"expected_runs", Number(r.expected_runs)},
           {"runs_p_value", Number(r.runs_p_value)},
           {"durbin_watson", Number(r.durbin_watson)}};
-}
-
-Json CorrelationsJson(const std::vector<Correlation>& correlations) {
-  Json list = Json::array();
-  for (const Correlation& c : correlations) {
-    list.push_back({{"first", c.first}, {"second", c.second}, {"value", Number(c.value)}});
-  }
-  return list;
-}
-
-Json SearchJson(const FitReport& report) {
-  const SearchOptions& options = report.search_options;
-  const SearchSummary& search = report.search;
-  Json trace = Json::array();
-  for (const TracePoint& point : search.trace) {
-    trace.push_back({{"iteration", point.iteration},
-                     {"evaluations", point.evaluations},
-                     {"best_A", Number(point.best)}});
-  }
-  return {{"algorithm", ToText(options.algorithm)},
-          {"seed", options.seed},
-          {"run", options.run},
-          {"population", options.population},
-          {"iterations", search.iterations},
-          {"evaluations", search.evaluations},
-          {"termination", ToText(search.termination)},
-          {"message", search.message},
-          {"seconds", Number(search.seconds)},
-          {"elites", search.elites.size()},
-          {"trace", std::move(trace)}};
 }
 
 Json RefineJson(const RefineReport& refine) {
@@ -167,7 +111,7 @@ void AddEvidence(const FitReport& report, Json* json) {
                       {"bic", Number(report.criteria.bic)}};
   j["residuals"] = ResidualsJson(report.residuals);
   j["correlations"] = CorrelationsJson(report.correlations);
-  j["search"] = SearchJson(report);
+  j["search"] = SearchJson(report.search_options, report.search);
   j["refine"] = RefineJson(report.refine);
   j["intervals"] = {{"seconds", Number(report.interval_seconds)}};
   j["model_choice"] = ChoiceJson(report.choice);

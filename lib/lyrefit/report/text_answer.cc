@@ -16,29 +16,13 @@ constexpr int kErrorDigits = 2;
 constexpr int kRmseDigits = 10;
 constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
 
-std::string Marks(const Estimate& estimate) {
-  if (estimate.fixed) return "fixed";
-  std::string marks;
-  if (estimate.at_bound != BoundSide::kNone) {
-    marks = fmt::format("{} bound", ToText(estimate.at_bound));
-  }
-  if (!estimate.identifiable)
-    marks += (marks.empty() ? "" : ", ") + std::string("not identifiable");
-  return marks;
-}
-
-// "Rs (ohm)", "n1".
-std::string Label(const ParameterInfo& info) {
-  return info.unit.empty() ? info.symbol : fmt::format("{} ({})", info.symbol, info.unit);
-}
-
 std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
-  return {Label(e.info),
+  return {LabelWithUnit(e.info),
           Significant(e.searched, kSearchedDigits),
           polished ? Significant(e.refined, kValueDigits) : "-",
           Significant(e.standard_error, kErrorDigits),
           Range(e.low_95, e.high_95),
-          Marks(e)};
+          EstimateMarks(e)};
 }
 
 // "95 % intervals: profile (Rs, n2), symmetric (Iph)".
@@ -83,11 +67,7 @@ std::string ParameterSection(const FitReport& report) {
   std::string text = "Parameters\n" + table.Text();
   if (!report.polished)
     text += Wrap("  ", "No polish was done: the searched values are the answer.");
-  for (const Estimate& e : report.estimates) {
-    if (!e.identifiable && !e.reason.empty()) {
-      text += Wrap("  ", fmt::format("{} is not identifiable: {}", e.info.symbol, e.reason));
-    }
-  }
+  text += UnidentifiableNotes(report.estimates);
   const std::string intervals = IntervalNote(report.estimates);
   if (!intervals.empty()) text += Wrap("  ", "95 % intervals: " + intervals);
   text += Wrap("  ", fmt::format("nNsVth = {} V (n1 x cells in series x k T / q)",

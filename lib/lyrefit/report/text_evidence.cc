@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/report/text_sections.h"
 
 namespace lyrefit {
@@ -82,36 +83,18 @@ std::string ResidualSection(const FitReport& report) {
                 fmt::format("AICc {}, BIC {} ({} points, {} free parameters)",
                             Decimals(report.criteria.aicc), Decimals(report.criteria.bic),
                             report.criteria.points, report.criteria.parameters));
-  std::string correlations;
-  for (const Correlation& c : report.correlations) {
-    correlations += fmt::format("{}{}-{} {:+.4f}", correlations.empty() ? "" : ", ", c.first,
-                                c.second, c.value);
-  }
+  const std::string correlations = CorrelationsText(report.correlations);
   if (!correlations.empty()) text += Field("correlations", correlations + " (above 0.9)");
   return text;
 }
 
 std::string SearchSection(const FitReport& report) {
-  const SearchSummary& s = report.search;
-  const SearchOptions& o = report.search_options;
   std::string text = "How it was found\n";
-  std::string search =
-      fmt::format("{}: {}, seed {}, {} birds x {} iterations, {} evaluations; ended by: {}",
-                  Duration(s.seconds), ToText(o.algorithm), o.seed, o.population, s.iterations,
-                  s.evaluations, ToText(s.termination));
-  if (s.termination != SearchTermination::kIterations && !s.message.empty()) {
-    search += fmt::format(" ({})", s.message);
-  }
-  text += Field("search", search);
+  text += Field("search", SearchText(report.search_options, report.search));
   text += Field("polish", report.polished ? PolishText(report.refine) : "none");
   if (report.polished) text += Field("starts", StartsText(report.refine));
   if (report.interval_seconds > 0) text += Field("intervals", Duration(report.interval_seconds));
-  std::string options;
-  for (const OptionEcho& echo : report.non_default_options) {
-    options += fmt::format("{}{} = {} (default {})", options.empty() ? "" : ", ", echo.name,
-                           echo.value, echo.default_value);
-  }
-  return text + Field("options", options.empty() ? "all at their defaults" : options);
+  return text + Field("options", OptionsText(report.non_default_options));
 }
 
 }  // namespace lyrefit

@@ -54,4 +54,57 @@ std::string List(const std::string& title, const std::vector<std::string>& sente
   return text;
 }
 
+std::string LabelWithUnit(const ParameterInfo& info) {
+  return info.unit.empty() ? info.symbol : fmt::format("{} ({})", info.symbol, info.unit);
+}
+
+std::string EstimateMarks(const Estimate& estimate) {
+  if (estimate.fixed) return "fixed";
+  std::string marks;
+  if (estimate.at_bound != BoundSide::kNone) {
+    marks = fmt::format("{} bound", ToText(estimate.at_bound));
+  }
+  if (!estimate.identifiable)
+    marks += (marks.empty() ? "" : ", ") + std::string("not identifiable");
+  return marks;
+}
+
+std::string UnidentifiableNotes(const std::vector<Estimate>& estimates) {
+  std::string text;
+  for (const Estimate& e : estimates) {
+    if (e.identifiable || e.reason.empty()) continue;
+    text += Wrap("  ", fmt::format("{} is not identifiable: {}", e.info.symbol, e.reason));
+  }
+  return text;
+}
+
+std::string CorrelationsText(const std::vector<Correlation>& correlations) {
+  std::string text;
+  for (const Correlation& c : correlations) {
+    text += fmt::format("{}{}-{} {:+.4f}", text.empty() ? "" : ", ", c.first, c.second, c.value);
+  }
+  return text;
+}
+
+std::string SearchText(const SearchOptions& options, const SearchSummary& search) {
+  std::string text = fmt::format(
+      "{}: {}, seed {}, {} birds x {} iterations, {} evaluations; ended by: {}",
+      Duration(search.seconds), ToText(options.algorithm), options.seed, options.population,
+      search.iterations, search.evaluations, ToText(search.termination));
+  if (search.termination != SearchTermination::kIterations && !search.message.empty()) {
+    text += fmt::format(" ({})", search.message);
+  }
+  return text;
+}
+
+std::string OptionsText(const std::vector<OptionEcho>& options) {
+  if (options.empty()) return "all at their defaults";
+  std::string text;
+  for (const OptionEcho& echo : options) {
+    text += fmt::format("{}{} = {} (default {})", text.empty() ? "" : ", ", echo.name, echo.value,
+                        echo.default_value);
+  }
+  return text;
+}
+
 }  // namespace lyrefit

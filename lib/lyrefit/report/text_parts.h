@@ -5,6 +5,7 @@
 
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/device/device.h"
+#include "lyrefit/fit/fit_report.h"
 
 // What the text writers share.
 namespace lyrefit {
@@ -23,5 +24,23 @@ std::string BoundText(double bound);
 
 // A title and a list of sentences; nothing without sentences.
 std::string List(const std::string& title, const std::vector<std::string>& sentences);
+
+// "Rs (ohm)", "n1".
+std::string LabelWithUnit(const ParameterInfo& info);
+
+// "fixed", "lower bound, not identifiable"; empty where there is nothing to say.
+std::string EstimateMarks(const Estimate& estimate);
+
+// A sentence for each parameter that cannot be told.
+std::string UnidentifiableNotes(const std::vector<Estimate>& estimates);
+
+// "Is1-n1 +0.9999, ..."
+std::string CorrelationsText(const std::vector<Correlation>& correlations);
+
+// "4.1 ms: mlo, seed 0, 20 birds x 20 iterations, 420 evaluations; ended by: iterations"
+std::string SearchText(const SearchOptions& options, const SearchSummary& search);
+
+// "seed = 1 (default 0), ..."
+std::string OptionsText(const std::vector<OptionEcho>& options);
 
 }  // namespace lyrefit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "lyrefit/family/data_sheet.h"
+
+namespace lyrefit {
+
+// `lyrefit datasheet`: the five parameters of a module from what its data sheet prints.
+class DataSheetCommand {
+ public:
+  explicit DataSheetCommand(CLI::App* app);
+  bool Chosen() const { return command_->parsed(); }
+  int Run();
+
+ private:
+  Expected<DataSheet> Sheet() const;
+  Expected<void> CheckTargets() const;
+  Expected<void> Write(const DataSheetFit& fit) const;
+
+  CLI::App* command_;
+  // As printed: the digits say how far each value is rounded.
+  std::string isc_;
+  std::string voc_;
+  std::string imp_;
+  std::string vmp_;
+  std::string alpha_;
+  std::string beta_;
+  std::string gamma_;
+  std::string name_ = "module";
+  std::string technology_;
+  int cells_ = 1;
+  bool exact_ = false;
+  ConstantSet constants_ = ConstantSet::kCodata;
+  std::string json_file_;
+  std::string pvlib_file_;
+  bool quiet_ = false;
+};
+
+}  // namespace lyrefit

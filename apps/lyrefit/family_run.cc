@@ -1,0 +1,130 @@
+#include "family_run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "interrupt.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/report/family_csv.h"
+#include "lyrefit/report/family_json.h"
+#include "lyrefit/report/family_plot.h"
+#include "lyrefit/report/family_text.h"
+#include "lyrefit/report/pvlib_json.h"
+#include "output.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<CurveSet> ReadSet(const std::string& path) {
+  if (HoldsCurveSet(path)) return ReadCurveSet(path);
+  Expected<IvCurve> curve = ReadCurve(path);
+  if (!curve) return tl::unexpected(curve.error());
+  CurveSet set;
+  set.name = curve->name;
+  set.source = curve->source;
+  set.curves.push_back(std::move(*curve));
+  return set;
+}
+
+// The set with what the flags say of every curve.
+Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
+  Expected<CurveSet> set = ReadSet(flags.file);
+  if (!set) return set;
+  for (IvCurve& curve : set->curves) {
+    if (auto applied = ApplyConditionFlags(flags.conditions, &curve); !applied) {
+      return tl::unexpected(applied.error());
+    }
+  }
+  IvCurve common;  // carries the sentences that hold for the whole set
+  common.assumptions = set->assumptions;
+  if (auto applied = ApplyConditionFlags(flags.conditions, &common); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  set->assumptions = common.assumptions;
+  return set;
+}
+
+Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOptions& options) {
+  switch (family) {
+    case Family::kFree:
+      return FitFree(set, options, TerminalObserver());
+    case Family::kAuto:
+      return FitFamilyAuto(set, options, TerminalObserver());
+    case Family::kDeSoto:
+    case Family::kPvsyst:
+      break;
+  }
+  return FitFamily(set, options, TerminalObserver());
+}
+
+Expected<void> CheckTargets(const FamilyFlags& flags, const ReportFlags& output) {
+  const int piped = (output.json_file == "-") + (flags.csv_file == "-") + (flags.pvlib_file == "-");
+  if (piped > 1) return Fail("only one of --json, --csv and --pvlib can have standard output");
+  for (const std::string& file : {flags.csv_file, flags.pvlib_file}) {
+    if (auto writable = CheckWritable(file); !writable) return writable;
+  }
+  return CheckReportFlags(output);
+}
+
+Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
+                          const std::string& file) {
+  const auto keywords = PvlibParameters(report.translation, report.refined);
+  if (!keywords) return Fail("--pvlib: " + keywords.error().message);
+  const std::string technology = set.curves.front().notes.technology;
+  return WriteOutput(
+      file, PvlibJson(report.name, report.translation.spec.law, *keywords,
+                      CecRow(report.translation, report.refined, report.name, technology)));
+}
+
+// What pvlib cannot take is known last: all else is written by then.
+Expected<void> Write(const FamilyReport& report, const CurveSet& set, const FamilyFlags& flags,
+                     const ReportFlags& output) {
+  if (!output.json_file.empty()) {
+    if (auto written = WriteOutput(output.json_file, FamilyJson(report)); !written) return written;
+  }
+  if (!flags.csv_file.empty()) {
+    if (auto written = WriteOutput(flags.csv_file, FreeFitsCsv(report)); !written) return written;
+  }
+  if (!output.plot_file.empty()) {
+    if (auto drawn = PlotFamily(report, set, output.plot_file); !drawn) return drawn;
+  }
+  if (output.text() && flags.csv_file != "-" && flags.pvlib_file != "-") {
+    const std::string text = output.brief ? BriefFamily(report) : FamilyText(report);
+    if (auto written = WriteOutput("-", text); !written) return written;
+  }
+  return flags.pvlib_file.empty() ? Expected<void>() : WritePvlib(report, set, flags.pvlib_file);
+}
+
+}  // namespace
+
+int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyOptions& options,
+              const ReportFlags& output) {
+  if (auto checked = CheckTargets(flags, output); !checked) return Refuse(checked.error());
+  const Expected<CurveSet> set = ReadFlaggedSet(flagged);
+  if (!set) return Refuse(set.error());
+  const InterruptGuard guard;
+  const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
+  ClearProgressLine();
+  if (!report) return Refuse(report.error());
+  if (auto written = Write(*report, *set, flags, output); !written) return Refuse(written.error());
+  return report->usable ? kExitFine : kExitNotUsable;
+}
+
+Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
+  if (flags.index || !HoldsCurveSet(flags.file)) return found;
+  const Expected<CurveSet> set = ReadCurveSet(flags.file);
+  if (!set || set->curves.size() < 2) return found;
+  std::error_code error;
+  const bool folder = std::filesystem::is_directory(flags.file, error);
+  return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
+                      "desoto|pvsyst|free|auto",
+                      set->curves.size(),
+                      folder ? "give one of its files" : "choose one with --curve INDEX"),
+          flags.file};
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "family_flags.h"
+#include "flags.h"
+
+namespace lyrefit {
+
+// Reads the set (or the one curve) of `set`, fits it as the flags say and writes the report; the
+// exit code.
+int RunFamily(const CurveFlags& set, const FamilyFlags& flags, const FamilyOptions& options,
+              const ReportFlags& output);
+
+// Why no single curve could be read: `found`, or that the file holds many.
+Error WhyNotOneCurve(const CurveFlags& flags, const Error& found);
+
+}  // namespace lyrefit

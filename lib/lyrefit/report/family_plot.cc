@@ -1,0 +1,212 @@
+#include "lyrefit/report/family_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lyrefit/device/kernel.h"
+#include "lyrefit/report/panels.h"
+#include "lyrefit/report/plot.h"
+#include "lyrefit/report/text_layout.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kMostDrawn = 12;
+constexpr int kModelPoints = 200;
+constexpr int kColourBar = 60;  // room for it under the panels, in pixels
+
+using CurveOf = std::map<std::string, const IvCurve*>;
+
+double OrZero(double value) { return std::isnan(value) ? 0 : value; }
+
+// Stated and corrected conditions of a curve.
+double Irradiance(const FamilyReport& report, const FamilyCurve& curve) {
+  return curve.irradiance_W_m2 + OrZero(curve.irradiance_offset_W_m2.value) +
+         OrZero(report.irradiance_offset_W_m2.value);
+}
+double Temperature_K(const FamilyReport& report, const FamilyCurve& curve) {
+  return curve.temperature_C + kZeroCelsius_K + OrZero(curve.temperature_offset_K.value) +
+         OrZero(report.temperature_offset_K.value);
+}
+
+// The model's currents; empty where the curve has no parameters.
+std::vector<double> ModelCurrents(const FamilyReport& report, const FamilyCurve& curve,
+                                  const std::vector<double>& voltage_V) {
+  if (!report.estimates.empty() && !report.refined.empty()) {
+    const TranslatedDevice at =
+        TranslateTo(report.translation, report.refined, Irradiance(report, curve),
+                    Temperature_K(report, curve));
+    return SolveCurrents(at.device, at.parameters.data(), voltage_V);
+  }
+  Conditions conditions;
+  conditions.cell_temperature_K = curve.temperature_C + kZeroCelsius_K;
+  conditions.cells_in_series = report.cells_in_series;
+  const TranslationSpec& spec = report.translation.spec;
+  const Device device = MakeDevice(spec.model, conditions, spec.constants);
+  if (static_cast<int>(curve.free_parameters.size()) != device.size()) return {};
+  return SolveCurrents(device, curve.free_parameters.data(), voltage_V);
+}
+
+// Up to twelve curves, evenly spread in the order of their irradiance.
+std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf& points) {
+  std::vector<const FamilyCurve*> curves;
+  for (const FamilyCurve& curve : report.curves) {
+    if (curve.role == CurveRole::kLeftOut || points.count(curve.id) == 0) continue;
+    if (points.at(curve.id)->size() > 0) curves.push_back(&curve);
+  }
+  std::stable_sort(curves.begin(), curves.end(), [](const FamilyCurve* a, const FamilyCurve* b) {
+    return a->irradiance_W_m2 < b->irradiance_W_m2;
+  });
+  if (curves.size() <= kMostDrawn) return curves;
+  std::vector<const FamilyCurve*> drawn;
+  for (std::size_t i = 0; i < kMostDrawn; ++i) {
+    drawn.push_back(curves[i * (curves.size() - 1) / (kMostDrawn - 1)]);
+  }
+  return drawn;
+}
+
+// Rows of gnuplot data; those that hold something not finite are left out.
+class Block {
+ public:
+  explicit Block(const std::string& name) : text_("$" + name + " << END_OF_DATA\n") {}
+  void Add(std::initializer_list<double> row) {
+    std::string line;
+    for (const double value : row) {
+      if (!std::isfinite(value)) return;
+      line += fmt::format("{:.9g} ", value);
+    }
+    text_ += line + "\n";
+    ++rows_;
+  }
+  void EndLine() { text_ += "\n"; }
+  std::string Text() const { return text_ + "END_OF_DATA\n"; }
+  bool empty() const { return rows_ == 0; }
+
+ private:
+  std::string text_;
+  int rows_ = 0;
+};
+
+struct FamilyData {
+  Block measured{"measured"};
+  Block model{"model"};
+  Block fitted{"fitted"};      // irradiance, RMSE in mA, temperature
+  Block held_out{"held_out"};  // the same
+  Block mean{"mean"};          // irradiance, mean residual in mA, temperature
+  double coldest_C = 1e9;
+  double hottest_C = -1e9;
+};
+
+void AddCurve(const FamilyReport& report, const FamilyCurve& curve, const IvCurve& points,
+              FamilyData* data) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    data->measured.Add({points.voltage_V[i], points.current_A[i], curve.temperature_C});
+  }
+  const auto [low, high] = std::minmax_element(points.voltage_V.begin(), points.voltage_V.end());
+  std::vector<double> voltage_V(kModelPoints);
+  for (int i = 0; i < kModelPoints; ++i) {
+    voltage_V[i] = *low + (*high - *low) * i / (kModelPoints - 1);
+  }
+  const std::vector<double> current_A = ModelCurrents(report, curve, voltage_V);
+  for (std::size_t i = 0; i < current_A.size(); ++i) {
+    data->model.Add({voltage_V[i], current_A[i], curve.temperature_C});
+  }
+  data->model.EndLine();
+}
+
+FamilyData Collect(const FamilyReport& report, const CurveSet& set) {
+  CurveOf points;
+  for (const IvCurve& curve : set.curves) points[curve.name] = &curve;
+  FamilyData data;
+  for (const FamilyCurve* curve : Drawn(report, points)) {
+    AddCurve(report, *curve, *points.at(curve->id), &data);
+  }
+  for (const FamilyCurve& curve : report.curves) {
+    if (curve.role == CurveRole::kLeftOut) continue;
+    const RmsePair& rmse = report.estimates.empty() ? curve.free_rmse : curve.rmse;
+    Block* const block = curve.role == CurveRole::kHeldOut ? &data.held_out : &data.fitted;
+    block->Add({curve.irradiance_W_m2, 1e3 * rmse.solved_current_A, curve.temperature_C});
+    data.mean.Add({curve.irradiance_W_m2, 1e3 * curve.mean_residual_A, curve.temperature_C});
+    data.coldest_C = std::min(data.coldest_C, curve.temperature_C);
+    data.hottest_C = std::max(data.hottest_C, curve.temperature_C);
+  }
+  return data;
+}
+
+std::string ColourBar(const FamilyData& data) {
+  const bool one = !(data.hottest_C - data.coldest_C > 0.5);
+  return fmt::format(
+      "set palette defined (0 '#0072B2', 0.5 '#8C8C8C', 1 '#D55E00')\n"
+      "set cbrange [{:g}:{:g}]\n"
+      "set colorbox horizontal user origin screen 0.36, screen 0.105 size screen 0.28, screen "
+      "0.025\n"
+      "set cblabel 'Cell temperature (C)' offset 0,0.4\n",
+      one ? data.coldest_C - 1 : data.coldest_C, one ? data.hottest_C + 1 : data.hottest_C);
+}
+
+// What a plot command draws of a block that has rows.
+void Join(const Block& block, const std::string& piece, std::string* command) {
+  if (block.empty()) return;
+  *command += (command->empty() ? "plot " : ", ") + piece;
+}
+
+std::string Panel(std::string command) {
+  return command.empty() ? "plot [0:1] [0:1] NaN notitle\n" : std::move(command) + "\n";
+}
+
+std::string Script(const FamilyReport& report, const FamilyData& data,
+                   const std::string& terminal) {
+  const TranslationSpec& spec = report.translation.spec;
+  const bool shared = !report.estimates.empty();
+  const std::string title = fmt::format("{}: {} {}, solved-current RMSE {} A{}", report.name,
+                                        shared ? ToText(spec.law) : "free", ToText(spec.model),
+                                        Scientific(report.rmse.refined.solved_current_A, 4),
+                                        report.interrupted ? ", interrupted" : "");
+  const PanelPage page(3, 3, title, LegendMark::kLine, {}, kColourBar);
+  const double size = PointSize(terminal);
+  std::string script = data.measured.Text() + data.model.Text() + data.fitted.Text() +
+                       data.held_out.Text() + data.mean.Text() + page.Begin(terminal) +
+                       ColourBar(data);
+  std::string curves;
+  Join(data.measured,
+       fmt::format("$measured using 1:2:3 with points pt 6 ps {} lc palette notitle", 0.7 * size),
+       &curves);
+  Join(data.model, "$model using 1:2:3 with lines lw 1.6 lc palette notitle", &curves);
+  script += page.Place(0, {"Measured points and model", "Voltage (V)", "Current (A)"});
+  script += Panel(curves) + "unset colorbox\n";
+  std::string errors;
+  Join(data.held_out,
+       fmt::format("$held_out using 1:2:3 with points pt 6 ps {} lc palette notitle", 1.2 * size),
+       &errors);
+  Join(data.fitted,
+       fmt::format("$fitted using 1:2:3 with points pt 7 ps {} lc palette notitle", 1.2 * size),
+       &errors);
+  script +=
+      page.Place(1, {data.held_out.empty() ? "RMSE of each curve (mA, solved-current)"
+                                           : "RMSE of each curve (mA, solved-current; o held out)",
+                     "Irradiance (W/m2)", ""});
+  script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
+  script += "set yrange [0:*]\n" + Panel(errors);
+  std::string mean;
+  Join(data.mean,
+       fmt::format("0 with lines lc rgb '#888888' notitle, $mean using 1:2:3 with points "
+                   "pt 7 ps {} lc palette notitle",
+                   1.2 * size),
+       &mean);
+  script += page.Place(2, {"Mean of model - measured (mA)", "Irradiance (W/m2)", ""});
+  return script + "set yrange [*:*]\n" + Panel(mean) + PanelPage::End();
+}
+
+}  // namespace
+
+Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set,
+                          const std::string& path) {
+  const FamilyData data = Collect(report, set);
+  return DrawScript([&](const std::string& terminal) { return Script(report, data, terminal); },
+                    path);
+}
+
+}  // namespace lyrefit

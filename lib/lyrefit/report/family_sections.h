@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/family/family_report.h"
+
+// The sections of the text report on a family; each ends with a newline or is empty where there is
+// nothing to say.
+namespace lyrefit {
+
+// Whether the curves were fitted one by one, without shared parameters.
+inline bool OneByOne(const FamilyReport& report) { return report.estimates.empty(); }
+
+// family_answer_text.cc: what came out.
+std::string FamilyParameterSection(const FamilyReport& report);
+std::string FamilySensorSection(const FamilyReport& report);
+std::string FamilyReferenceSection(const FamilyReport& report);
+std::string FamilyRmseSection(const FamilyReport& report);
+
+// family_curve_text.cc: curve by curve.
+std::string FamilyCurveSection(const FamilyReport& report);
+std::string FamilyOffsetSection(const FamilyReport& report);
+std::string FreeFitSection(const FamilyReport& report);
+
+// family_evidence_text.cc: how far to trust it.
+std::string FamilyHeldOutSection(const FamilyReport& report);
+std::string FamilyCandidateSection(const FamilyReport& report);
+std::string FamilyOddSection(const FamilyReport& report);
+std::string FamilyOutSection(const FamilyReport& report);
+std::string FamilySearchSection(const FamilyReport& report);
+
+}  // namespace lyrefit

@@ -1,0 +1,66 @@
+#include "lyrefit/report/fit_json_parts.h"
+
+namespace lyrefit {
+
+Json EstimateJson(const Estimate& e, bool polished) {
+  const bool at_bound = e.at_bound != BoundSide::kNone;
+  return {{"symbol", e.info.symbol},
+          {"unit", e.info.unit},
+          {"searched", Number(e.searched)},
+          {"refined", polished ? Number(e.refined) : Json(nullptr)},
+          {"standard_error", Number(e.standard_error)},
+          {"low_95", Number(e.low_95)},
+          {"high_95", Number(e.high_95)},
+          {"interval", ToText(e.interval)},
+          {"at_bound", at_bound},
+          {"bound_side", at_bound ? Json(ToText(e.at_bound)) : Json(nullptr)},
+          {"identifiable", e.identifiable},
+          {"reason", e.reason},
+          {"fixed", e.fixed},
+          {"lower", Number(e.bounds.lower)},
+          {"upper", Number(e.bounds.upper)}};
+}
+
+Json RmsePairJson(const RmsePair& rmse) {
+  return {{"measured_current_A", Number(rmse.measured_current_A)},
+          {"solved_current_A", Number(rmse.solved_current_A)}};
+}
+
+Json KeyPointsJson(const KeyPoints& k) {
+  return {{"short_circuit_current_A", Number(k.short_circuit_current_A)},
+          {"open_circuit_voltage_V", Number(k.open_circuit_voltage_V)},
+          {"max_power_voltage_V", Number(k.max_power_voltage_V)},
+          {"max_power_current_A", Number(k.max_power_current_A)},
+          {"max_power_W", Number(k.max_power_W)},
+          {"fill_factor", Number(k.fill_factor)}};
+}
+
+Json CorrelationsJson(const std::vector<Correlation>& correlations) {
+  Json list = Json::array();
+  for (const Correlation& c : correlations) {
+    list.push_back({{"first", c.first}, {"second", c.second}, {"value", Number(c.value)}});
+  }
+  return list;
+}
+
+Json SearchJson(const SearchOptions& options, const SearchSummary& search) {
+  Json trace = Json::array();
+  for (const TracePoint& point : search.trace) {
+    trace.push_back({{"iteration", point.iteration},
+                     {"evaluations", point.evaluations},
+                     {"best_A", Number(point.best)}});
+  }
+  return {{"algorithm", ToText(options.algorithm)},
+          {"seed", options.seed},
+          {"run", options.run},
+          {"population", options.population},
+          {"iterations", search.iterations},
+          {"evaluations", search.evaluations},
+          {"termination", ToText(search.termination)},
+          {"message", search.message},
+          {"seconds", Number(search.seconds)},
+          {"elites", search.elites.size()},
+          {"trace", std::move(trace)}};
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/report/json_parts.h"
+
+// What the JSON writers of fits, of one curve and of many, share.
+namespace lyrefit {
+
+// Everything about one parameter; without a polish nothing is refined.
+Json EstimateJson(const Estimate& estimate, bool polished);
+
+// Both errors, each under its label.
+Json RmsePairJson(const RmsePair& rmse);
+
+Json KeyPointsJson(const KeyPoints& points);
+Json CorrelationsJson(const std::vector<Correlation>& correlations);
+Json SearchJson(const SearchOptions& options, const SearchSummary& search);
+
+}  // namespace lyrefit

@@ -1,0 +1,73 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A module of 36 cells.
+const std::string kCurrents = "datasheet --isc 4.75 --imp 4.26 --vmp 17.6 ";
+const std::string kSheet = kCurrents + "--voc 21.6 --alpha 0.002 --beta -0.076 --cells 36";
+
+TEST(DataSheetVerb, RefusesBadInputWithOneSentence) {
+  const struct {
+    std::string arguments;
+    std::string complaint;
+  } cases[] = {
+      {"datasheet --isc 4.75", "required"},
+      {kCurrents + "--voc abc --alpha 0.002 --beta -0.076 --cells 36", "--voc: expected a number"},
+      {kCurrents + "--voc 21.6 --alpha x% --beta -0.076 --cells 36", "in percent such as 0.05%"},
+      {kCurrents + "--voc 21.6 --alpha 0.002 --beta -0.076 --cells 0", "--cells"},
+      {kSheet + " --gamma abc", "--gamma: expected a number"},
+      {kSheet + " --json - --pvlib -", "only one of --json and --pvlib"},
+      {kSheet + " --json no_such_folder/x.json", "cannot write"},
+  };
+  for (const auto& one : cases) {
+    const AppResult result = RunApp(one.arguments);
+    EXPECT_EQ(result.exit_code, 1) << one.arguments;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, StartsWith("lyrefit: "));
+    EXPECT_THAT(result.err, HasSubstr(one.complaint));
+  }
+}
+
+TEST(DataSheetVerb, PrintsTheDevice) {
+  const AppResult result = RunApp(kSheet + " --gamma -0.45");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("behind a data sheet"));
+  EXPECT_THAT(result.out, HasSubstr("within the rounding"));
+  EXPECT_THAT(result.out, HasSubstr("gamma_pmp"));
+}
+
+// The digits of "4.75" say how far it is rounded; percent are of the values at 25 C.
+TEST(DataSheetVerb, WritesJson) {
+  const AppResult kelvin = RunApp(kSheet + " --exact --json -");
+  ASSERT_EQ(kelvin.exit_code, 0) << kelvin.err;
+  const json j = json::parse(kelvin.out, nullptr, false);
+  EXPECT_EQ(j["cells_in_series"], 36);
+  EXPECT_NEAR(j["checks"]["Isc"]["given"].get<double>(), 4.75, 1e-6);
+  EXPECT_TRUE(j["parameters"]["R_s"]["low"].is_null());
+  const AppResult percent =
+      RunApp(kCurrents + "--voc 21.6 --alpha 0.04% --beta -0.35% --cells 36 --json -");
+  ASSERT_EQ(percent.exit_code, 0) << percent.err;
+  const json p = json::parse(percent.out, nullptr, false);
+  EXPECT_NEAR(p["checks"]["beta_oc"]["printed"].get<double>(), -0.0756, 1e-12);
+}
+
+TEST(DataSheetVerb, WritesWhatPvlibTakes) {
+  const AppResult result = RunApp(kSheet + " --name M1 --technology Multi-c-Si --pvlib -");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json j = json::parse(result.out, nullptr, false);
+  EXPECT_EQ(j["function"], "calcparams_desoto");
+  EXPECT_TRUE(j["parameters"].contains("R_sh_ref"));
+  EXPECT_EQ(j["cec"]["Name"], "M1");
+  EXPECT_EQ(j["cec"]["Technology"], "Multi-c-Si");
+}
+
+}  // namespace
+}  // namespace lyrefit

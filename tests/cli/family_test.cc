@@ -1,0 +1,235 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kRtc = DataFolder("rtc_france");
+
+void ExpectRefused(const std::string& arguments, const std::string& complaint) {
+  const AppResult result = RunApp("fit " + arguments);
+  EXPECT_EQ(result.exit_code, 1) << arguments;
+  EXPECT_EQ(result.out, "") << arguments;
+  EXPECT_THAT(result.err, StartsWith("lyrefit: "));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(complaint)) << arguments;
+}
+
+TEST(FamilyFlags, OfASetNeedFamily) {
+  const TempFolder folder;
+  for (const std::string& flag :
+       {std::string("--shunt inverse"), std::string("--recombination"),
+        std::string("--weights isc"), std::string("--search-curves 4"),
+        std::string("--fit-curves 9"), std::string("--irradiance-offset"),
+        std::string("--temperature-offset"), std::string("--irradiance-accuracy 2%"),
+        std::string("--temperature-accuracy 1"), std::string("--free EgRef"),
+        std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-free-fits"),
+        "--csv " + folder.Path("x.csv"), "--pvlib " + folder.Path("x.json")}) {
+    ExpectRefused(kRtc + " " + flag,
+                  flag.substr(0, flag.find(' ')) + " is about a set of curves: it needs --family");
+  }
+}
+
+TEST(FamilyFlags, OfOneCurveAreRefusedWithFamily) {
+  for (const std::string flag :
+       {"--floor", "--bounds wide", "--loss huber", "--loss-scale 2", "--kernel portable",
+        "--curve 3", "--no-polish", "--temperature-C 30", "--irradiance-Wm2 800"}) {
+    ExpectRefused(kRtc + " --family desoto " + flag,
+                  flag.substr(0, flag.find(' ')) + " is for one curve, not for --family");
+  }
+  ExpectRefused(kRtc + " --family desoto --model auto", "--model auto is for one curve");
+  ExpectRefused(kRtc + " --family pvsyst --intervals profile", "symmetric intervals or none");
+}
+
+TEST(FamilyFlags, AreCheckedAgainstTheLaw) {
+  ExpectRefused(kRtc + " --family de_soto", "expected one of desoto, pvsyst, free, auto");
+  ExpectRefused(kRtc + " --family desoto --recombination", "belongs to the law pvsyst");
+  ExpectRefused(kRtc + " --family desoto --model td", "expected sd or dd");
+  ExpectRefused(kRtc + " --family pvsyst --model dd --pvlib -", "pvlib knows one diode");
+  ExpectRefused(kRtc + " --family desoto --shunt constant --pvlib -",
+                "pvlib's desoto knows the shunt law inverse only, not constant");
+  ExpectRefused(kRtc + " --family desoto --shunt exponential", "exponential");
+  ExpectRefused(kRtc + " --family auto --shunt inverse", "--shunt is what --family auto chooses");
+  ExpectRefused(kRtc + " --family auto --model dd", "--model is what --family auto chooses");
+  ExpectRefused(kRtc + " --family free --weights isc",
+                "--weights is about what curves share: --family free fits every curve on its own");
+}
+
+TEST(FamilyFlags, TakeNumbersInTheirRangesOnly) {
+  for (const char* text : {"'2 %%'", "-1", "60", "abc", "%"}) {
+    ExpectRefused(kRtc + " --family desoto --irradiance-accuracy " + text, "--irradiance-accuracy");
+  }
+  ExpectRefused(kRtc + " --family desoto --temperature-accuracy 99", "--temperature-accuracy");
+  ExpectRefused(kRtc + " --family desoto --folds -1", "--folds");
+  ExpectRefused(kRtc + " --family desoto --search-curves 1", "--search-curves");
+  ExpectRefused(kRtc + " --family desoto --bound Rs=1", "--bound: expected PARAMETER=LOWER:UPPER");
+  ExpectRefused(kRtc + " --family desoto --fix n", "--fix: expected PARAMETER=VALUE");
+}
+
+TEST(FamilyFlags, NameFilesThatCanBeWritten) {
+  const TempFolder folder;
+  ExpectRefused(kRtc + " --family desoto --csv " + folder.Path("no/x.csv"), "cannot write");
+  ExpectRefused(kRtc + " --family desoto --pvlib " + folder.Path("no/x.json"), "cannot write");
+  ExpectRefused(kRtc + " --family desoto --plot " + folder.Path("x.pdf"), ".svg or .png");
+  ExpectRefused(kRtc + " --family desoto --json - --pvlib -", "only one of --json");
+}
+
+TEST(FamilyVerb, SaysThatAFileIsMissing) {
+  ExpectRefused("no_such_set --family desoto", "no_such_set");
+}
+
+// One curve cannot tell what a law would need.
+TEST(FamilyVerb, RefusesASingleCurve) {
+  ExpectRefused(kRtc + " --family desoto", "one curve cannot tell");
+  ExpectRefused(kRtc + " --family pvsyst", "one curve cannot tell");
+}
+
+// The parameters of a small module.
+struct Truth {
+  double photocurrent = 5.0;
+  double saturation_current = 1.2e-9;
+  double n = 1.08;
+  double resistance_series = 0.25;
+  double resistance_shunt = 300;
+  double alpha = 0.0025;
+};
+
+// A folder of six curves of that module by De Soto's law, made by `lyrefit simulate`, each with its
+// sidecar.
+class FamilyVerbOnASet : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const double conditions[][2] = {{1000, 25}, {1000, 50}, {700, 25},
+                                    {700, 60},  {400, 25},  {250, 40}};
+    int number = 0;
+    for (const auto& [irradiance, temperature_C] : conditions) {
+      Simulate(++number, irradiance, temperature_C);
+    }
+  }
+
+  void Simulate(int number, double irradiance, double temperature_C) const {
+    const Truth truth;
+    const double k = 8.617333262e-5, reference = 298.15;
+    const double kelvin = temperature_C + 273.15;
+    const double gap = 1.121 * (1 - 0.0002677 * (kelvin - reference));
+    const double saturation = truth.saturation_current * std::pow(kelvin / reference, 3) *
+                              std::exp(1.121 / (k * reference) - gap / (k * kelvin));
+    const double light =
+        irradiance / 1000 * (truth.photocurrent + truth.alpha * (kelvin - reference));
+    std::ostringstream arguments;
+    arguments.precision(15);
+    arguments << "simulate --set Iph=" << light << " --set Is1=" << saturation
+              << " --set n1=" << truth.n << " --set Rs=" << truth.resistance_series
+              << " --set Rsh=" << truth.resistance_shunt * 1000 / irradiance
+              << " --cells 36 --points 30 --noise-A 0.001 --seed " << number << " --temperature-C "
+              << temperature_C << " --irradiance-Wm2 " << irradiance << " --out '"
+              << folder_.Path("set/c" + std::to_string(number) + ".csv") << "'";
+    std::filesystem::create_directories(folder_.Path("set"));
+    const AppResult result = RunApp(arguments.str());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+
+  std::string Set() const { return "'" + folder_.Path("set") + "'"; }
+
+  TempFolder folder_;
+};
+
+// Quick, for tests that look at something else.
+const std::string kQuick = " --folds 0 --no-free-fits --iterations 20 --population 15";
+
+TEST_F(FamilyVerbOnASet, FindsTheDeviceBehindTheCurves) {
+  const json j = FitJson(Set() + " --family desoto");
+  const Truth truth;
+  EXPECT_EQ(j["family"], "desoto");
+  EXPECT_EQ(j["cells_in_series"], 36);
+  EXPECT_EQ(j["curves"].size(), 6U);
+  const json& p = j["parameters"];
+  EXPECT_NEAR(p["I_L_ref"]["refined"].get<double>(), truth.photocurrent, 0.005);
+  EXPECT_NEAR(p["n"]["refined"].get<double>(), truth.n, 0.01);
+  EXPECT_NEAR(p["R_s"]["refined"].get<double>(), truth.resistance_series, 0.01);
+  EXPECT_NEAR(p["alpha_sc"]["refined"].get<double>(), truth.alpha, 3e-4);
+  EXPECT_NEAR(j["rmse"]["refined"]["solved_current_A"].get<double>(), 1e-3, 2e-4);
+  EXPECT_EQ(j["usable"], true);
+}
+
+TEST_F(FamilyVerbOnASet, PrintsTheReportAndWritesEveryFile) {
+  const std::string csv = folder_.Path("free.csv"), pvlib = folder_.Path("pvlib.json");
+  const std::string picture = folder_.Path("set.svg");
+  const AppResult result = RunApp("fit " + Set() + " --family desoto --folds 0 --csv '" + csv +
+                                  "' --pvlib '" + pvlib + "' --plot '" + picture + "'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("by the law of De Soto"));
+  EXPECT_THAT(result.out, HasSubstr("Shared parameters"));
+  const std::string rows = FileText(csv);
+  EXPECT_THAT(rows, StartsWith("Index,photocurrent,saturation_current,"));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 7);
+  EXPECT_TRUE(json::accept(FileText(pvlib)));
+  EXPECT_THAT(FileText(pvlib), HasSubstr("I_L_ref"));
+  EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
+}
+
+TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
+  const json j = FitJson(Set() + " --family free");
+  EXPECT_EQ(j["family"], "free");
+  ASSERT_EQ(j["curves"].size(), 6U);
+  for (const json& curve : j["curves"]) {
+    EXPECT_NEAR(curve["free_rmse"]["solved_current_A"].get<double>(), 1e-3, 4e-4);
+    EXPECT_EQ(curve["free_parameters"].size(), 5U);
+  }
+  const AppResult text = RunApp("fit " + Set() + " --family free");
+  EXPECT_THAT(text.out, HasSubstr("Curves, each fitted on its own"));
+}
+
+TEST_F(FamilyVerbOnASet, LeavesOutHoldsAndFrees) {
+  const json j =
+      FitJson(Set() + " --family desoto --leave-out c2,c5 --fix n=1.08 --free dEgdT" + kQuick);
+  int left_out = 0;
+  for (const json& curve : j["curves"]) left_out += curve["role"] == "left-out";
+  EXPECT_EQ(left_out, 2);
+  EXPECT_EQ(j["parameters"]["n"]["fixed"], true);
+  EXPECT_EQ(j["parameters"]["dEgdT"]["fixed"], false);
+  const AppResult unknown = RunApp("fit " + Set() + " --family desoto --leave-out c77");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("c77"));
+}
+
+TEST_F(FamilyVerbOnASet, GivesTheSameTwice) {
+  json first = FitJson(Set() + " --family pvsyst --seed 7 --threads 1" + kQuick);
+  json second = FitJson(Set() + " --family pvsyst --seed 7 --threads 2" + kQuick);
+  for (json* j : {&first, &second}) {
+    RemoveSeconds(j);
+    j->erase("options");
+  }
+  EXPECT_EQ(first, second);
+}
+
+TEST_F(FamilyVerbOnASet, IsBriefOnRequest) {
+  const AppResult result = RunApp("fit " + Set() + " --family desoto --brief" + kQuick);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("set: desoto sd, 6 fitted"));
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
+}
+
+TEST_F(FamilyVerbOnASet, IsNamedWhereOneCurveWasExpected) {
+  ExpectRefused(Set(),
+                "this is a set of 6 curves: give one of its files, or fit all of them with "
+                "--family desoto|pvsyst|free|auto");
+  const std::string table = folder_.Write(
+      "two.csv",
+      "curve,voltage_V,current_A,irradiance_Wm2\n1,0,1,1000\n1,0.3,0.9,1000\n1,0.5,0.1,1000\n"
+      "2,0,0.5,500\n2,0.3,0.45,500\n2,0.48,0.05,500\n");
+  ExpectRefused("'" + table + "'", "this is a set of 2 curves: choose one with --curve INDEX, or");
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,40 @@
+#include "lyrefit/report/data_sheet_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "lyrefit/report/text_layout.h"
+#include "sample_data_sheet.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(DataSheetText, TellsParametersChecksAndWarnings) {
+  const std::string text = DataSheetText(SampleDataSheetFit());
+  EXPECT_THAT(text, HasSubstr("single-diode device by the law of De Soto behind a data sheet"));
+  EXPECT_THAT(text, HasSubstr("36 cells in series"));
+  EXPECT_THAT(text, HasSubstr("infinite"));
+  EXPECT_THAT(text, HasSubstr("0.3700 .. 0.4100"));
+  EXPECT_THAT(text, HasSubstr("+0.1316 %  V/K"));
+  EXPECT_THAT(text, HasSubstr("no shunt is needed"));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth)) << line;
+  }
+}
+
+TEST(DataSheetText, LeavesOutRangesOfExactValues) {
+  DataSheetFit fit = SampleDataSheetFit();
+  fit.ranges.clear();
+  fit.warnings.clear();
+  EXPECT_THAT(DataSheetText(fit), Not(HasSubstr("rounding")));
+  EXPECT_THAT(DataSheetText(fit), Not(HasSubstr("Warnings")));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,107 @@
+#include "lyrefit/report/family_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sample_family.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using Set = std::set<std::string>;
+
+Set Keys(const json& j) {
+  Set keys;
+  for (const auto& [key, value] : j.items()) keys.insert(key);
+  return keys;
+}
+
+const Set kPair = {"measured_current_A", "solved_current_A"};
+const Set kInterval = {"value", "standard_error", "low_95", "high_95"};
+
+TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
+  const json j = json::parse(FamilyJson(MakeSampleFamily(8).report));
+  EXPECT_EQ(Keys(j),
+            (Set{"lyrefit_version", "set",           "family",          "model",
+                 "shunt",           "recombination", "cells_in_series", "objective",
+                 "constants",       "parameters",    "sensor_offsets",  "temperature_coefficients",
+                 "reference",       "rmse",          "noise_A",         "held_out",
+                 "without_odd",     "candidates",    "correlations",    "search",
+                 "refine",          "seconds",       "free_fits",       "options",
+                 "rejected",        "assumptions",   "warnings",        "interrupted",
+                 "usable",          "curves"}));
+  EXPECT_EQ(Keys(j["set"]), (Set{"name", "source"}));
+  EXPECT_EQ(Keys(j["parameters"]),
+            (Set{"I_L_ref", "I_o_ref", "n", "R_s", "R_sh_ref", "alpha_sc", "EgRef", "dEgdT"}));
+  EXPECT_EQ(Keys(j["parameters"]["R_s"]),
+            (Set{"symbol", "unit", "searched", "refined", "standard_error", "low_95", "high_95",
+                 "interval", "at_bound", "bound_side", "identifiable", "reason", "fixed", "lower",
+                 "upper", "jackknife"}));
+  EXPECT_EQ(Keys(j["sensor_offsets"]), (Set{"irradiance_Wm2", "temperature_K"}));
+  EXPECT_EQ(Keys(j["rmse"]), (Set{"random_baseline", "searched", "searched_all", "refined"}));
+  EXPECT_EQ(Keys(j["rmse"]["refined"]), (Set{"measured_current_A", "solved_current_A", "curves"}));
+  EXPECT_EQ(Keys(j["held_out"]),
+            (Set{"how", "curves", "rmse", "median_solved_current_A", "largest_solved_current_A",
+                 "largest_id", "median_free_solved_current_A"}));
+  EXPECT_EQ(Keys(j["without_odd"]), (Set{"ids", "rmse", "parameters"}));
+  EXPECT_EQ(Keys(j["candidates"][0]),
+            (Set{"law", "model", "rmse", "held_out_solved_current_A",
+                 "held_out_median_solved_current_A", "free_parameters", "chosen"}));
+  EXPECT_EQ(Keys(j["temperature_coefficients"]["alpha_sc"]), (Set{"unit", "interval"}));
+  EXPECT_EQ(Keys(j["rejected"][0]), (Set{"id", "error"}));
+  EXPECT_EQ(Keys(j["refine"]), (Set{"termination", "projected_gradient"}));
+}
+
+TEST(FamilyJson, HoldsEveryCurve) {
+  const json j = json::parse(FamilyJson(MakeSampleFamily(60).report));
+  ASSERT_EQ(j["curves"].size(), 60U);
+  const json& curve = j["curves"][2];
+  EXPECT_EQ(Keys(curve),
+            (Set{"id", "role", "reason", "odd", "points", "irradiance_Wm2", "irradiance_known",
+                 "irradiance_offset_Wm2", "temperature_C", "temperature_known",
+                 "temperature_offset_K", "short_circuit_current_A", "parameters", "rmse",
+                 "free_parameters", "free_rmse", "mean_residual_A", "residual_A"}));
+  EXPECT_EQ(curve["odd"], true);
+  EXPECT_EQ(curve["residual_A"].size(), 25U);
+  EXPECT_EQ(Keys(curve["rmse"]), kPair);
+  EXPECT_EQ(Keys(curve["irradiance_offset_Wm2"]), kInterval);
+  EXPECT_TRUE(curve["temperature_offset_K"].is_null());
+  EXPECT_EQ(Keys(curve["free_parameters"]), (Set{"photocurrent", "saturation_current", "n",
+                                                 "resistance_series", "resistance_shunt"}));
+  EXPECT_EQ(j["curves"][0]["role"], "held-out");
+  EXPECT_EQ(j["curves"][1]["reason"], "taken in the dark");
+}
+
+TEST(FamilyJson, EchoesTheSearchAndTheOptions) {
+  const json j = json::parse(FamilyJson(MakeSampleFamily(8).report));
+  EXPECT_EQ(j["search"]["seed"], 0);
+  EXPECT_EQ(j["search"]["curves"], (json{"sweep-3", "sweep-5"}));
+  EXPECT_EQ(j["options"][0]["name"], "folds");
+  EXPECT_EQ(j["rmse"]["searched"]["curves"], "search");
+  EXPECT_DOUBLE_EQ(j["rmse"]["refined"]["measured_current_A"].get<double>(), 1.534e-3);
+  EXPECT_EQ(Keys(j["parameters"]["n"]["jackknife"]), kInterval);
+  EXPECT_TRUE(j["parameters"]["dEgdT"]["jackknife"].is_null());
+}
+
+TEST(FamilyJson, HoldsCurvesFittedOneByOne) {
+  const json j = json::parse(FamilyJson(MakeFreeSample(8).report));
+  EXPECT_EQ(j["family"], "free");
+  EXPECT_TRUE(j["parameters"].empty());
+  EXPECT_TRUE(j["reference"].is_null());
+  EXPECT_TRUE(j["held_out"].is_null());
+  EXPECT_TRUE(j["curves"][0]["parameters"].is_null());
+  EXPECT_TRUE(j["curves"][0]["rmse"]["solved_current_A"].is_null());
+  EXPECT_NEAR(j["curves"][0]["free_parameters"]["resistance_series"].get<double>(), 0.3162, 1e-12);
+}
+
+TEST(FamilyJson, TakesNamesThatAreNotUtf8) {
+  FamilyReport report = MakeSampleFamily(8).report;
+  report.curves[3].id = "caf\xe9";
+  EXPECT_TRUE(json::accept(FamilyJson(report)));
+}
+
+}  // namespace
+}  // namespace lyrefit

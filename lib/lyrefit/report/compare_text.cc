@@ -167,6 +167,7 @@ std::string CompareText(const Comparison& comparison) {
                     options.runs, options.runs, std::exp2(1.0 - options.runs)));
   }
   text += Field("time", Duration(comparison.seconds));
+  text += OverviewSection(comparison);
   for (const ProblemResult& problem : comparison.problems) text += ProblemText(comparison, problem);
   return text;
 }

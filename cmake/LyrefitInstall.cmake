@@ -18,8 +18,10 @@ set(LYREFIT_PUBLIC_HEADERS
   base/random.h
   base/version.h
   certify/certify.h
+  curve/curve_set.h
   curve/iv_curve.h
   curve/key_points.h
+  curve/nearest_curve.h
   curve/read_curve.h
   curve/write_curve.h
   device/current.h
@@ -29,6 +31,9 @@ set(LYREFIT_PUBLIC_HEADERS
   device/parameter.h
   device/solve.h
   device/term.h
+  device/translation.h
+  family/family_report.h
+  family/fit_family.h
   fit/bounds.h
   fit/fit.h
   fit/fit_report.h
@@ -44,14 +49,18 @@ set(LYREFIT_PUBLIC_HEADERS
   report/compare_json.h
   report/compare_plot.h
   report/compare_text.h
+  report/coverage_text.h
   report/json_report.h
   report/plot.h
   report/text_report.h
+  report/truth_text.h
   search/search.h
   study/audit.h
   study/compare.h
+  study/coverage.h
   study/rank_tests.h
-  study/read_audit_rows.h)
+  study/read_audit_rows.h
+  study/truth.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})

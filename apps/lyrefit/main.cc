@@ -10,6 +10,7 @@
 #include "budget_command.h"
 #include "certify_command.h"
 #include "compare_command.h"
+#include "coverage_command.h"
 #include "fit_command.h"
 #include "lyrefit/base/version.h"
 #include "output.h"
@@ -71,10 +72,11 @@ int Main(int argc, char** argv) {
   int verbosity = 0;
   app.add_flag("-v,--v,--verbose", verbosity, "log what happens inside; twice for more");
   const Verb verbs[] = {
-      MakeVerb<FitCommand>(&app),     MakeVerb<SimulateCommand>(&app),
-      MakeVerb<CertifyCommand>(&app), MakeVerb<CompareCommand>(&app),
-      MakeVerb<BudgetCommand>(&app),  MakeVerb<SensitivityCommand>(&app),
-      MakeVerb<AuditCommand>(&app),   MakeVerb<ReproduceCommand>(&app),
+      MakeVerb<FitCommand>(&app),      MakeVerb<SimulateCommand>(&app),
+      MakeVerb<CertifyCommand>(&app),  MakeVerb<CompareCommand>(&app),
+      MakeVerb<BudgetCommand>(&app),   MakeVerb<SensitivityCommand>(&app),
+      MakeVerb<AuditCommand>(&app),    MakeVerb<ReproduceCommand>(&app),
+      MakeVerb<CoverageCommand>(&app),
   };
   try {
     app.parse(argc, argv);

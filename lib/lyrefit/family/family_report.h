@@ -52,7 +52,8 @@ struct FamilyCurve {
   double mean_residual_A = kUnknown;  // solved-current
   std::vector<double> residual_A;     // model - measured, solved-current
   // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
-  std::vector<double> free_parameters;  // empty: not done
+  std::vector<double> free_parameters;   // empty: not done
+  std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
   RmsePair free_rmse;
   bool odd = false;  // does not belong to the device of the others
 };

@@ -21,6 +21,7 @@
 // other, Audit checks published parameters.
 
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"

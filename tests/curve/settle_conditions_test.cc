@@ -18,6 +18,8 @@ TEST(SettleConditionsTest, SaysEverythingItHasToAssume) {
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
   EXPECT_THAT(curve.assumptions,
               ElementsAre(kCellsAssumed, kTemperatureAssumed, kIrradianceAssumed));
+  EXPECT_FALSE(curve.temperature_known);
+  EXPECT_FALSE(curve.irradiance_known);
 }
 
 TEST(SettleConditionsTest, TakesTheSidecarAsItIs) {

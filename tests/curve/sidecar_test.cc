@@ -17,7 +17,7 @@ TEST(ReadSidecarTest, ReadsEveryKey) {
   const auto sidecar = ReadSidecar(folder.Write("a.json", R"({
     "name": "m1", "technology": "mono-Si", "cells_in_series": 60, "strings_in_parallel": 2,
     "nominal_temperature_C": 30, "nominal_irradiance_Wm2": 800, "bypass_diodes": 3,
-    "bandgap_eV": 1.121, "isc_tempco_per_K": -0.0005,
+    "bandgap_eV": 1.121, "isc_tempco_per_K": -0.0005, "isc_tempco_A_per_K": 0.004,
     "current_noise": {"constant_A": 0.001, "relative": 0.0002}, "current_resolution_A": 0.01,
     "anything": {"else": [1, 2]}})"),
                                    kLimit);
@@ -31,6 +31,7 @@ TEST(ReadSidecarTest, ReadsEveryKey) {
   EXPECT_EQ(sidecar->notes.bypass_diodes, 3);
   EXPECT_EQ(sidecar->notes.bandgap_eV, 1.121);
   EXPECT_EQ(sidecar->notes.isc_tempco_per_K, -0.0005);
+  EXPECT_EQ(sidecar->notes.isc_tempco_A_per_K, 0.004);
   EXPECT_EQ(sidecar->notes.current_noise_constant_A, 0.001);
   EXPECT_EQ(sidecar->notes.current_noise_relative, 0.0002);
   EXPECT_EQ(sidecar->notes.current_resolution_A, 0.01);
@@ -65,6 +66,34 @@ TEST(ReadSidecarTest, VariedIsNotOneValue) {
       ReadSidecar(folder.Write("a.json", R"({"irradiance_W_m2": "varied"})"), kLimit);
   ASSERT_TRUE(sidecar);
   EXPECT_FALSE(sidecar->irradiance_W_m2);
+}
+
+TEST(ReadSidecarTest, InASetRemarksStateNoValue) {
+  const TempFolder folder;
+  const std::string path =
+      folder.Write("a.json", R"({"cell_temperature_C": "per curve", "nominal_temperature_C": 45,
+                                 "irradiance_W_m2": "reference cell"})");
+  EXPECT_FALSE(ReadSidecar(path, kLimit));
+  const auto sidecar = ReadSidecar(path, kLimit, SidecarOf::kSet);
+  ASSERT_TRUE(sidecar) << sidecar.error().ToString();
+  EXPECT_EQ(sidecar->temperature_C, 45);
+  EXPECT_FALSE(sidecar->irradiance_W_m2);
+}
+
+TEST(MergeTest, WhatTheFirstDoesNotSayIsTakenFromTheSecond) {
+  Sidecar own;
+  own.cells_in_series = 36;
+  Sidecar common;
+  common.cells_in_series = 60;
+  common.temperature_C = 45;
+  common.notes.technology = "CdTe";
+  common.notes.isc_tempco_A_per_K = 0.001;
+  const Sidecar merged = Merge(own, common);
+  EXPECT_EQ(merged.cells_in_series, 36);
+  EXPECT_EQ(merged.temperature_C, 45);
+  EXPECT_EQ(merged.notes.technology, "CdTe");
+  EXPECT_EQ(merged.notes.isc_tempco_A_per_K, 0.001);
+  EXPECT_FALSE(merged.irradiance_W_m2);
 }
 
 TEST(ReadSidecarTest, ErrorsNameFileKeyAndPlace) {

@@ -29,8 +29,7 @@ struct CurveSet {
 //   - a folder that holds curves.csv (columns curve, voltage, current) and, beside it, index.csv
 //     with one row a curve (curve, irradiance, temperature, other columns are left alone) and
 //     dataset.json (a sidecar with what holds for all curves),
-//   - one table with a `curve` or `sweep` column, conditions per row or in a sidecar NAME.json or
-//   in
+//   - one table with a `curve` or `sweep` column, conditions per row, in a sidecar NAME.json or in
 //     an index file NAME-index.csv beside it,
 //   - a folder of tables, one curve each, each with its own sidecar or with a row of index.csv
 //     (column `curve` or `file`),

@@ -29,6 +29,7 @@ struct DeviceNotes {
   std::optional<int> bypass_diodes;
   std::optional<double> bandgap_eV;
   std::optional<double> isc_tempco_per_K;          // relative, per kelvin
+  std::optional<double> isc_tempco_A_per_K;        // absolute, where only that is stated
   std::optional<double> current_noise_constant_A;  // standard deviation, constant part
   std::optional<double> current_noise_relative;    // standard deviation, part of |current|
   std::optional<double> current_resolution_A;      // step of the instrument

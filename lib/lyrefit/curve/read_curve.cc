@@ -2,47 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
-#include "lyrefit/base/file.h"
-#include "lyrefit/curve/current_sign.h"
-#include "lyrefit/curve/read_table.h"
-#include "lyrefit/curve/select_sweep.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/sidecar.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsJson(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension == ".json";
-}
-
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error) && !fs::is_directory(path, error);
-}
-
-bool IsFolder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
-// "curve.csv" is named after its folder.
-std::string NameOf(const fs::path& path) {
-  std::error_code error;
-  const fs::path absolute = fs::absolute(path, error);
-  const std::string folder = absolute.parent_path().filename().string();
-  return path.filename() == "curve.csv" && !folder.empty() ? folder : path.stem().string();
-}
 
 Expected<IvCurve> ReadFromIvCurvesJson(const std::string& path, const ReadOptions& options) {
   const fs::path table = fs::path(path).replace_extension(".csv");
@@ -74,27 +44,13 @@ Expected<IvCurve> ReadFromIvCurvesJson(const std::string& path, const ReadOption
 }
 
 Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& options) {
-  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  Expected<Table> table = ReadTable(*text, path);
-  if (!table) return tl::unexpected(table.error());
-  IvCurve curve = std::move(table->curve);
-  curve.source = path;
-  curve.name = NameOf(path);
-  if (auto selected = SelectSweep(options.curve, table->holds_curves, &curve); !selected) {
-    return Fail(selected.error().message, path);
-  }
-  TurnLoadSign(&curve);
-  Sidecar sidecar;
-  const fs::path sidecar_path = fs::path(path).replace_extension(".json");
-  if (IsFile(sidecar_path)) {
-    Expected<Sidecar> read = ReadSidecar(sidecar_path.string(), options.largest_file_bytes);
-    if (!read) return tl::unexpected(read.error());
-    sidecar = std::move(*read);
-  }
-  SettleConditions(sidecar, &curve);
-  if (options.curve) curve.name += "_" + std::to_string(*options.curve);
-  if (auto valid = Validate(curve); !valid) return Fail(valid.error().message, path);
+  Expected<IvCurve> curve = ReadTableCurve(path, options);
+  if (!curve) return curve;
+  const Expected<Sidecar> sidecar = ReadSidecarBeside(path, options);
+  if (!sidecar) return tl::unexpected(sidecar.error());
+  SettleConditions(*sidecar, &*curve);
+  if (options.curve) curve->name += "_" + std::to_string(*options.curve);
+  if (auto valid = Validate(*curve); !valid) return Fail(valid.error().message, path);
   return curve;
 }
 

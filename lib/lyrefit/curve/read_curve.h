@@ -29,10 +29,10 @@ struct ReadOptions {
 //   - an ivcurves JSON file (github.com/cwhanse/ivcurves: numbers may be strings, kelvin),
 //   - a folder that holds curve.csv.
 // A sidecar NAME.json beside NAME.csv gives cells_in_series, nominal_temperature_C,
-// nominal_irradiance_Wm2, bypass_diodes, technology, bandgap_eV, isc_tempco_per_K, current_noise
-// {constant_A, relative}, current_resolution_A. Whatever was not said is a sentence in
-// `assumptions`. Every point in every quadrant is kept, in file order. Errors carry file, line and
-// column.
+// nominal_irradiance_Wm2, bypass_diodes, technology, bandgap_eV, isc_tempco_per_K,
+// isc_tempco_A_per_K, current_noise {constant_A, relative}, current_resolution_A. Whatever was not
+// said is a sentence in `assumptions`. Every point in every quadrant is kept, in file order. Errors
+// carry file, line and column.
 Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options = {});
 
 // All curves of an ivcurves JSON file, in file order.

@@ -1,3 +1,5 @@
+#include "lyrefit/curve/read_ivcurves_json.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/settle_conditions.h"
 
 namespace lyrefit {
@@ -22,20 +23,23 @@ class IvCurvesReader {
   IvCurvesReader(const json& document, const std::string& path)
       : document_(document), path_(path) {}
 
-  Expected<std::vector<IvCurve>> Read() {
+  Expected<std::vector<IvCurvesEntry>> Read() {
     const auto list = document_.is_object() ? document_.find("IV Curves") : document_.end();
     if (!document_.is_object() || list == document_.end()) {
       return Refuse("an ivcurves file: a JSON object with the key \"IV Curves\"");
     }
     if (!list->is_array() || list->empty()) return Refuse("a list of curves in \"IV Curves\"");
-    std::vector<IvCurve> curves;
+    std::vector<IvCurvesEntry> entries;
     for (std::size_t i = 0; i < list->size(); ++i) {
       place_ = fmt::format("\"IV Curves\"[{}]", i);
+      id_ = place_;
       Expected<IvCurve> curve = ReadOne((*list)[i]);
-      if (!curve) return tl::unexpected(curve.error());
-      curves.push_back(std::move(*curve));
+      if (!ids_.insert(id_).second) {
+        return RefuseAt("Index", fmt::format("a number not used before (it is {})", id_));
+      }
+      entries.push_back({id_, std::move(curve)});
     }
-    return curves;
+    return entries;
   }
 
  private:
@@ -74,10 +78,8 @@ class IvCurvesReader {
     if (!index || *index != std::floor(*index) || std::abs(*index) > 1e9) {
       return RefuseAt("Index", "a whole number");
     }
-    if (!indices_.insert(static_cast<int>(*index)).second) {
-      return RefuseAt("Index", fmt::format("a number not used before (it is {})", *index));
-    }
-    curve->name = fmt::format("{}_{}", std::filesystem::path(path_).stem().string(), *index);
+    id_ = std::to_string(static_cast<int>(*index));
+    curve->name = fmt::format("{}_{}", std::filesystem::path(path_).stem().string(), id_);
     return {};
   }
 
@@ -117,6 +119,7 @@ class IvCurvesReader {
     const json temperature = Setting(entry, "Temperature");
     if (temperature.is_null()) {
       curve->assumptions.push_back(kTemperatureAssumed);
+      curve->temperature_known = false;
     } else {
       const auto kelvin = NumberOrText(temperature);
       if (!kelvin || *kelvin < 173 || *kelvin > 474) {
@@ -127,6 +130,7 @@ class IvCurvesReader {
     const json irradiance = Setting(entry, "Irradiance");
     if (irradiance.is_null()) {
       curve->assumptions.push_back(kIrradianceAssumed);
+      curve->irradiance_known = false;
     } else {
       const auto value = NumberOrText(irradiance);
       if (!value || *value < 0) return RefuseAt("Irradiance", "W/m2 from 0 up");
@@ -140,18 +144,31 @@ class IvCurvesReader {
   const json& document_;
   const std::string& path_;
   std::string place_;
-  std::set<int> indices_;
+  std::string id_;
+  std::set<std::string> ids_;
 };
 
 }  // namespace
 
-Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
-                                                const ReadOptions& options) {
+Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const std::string& path,
+                                                         const ReadOptions& options) {
   const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
   if (!text) return tl::unexpected(text.error());
   const Expected<json> document = ParseJson(*text, path);
   if (!document) return tl::unexpected(document.error());
   return IvCurvesReader(*document, path).Read();
+}
+
+Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
+                                                const ReadOptions& options) {
+  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(path, options);
+  if (!entries) return tl::unexpected(entries.error());
+  std::vector<IvCurve> curves;
+  for (IvCurvesEntry& entry : *entries) {
+    if (!entry.curve) return tl::unexpected(entry.curve.error());
+    curves.push_back(std::move(*entry.curve));
+  }
+  return curves;
 }
 
 }  // namespace lyrefit

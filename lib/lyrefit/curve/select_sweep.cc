@@ -88,6 +88,10 @@ void KeepSweep(int wanted, IvCurve* curve) {
 
 }  // namespace
 
+bool SweepsDifferInConditions(const IvCurve& curve) {
+  return !curve.sweep.empty() && !SameConditions(Summarise(curve));
+}
+
 Expected<void> SelectSweep(std::optional<int> wanted, bool holds_curves, IvCurve* curve) {
   const char* kind = holds_curves ? "curves" : "sweeps";
   if (curve->sweep.empty()) {

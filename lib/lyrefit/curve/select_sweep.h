@@ -13,4 +13,7 @@ namespace lyrefit {
 // never do.
 Expected<void> SelectSweep(std::optional<int> wanted, bool holds_curves, IvCurve* curve);
 
+// Whether the sweeps of `curve` differ in irradiance or temperature by more than that.
+bool SweepsDifferInConditions(const IvCurve& curve);
+
 }  // namespace lyrefit

@@ -66,6 +66,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
       Settle({"cell temperature", "C", sidecar.temperature_C, curve->temperature_C, 1},
              &curve->assumptions);
   if (!temperature_C) curve->assumptions.push_back(kTemperatureAssumed);
+  curve->temperature_known = temperature_C.has_value();
   conditions.cell_temperature_K = temperature_C.value_or(25) + kZeroCelsius_K;
 
   double brightest = sidecar.irradiance_W_m2.value_or(0);
@@ -75,6 +76,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
       {"irradiance", "W/m2", sidecar.irradiance_W_m2, curve->irradiance_W_m2, 0.02 * brightest},
       &curve->assumptions);
   if (!irradiance) curve->assumptions.push_back(kIrradianceAssumed);
+  curve->irradiance_known = irradiance.has_value();
   // A sensor in the dark may show a little less than nothing.
   conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
 }

@@ -18,8 +18,17 @@ struct Sidecar {
   DeviceNotes notes;
 };
 
+enum class SidecarOf {
+  kCurve,
+  kSet,  // temperature and irradiance may be remarks ("per curve"), which state no value
+};
+
 // Reads the sidecar in `path`. Keys as ReadCurve lists them; cell_temperature_C and irradiance_W_m2
 // are accepted too and go before the nominal values. Unknown keys are left alone.
-Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes);
+Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
+                              SidecarOf of = SidecarOf::kCurve);
+
+// What `own` does not say is taken from `common`.
+Sidecar Merge(Sidecar own, const Sidecar& common);
 
 }  // namespace lyrefit

@@ -27,6 +27,7 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
   add("bypass_diodes", notes.bypass_diodes);
   add("bandgap_eV", notes.bandgap_eV);
   add("isc_tempco_per_K", notes.isc_tempco_per_K);
+  add("isc_tempco_A_per_K", notes.isc_tempco_A_per_K);
   if (notes.current_noise_constant_A) {
     (*sidecar)["current_noise"]["constant_A"] = *notes.current_noise_constant_A;
   }

@@ -1,0 +1,187 @@
+#include "lyrefit/curve/curve_index.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/settle_conditions.h"
+#include "lyrefit/curve/table_curve.h"
+#include "lyrefit/curve/table_header.h"
+#include "lyrefit/curve/table_layout.h"
+#include "lyrefit/curve/table_lines.h"
+#include "lyrefit/curve/table_row.h"
+
+namespace lyrefit {
+namespace {
+
+struct IndexLayout {
+  char delimiter = ',';
+  std::vector<Column> columns;
+  int id = kNoColumn;
+  int irradiance = kNoColumn;
+  int temperature = kNoColumn;
+};
+
+std::string LowerCase(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool Contains(const std::string& text, std::string_view part) {
+  return LowerCase(text).find(part) != std::string::npos;
+}
+
+// Beside a column `file` one named curve may be a mere count.
+int FindId(const std::vector<Column>& columns, IndexIds ids) {
+  int found = kNoColumn;
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    if (ids == IndexIds::kFiles && LowerCase(columns[i].label) == "file") return i;
+    const bool numbers =
+        columns[i].kind == ColumnKind::kCurve || columns[i].kind == ColumnKind::kSweep;
+    if (numbers && found == kNoColumn) found = i;
+  }
+  return found;
+}
+
+// The first column of the kind that can be used; one whose label holds `lesser` only without
+// others.
+int FindCondition(const std::vector<Column>& columns, ColumnKind kind, std::string_view lesser) {
+  int found = kNoColumn;
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    if (columns[i].kind != kind) continue;
+    const bool better = found == kNoColumn ||
+                        (!columns[found].refusal.empty() && columns[i].refusal.empty()) ||
+                        (Contains(columns[found].label, lesser) &&
+                         !Contains(columns[i].label, lesser) && columns[i].refusal.empty());
+    if (better) found = i;
+  }
+  return found;
+}
+
+Expected<IndexLayout> FindIndexLayout(std::string_view header, int line, const std::string& path,
+                                      IndexIds ids) {
+  for (const char delimiter : kDelimiters) {
+    const auto fields = SplitFields(header, delimiter);
+    if (!fields) continue;
+    IndexLayout layout;
+    layout.delimiter = delimiter;
+    layout.columns = RecogniseAll(*fields);
+    layout.id = FindId(layout.columns, ids);
+    if (layout.id == kNoColumn) continue;
+    layout.irradiance = FindCondition(layout.columns, ColumnKind::kIrradiance, "module");
+    layout.temperature = FindCondition(layout.columns, ColumnKind::kTemperature, "module");
+    for (const int used : {layout.irradiance, layout.temperature}) {
+      if (used == kNoColumn || layout.columns[used].refusal.empty()) continue;
+      return Fail(layout.columns[used].refusal, path, line, FieldColumn(header, delimiter, used));
+    }
+    return layout;
+  }
+  return Fail(fmt::format("expected a header with a column curve{}, found {}",
+                          ids == IndexIds::kFiles ? " or file" : "", Quoted(header)),
+              path, line, 1);
+}
+
+class IndexReader {
+ public:
+  IndexReader(const IndexLayout& layout, const std::string& path, IndexIds ids)
+      : layout_(layout), ids_(ids), row_(layout.columns, layout.delimiter, path) {}
+
+  Expected<void> Read(std::string_view line, int number) {
+    if (auto taken = row_.Take(line, number); !taken) return taken;
+    const Expected<std::string> id = Id();
+    if (!id) return tl::unexpected(id.error());
+    IndexRow row;
+    row.missing =
+        row_.Refuse(fmt::format("expected rows of curves that are there, found one of curve {}",
+                                Quoted(*id)),
+                    layout_.id)
+            .value();
+    const auto irradiance = Number(layout_.irradiance);
+    if (!irradiance) return tl::unexpected(irradiance.error());
+    row.irradiance_W_m2 = *irradiance;
+    if (irradiance->value_or(0) < -kLargestDarkOffset_W_m2) {
+      return row_.RefuseField(layout_.irradiance, "an irradiance from 0 W/m2 up");
+    }
+    const auto temperature = Number(layout_.temperature);
+    if (!temperature) return tl::unexpected(temperature.error());
+    row.temperature_C = *temperature;
+    if (!index_.rows.try_emplace(*id, std::move(row)).second) {
+      return row_.Refuse(
+          fmt::format("expected one row a curve, found a second one of curve {}", Quoted(*id)),
+          layout_.id);
+    }
+    return {};
+  }
+
+  CurveIndex Finish() {
+    index_.states_irradiance = layout_.irradiance != kNoColumn;
+    index_.states_temperature = layout_.temperature != kNoColumn;
+    for (const int used : {layout_.irradiance, layout_.temperature}) {
+      if (used == kNoColumn) continue;
+      const std::string& label = layout_.columns[used].label;
+      if (layout_.columns[used].offset != 0) {
+        index_.assumptions.push_back(fmt::format(
+            "column {} of the index converted from kelvin to degrees Celsius", Quoted(label)));
+      }
+      if (Contains(label, "module") && used == layout_.temperature) {
+        index_.assumptions.push_back(fmt::format(
+            "column {} of the index taken as the temperature of the cells", Quoted(label)));
+      }
+    }
+    return std::move(index_);
+  }
+
+ private:
+  Expected<std::string> Id() {
+    const std::string_view text = row_[layout_.id];
+    if (text.empty()) return row_.RefuseField(layout_.id, "the id of a curve");
+    if (ids_ == IndexIds::kNumbers) {
+      const Expected<int> number = row_.WholeNumber(layout_.id);
+      if (!number) return tl::unexpected(number.error());
+      return std::to_string(*number);
+    }
+    const std::filesystem::path file{std::string(text)};
+    return IsTable(file) ? file.stem().string() : std::string(text);
+  }
+
+  Expected<std::optional<double>> Number(int field) {
+    if (field == kNoColumn || row_[field].empty()) return std::optional<double>();
+    const Expected<double> value = row_.Value(field);
+    if (!value) return tl::unexpected(value.error());
+    return std::optional<double>(*value);
+  }
+
+  const IndexLayout& layout_;
+  IndexIds ids_;
+  TableRow row_;
+  CurveIndex index_;
+};
+
+}  // namespace
+
+Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
+                                    const ReadOptions& options) {
+  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+  if (!text) return tl::unexpected(text.error());
+  if (auto checked = CheckUtf8(*text, path); !checked) return tl::unexpected(checked.error());
+  LineReader lines(*text);
+  std::string_view line;
+  if (!lines.NextContent(&line)) {
+    return Fail("the file holds no data, only blank lines and comments", path);
+  }
+  const Expected<IndexLayout> layout = FindIndexLayout(line, lines.number(), path, ids);
+  if (!layout) return tl::unexpected(layout.error());
+  IndexReader reader(*layout, path, ids);
+  while (lines.NextContent(&line)) {
+    if (auto read = reader.Read(line, lines.number()); !read) return tl::unexpected(read.error());
+  }
+  return reader.Finish();
+}
+
+}  // namespace lyrefit

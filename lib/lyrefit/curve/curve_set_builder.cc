@@ -1,0 +1,141 @@
+#include "lyrefit/curve/curve_set_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "lyrefit/curve/settle_conditions.h"
+#include "lyrefit/curve/table_curve.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<void> CheckIrradiance(const std::vector<double>& column) {
+  if (column.empty()) return {};
+  const double mean =
+      std::accumulate(column.begin(), column.end(), 0.0) / static_cast<double>(column.size());
+  if (mean >= -kLargestDarkOffset_W_m2) return {};
+  return Fail(
+      fmt::format("expected an irradiance from 0 W/m2 up, found a mean of {:.6g} W/m2", mean));
+}
+
+void SayWhereTheyDiffer(const char* what, const char* unit, const std::optional<double>& own,
+                        const std::optional<double>& index, double tolerance, IvCurve* curve) {
+  if (!own || !index || std::abs(*own - *index) <= tolerance) return;
+  curve->assumptions.push_back(
+      fmt::format("the {} in the index ({:.6g} {}) differs from the one in the file beside the "
+                  "curve ({:.6g} {}): the latter counts",
+                  what, *index, unit, *own, unit));
+}
+
+// Moves the sentences that every curve has to the set.
+void GatherAssumptions(CurveSet* set) {
+  std::map<std::string, std::size_t> curves_saying;
+  for (const IvCurve& curve : set->curves) {
+    const std::set<std::string> sentences(curve.assumptions.begin(), curve.assumptions.end());
+    for (const std::string& sentence : sentences) ++curves_saying[sentence];
+  }
+  const auto common = [&](const std::string& sentence) {
+    return curves_saying[sentence] == set->curves.size();
+  };
+  const std::vector<std::string> first = set->curves.front().assumptions;
+  std::copy_if(first.begin(), first.end(), std::back_inserter(set->assumptions), common);
+  for (IvCurve& curve : set->curves) {
+    auto& own = curve.assumptions;
+    own.erase(std::remove_if(own.begin(), own.end(), common), own.end());
+  }
+}
+
+}  // namespace
+
+CurveSetBuilder::CurveSetBuilder(std::string name, std::string source, const ReadOptions& options)
+    : options_(options) {
+  set_.name = std::move(name);
+  set_.source = std::move(source);
+}
+
+Expected<void> CurveSetBuilder::ReadCommon(const std::string& path, SidecarOf of) {
+  if (!IsFile(path)) return {};
+  Expected<Sidecar> common = ReadSidecar(path, options_.largest_file_bytes, of);
+  if (!common) return tl::unexpected(common.error());
+  common_ = std::move(*common);
+  return {};
+}
+
+Expected<void> CurveSetBuilder::ReadIndex(const std::string& path, IndexIds ids) {
+  if (!IsFile(path)) return {};
+  Expected<CurveIndex> index = ReadCurveIndex(path, ids, options_);
+  if (!index) return tl::unexpected(index.error());
+  Assume(index->assumptions);
+  index_ = std::move(*index);
+  return {};
+}
+
+Expected<void> CurveSetBuilder::CheckIndex(const std::set<std::string>& ids) const {
+  if (!index_) return {};
+  const Error* first = nullptr;
+  for (const auto& [id, row] : index_->rows) {
+    if (ids.count(id) != 0) continue;
+    if (first == nullptr || row.missing.line < first->line) first = &row.missing;
+  }
+  if (first != nullptr) return tl::unexpected(*first);
+  return {};
+}
+
+void CurveSetBuilder::ApplyIndex(const Sidecar& own, Sidecar* stated, IvCurve* curve) const {
+  if (!index_) return;
+  // An empty field says that nobody knows this curve's value, whatever holds for others.
+  if (index_->states_irradiance) stated->irradiance_W_m2.reset();
+  if (index_->states_temperature) stated->temperature_C.reset();
+  const auto found = index_->rows.find(curve->name);
+  if (found == index_->rows.end()) {
+    curve->assumptions.emplace_back("the index has no row for this curve");
+    return;
+  }
+  const IndexRow& row = found->second;
+  if (index_->states_irradiance) stated->irradiance_W_m2 = row.irradiance_W_m2;
+  if (index_->states_temperature) stated->temperature_C = row.temperature_C;
+  SayWhereTheyDiffer("irradiance", "W/m2", own.irradiance_W_m2, row.irradiance_W_m2,
+                     0.02 * own.irradiance_W_m2.value_or(0), curve);
+  SayWhereTheyDiffer("cell temperature", "C", own.temperature_C, row.temperature_C, 1, curve);
+}
+
+void CurveSetBuilder::Add(IvCurve curve, const Sidecar& own, int line) {
+  std::string id = curve.name;
+  Sidecar stated = common_;
+  // A nominal value of the whole set only stands in for a column.
+  if (!curve.irradiance_W_m2.empty()) stated.irradiance_W_m2.reset();
+  if (!curve.temperature_C.empty()) stated.temperature_C.reset();
+  ApplyIndex(own, &stated, &curve);
+  SettleConditions(Merge(own, stated), &curve);
+  curve.name = id;
+  auto valid = CheckIrradiance(curve.irradiance_W_m2);
+  if (valid) valid = Validate(curve);
+  if (!valid) return Reject(std::move(id), {valid.error().message, curve.source, line});
+  set_.curves.push_back(std::move(curve));
+}
+
+void CurveSetBuilder::AddSettled(IvCurve curve) { set_.curves.push_back(std::move(curve)); }
+
+void CurveSetBuilder::Reject(std::string id, Error error) {
+  set_.rejected.push_back({std::move(id), std::move(error)});
+}
+
+void CurveSetBuilder::Assume(const std::vector<std::string>& sentences) {
+  set_.assumptions.insert(set_.assumptions.end(), sentences.begin(), sentences.end());
+}
+
+Expected<CurveSet> CurveSetBuilder::Finish() {
+  if (set_.curves.empty()) {
+    if (!set_.rejected.empty()) return tl::unexpected(set_.rejected.front().error);
+    return Fail("expected curves, found none", set_.source);
+  }
+  GatherAssumptions(&set_);
+  return std::move(set_);
+}
+
+}  // namespace lyrefit

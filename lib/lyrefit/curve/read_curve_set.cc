@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/curve_set_builder.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/read_ivcurves_json.h"
+#include "lyrefit/curve/read_table.h"
+#include "lyrefit/curve/table_curve.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A curve of a table and the line of its first row.
+struct TablePart {
+  IvCurve curve;
+  int line;
+};
+
+void AppendRow(const IvCurve& all, std::size_t row, IvCurve* curve) {
+  curve->voltage_V.push_back(all.voltage_V[row]);
+  curve->current_A.push_back(all.current_A[row]);
+  curve->sweep.push_back(all.sweep[row]);
+  for (const auto column :
+       {&IvCurve::sigma_A, &IvCurve::time_s, &IvCurve::irradiance_W_m2, &IvCurve::temperature_C}) {
+    if (!(all.*column).empty()) (curve->*column).push_back((all.*column)[row]);
+  }
+}
+
+// The curves of a table in the order in which they begin, without those that have broken rows.
+std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
+  std::vector<TablePart> parts;
+  std::map<int, std::size_t> places;
+  for (std::size_t row = 0; row < table.curve.size(); ++row) {
+    const int number = table.curve.sweep[row];
+    if (table.broken.count(number) != 0) continue;
+    const auto [place, is_new] = places.try_emplace(number, parts.size());
+    if (is_new) {
+      parts.push_back({{}, table.lines[row]});
+      parts.back().curve.name = std::to_string(number);
+      parts.back().curve.source = path;
+    }
+    AppendRow(table.curve, row, &parts[place->second].curve);
+  }
+  return parts;
+}
+
+// `path` is the table, `source` what the caller named: the table or its folder.
+Expected<CurveSet> ReadFromTable(const std::string& path, const std::string& source,
+                                 const ReadOptions& options) {
+  const fs::path file(path);
+  const bool in_folder = file.filename() == kCurvesName;
+  const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
+  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+  if (!text) return tl::unexpected(text.error());
+  const Expected<Table> table = ReadTable(*text, path, BrokenRows::kSetAside);
+  if (!table) return tl::unexpected(table.error());
+  if (table->curve.sweep.empty() && table->broken.empty()) {
+    return Fail("expected a column curve or sweep that tells several curves apart, found none",
+                path);
+  }
+  CurveSetBuilder builder(name, source, options);
+  builder.Assume(table->curve.assumptions);
+  const fs::path common =
+      in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
+  const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
+  auto read = builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve);
+  if (read) read = builder.ReadIndex(index.string(), IndexIds::kNumbers);
+  if (!read) return tl::unexpected(read.error());
+
+  std::set<std::string> ids;
+  for (TablePart& part : SplitTable(*table, path)) {
+    ids.insert(part.curve.name);
+    TurnLoadSign(&part.curve);
+    builder.Add(std::move(part.curve), {}, part.line);
+  }
+  for (const auto& [number, error] : table->broken) {
+    ids.insert(std::to_string(number));
+    builder.Reject(std::to_string(number), error);
+  }
+  if (auto checked = builder.CheckIndex(ids); !checked) return tl::unexpected(checked.error());
+  return builder.Finish();
+}
+
+Expected<void> AddFromFile(const fs::path& table, const std::string& id, const ReadOptions& options,
+                           CurveSetBuilder* builder) {
+  Expected<IvCurve> curve = ReadTableCurve(table.string(), options);
+  if (!curve) return tl::unexpected(curve.error());
+  const Expected<Sidecar> sidecar = ReadSidecarBeside(table.string(), options);
+  if (!sidecar) return tl::unexpected(sidecar.error());
+  curve->name = id;
+  builder->Add(std::move(*curve), *sidecar, 0);
+  return {};
+}
+
+Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& options) {
+  const std::vector<fs::path> tables = TablesIn(folder);
+  if (tables.empty()) {
+    std::error_code error;
+    return Fail(fmt::format("expected curves.csv or tables of one curve each (.csv, .tsv, .txt), "
+                            "found {}",
+                            fs::is_empty(folder, error) ? "an empty folder" : "a folder without"),
+                folder);
+  }
+  const fs::path inside(folder);
+  CurveSetBuilder builder(FolderNameOf(inside / kCurvesName), folder, options);
+  auto read =
+      builder.ReadCommon((inside / kDatasetName).lexically_normal().string(), SidecarOf::kSet);
+  if (read) {
+    read = builder.ReadIndex((inside / kIndexName).lexically_normal().string(), IndexIds::kFiles);
+  }
+  if (!read) return tl::unexpected(read.error());
+  std::set<std::string> ids;
+  for (const fs::path& table : tables) {
+    const std::string id = table.stem().string();
+    if (!ids.insert(id).second) {
+      return Fail(
+          fmt::format("expected one table a curve, found a second one of curve {}", Quoted(id)),
+          table.string());
+    }
+  }
+  if (auto checked = builder.CheckIndex(ids); !checked) return tl::unexpected(checked.error());
+  for (const fs::path& table : tables) {
+    const std::string id = table.stem().string();
+    const auto added = AddFromFile(table, id, options, &builder);
+    if (!added) builder.Reject(id, added.error());
+  }
+  return builder.Finish();
+}
+
+Expected<CurveSet> ReadFromJson(const std::string& path, const ReadOptions& options) {
+  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(path, options);
+  if (!entries) return tl::unexpected(entries.error());
+  CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
+  for (IvCurvesEntry& entry : *entries) {
+    if (entry.curve) {
+      entry.curve->name = entry.id;
+      builder.AddSettled(std::move(*entry.curve));
+    } else {
+      builder.Reject(entry.id, entry.curve.error());
+    }
+  }
+  return builder.Finish();
+}
+
+}  // namespace
+
+Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options) {
+  if (options.curve) {
+    return Fail(
+        fmt::format("a set is read whole, but curve {} alone was asked for", *options.curve), path);
+  }
+  if (!IsFolder(path)) {
+    return IsJson(path) ? ReadFromJson(path, options) : ReadFromTable(path, path, options);
+  }
+  const fs::path curves = fs::path(path) / kCurvesName;
+  if (IsFile(curves)) return ReadFromTable(curves.lexically_normal().string(), path, options);
+  if (IsFile(fs::path(path) / "curve.csv")) {
+    return Fail("expected several curves, found a folder of one (it holds curve.csv)", path);
+  }
+  return ReadFromTables(path, options);
+}
+
+}  // namespace lyrefit

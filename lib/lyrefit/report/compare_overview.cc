@@ -58,7 +58,7 @@ std::string OverviewSection(const Comparison& comparison) {
   std::vector<std::string> titles = {""};
   for (const ProblemResult& problem : comparison.problems) {
     for (std::size_t c = 0; c < problem.contenders.size(); ++c) {
-      titles.push_back(c == 0 ? "  " + ProblemTitle(problem) + "\n" : "");
+      titles.push_back(c == 0 ? Wrap("  ", ProblemTitle(problem)) : "");
       table.Add(Row(problem.contenders[c], polish, brief));
     }
   }

@@ -78,7 +78,7 @@ std::string CostTable(const Comparison& comparison, const ProblemResult& problem
 
 std::string ProblemText(const Comparison& comparison, const ProblemResult& problem) {
   const std::string objective = ObjectiveText(comparison);
-  std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
+  std::string text = "\n" + Wrap("", ProblemTitle(problem)) + ReferenceField(comparison, problem);
   text +=
       fmt::format("\n  Search alone: RMSE in A ({}) of {} runs, and runs within 1e-9 and 1e-6\n",
                   objective, comparison.options.runs);

@@ -1,5 +1,6 @@
 #include "lyrefit/study/paper_study.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -204,7 +205,9 @@ class PaperRun {
     bounds->name = "paper";
     std::vector<CompareCurve> subjects;
     for (IvCurve& curve : set->curves) {
-      curve.name = set->name + "/" + curve.name;
+      const Conditions& at = curve.conditions;
+      curve.name = fmt::format("{}/{:g}x{:g}", set->name, at.irradiance_W_m2,
+                               at.cell_temperature_K - kZeroCelsius_K);
       subjects.push_back({std::move(curve), *bounds});
     }
     return Study(

@@ -42,7 +42,7 @@ Expected<TruthRow> ReadRow(const NamedTable& table) {
 }
 
 const TruthRow* RowOf(const FamilyCurve& curve, const std::vector<TruthRow>& truth) {
-  if (truth.size() == 1) return &truth[0];
+  if (truth.size() == 1) return truth.data();
   for (const TruthRow& row : truth) {
     if (row.index == curve.id) return &row;
   }

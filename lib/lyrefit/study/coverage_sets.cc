@@ -100,6 +100,7 @@ std::vector<std::pair<double, double>> DrawConditions(int count, RandomStream* r
     std::swap(grid[i], grid[other]);
   }
   std::vector<std::pair<double, double>> conditions;
+  conditions.reserve(count);
   for (int c = 0; c < count; ++c) conditions.push_back(grid[c % kGridSize]);
   return conditions;
 }

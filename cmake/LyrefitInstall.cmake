@@ -21,6 +21,7 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/curve_set.h
   curve/iv_curve.h
   curve/key_points.h
+  curve/nearest_curve.h
   curve/read_curve.h
   curve/write_curve.h
   device/current.h
@@ -52,6 +53,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/compare_json.h
   report/compare_plot.h
   report/compare_text.h
+  report/coverage_text.h
   report/data_sheet_json.h
   report/data_sheet_text.h
   report/family_csv.h
@@ -62,11 +64,14 @@ set(LYREFIT_PUBLIC_HEADERS
   report/plot.h
   report/pvlib_json.h
   report/text_report.h
+  report/truth_text.h
   search/search.h
   study/audit.h
   study/compare.h
+  study/coverage.h
   study/rank_tests.h
-  study/read_audit_rows.h)
+  study/read_audit_rows.h
+  study/truth.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})

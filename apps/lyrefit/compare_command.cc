@@ -12,6 +12,8 @@ constexpr char kCompareFooter[] =
     "  lyrefit compare data/rtc_france --runs 50\n"
     "  lyrefit compare data/rtc_france --bounds literature --models td --algorithms lo,mlo,random\n"
     "      --json compare.json --csv runs.csv\n"
+    "  lyrefit compare data/s75_constructed --at 1000x25,200x25,1000x60 --models sd --bounds "
+    "paper\n"
     "\n"
     "Every algorithm has the same budget and, in run r, the same first points. RMSEs are of the\n"
     "objective that is named beside them.";

@@ -10,6 +10,7 @@
 #include "budget_command.h"
 #include "certify_command.h"
 #include "compare_command.h"
+#include "coverage_command.h"
 #include "data_sheet_command.h"
 #include "fit_command.h"
 #include "lyrefit/base/version.h"
@@ -77,7 +78,7 @@ int Main(int argc, char** argv) {
       MakeVerb<CertifyCommand>(&app),   MakeVerb<CompareCommand>(&app),
       MakeVerb<BudgetCommand>(&app),    MakeVerb<SensitivityCommand>(&app),
       MakeVerb<DataSheetCommand>(&app), MakeVerb<AuditCommand>(&app),
-      MakeVerb<ReproduceCommand>(&app),
+      MakeVerb<ReproduceCommand>(&app), MakeVerb<CoverageCommand>(&app),
   };
   try {
     app.parse(argc, argv);

@@ -12,6 +12,14 @@ namespace lyrefit {
 void AddStudyFlags(CLI::App* app, StudyFlags* flags) {
   app->add_option("CURVE", flags->curve_files, "one or more curve files or folders")->required();
   AddConditionFlags(app, &flags->conditions);
+  app->add_option("--at", flags->at,
+                  "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as "
+                  "far as 1 K)")
+      ->type_name("LIST")
+      ->group("Curves");
+  app->add_option("--curves", flags->curve_ids, "of a set of curves: those with these ids")
+      ->type_name("LIST")
+      ->group("Curves");
   app->add_option("--models", flags->models,
                   "list of " + AllTexts<Model>() + " (default " + flags->models + ")")
       ->type_name("LIST")

@@ -14,7 +14,9 @@ namespace lyrefit {
 // The flags of the verbs that run searches many times: compare, budget, sensitivity. Lists are one
 // text with commas.
 struct StudyFlags {
-  std::vector<std::string> curve_files;
+  std::vector<std::string> curve_files;  // curves, or sets of curves
+  std::string at;                        // of sets: the curves nearest to these conditions
+  std::string curve_ids;                 // of sets: the curves with these ids
   std::string models = "sd,dd,td";
   std::string algorithms = "lo,lo+mblss,lo+dmlss,mlo,de,random";
   BoundsFlags bounds;
@@ -38,6 +40,17 @@ Expected<std::vector<std::string>> ParseList(const std::string& flag, const std:
 // "sd,dd" given to --models.
 Expected<std::vector<Model>> ParseModels(const std::string& text);
 Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text);
+
+// One point of irradiance and temperature.
+struct StudyCondition {
+  double irradiance_W_m2 = 0;
+  double temperature_C = 0;
+};
+// "1000x25,200x25" given to --at.
+Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text);
+
+// The curves of all files, with their bounds; of sets those that --curves and --at name.
+Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 
 // One algorithm by its name, and those of --algorithms, with these settings.
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search);

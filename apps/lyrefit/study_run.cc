@@ -1,7 +1,4 @@
-#include <fmt/format.h>
-
 #include "interrupt.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/compare_csv.h"
 #include "lyrefit/report/compare_json.h"
 #include "lyrefit/report/plot.h"
@@ -10,21 +7,6 @@
 
 namespace lyrefit {
 namespace {
-
-Expected<std::vector<CompareCurve>> ReadCurves(const StudyFlags& flags) {
-  std::vector<CompareCurve> curves;
-  for (const std::string& file : flags.curve_files) {
-    Expected<IvCurve> curve = ReadCurve(file, {});
-    if (!curve) return tl::unexpected(curve.error());
-    if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) {
-      return tl::unexpected(applied.error());
-    }
-    Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
-    if (!bounds) return tl::unexpected(bounds.error());
-    curves.push_back({std::move(*curve), std::move(*bounds)});
-  }
-  return curves;
-}
 
 Expected<void> CheckTargets(const StudyFlags& flags, const std::vector<StudyPicture>& pictures) {
   if (flags.json_file == "-" && flags.csv_file == "-") {
@@ -71,7 +53,7 @@ int RunStudy(const StudyFlags& flags, const std::vector<Contender>& contenders,
   if (!models) return Refuse(models.error());
   options.models = *models;
   if (auto checked = CheckTargets(flags, pictures); !checked) return Refuse(checked.error());
-  const auto curves = ReadCurves(flags);
+  const auto curves = ReadStudyCurves(flags);
   if (!curves) return Refuse(curves.error());
   const InterruptGuard guard;
   const auto comparison = Compare(*curves, contenders, options, TerminalObserver());

@@ -25,6 +25,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/nearest_curve.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "lyrefit/device/translation.h"

@@ -143,7 +143,6 @@ TEST(CertifySound, TakesUglyCurves) {
     curve.current_A = ugly.current_A;
     const auto certificate = Certify(curve);
     ASSERT_TRUE(certificate) << ugly.name << ": " << certificate.error().ToString();
-    EXPECT_LT(certificate->seconds, 2) << ugly.name;
     EXPECT_TRUE(!ugly.exact || certificate->floor.gap == 0) << ugly.name;
     for (const ModelCertificate& model : certificate->models) {
       EXPECT_TRUE(!ugly.exact || model.certified) << ugly.name;

@@ -32,12 +32,42 @@ TEST(CompareVerb, PrintsTheComparisonByDefault) {
   EXPECT_THAT(result.out, HasSubstr("After the polish all 6 algorithms tie: 18 of 18 runs"));
 }
 
+TEST(CompareVerb, TakesTheCurvesOfASetThatAreNearestToConditions) {
+  const AppResult result = RunApp("compare " + DataFolder("s75_constructed") + kSmall +
+                                  "--models sd --algorithms lo,mlo --bounds paper "
+                                  "--curves 6 --at 950x25,200x26");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("All curves: RMSE in A"));
+  const std::size_t first = result.out.find("s75_constructed/6 (1000 W/m2, 50 C)");
+  const std::size_t second = result.out.find("s75_constructed/1 (1000 W/m2, 25 C)");
+  const std::size_t third = result.out.find("s75_constructed/5 (200 W/m2, 25 C)");
+  EXPECT_LT(first, second) << result.out;
+  EXPECT_LT(second, third) << result.out;
+  EXPECT_NE(third, std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("s75_constructed/2 "), std::string::npos);
+}
+
+TEST(CompareVerb, RefusesASetWithoutAChoiceAndAChoiceThatFails) {
+  const std::string set = "compare " + DataFolder("s75_constructed") + kSmall + "--models sd ";
+  EXPECT_THAT(RunApp(set).err, HasSubstr("choose some with --at 1000x25,200x25 or --curves"));
+  EXPECT_THAT(RunApp(set + "--curves 70").err,
+              HasSubstr("there is no curve '70': the 7 curves are"));
+  EXPECT_THAT(RunApp(set + "--at 1000").err,
+              HasSubstr("expected irradiance and temperature such as 1000x25, found '1000'"));
+  EXPECT_THAT(RunApp(set + "--at 1000x25,990x25").err,
+              HasSubstr("--at 990x25: that is s75_constructed/1 (1000 W/m2, 25 C) once more"));
+  EXPECT_EQ(RunApp(set + "--at 1000x25,").exit_code, 1);
+}
+
 TEST(CompareVerb, OffersEveryFlagOfTheContract) {
   const std::string help = RunApp("compare --help").out;
-  for (const char* flag :
-       {"--models", "--objective", "--bounds", "--bound", "--runs", "--seed", "--population",
-        "--threads", "--iterations", "--algorithms", "--target-gap", "--no-polish", "--json",
-        "--csv", "--plot", "--plain-polish", "--memory-rate", "--de-scale", "--convergence-plot"}) {
+  for (const char* flag : {"--models",      "--objective",  "--bounds",
+                           "--bound",       "--runs",       "--seed",
+                           "--population",  "--threads",    "--iterations",
+                           "--algorithms",  "--target-gap", "--no-polish",
+                           "--json",        "--csv",        "--plot",
+                           "--at",          "--curves",     "--plain-polish",
+                           "--memory-rate", "--de-scale",   "--convergence-plot"}) {
     EXPECT_THAT(help, HasSubstr(std::string("  ") + flag + " ")) << flag;
   }
   EXPECT_THAT(help, HasSubstr("(default 1000)"));
@@ -123,7 +153,10 @@ TEST(CompareVerb, EndsCleanlyOnCtrlCWithWhatIsComplete) {
   const AppResult result = RunApp(
       "compare " + kRtc + " --models sd --algorithms mlo --population 1000 --iterations 1000000" +
       " --json " + folder.Path("c.json") + " --plot " + folder.Path("box.svg") + " > " +
-      folder.Path("out.txt") + " & app=$!; sleep 0.5; kill -INT $app; wait $app");
+      folder.Path("out.txt") + " & app=$!; " +
+      // Not before it listens: until then a shell's background process ignores the signal.
+      "until grep -q 'SigCgt.*[2367abef]$' /proc/$app/status; do sleep 0.05; done; sleep 0.2; "
+      "kill -INT $app; wait $app");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(FileText(folder.Path("out.txt")), StartsWith("INTERRUPTED"));
   const json j = json::parse(FileText(folder.Path("c.json")), nullptr, false);

@@ -22,6 +22,8 @@ TEST(ReproduceVerb, WritesThePageItsPicturesAndTheBlocksOfOtherPages) {
   EXPECT_THAT(page, HasSubstr("9.82485E-04"));
   EXPECT_THAT(page, HasSubstr("| rtc_france | [1, 2] |"));
   EXPECT_THAT(page, HasSubstr("40 rows"));
+  EXPECT_THAT(page, HasSubstr("| s75_constructed/200x25, sd | lo | mean | 0.034721 |"));
+  EXPECT_THAT(page, HasSubstr("| s75_constructed/1000x60 | mlo |"));
   EXPECT_THAT(FileText(other), HasSubstr("| algorithm | mean rank, search alone |"));
   for (const char* picture : {"msx60.svg", "msx60-convergence.svg", "rtc_france-convergence.svg",
                               "ranked.svg", "ranked-convergence.svg", "budget.svg"}) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "lyrefit/report/text_layout.h"
@@ -50,6 +51,43 @@ Comparison LargeComparison() {
 TEST(CompareText, FitsATerminalOf100Columns) {
   ExpectFitsTheTerminal(CompareText(SampleComparison()));
   ExpectFitsTheTerminal(CompareText(LargeComparison()));
+}
+
+// The sample on three curves of a set.
+Comparison OfASet(Comparison comparison) {
+  std::vector<ProblemResult> problems;
+  for (const char* name :
+       {"sandia_pvue125/1234 (987.25 W/m2, 24.6 C)", "sandia_pvue125/8 (203.11 W/m2, 25.1 C)",
+        "outdoor sweeps of a Mitsubishi PV-UE125MF5N module/16 (1001.4 W/m2, 59.9 C)"}) {
+    for (ProblemResult problem : comparison.problems) {
+      problem.curve_name = name;
+      problems.push_back(std::move(problem));
+    }
+  }
+  comparison.problems = std::move(problems);
+  return comparison;
+}
+
+TEST(CompareText, PutsManyCurvesIntoOneTableFirst) {
+  const std::string text = CompareText(OfASet(SampleComparison()));
+  const std::size_t overview = text.find("All curves: RMSE in A (measured-current) of 4 runs");
+  ASSERT_NE(overview, std::string::npos);
+  const std::size_t first = text.find("sandia_pvue125/8 (203.11 W/m2, 25.1 C), double-diode");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_LT(overview, first);
+  EXPECT_LT(first, text.find("\n  Search alone: RMSE"));
+  const std::string section = text.substr(overview, text.find("\n\n", overview) - overview);
+  EXPECT_EQ(std::count(section.begin(), section.end(), '\n'), 1 + 6 + 2 + 3 * 6)
+      << "a head, a line a problem, two of the long name, a row an algorithm:\n"
+      << section;
+  EXPECT_THAT(section, HasSubstr("algorithm "));
+  EXPECT_THAT(section, HasSubstr("9.860e-04"));
+  ExpectFitsTheTerminal(text);
+  ExpectFitsTheTerminal(CompareText(OfASet(LargeComparison())));
+}
+
+TEST(CompareText, NeedsNoOverviewOfOneCurve) {
+  EXPECT_THAT(CompareText(SampleComparison()), Not(HasSubstr("All curves")));
 }
 
 TEST(CompareText, SaysWhatWasCompared) {

@@ -51,11 +51,9 @@ struct FamilyCurve {
   RmsePair rmse;
   double mean_residual_A = kUnknown;  // solved-current
   std::vector<double> residual_A;     // model - measured, solved-current
-  std::vector<double> voltage_V;      // as measured
-  std::vector<double> current_A;
-  // The same curve fitted alone by the same number of diodes.
-  std::vector<double> free_parameters;  // in the order of MakeDevice; empty: not done
-  std::vector<Estimate> free_estimates;
+  // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
+  std::vector<double> free_parameters;   // empty: not done
+  std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
   RmsePair free_rmse;
   bool odd = false;  // does not belong to the device of the others
 };

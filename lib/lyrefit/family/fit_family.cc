@@ -120,16 +120,17 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
                 FamilyReport* report) {
   const auto fill = [&](const JointProblem& from, const JointPoint& point, int k, int c) {
     FamilyCurve& row = report->curves[c];
+    const IvCurve& curve = job.set.curves[c];
     row.rmse = CurveRmse(from, point, k);
     const TrueConditions at = ConditionsAt(from, point, k);
     const TranslatedDevice device =
         TranslateTo(job.family.translation, report->refined, at.irradiance_W_m2, at.temperature_K);
     row.parameters = device.parameters;
     const std::vector<double> model =
-        SolveCurrents(device.device, row.parameters.data(), row.voltage_V);
+        SolveCurrents(device.device, row.parameters.data(), curve.voltage_V);
     double sum = 0;
     for (std::size_t i = 0; i < model.size(); ++i) {
-      row.residual_A.push_back(model[i] - row.current_A[i]);
+      row.residual_A.push_back(model[i] - curve.current_A[i]);
       sum += row.residual_A.back();
     }
     row.mean_residual_A = sum / static_cast<double>(model.size());

@@ -57,8 +57,6 @@ FamilyCurve DescribeCurve(const IvCurve& curve) {
   described.temperature_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
   described.irradiance_known = curve.irradiance_known;
   described.temperature_known = curve.temperature_known;
-  described.voltage_V = curve.voltage_V;
-  described.current_A = curve.current_A;
   described.short_circuit_current_A =
       FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
   return described;

@@ -20,6 +20,10 @@ std::string SetUpSection(const Comparison& comparison);
 // What the runs of a problem are measured against.
 std::string ReferenceField(const Comparison& comparison, const ProblemResult& problem);
 
+// compare_overview.cc: every curve, model and algorithm in one table, where there is more than one
+// curve.
+std::string OverviewSection(const Comparison& comparison);
+
 // compare_ranks.cc: Friedman and Wilcoxon of one problem.
 std::string RankSection(const ProblemResult& problem);
 

@@ -78,7 +78,7 @@ std::string CostTable(const Comparison& comparison, const ProblemResult& problem
 
 std::string ProblemText(const Comparison& comparison, const ProblemResult& problem) {
   const std::string objective = ObjectiveText(comparison);
-  std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
+  std::string text = "\n" + Wrap("", ProblemTitle(problem)) + ReferenceField(comparison, problem);
   text +=
       fmt::format("\n  Search alone: RMSE in A ({}) of {} runs, and runs within 1e-9 and 1e-6\n",
                   objective, comparison.options.runs);
@@ -167,6 +167,7 @@ std::string CompareText(const Comparison& comparison) {
                     options.runs, options.runs, std::exp2(1.0 - options.runs)));
   }
   text += Field("time", Duration(comparison.seconds));
+  text += OverviewSection(comparison);
   for (const ProblemResult& problem : comparison.problems) text += ProblemText(comparison, problem);
   return text;
 }

@@ -99,6 +99,38 @@ std::string GridSection(const PaperStudy& study, const Remarks& remarks) {
   return text + Paragraph(fmt::format("{} of {} cells reproduced.", reproduced, count));
 }
 
+// Printed statistics of points that nobody has, beside ours on others: no verdict.
+std::string S75Values(const PaperStudy& study, const std::string& table) {
+  MarkdownTable text("lllrrl");
+  text.Add({"curve, model", "algorithm", "figure", "paper", "ours", "99 % range of a batch"});
+  for (const CheckedValue& value : study.s75_values) {
+    if (value.published.table != table) continue;
+    text.Add({value.published.curve + ", " + ToText(value.published.model),
+              value.published.algorithm, value.published.quantity, value.published.text,
+              Scientific(value.ours, 6),
+              Scientific(value.low, 4) + " .. " + Scientific(value.high, 4)});
+  }
+  return text.Text();
+}
+
+// The same searches with the polish behind them, which the paper has not.
+std::string S75Table(const PaperStudy& study) {
+  MarkdownTable table("llrrrrrrr");
+  table.Add({"curve", "algorithm", "min", "mean", "median", "max", "std", "polished, min and max",
+             "polished runs at the optimum"});
+  for (const ProblemResult& problem : study.s75.problems) {
+    for (const ContenderResult& contender : problem.contenders) {
+      const Spread& s = contender.searched;
+      table.Add(
+          {problem.curve_name, contender.name, Scientific(s.min, 5), Scientific(s.mean, 5),
+           Scientific(s.median, 5), Scientific(s.max, 5), Scientific(s.std, 2),
+           Scientific(contender.polished.min, 5) + ", " + Scientific(contender.polished.max, 5),
+           fmt::format("{} of {}", contender.polished.within_1e9, contender.runs.size())});
+    }
+  }
+  return Paragraph("All runs on the constructed family, searched and polished:") + table.Text();
+}
+
 std::string MachineSection(const PaperStudy& study, const Remarks& remarks) {
   const auto printed = [&](const std::string& algorithm, const std::string& quantity) {
     for (const PublishedValue& value : study.machine) {
@@ -141,13 +173,15 @@ std::string Introduction(const PaperStudy& study) {
   return "# The modified-lyrebird paper, done again\n\n" +
          Paragraph(
              "J. Ind. Manag. Optim. 22(1), 642-690, fits one, two and three diodes to the MSX-60 "
-             "module and the RTC France cell. This page holds its figures against lyrefit's own "
+             "module, the RTC France cell and the Shell S75 module. This page holds its figures "
+             "against lyrefit's own "
              "runs. It is written by one command, `cmake/results.sh`, from `published.csv` and "
              "`rows.csv` (what the paper prints), `remarks.csv` and the curves in the folders "
              "beside this one; `about.md` says what was transcribed.") +
          Paragraph(fmt::format(
              "A statistic of {} runs depends on chance, so ours come as {} batches of {} runs each "
-             "(grid of Pm and gamma: {} batches): `ours` is their geometric mean, and a printed "
+             "(grid of Pm and gamma, S75: {} batches): `ours` is their geometric mean, and a "
+             "printed "
              "figure counts as reproduced if it lies in the range that one more batch would fall "
              "into 99 times of 100. {} birds x {} iterations, seed {}; every RMSE is of the "
              "measured-current residual, in A; "
@@ -169,6 +203,11 @@ std::string Overview(const PaperStudy& study) {
   table.Add({"table", "figures of repeated runs", "reproduced"});
   for (const std::string& name : order) {
     table.Add({name, std::to_string(counts[name].second), std::to_string(counts[name].first)});
+  }
+  std::map<std::string, int> others;
+  for (const CheckedValue& value : study.s75_values) ++others[value.published.table];
+  for (const auto& [name, count] : others) {
+    table.Add({name, std::to_string(count), "points not published"});
   }
   return table.Text();
 }
@@ -285,6 +324,11 @@ std::string PaperPage(const PaperStudy& study, const Remarks& remarks) {
   text += RankSectionOf(study, remarks);
   text += Section(study, remarks, "Table 16", "ablation, RTC France, three diodes");
   text += GridSection(study, remarks);
+  text += Section(study, remarks, "Table 19", "Shell S75, irradiances at 25 C");
+  text += S75Values(study, "Table 19");
+  text += Section(study, remarks, "Table 20", "Shell S75, temperatures at 1000 W/m2");
+  text += S75Values(study, "Table 20");
+  text += S75Table(study) + Remark(remarks, "field");
   text += "## What no paper of the kind prints\n\n### Success against budget\n\n";
   text += Remark(remarks, "budget") + BudgetTable(study);
   text += Picture("Runs that reach the optimum against evaluations", "budget.svg");

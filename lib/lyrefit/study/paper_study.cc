@@ -1,5 +1,6 @@
 #include "lyrefit/study/paper_study.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/search_space.h"
 
@@ -31,9 +33,9 @@ class PaperRun {
     const auto published = ReadPublished((folder_ / "published.csv").string());
     if (!published) return tl::unexpected(published.error());
     // Times first, while nothing else has grown the process.
-    for (const auto step :
-         {&PaperRun::Time, &PaperRun::Audit, &PaperRun::Certify, &PaperRun::Msx60,
-          &PaperRun::RtcFrance, &PaperRun::Sensitivity, &PaperRun::Rank, &PaperRun::Budget}) {
+    for (const auto step : {&PaperRun::Time, &PaperRun::Audit, &PaperRun::Certify, &PaperRun::Msx60,
+                            &PaperRun::RtcFrance, &PaperRun::Sensitivity, &PaperRun::S75,
+                            &PaperRun::Rank, &PaperRun::Budget}) {
       if (auto done = (this->*step)(); !done) return tl::unexpected(done.error());
     }
     for (const PublishedValue& value : *published) {
@@ -43,6 +45,7 @@ class PaperRun {
       const auto checked = CheckPublished(*published, *comparison, study_.options.batch);
       study_.values.insert(study_.values.end(), checked.begin(), checked.end());
     }
+    study_.s75_values = CheckPublished(*published, study_.s75, study_.options.batch);
     study_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(study_);
@@ -92,7 +95,13 @@ class PaperRun {
                        const std::vector<Contender>& contenders, const CompareOptions& options,
                        Comparison* result) const {
     if (!subject) return tl::unexpected(subject.error());
-    Expected<Comparison> comparison = Compare({*subject}, contenders, options, observer_);
+    return Study(std::vector<CompareCurve>{*subject}, contenders, options, result);
+  }
+
+  Expected<void> Study(const std::vector<CompareCurve>& subjects,
+                       const std::vector<Contender>& contenders, const CompareOptions& options,
+                       Comparison* result) const {
+    Expected<Comparison> comparison = Compare(subjects, contenders, options, observer_);
     if (!comparison) return tl::unexpected(comparison.error());
     if (comparison->interrupted) return Fail("stopped on request");
     *result = std::move(*comparison);
@@ -183,6 +192,28 @@ class PaperRun {
     options.polish = false;
     return Study(Subject("rtc_france", "literature"),
                  SensitivityContenders(steps, steps, PaperSearch()), options, &study_.sensitivity);
+  }
+
+  // The paper does not say how many diodes it fitted to the S75: one, as its spreads of 1e-17 A
+  // suggest.
+  Expected<void> S75() {
+    const fs::path folder = (folder_ / ".." / "s75_constructed").lexically_normal();
+    Expected<CurveSet> set = ReadCurveSet(folder.string());
+    if (!set) return tl::unexpected(set.error());
+    Expected<BoundsSpec> bounds = ReadBoundsFile((folder / "bounds-paper.json").string());
+    if (!bounds) return tl::unexpected(bounds.error());
+    bounds->name = "paper";
+    std::vector<CompareCurve> subjects;
+    for (IvCurve& curve : set->curves) {
+      const Conditions& at = curve.conditions;
+      curve.name = fmt::format("{}/{:g}x{:g}", set->name, at.irradiance_W_m2,
+                               at.cell_temperature_K - kZeroCelsius_K);
+      subjects.push_back({std::move(curve), *bounds});
+    }
+    return Study(
+        subjects, PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
+        Options({Model::kSingleDiode}, study_.options.batch * study_.options.sensitivity_batches),
+        &study_.s75);
   }
 
   Expected<void> Rank() {

@@ -1,16 +1,12 @@
 #include "lyrefit/study/published.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_lines.h"
+#include "lyrefit/study/named_table.h"
 #include "lyrefit/study/summary.h"
 
 namespace lyrefit {
@@ -19,61 +15,6 @@ namespace {
 const std::vector<std::string> kColumns = {"table",    "curve", "model", "algorithm",
                                            "quantity", "value", "note"};
 enum Column { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kNote };
-
-// A small table whose columns are known by name and may stand in any order.
-class NamedTable {
- public:
-  // Reads the file and its header; all `columns` must be there.
-  Expected<void> Open(const std::string& path, const std::vector<std::string>& columns) {
-    constexpr std::uintmax_t kLargestFile = 1U << 24;
-    auto text = ReadTextFile(path, kLargestFile);
-    if (!text) return tl::unexpected(text.error());
-    path_ = path;
-    text_ = std::move(*text);
-    lines_.emplace(text_);
-    if (!lines_->NextContent(&line_) || !fields_.Split(line_)) {
-      return Fail(
-          "expected a header line with the columns " + fmt::format("{}", fmt::join(columns, ", ")),
-          path, 1);
-    }
-    for (const std::string& column : columns) {
-      int at = 0;
-      while (at < static_cast<int>(fields_.size()) && fields_[at] != column) ++at;
-      if (at == static_cast<int>(fields_.size())) {
-        return Fail("expected a column '" + column + "'", path, lines_->number());
-      }
-      position_.push_back(at);
-    }
-    return {};
-  }
-
-  // The next row; false at the end of the file.
-  Expected<bool> Next() {
-    if (!lines_->NextContent(&line_)) return false;
-    if (!fields_.Split(line_)) return Fail("the quotes do not close", path_, lines_->number());
-    const int last = *std::max_element(position_.begin(), position_.end());
-    if (static_cast<int>(fields_.size()) <= last) {
-      return Fail(fmt::format("expected at least {} fields, found {}", last + 1, fields_.size()),
-                  path_, lines_->number());
-    }
-    return true;
-  }
-
-  std::string operator[](int column) const { return std::string(fields_[position_[column]]); }
-
-  tl::unexpected<Error> Refuse(int column, const std::string& expected) const {
-    return Fail(fmt::format("expected {}, found {}", expected, Quoted((*this)[column])), path_,
-                lines_->number(), FieldColumn(line_, ',', position_[column]));
-  }
-
- private:
-  std::string path_;
-  std::string text_;
-  std::optional<LineReader> lines_;
-  LineSplitter fields_{','};
-  std::string_view line_;
-  std::vector<int> position_;
-};
 
 // One statistic of a batch of searched figures.
 double Statistic(const std::vector<double>& values, const std::string& quantity) {

@@ -1,0 +1,63 @@
+#include "lyrefit/report/truth_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+std::string SignedPart(double value) {
+  if (std::isnan(value)) return "-";
+  return fmt::format("{}{:.2e}", value < 0 ? "" : "+", value);
+}
+
+std::string Part(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2e}", value); }
+
+std::string ErrorTable(const TruthComparison& comparison) {
+  TextTable table("lrlrr");
+  table.Add({"parameter", "worst", "of curve", "median", "in the 95 % interval"});
+  for (const TruthParameter& p : comparison.parameters) {
+    table.Add({p.info.symbol, Part(p.worst), p.worst_id, Part(p.median),
+               p.intervals > 0 ? fmt::format("{} of {}", p.covered, p.intervals) : "-"});
+  }
+  return table.Text();
+}
+
+std::string MeanTable(const TruthComparison& comparison) {
+  TextTable table("lrrrr");
+  table.Add({"parameter", "truth", "mean of the fits", "its error", "rms error of one fit"});
+  for (const TruthParameter& p : comparison.parameters) {
+    table.Add({p.info.symbol, Significant(p.truth, 7), Significant(p.mean, 7),
+               SignedPart(p.mean_error), Part(p.root_mean_square)});
+  }
+  return table.Text();
+}
+
+}  // namespace
+
+std::string TruthText(const TruthComparison& comparison) {
+  const std::string rows = comparison.one_truth
+                               ? "one device"
+                               : Plural(static_cast<std::size_t>(comparison.rows), "row");
+  std::string text =
+      fmt::format("Truth ({}): {} fitted alone, errors relative to the truth\n", rows,
+                  Plural(static_cast<std::size_t>(comparison.curves), "curve"));
+  if (!comparison.parameters.empty()) text += ErrorTable(comparison);
+  if (comparison.one_truth && !comparison.parameters.empty()) {
+    text += "\n  The fits together; Rsh is averaged, and its errors are taken, as a conductance\n";
+    text += MeanTable(comparison);
+  }
+  if (comparison.unmatched > 0) {
+    text +=
+        Wrap("  ", fmt::format("{} without a row of truth left out.",
+                               Plural(static_cast<std::size_t>(comparison.unmatched), "curve")));
+  }
+  for (const std::string& warning : comparison.warnings) text += Wrap("  ! ", warning + ".");
+  return text;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,206 @@
+#include "lyrefit/study/coverage.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/study/coverage_sets.h"
+
+namespace lyrefit {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+FamilyOptions FitOptionsOf(const CoverageOptions& options) {
+  FamilyOptions family = options.family;
+  family.random_baseline = family.free_fits = false;
+  family.intervals = true;
+  family.folds = family.fit_curves = 0;
+  family.threads = 1;
+  return family;
+}
+
+// The shared parameters, then the offsets that are fitted.
+std::vector<ParameterInfo> CoveredParameters(const Translation& translation,
+                                             const CoverageOptions& options) {
+  std::vector<ParameterInfo> infos = translation.parameters;
+  if (options.family.temperature_offset) {
+    infos.push_back({"dT", "temperature_offset_K", "K", "true minus read temperature"});
+  }
+  if (options.family.irradiance_offset) {
+    infos.push_back({"dG", "irradiance_offset_W_m2", "W/m2", "true minus read irradiance"});
+  }
+  return infos;
+}
+
+CoverageRow OffsetRow(double error, const Interval& interval) {
+  CoverageRow row;
+  row.truth = error == 0 ? 0 : -error;
+  row.interval = interval;
+  row.identifiable = std::isfinite(interval.low_95) && std::isfinite(interval.high_95);
+  return row;
+}
+
+std::vector<CoverageRow> RowsOf(const SimulatedSet& made, const FamilyReport& report,
+                                const CoverageOptions& options) {
+  std::vector<CoverageRow> rows;
+  for (std::size_t i = 0; i < made.truth.size(); ++i) {
+    const Estimate& e = report.estimates[i];
+    rows.push_back({made.truth[i],
+                    {e.refined, e.standard_error, e.low_95, e.high_95},
+                    e.fixed,
+                    e.identifiable});
+  }
+  if (options.family.temperature_offset) {
+    rows.push_back(OffsetRow(options.temperature_error_K, report.temperature_offset_K));
+  }
+  if (options.family.irradiance_offset) {
+    rows.push_back(OffsetRow(options.irradiance_error_W_m2, report.irradiance_offset_W_m2));
+  }
+  return rows;
+}
+
+CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
+                   const FamilyFitter& fit, const Observer& watch) {
+  CoverageSet set;
+  const Clock::time_point begin = Clock::now();
+  set.cells_in_series = made.translation.spec.cells_in_series;
+  set.curves = static_cast<int>(made.set.curves.size());
+  const Expected<FamilyReport> report = fit(made.set, FitOptionsOf(options), watch);
+  set.seconds = SecondsSince(begin);
+  if (!report) {
+    set.error = report.error().ToString();
+  } else if (!report->usable || report->estimates.size() != made.truth.size()) {
+    set.error = "the fit is not usable";
+  } else {
+    set.rows = RowsOf(made, *report, options);
+  }
+  return set;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kUnknown;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t index,
+                        const std::vector<CoverageSet>& sets) {
+  ParameterCoverage count;
+  count.info = info;
+  count.offset = offset;
+  std::vector<double> widths;
+  for (const CoverageSet& set : sets) {
+    if (set.rows.empty() || set.rows[index].fixed) continue;
+    const CoverageRow& row = set.rows[index];
+    ++count.fitted;
+    count.not_identifiable += row.identifiable ? 0 : 1;
+    const double low = row.interval.low_95, high = row.interval.high_95;
+    if (!row.identifiable || std::isnan(low) || std::isnan(high)) continue;
+    ++count.counted;
+    count.covered += low <= row.truth && row.truth <= high ? 1 : 0;
+    widths.push_back(0.5 * (high - low) / (offset ? 1 : std::fabs(row.truth)));
+  }
+  if (count.counted > 0) {
+    const Share share = WilsonInterval(count.covered, count.counted);
+    count.coverage = static_cast<double>(count.covered) / count.counted;
+    count.low_95 = share.low_95;
+    count.high_95 = share.high_95;
+  }
+  count.median_half_width = Median(std::move(widths));
+  return count;
+}
+
+// The sets as they come in, from any thread, each in its own slot.
+class CoverageRun {
+ public:
+  CoverageRun(const CoverageOptions& options, const FamilyFitter& fit, const Observer& observer)
+      : options_(options), fit_(fit), observer_(observer), slots_(options.sets) {}
+
+  std::vector<CoverageSet> Run() {
+    ParallelFor(options_.sets, options_.threads, [this](int index) { RunSet(index); });
+    std::vector<CoverageSet> done;
+    for (auto& slot : slots_) {
+      if (slot) done.push_back(std::move(*slot));
+    }
+    return done;
+  }
+
+ private:
+  void RunSet(int index) {
+    if (stopped_) return;
+    CoverageSet set;
+    if (const auto made = SimulateSet(options_, index)) {
+      const Observer watch = [this](const Progress& /*inside*/) {
+        return stopped_ ? ObserverAction::kStop : ObserverAction::kContinue;
+      };
+      set = FitSet(*made, options_, fit_, observer_ ? watch : Observer());
+    } else {
+      set.error = made.error().ToString();
+    }
+    if (stopped_) return;  // perhaps in the middle of the fit
+    const std::lock_guard<std::mutex> lock(observing_);
+    slots_[index] = std::move(set);
+    ++done_;
+    const Progress progress{"coverage", done_, options_.sets, done_, 0, SecondsSince(begin_)};
+    if (!stopped_ && StopRequested(observer_, progress)) stopped_ = true;
+  }
+
+  const CoverageOptions& options_;
+  const FamilyFitter& fit_;
+  const Observer& observer_;
+  const Clock::time_point begin_ = Clock::now();
+  std::vector<std::optional<CoverageSet>> slots_;
+  std::atomic<bool> stopped_{false};
+  std::mutex observing_;
+  int done_ = 0;
+};
+
+}  // namespace
+
+Share WilsonInterval(int hits, int trials) {
+  if (trials <= 0) return {};
+  constexpr double kZ = 1.959963984540054;  // 97.5 % of the standard normal
+  const double n = trials, p = hits / n;
+  const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
+  const double reach = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
+  return {std::max(0.0, middle - reach), std::min(1.0, middle + reach)};
+}
+
+Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFitter& fit,
+                                  const Observer& observer) {
+  if (auto valid = ValidateOptions(options, kCoverageOptionTable); !valid) {
+    return tl::unexpected(valid.error());
+  }
+  if (options.cells_in_series < 1) return Fail("expected at least 1 cell in series");
+  // The first set finds whatever is wrong with a module from the command line.
+  if (auto tried = SimulateSet(options, 0); !tried) return tl::unexpected(tried.error());
+  const auto translation = CoverageTranslation(options, options.cells_in_series);
+  if (!translation) return tl::unexpected(translation.error());
+  const Clock::time_point begin = Clock::now();
+  CoverageReport report;
+  report.version = Version();
+  report.options = options;
+  report.sets = CoverageRun(options, fit, observer).Run();
+  report.interrupted = static_cast<int>(report.sets.size()) < options.sets;
+  for (const CoverageSet& set : report.sets) report.failed += set.rows.empty() ? 1 : 0;
+  const std::vector<ParameterInfo> infos = CoveredParameters(*translation, options);
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    report.parameters.push_back(
+        Count(infos[i], i >= translation->parameters.size(), i, report.sets));
+  }
+  report.seconds = SecondsSince(begin);
+  return report;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/family/family_report.h"
+#include "lyrefit/family/fit_family.h"
+
+namespace lyrefit {
+
+struct CoverageOptions {
+  int sets = 500;
+  std::uint64_t seed = 0;            // of everything that is drawn; set s has its own stream
+  int curves = 0;                    // of each set; 0: drawn from 5 to 30 for every set
+  int points = 40;                   // of each curve, even steps from 0 V to open circuit
+  double noise_relative = 1e-3;      // standard deviation of every current, of Isc at the reference
+  double temperature_error_K = 0;    // every sensor reads that much too high
+  double irradiance_error_W_m2 = 0;  // the same
+  std::map<std::string, double> module;  // shared parameters by symbol or name, all of them; empty:
+                                         // a module drawn for every set
+  int cells_in_series = 72;              // of that module
+  int threads = 0;                       // 0: all cores; never changes a result but the seconds
+  // Law, model, offsets and search of the fits. What costs time and says nothing here (fits of
+  // single curves, folds, random baseline) is switched off, and every fit has one thread.
+  FamilyOptions family;
+};
+
+inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
+    {"sets", "", "simulated sets", &CoverageOptions::sets, 1, 1e6},
+    {"seed", "", "seed of everything that is drawn; set s has its own stream",
+     &CoverageOptions::seed, 0, 1.8446744073709552e19},
+    {"curves", "", "curves of each set; 0: drawn from 5 to 30 for every set",
+     &CoverageOptions::curves, 0, 1000},
+    {"points", "", "points of each curve, from 0 V to open circuit", &CoverageOptions::points, 10,
+     1e5},
+    {"noise-relative", "", "standard deviation of every current, as a part of Isc at the reference",
+     &CoverageOptions::noise_relative, 1e-9, 0.1},
+    {"temperature-error", "K", "hidden: the temperatures read that much too high",
+     &CoverageOptions::temperature_error_K, -20, 20},
+    {"irradiance-error", "W/m2", "hidden: the irradiances read that much too high",
+     &CoverageOptions::irradiance_error_W_m2, -80, 80},
+}};
+
+// What one simulated set says of one parameter.
+struct CoverageRow {
+  double truth = kUnknown;
+  Interval interval;
+  bool fixed = false;
+  bool identifiable = true;
+};
+
+struct CoverageSet {
+  int cells_in_series = 1;
+  int curves = 0;
+  std::string error;              // why there is no usable fit; empty: there is one
+  std::vector<CoverageRow> rows;  // in the order of CoverageReport::parameters; empty: no fit
+  double seconds = 0;
+};
+
+// How often the 95 % intervals of one parameter hold the truth.
+struct ParameterCoverage {
+  ParameterInfo info;
+  bool offset = false;       // of a sensor: no shared parameter
+  int fitted = 0;            // sets whose fit was usable and did not hold the parameter
+  int not_identifiable = 0;  // of those; they have no interval worth the name and are not counted
+  int counted = 0;           // of those: identifiable, with an interval
+  int covered = 0;
+  double coverage = kUnknown;
+  double low_95 = kUnknown;  // binomial, Wilson's interval
+  double high_95 = kUnknown;
+  double median_half_width = kUnknown;  // relative to the truth; of offsets in their own unit
+};
+
+struct CoverageReport {
+  std::string version;
+  CoverageOptions options;
+  // The shared parameters of the law, then the sensors' offsets that were fitted.
+  std::vector<ParameterCoverage> parameters;
+  std::vector<CoverageSet> sets;
+  int failed = 0;  // sets without a usable fit
+  double seconds = 0;
+  bool interrupted = false;  // only the sets that were done are there
+};
+
+using FamilyFitter =
+    std::function<Expected<FamilyReport>(const CurveSet&, const FamilyOptions&, const Observer&)>;
+
+// Simulates sets with known parameters (see coverage_sets.h), fits every one with `fit`, which is
+// FitFamily but in tests, and counts. The observer hears of stage "coverage" after every set.
+// Errors: options outside their ranges, a module with parameters missing, unknown or without an
+// open-circuit voltage. A fit that fails is counted, no error.
+Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFitter& fit,
+                                  const Observer& observer = {});
+
+// Wilson's 95 % interval of a binomial share; all of [0, 1] for no trial.
+struct Share {
+  double low_95 = 0;
+  double high_95 = 1;
+};
+Share WilsonInterval(int hits, int trials);
+
+}  // namespace lyrefit

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/curve/table_lines.h"
+
+namespace lyrefit {
+
+// A small table whose columns are known by name and may stand in any order.
+class NamedTable {
+ public:
+  // Reads the file and its header; all `columns` must be there.
+  Expected<void> Open(const std::string& path, const std::vector<std::string>& columns);
+
+  // The next row; false at the end of the file.
+  Expected<bool> Next();
+
+  // A field of the row, by the position of its column in `columns`.
+  std::string operator[](int column) const { return std::string(fields_[position_[column]]); }
+
+  // "expected ..., found '...'", with file, line and column of that field.
+  tl::unexpected<Error> Refuse(int column, const std::string& expected) const;
+
+ private:
+  std::string path_;
+  std::string text_;
+  std::optional<LineReader> lines_;
+  LineSplitter fields_{','};
+  std::string_view line_;
+  std::vector<int> position_;
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,172 @@
+#include "lyrefit/study/truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/study/named_table.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kParameters = 5;
+constexpr int kMostCells = 10000;
+
+// Columns in the order of a single-diode device, then the others.
+const std::vector<std::string> kColumns = {
+    "photocurrent",     "saturation_current", "n",    "resistance_series",
+    "resistance_shunt", "cells_in_series",    "Index"};
+constexpr int kCells = kParameters;
+constexpr int kIndex = kParameters + 1;
+
+Expected<TruthRow> ReadRow(const NamedTable& table) {
+  TruthRow row;
+  row.index = table[kIndex];
+  if (row.index.empty()) return table.Refuse(kIndex, "an index");
+  for (int i = 0; i < kParameters; ++i) {
+    const std::optional<double> value = ParseNumber(table[i]);
+    const bool may_be_zero = i == kRs;
+    if (!value || !std::isfinite(*value) || !(may_be_zero ? *value >= 0 : *value > 0)) {
+      return table.Refuse(i, may_be_zero ? "a number from 0 up" : "a number above 0");
+    }
+    row.values.push_back(*value);
+  }
+  const std::optional<double> cells = ParseNumber(table[kCells]);
+  if (!cells || !(*cells >= 1 && *cells <= kMostCells) || *cells != std::floor(*cells)) {
+    return table.Refuse(kCells, fmt::format("a whole number from 1 to {}", kMostCells));
+  }
+  row.cells_in_series = static_cast<int>(*cells);
+  return row;
+}
+
+const TruthRow* RowOf(const FamilyCurve& curve, const std::vector<TruthRow>& truth) {
+  if (truth.size() == 1) return truth.data();
+  for (const TruthRow& row : truth) {
+    if (row.index == curve.id) return &row;
+  }
+  return nullptr;
+}
+
+// A fit and what it should have been.
+struct Pair {
+  const FamilyCurve* curve;
+  const TruthRow* row;
+};
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+void CountInterval(const Pair& pair, int index, TruthParameter* result) {
+  const std::vector<Estimate>& estimates = pair.curve->free_estimates;
+  if (static_cast<int>(estimates.size()) <= index) return;
+  const Estimate& e = estimates[index];
+  if (e.fixed || std::isnan(e.low_95) || std::isnan(e.high_95)) return;
+  const double truth = pair.row->values[index];
+  ++result->intervals;
+  result->covered += e.low_95 <= truth && truth <= e.high_95 ? 1 : 0;
+}
+
+// What the fits of one device say together. Averaged is the value, of the shunt its inverse.
+void SumUpOneTruth(const std::vector<Pair>& pairs, int index, TruthParameter* result) {
+  const bool inverse = index == kRsh;
+  const auto averaged = [&](double value) { return inverse ? 1 / value : value; };
+  const double truth = averaged(pairs[0].row->values[index]);
+  double mean = 0, square = 0;
+  for (const Pair& pair : pairs) {
+    const double value = averaged(pair.curve->free_parameters[index]);
+    mean += value / static_cast<double>(pairs.size());
+    square += std::pow(value - truth, 2) / static_cast<double>(pairs.size());
+  }
+  const double scale = truth == 0 ? 1 : truth;
+  result->truth = averaged(truth);
+  result->mean = averaged(mean);
+  result->mean_error = (mean - truth) / scale;
+  result->root_mean_square = std::sqrt(square) / scale;
+}
+
+TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pair>& pairs,
+                                int index, bool one_truth) {
+  TruthParameter result;
+  result.info = info;
+  std::vector<double> errors;
+  for (const Pair& pair : pairs) {
+    const double truth = pair.row->values[index];
+    // An absolute error where there is nothing to be relative to.
+    const double error =
+        std::fabs(pair.curve->free_parameters[index] - truth) / (truth == 0 ? 1 : truth);
+    if (errors.empty() || error > result.worst) {
+      result.worst = error;
+      result.worst_id = pair.curve->id;
+    }
+    errors.push_back(error);
+    CountInterval(pair, index, &result);
+  }
+  result.median = Median(std::move(errors));
+  if (one_truth) SumUpOneTruth(pairs, index, &result);
+  return result;
+}
+
+}  // namespace
+
+Expected<std::vector<TruthRow>> ReadTruth(const std::string& path) {
+  NamedTable table;
+  if (auto opened = table.Open(path, kColumns); !opened) return tl::unexpected(opened.error());
+  std::vector<TruthRow> rows;
+  while (true) {
+    const auto more = table.Next();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) break;
+    auto row = ReadRow(table);
+    if (!row) return tl::unexpected(row.error());
+    const bool twice = std::any_of(
+        rows.begin(), rows.end(), [&](const TruthRow& other) { return other.index == row->index; });
+    if (twice) return table.Refuse(kIndex, "an index that did not occur yet");
+    rows.push_back(std::move(*row));
+  }
+  if (rows.empty()) return Fail("expected at least one row of parameters", path);
+  return rows;
+}
+
+TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<TruthRow>& truth) {
+  TruthComparison result;
+  result.rows = static_cast<int>(truth.size());
+  result.one_truth = truth.size() == 1;
+  std::vector<Pair> pairs;
+  bool other_model = false, other_cells = false;
+  for (const FamilyCurve& curve : report.curves) {
+    if (curve.free_parameters.empty()) continue;
+    const TruthRow* row = RowOf(curve, truth);
+    if (row == nullptr) {
+      ++result.unmatched;
+    } else if (curve.free_parameters.size() != kParameters) {
+      other_model = true;
+    } else {
+      other_cells = other_cells || row->cells_in_series != report.cells_in_series;
+      pairs.push_back({&curve, row});
+    }
+  }
+  result.curves = static_cast<int>(pairs.size());
+  if (other_model) {
+    result.warnings.emplace_back("the truth is of one diode: fit with one to compare");
+  } else if (pairs.empty()) {
+    result.warnings.emplace_back("no curve that was fitted alone has a row of truth");
+  }
+  if (other_cells) {
+    result.warnings.emplace_back(
+        "the truth states another number of cells in series than the curves: n is per cell, so its "
+        "errors mean nothing");
+  }
+  if (pairs.empty()) return result;
+  const Device device = MakeDevice(Model::kSingleDiode, Conditions());
+  for (int i = 0; i < kParameters; ++i) {
+    result.parameters.push_back(CompareParameter(device.parameters[i], pairs, i, result.one_truth));
+  }
+  return result;
+}
+
+}  // namespace lyrefit

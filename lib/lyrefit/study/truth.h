@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/device/parameter.h"
+#include "lyrefit/family/family_report.h"
+
+namespace lyrefit {
+
+// The parameters that a curve was made from, as the contest sets of github.com/cwhanse/ivcurves
+// state them: of the whole module, n per cell, one diode.
+struct TruthRow {
+  std::string index;           // of the curve; that of a lone row is of no account
+  std::vector<double> values;  // Iph, Is1, n1, Rs, Rsh: the order of a single-diode device
+  int cells_in_series = 1;
+};
+
+// A table with the columns Index, photocurrent, saturation_current, resistance_series,
+// resistance_shunt, n, cells_in_series in any order. Errors carry file, line and column: what
+// cannot be read, values no diode in the light has, an index that occurs twice, no row at all.
+Expected<std::vector<TruthRow>> ReadTruth(const std::string& path);
+
+// Errors of one parameter, each relative to the truth of its own curve.
+struct TruthParameter {
+  ParameterInfo info;
+  double worst = kUnknown;  // largest |error|
+  std::string worst_id;
+  double median = kUnknown;  // of |error|
+  int intervals = 0;         // curves with a 95 % interval
+  int covered = 0;           // of those: it holds the truth
+  // Of sets with one truth, else NaN. The shunt takes part as a conductance: a curve that says
+  // nothing of it has a resistance without limit, which no mean survives.
+  double truth = kUnknown;
+  double mean = kUnknown;              // of the fits
+  double mean_error = kUnknown;        // of that mean, with its sign
+  double root_mean_square = kUnknown;  // of the errors of the single fits
+};
+
+struct TruthComparison {
+  int rows = 0;                            // of truth
+  int curves = 0;                          // compared
+  int unmatched = 0;                       // fitted curves without a row of truth
+  bool one_truth = false;                  // one row for all curves
+  std::vector<TruthParameter> parameters;  // Iph, Is1, n1, Rs, Rsh
+  std::vector<std::string> warnings;
+};
+
+// The fits of single curves held against the truth: a lone row holds for all curves, others for
+// the curve with their index as its id. Only single-diode fits can be compared; a warning says so
+// where there is nothing else.
+TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<TruthRow>& truth);
+
+}  // namespace lyrefit

@@ -97,6 +97,11 @@ void AddFamilyFlags(CLI::App* verb, FamilyFlags* flags) {
   AddLawFlags(verb, flags);
   AddCurveChoiceFlags(verb, flags);
   AddSensorFlags(verb, flags);
+  verb->add_option("--truth", flags->truth_file,
+                   "parameters the curves were made from, as the ivcurves contest states them: "
+                   "prints the errors")
+      ->type_name("FILE")
+      ->group(kGroup);
   verb->add_option("--csv", flags->csv_file, "the parameters of each curve as a table")
       ->type_name("FILE")
       ->group("Output");

@@ -35,6 +35,7 @@ struct FamilyFlags {
   bool no_free_fits = false;
   std::string csv_file;
   std::string pvlib_file;
+  std::string truth_file;
 };
 
 void AddFamilyFlags(CLI::App* verb, FamilyFlags* flags);

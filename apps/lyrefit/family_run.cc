@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "interrupt.h"
 #include "lyrefit/curve/curve_set.h"
@@ -14,6 +15,8 @@
 #include "lyrefit/report/family_plot.h"
 #include "lyrefit/report/family_text.h"
 #include "lyrefit/report/pvlib_json.h"
+#include "lyrefit/report/truth_text.h"
+#include "lyrefit/study/truth.h"
 #include "output.h"
 
 namespace lyrefit {
@@ -64,6 +67,9 @@ Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOp
 Expected<void> CheckTargets(const FamilyFlags& flags, const ReportFlags& output) {
   const int piped = (output.json_file == "-") + (flags.csv_file == "-") + (flags.pvlib_file == "-");
   if (piped > 1) return Fail("only one of --json, --csv and --pvlib can have standard output");
+  if (piped > 0 && !flags.truth_file.empty()) {
+    return Fail("--truth prints to standard output, which is taken: name files for the others");
+  }
   for (const std::string& file : {flags.csv_file, flags.pvlib_file}) {
     if (auto writable = CheckWritable(file); !writable) return writable;
   }
@@ -81,7 +87,8 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
 }
 
 // What pvlib cannot take is known last: all else is written by then.
-Expected<void> Write(const FamilyReport& report, const CurveSet& set, const FamilyFlags& flags,
+Expected<void> Write(const FamilyReport& report, const CurveSet& set,
+                     const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
                      const ReportFlags& output) {
   if (!output.json_file.empty()) {
     if (auto written = WriteOutput(output.json_file, FamilyJson(report)); !written) return written;
@@ -96,6 +103,10 @@ Expected<void> Write(const FamilyReport& report, const CurveSet& set, const Fami
     const std::string text = output.brief ? BriefFamily(report) : FamilyText(report);
     if (auto written = WriteOutput("-", text); !written) return written;
   }
+  if (truth) {
+    const std::string text = TruthText(CompareWithTruth(report, *truth));
+    if (auto written = WriteOutput("-", "\n" + text); !written) return written;
+  }
   return flags.pvlib_file.empty() ? Expected<void>() : WritePvlib(report, set, flags.pvlib_file);
 }
 
@@ -106,11 +117,18 @@ int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyO
   if (auto checked = CheckTargets(flags, output); !checked) return Refuse(checked.error());
   const Expected<CurveSet> set = ReadFlaggedSet(flagged);
   if (!set) return Refuse(set.error());
+  std::optional<std::vector<TruthRow>> truth;
+  if (!flags.truth_file.empty()) {
+    Expected<std::vector<TruthRow>> rows = ReadTruth(flags.truth_file);
+    if (!rows) return Refuse(rows.error());
+    truth = std::move(*rows);
+  }
   const InterruptGuard guard;
   const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
   ClearProgressLine();
   if (!report) return Refuse(report.error());
-  if (auto written = Write(*report, *set, flags, output); !written) return Refuse(written.error());
+  if (auto written = Write(*report, *set, truth, flags, output); !written)
+    return Refuse(written.error());
   return report->usable ? kExitFine : kExitNotUsable;
 }
 

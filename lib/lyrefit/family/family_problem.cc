@@ -5,18 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+
+#include "lyrefit/family/held_values.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr double kSameTemperature_K = 5;     // a smaller spread says nothing about coefficients
-constexpr double kSameIrradiance = 1.5;      // ratio; a smaller one says nothing about the shunt
-constexpr double kBandgap_eV = 1.121;        // crystalline silicon at 25 C
-constexpr double kBandgapSlope = -2.677e-4;  // 1/K
-constexpr double kUsualTempco = 5e-4;        // relative alpha_sc of silicon, 1/K
-constexpr double kShuntExponent = 5.5;       // PVsyst's
-constexpr double kBuiltIn_V = 0.9;           // a cell
+constexpr double kSameTemperature_K = 5;  // a smaller spread says nothing about coefficients
+constexpr double kSameIrradiance = 1.5;   // ratio; a smaller one says nothing about the shunt
 
 struct Spread {
   double low = HUGE_VAL;
@@ -100,14 +96,14 @@ class Builder {
     Range(at_.saturation_current_2, 0, kInfinity, 1e-3 * saturation(2), 3 * saturation(2),
           SearchScale::kLog);
     Range(at_.n_2, 1, 4, 1.5, 3);
-    const double built_in = kBuiltIn_V * at_.spec.cells_in_series;
+    const double built_in = kHeldBuiltIn_V * at_.spec.cells_in_series;
     Range(at_.recombination, 0, built_in, 0, 0.05 * built_in);
     Range(at_.built_in_voltage, voltage * 1.05, 3 * built_in, built_in, 1.2 * built_in);
     Range(at_.size(), 0, 0, 0, 0);
     Range(at_.size() + 1, 0, 0, 0, 0);
-    HoldAt(at_.bandgap_slope, kBandgapSlope, "");
-    HoldAt(at_.shunt_exponent, kShuntExponent, "");
-    HoldAt(at_.n_2, 2, "");
+    HoldAt(at_.bandgap_slope, kHeldBandgapSlope_per_K, "");
+    HoldAt(at_.shunt_exponent, kHeldShuntExponent, "");
+    HoldAt(at_.n_2, kHeldIdeality2, "");
     HoldAt(at_.built_in_voltage, std::max(built_in, voltage * 1.05), "");
     f_.fixed[at_.size()] = f_.fixed[at_.size() + 1] = 0;
   }
@@ -116,14 +112,14 @@ class Builder {
     for (const IvCurve& curve : set_.curves) {
       if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
     }
-    return kBandgap_eV;
+    return kHeldBandgap_eV;
   }
 
   void HoldWhatCannotBeSeen() {
     const bool pvsyst = at_.spec.law == TranslationLaw::kPvsyst;
     if (pvsyst) HoldAt(at_.bandgap, StatedBandgap(), "");
     if (!(temperature_.high - temperature_.low >= kSameTemperature_K)) {
-      double tempco = kUsualTempco;
+      double tempco = kHeldTempco_per_K;
       for (const IvCurve& curve : set_.curves) {
         if (curve.notes.isc_tempco_per_K) tempco = *curve.notes.isc_tempco_per_K;
       }

@@ -14,6 +14,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kCorrelated = 1;  // Durbin-Watson statistic: lag-1 correlation above 0.5
+
 double Seconds(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -80,6 +82,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   fit.objective = options.objective;
   fit.constants = options.constants;
   fit.fixed = options.fixed;
+  fit.bounds.overrides = options.bounds;
   fit.search = options.search;
   fit.random_baseline = false;
   fit.intervals = options.intervals ? Intervals::kProfile : Intervals::kNone;
@@ -105,7 +108,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.free_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
   std::size_t next = 0;
-  int failed = 0, fitted = 0;
+  int failed = 0, fitted = 0, correlated = 0;
   for (FamilyCurve& curve : report.curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
@@ -113,6 +116,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
       FillFreeFit(**one, &curve);
       fitted += (*one)->usable;
       failed += !(*one)->usable;
+      correlated += (*one)->residuals.durbin_watson < kCorrelated;
       continue;
     }
     curve.role = CurveRole::kLeftOut;
@@ -123,6 +127,13 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   if (failed > 0) {
     report.warnings.push_back(
         fmt::format("{} of {} fits are worse than a straight line.", failed, failed + fitted));
+  }
+  if (2 * correlated > fitted) {
+    report.warnings.push_back(fmt::format(
+        "The residuals hang together from point to point (Durbin-Watson below {:g} in {} of {} "
+        "fits): a law that misses, or noise that is not independent. The intervals of the single "
+        "fits are too narrow then; the spread between fits of equal curves is the honest measure.",
+        kCorrelated, correlated, fitted));
   }
   report.usable = fitted > 0;
   return report;

@@ -37,6 +37,31 @@ std::string MeanTable(const TruthComparison& comparison) {
   return table.Text();
 }
 
+// "7.998 .. 8.001", with "NO" where the truth lies outside.
+std::string IntervalText(const Interval& interval, double truth) {
+  if (std::isnan(interval.low_95) || std::isnan(interval.high_95)) return "-";
+  const bool holds = truth >= interval.low_95 && truth <= interval.high_95;
+  return Range(interval.low_95, interval.high_95) + (holds ? "" : "  NO");
+}
+
+std::string JointTable(const TruthComparison& comparison) {
+  TextTable table("lrrrll");
+  table.Add({"parameter", "truth", "joint fit", "its error", "95 % by points", "by whole curves"});
+  for (const TruthParameter& p : comparison.parameters) {
+    table.Add({p.info.symbol, Significant(p.truth, 7), Significant(p.joint, 7),
+               SignedPart(p.joint_error), IntervalText(p.by_points, p.truth),
+               IntervalText(p.by_curves, p.truth)});
+  }
+  return table.Text() + Wrap("  ", "NO: the interval does not hold the truth.");
+}
+
+bool HasJoint(const TruthComparison& comparison) {
+  for (const TruthParameter& p : comparison.parameters) {
+    if (!std::isnan(p.joint)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string TruthText(const TruthComparison& comparison) {
@@ -50,6 +75,10 @@ std::string TruthText(const TruthComparison& comparison) {
   if (comparison.one_truth && !comparison.parameters.empty()) {
     text += "\n  The fits together; Rsh is averaged, and its errors are taken, as a conductance\n";
     text += MeanTable(comparison);
+  }
+  if (HasJoint(comparison)) {
+    text += "\n  One set of parameters for all curves\n";
+    text += JointTable(comparison);
   }
   if (comparison.unmatched > 0) {
     text +=

@@ -8,6 +8,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/device/kernel.h"
 #include "lyrefit/device/model_points.h"
+#include "lyrefit/family/held_values.h"
 
 namespace lyrefit {
 namespace {
@@ -21,11 +22,6 @@ constexpr int kGridSize = static_cast<int>(std::size(kGrid));
 constexpr int kSpanning = 5;
 constexpr int kFewestCurves = 5;
 constexpr int kMostCurves = 30;
-// What FitFamily holds where nobody says otherwise.
-constexpr double kHeldBandgap_eV = 1.121;
-constexpr double kHeldBandgapSlope_per_K = -0.0002677;
-constexpr double kHeldShuntExponent = 5.5;
-constexpr double kHeldIdeality2 = 2;
 
 double Between(double low, double high, RandomStream* random) {
   return low + (high - low) * random->Uniform();
@@ -40,7 +36,8 @@ double SaturationCurrent(double current_A, double voltage_V, double nNsVth) {
   return current_A / std::expm1(voltage_V / nNsVth);
 }
 
-std::vector<double> DrawModule(const Translation& t, RandomStream* random) {
+// With `known_bandgap` that of silicon, which a fit of the temperatures' error takes for granted.
+std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomStream* random) {
   std::vector<double> p(t.parameters.size(), 0);
   const double isc = Between(3, 10, random);
   const double voc = t.spec.cells_in_series * Between(0.55, 0.70, random);
@@ -53,7 +50,8 @@ std::vector<double> DrawModule(const Translation& t, RandomStream* random) {
   p[t.alpha_sc] = Between(2e-4, 8e-4, random) * isc;
   p[t.photocurrent] = isc * (1 + rs / rsh);  // the diodes take nothing to speak of at 0 V
   const bool pvsyst = t.spec.law == TranslationLaw::kPvsyst;
-  p[t.bandgap] = pvsyst ? kHeldBandgap_eV : Between(1.10, 1.14, random);
+  const double bandgap_eV = Between(1.10, 1.14, random);
+  p[t.bandgap] = pvsyst || known_bandgap ? kHeldBandgap_eV : bandgap_eV;
   if (t.bandgap_slope >= 0) p[t.bandgap_slope] = kHeldBandgapSlope_per_K;
   if (t.n_slope >= 0) p[t.n_slope] = Between(-1e-3, 1e-3, random);
   if (t.resistance_shunt_dark >= 0) p[t.resistance_shunt_dark] = Between(2, 8, random) * rsh;
@@ -161,7 +159,8 @@ Expected<SimulatedSet> SimulateSet(const CoverageOptions& options, int index) {
   SimulatedSet made;
   made.translation = std::move(*translation);
   Expected<std::vector<double>> truth =
-      stated ? StatedModule(made.translation, options) : DrawModule(made.translation, &random);
+      stated ? StatedModule(made.translation, options)
+             : DrawModule(made.translation, options.family.temperature_offset, &random);
   if (!truth) return tl::unexpected(truth.error());
   made.truth = std::move(*truth);
   for (const auto& [name, value] : options.family.fixed) {

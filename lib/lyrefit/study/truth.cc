@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/study/named_table.h"
 
@@ -132,6 +133,37 @@ Expected<std::vector<TruthRow>> ReadTruth(const std::string& path) {
   return rows;
 }
 
+namespace {
+
+// Whether shared parameters, which are those of the reference, are those of every curve too.
+bool AllAtReference(const FamilyReport& report) {
+  return std::all_of(report.curves.begin(), report.curves.end(), [](const FamilyCurve& curve) {
+    return curve.role == CurveRole::kLeftOut ||
+           (std::fabs(curve.irradiance_W_m2 - kReferenceIrradiance_W_m2) < 1e-6 &&
+            std::fabs(curve.temperature_C + kZeroCelsius_K - kReferenceTemperature_K) < 1e-6);
+  });
+}
+
+// The shared parameters beside a lone truth.
+void CompareJoint(const FamilyReport& report, const TruthRow& truth, TruthComparison* result) {
+  const bool one_diode = report.translation.spec.model == Model::kSingleDiode;
+  if (report.free || report.estimates.empty() || !one_diode || !AllAtReference(report)) return;
+  const Translation& at = report.translation;
+  const int positions[] = {at.photocurrent, at.saturation_current, at.n, at.resistance_series,
+                           at.resistance_shunt};
+  for (int i = 0; i < kParameters; ++i) {
+    const Estimate& e = report.estimates[positions[i]];
+    TruthParameter& p = result->parameters[i];
+    const double value = truth.values[i];
+    p.joint = e.refined;
+    p.joint_error = i == kRsh ? value / e.refined - 1 : e.refined / value - 1;
+    p.by_points = {e.refined, e.standard_error, e.low_95, e.high_95};
+    if (!report.jackknife.empty()) p.by_curves = report.jackknife[positions[i]];
+  }
+}
+
+}  // namespace
+
 TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<TruthRow>& truth) {
   TruthComparison result;
   result.rows = static_cast<int>(truth.size());
@@ -166,6 +198,7 @@ TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<T
   for (int i = 0; i < kParameters; ++i) {
     result.parameters.push_back(CompareParameter(device.parameters[i], pairs, i, result.one_truth));
   }
+  if (result.one_truth) CompareJoint(report, truth[0], &result);
   return result;
 }
 

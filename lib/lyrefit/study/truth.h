@@ -36,6 +36,11 @@ struct TruthParameter {
   double mean = kUnknown;              // of the fits
   double mean_error = kUnknown;        // of that mean, with its sign
   double root_mean_square = kUnknown;  // of the errors of the single fits
+  // The parameter of a joint fit of curves that were all taken at the reference; NaN without one.
+  double joint = kUnknown;
+  double joint_error = kUnknown;  // relative, with its sign; of the shunt's conductance
+  Interval by_points;  // its 95 % interval with points, and with whole curves, as independent
+  Interval by_curves;
 };
 
 struct TruthComparison {
@@ -47,9 +52,9 @@ struct TruthComparison {
   std::vector<std::string> warnings;
 };
 
-// The fits of single curves held against the truth: a lone row holds for all curves, others for
-// the curve with their index as its id. Only single-diode fits can be compared; a warning says so
-// where there is nothing else.
+// The fits of single curves, and with one truth the shared parameters, held against the truth: a
+// lone row holds for all curves, others for the curve with their index as its id. Only single-diode
+// fits can be compared; a warning says so where there is nothing else.
 TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<TruthRow>& truth);
 
 }  // namespace lyrefit

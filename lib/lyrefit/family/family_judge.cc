@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/device/model_points.h"
+#include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/refine/joint_linear.h"
 #include "lyrefit/refine/joint_profile.h"
@@ -28,10 +29,9 @@ Interval Symmetric(double value, double standard_error, double t) {
   return interval;
 }
 
-KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared,
-                      double temperature_K) {
+KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
   const TranslatedDevice at =
-      TranslateTo(translation, shared, kReferenceIrradiance_W_m2, temperature_K);
+      TranslateTo(translation, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);
   return ModelKeyPoints(at.device, at.parameters.data());
 }
 
@@ -59,7 +59,7 @@ class Judge {
       FindCorrelations(spread);
     }
     SensorErrors(spread);
-    r_.reference = AtReference(family_.translation, r_.refined, kReferenceTemperature_K);
+    r_.reference = AtReference(family_.translation, r_.refined);
     local_error_ = spread.local_error;
   }
 
@@ -184,21 +184,16 @@ class Judge {
   }
 
   void FindCoefficients(const JointSpread& spread) {
-    constexpr double kStep_K = 0.5;
-    const auto slope = [&](double KeyPoints::*field, bool relative) {
-      return [this, field, relative](const std::vector<double>& shared) {
-        const KeyPoints warm =
-            AtReference(family_.translation, shared, kReferenceTemperature_K + kStep_K);
-        const KeyPoints cold =
-            AtReference(family_.translation, shared, kReferenceTemperature_K - kStep_K);
-        const double rise = (warm.*field - cold.*field) / (2 * kStep_K);
-        return relative ? 200 * rise / (warm.*field + cold.*field) : rise;
+    const auto coefficient = [&](double TemperatureCoefficients::*field) {
+      return [this, field](const std::vector<double>& shared) {
+        return CoefficientsAtReference(family_.translation, shared).*field;
       };
     };
     r_.coefficients = {
-        {"alpha_isc", "A/K", Derived(slope(&KeyPoints::short_circuit_current_A, false), spread)},
-        {"beta_voc", "V/K", Derived(slope(&KeyPoints::open_circuit_voltage_V, false), spread)},
-        {"gamma_pmp", "%/K", Derived(slope(&KeyPoints::max_power_W, true), spread)}};
+        {"alpha_isc", "A/K", Derived(coefficient(&TemperatureCoefficients::alpha_sc_A_K), spread)},
+        {"beta_voc", "V/K", Derived(coefficient(&TemperatureCoefficients::beta_oc_V_K), spread)},
+        {"gamma_pmp", "%/K",
+         Derived(coefficient(&TemperatureCoefficients::gamma_pmp_percent_K), spread)}};
   }
 
   void FindCorrelations(const JointSpread& spread) {

@@ -57,9 +57,8 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
 }
 
 template <class Options, class Table>
-void AppendNonDefaults(const Options& options, const Table& table,
-                       std::vector<OptionEcho>* echoes) {
-  static const Options defaults;
+void AppendNonDefaults(const Options& options, const Table& table, std::vector<OptionEcho>* echoes,
+                       const Options& defaults = {}) {
   for (const OptionRow<Options>& row : table) {
     std::visit(
         [&](auto field) {

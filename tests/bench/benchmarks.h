@@ -8,5 +8,6 @@ void RegisterKernelBenchmarks();
 void RegisterSolverBenchmarks();
 void RegisterSearchBenchmarks();
 void RegisterFitBenchmarks();
+void RegisterFamilyBenchmarks();
 
 }  // namespace lyrefit::bench

@@ -58,7 +58,7 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
 
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Table& table, std::vector<OptionEcho>* echoes,
-                       const Options& defaults = {}) {
+                       const Options& defaults = Options()) {
   for (const OptionRow<Options>& row : table) {
     std::visit(
         [&](auto field) {

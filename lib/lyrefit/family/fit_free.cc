@@ -118,8 +118,9 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
     }
     curve.role = CurveRole::kLeftOut;
     curve.reason = one ? one->error().message : "interrupted before its turn";
-    if (one && first == nullptr) first = &one->error();
-    refused += one.has_value();
+    if (!one) continue;
+    if (first == nullptr) first = &one->error();
+    ++refused;
     report.warnings.push_back(
         fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }

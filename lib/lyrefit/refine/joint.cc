@@ -155,12 +155,11 @@ class JointPolish {
   void Solve(bool bounded) {
     const JointCoordinates coordinates(problem_, at_.shared, held_);
     converged_ = coordinates.size() == 0 && !HasLocals();
-    if (converged_) return;
+    if (converged_ || !std::isfinite(cost_)) return;  // from nowhere there is no way
     std::vector<double> theta = coordinates.Start();
     ClampInto(coordinates, &theta);
     const double points = std::max<double>(1, static_cast<double>(PointCount()));
-    const double unit_A =
-        std::isfinite(cost_) ? std::max(std::sqrt(cost_ / points), 1e-13 * Scale()) : Scale();
+    const double unit_A = std::max(std::sqrt(cost_ / points), 1e-13 * Scale());
     ceres::Problem solver;
     std::vector<std::vector<double>> locals;
     locals.reserve(problem_.curves.size());

@@ -15,45 +15,45 @@ namespace {
 class Numbers {
  public:
   explicit Numbers(const FamilyReport& report) {
-    Add(report.searched);
-    Add(report.refined);
+    AddAll(report.searched);
+    AddAll(report.refined);
     for (const Estimate& e : report.estimates) {
-      Add({e.searched, e.refined, e.standard_error, e.low_95, e.high_95});
+      AddAll({e.searched, e.refined, e.standard_error, e.low_95, e.high_95});
     }
     Add(report.irradiance_offset_W_m2);
     Add(report.temperature_offset_K);
     for (const Coefficient& c : report.coefficients) Add(c.value);
     for (const Interval& interval : report.jackknife) Add(interval);
-    for (const Correlation& c : report.correlations) Add({c.value});
+    for (const Correlation& c : report.correlations) AddAll({c.value});
     const FamilyRmseTable& table = report.rmse;
     for (const RmsePair& pair :
          {table.random_baseline, table.searched, table.searched_all, table.refined}) {
       Add(pair);
     }
-    Add({report.noise_A, report.projected_gradient, report.reference.max_power_W});
+    AddAll({report.noise_A, report.projected_gradient, report.reference.max_power_W});
     for (const FamilyCurve& curve : report.curves) {
       Add(curve.irradiance_offset_W_m2);
       Add(curve.temperature_offset_K);
-      Add(curve.parameters);
-      Add(curve.residual_A);
-      Add(curve.free_parameters);
+      AddAll(curve.parameters);
+      AddAll(curve.residual_A);
+      AddAll(curve.free_parameters);
       Add(curve.rmse);
       Add(curve.free_rmse);
     }
     if (report.held_out) {
       Add(report.held_out->rmse);
-      Add({report.held_out->median_rmse_A, report.held_out->median_free_rmse_A});
+      AddAll({report.held_out->median_rmse_A, report.held_out->median_free_rmse_A});
     }
-    if (report.without_odd) Add(report.without_odd->shared);
+    if (report.without_odd) AddAll(report.without_odd->shared);
   }
   const std::vector<double>& all() const { return all_; }
 
  private:
-  void Add(const std::vector<double>& values) {
+  void AddAll(const std::vector<double>& values) {
     all_.insert(all_.end(), values.begin(), values.end());
   }
-  void Add(const Interval& i) { Add({i.value, i.standard_error, i.low_95, i.high_95}); }
-  void Add(const RmsePair& pair) { Add({pair.measured_current_A, pair.solved_current_A}); }
+  void Add(const Interval& i) { AddAll({i.value, i.standard_error, i.low_95, i.high_95}); }
+  void Add(const RmsePair& pair) { AddAll({pair.measured_current_A, pair.solved_current_A}); }
   std::vector<double> all_;
 };
 

@@ -81,7 +81,7 @@ TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
         }
       };
       for (int k = 0; k < coordinates.size(); ++k) {
-        differ(theta, true, k, shared.col(k).cwiseAbs().maxCoeff() + 1e-3, shared);
+        differ(theta, true, k, shared.col(k).cwiseAbs().maxCoeff() + 1e-2, shared);
       }
       for (int k = 0; k < shape.locals; ++k) {
         differ(own, false, k, local.col(k).cwiseAbs().maxCoeff(), local);

@@ -143,7 +143,7 @@ class JointPolish {
     if (shape.temperature) packed.push_back(local[1]);
     return packed;
   }
-  static JointLocal Unpack(const JointShape& shape, const std::vector<double>& packed) {
+  static JointLocal Unpack(const JointShape& shape, const JointLocal& packed) {
     JointLocal local = {0, 0};
     std::size_t next = 0;
     if (shape.irradiance) local[0] = packed[next++];
@@ -161,19 +161,21 @@ class JointPolish {
     const double points = std::max<double>(1, static_cast<double>(PointCount()));
     const double unit_A = std::max(std::sqrt(cost_ / points), 1e-13 * Scale());
     ceres::Problem solver;
-    std::vector<std::vector<double>> locals;
-    locals.reserve(problem_.curves.size());
+    // In one block, since Ceres orders what it eliminates by address: in pieces, the last bits of a
+    // fit would hang on where they happened to lie.
+    std::vector<JointLocal> locals(problem_.curves.size());
     auto* order = new ceres::ParameterBlockOrdering;
     for (std::size_t c = 0; c < problem_.curves.size(); ++c) {
       const JointShape shape = ShapeOf(problem_.curves[c]);
-      locals.push_back(Pack(shape, at_.local[c]));
+      const std::vector<double> packed = Pack(shape, at_.local[c]);
+      std::copy(packed.begin(), packed.end(), locals[c].begin());
       auto cost =
           std::make_unique<CurveCost>(problem_, coordinates, static_cast<int>(c), unit_A);
       std::vector<double*> blocks;
       if (!theta.empty()) blocks.push_back(theta.data());
-      if (shape.locals > 0) blocks.push_back(locals.back().data());
+      if (shape.locals > 0) blocks.push_back(locals[c].data());
       if (!blocks.empty()) solver.AddResidualBlock(cost.release(), nullptr, blocks);
-      if (shape.locals > 0) order->AddElementToGroup(locals.back().data(), 0);
+      if (shape.locals > 0) order->AddElementToGroup(locals[c].data(), 0);
     }
     if (!theta.empty()) order->AddElementToGroup(theta.data(), 1);
     if (bounded) SetBounds(coordinates, &theta, &solver);

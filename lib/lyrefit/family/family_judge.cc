@@ -45,7 +45,7 @@ class Judge {
     const std::vector<double>& shared = end_.point.shared;
     const int count = family_.translation.size();
     r_.refined.assign(shared.begin(), shared.begin() + count);
-    JointSpread spread = FindJointSpread(problem_, end_, 1.0);
+    JointSpread spread = FindJointSpread(problem_, end_, problem_.noise_A * problem_.noise_A);
     const double degrees = JointDegrees(problem_, family_.free_parameters, spread.local_degrees);
     variance_ = end_.squares / degrees;
     r_.noise_A = std::sqrt(variance_);
@@ -87,13 +87,11 @@ class Judge {
     if (end_.held[i]) MarkHeld(i, &e);
     e.standard_error = spread.standard_error[i];
     const double reach = t_ * e.standard_error;
-    if (!options_.intervals || !std::isfinite(reach)) {
-      if (!end_.held[i]) {
-        e.identifiable = false;
-        e.reason = "the data do not fix it: another parameter takes its place";
-      }
-      return e;
+    if (!std::isfinite(reach) && !end_.held[i]) {
+      e.identifiable = false;
+      e.reason = "the data do not fix it: nothing shows it, or another parameter takes its place";
     }
+    if (!options_.intervals || !std::isfinite(reach)) return e;
     e.interval = IntervalMethod::kSymmetric;
     if (IsSaturation(i)) {
       e.low_95 = e.refined * std::exp(-reach / e.refined);
@@ -117,7 +115,11 @@ class Judge {
       e->identifiable = false;
       e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
       if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
-    } else if (IsShunt(i)) {
+    } else if (i == at.resistance_shunt_dark) {
+      // Its range is relative to the other shunt.
+      const double ratio = e->refined / end_.point.shared[at.resistance_shunt];
+      e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
+    } else if (i == at.resistance_shunt && std::isinf(e->bounds.upper)) {
       const bool perfect = e->refined > kNearPerfectShunt * resistance;
       e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
     } else {
@@ -172,12 +174,17 @@ class Judge {
     const int count = family_.translation.size();
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
     for (int i = 0; i < count; ++i) {
-      const double step = 1e-3 * spread.standard_error[i];
+      double step = 1e-3 * spread.standard_error[i];
+      const bool open = std::isnan(step) && !end_.held[i];
+      if (open) step = 1e-3 * std::max(std::fabs(r_.refined[i]), 1e-3);
       if (!(step > 0)) continue;
       std::vector<double> up = r_.refined, down = r_.refined;
       up[i] += step;
       down[i] -= step;
-      gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+      const double rise = value(up) - value(down);
+      const bool moves = std::fabs(rise) > 1e-9 * std::fabs(value(r_.refined));
+      if (open && moves) return Symmetric(value(r_.refined), kUnknown, t_);
+      if (!open) gradient[i] = rise / (up[i] - down[i]);
     }
     const double variance = gradient.dot(spread.covariance * gradient);
     return Symmetric(value(r_.refined), std::sqrt(std::max(variance, 0.0)), t_);

@@ -29,7 +29,7 @@ void LeaveOut(std::string reason, FamilyMember* member) {
 int UsualCells(const CurveSet& set) {
   std::vector<double> cells;
   for (const IvCurve& curve : set.curves) cells.push_back(curve.conditions.cells_in_series);
-  return static_cast<int>(Median(cells));
+  return cells.empty() ? 0 : static_cast<int>(Median(cells));
 }
 
 // Members that no law can place.
@@ -169,6 +169,15 @@ Expected<void> CheckIds(const CurveSet& set, const FamilyOptions& options) {
 
 }  // namespace
 
+std::vector<Conditions> ConditionsOf(const FamilyMembers& members) {
+  std::vector<Conditions> conditions(members.members.size());
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    conditions[c].irradiance_W_m2 = members.members[c].joint.irradiance_W_m2;
+    conditions[c].cell_temperature_K = members.members[c].joint.temperature_K;
+  }
+  return conditions;
+}
+
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options) {
   if (auto checked = CheckIds(set, options); !checked) return tl::unexpected(checked.error());
   FamilyMembers result;
@@ -213,7 +222,10 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   result.reference_current_A = Median(per_sun);
   SetWeights(options, result.reference_current_A, &result.members);
   UseSigmas(set, &result.members);
-  result.fitted = options.fit_curves > 0 ? SpreadCurves(set, light, options.fit_curves) : light;
+  result.fitted = light;
+  if (options.fit_curves > 0) {
+    result.fitted = SpreadCurves(ConditionsOf(result), light, options.fit_curves);
+  }
   for (const int c : light) {
     if (std::binary_search(result.fitted.begin(), result.fitted.end(), c)) continue;
     result.members[c].role = CurveRole::kHeldOut;

@@ -26,6 +26,9 @@ struct FamilyMembers {
   std::vector<std::string> notes;  // what had to be assumed
 };
 
+// Of every curve: as stated, or guessed where nobody stated them.
+std::vector<Conditions> ConditionsOf(const FamilyMembers& members);
+
 // Errors: fewer than two light curves, ids that occur twice or not at all, unusable curves.
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options);
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 
 #include "lyrefit/family/held_values.h"
 
@@ -33,12 +33,12 @@ class Builder {
       const JointCurve& curve = f_.curves.members[c].joint;
       if (std::isfinite(curve.irradiance_sd)) irradiance_.Add(curve.irradiance_W_m2);
       if (std::isfinite(curve.temperature_sd_K)) temperature_.Add(curve.temperature_K);
-      unknown_temperatures_ += std::isinf(curve.temperature_sd_K);
     }
     SetRanges();
     HoldWhatCannotBeSeen();
     if (auto checked = ApplyWishes(); !checked) return checked;
     if (auto checked = SensorErrors(); !checked) return checked;
+    TellWhatIsHeld();
     for (const double value : f_.fixed) f_.free_parameters += std::isnan(value);
     return {};
   }
@@ -52,9 +52,14 @@ class Builder {
   void HoldAt(int i, double value, const std::string& why) {
     if (i < 0) return;
     f_.fixed[i] = value;
-    if (!why.empty()) {
+    if (!why.empty()) reasons_[i] = why;
+  }
+
+  // Of what is held without having been asked for.
+  void TellWhatIsHeld() {
+    for (const auto& [i, why] : reasons_) {
       f_.notes.push_back(
-          fmt::format("{} is held at {:.6g}: {}", at_.parameters[i].name, value, why));
+          fmt::format("{} is held at {:.6g}: {}", at_.parameters[i].name, f_.fixed[i], why));
     }
   }
 
@@ -119,13 +124,17 @@ class Builder {
     const bool pvsyst = at_.spec.law == TranslationLaw::kPvsyst;
     if (pvsyst) HoldAt(at_.bandgap, StatedBandgap(), "");
     if (!(temperature_.high - temperature_.low >= kSameTemperature_K)) {
-      double tempco = kHeldTempco_per_K;
+      double tempco_A = kHeldTempco_per_K * f_.curves.reference_current_A;
       for (const IvCurve& curve : set_.curves) {
-        if (curve.notes.isc_tempco_per_K) tempco = *curve.notes.isc_tempco_per_K;
+        const DeviceNotes& notes = curve.notes;
+        if (notes.isc_tempco_A_per_K) tempco_A = *notes.isc_tempco_A_per_K;
+        if (notes.isc_tempco_per_K) {
+          tempco_A = *notes.isc_tempco_per_K * f_.curves.reference_current_A;
+        }
       }
       const std::string why =
           fmt::format("the temperatures differ by less than {:g} K", kSameTemperature_K);
-      HoldAt(at_.alpha_sc, tempco * f_.curves.reference_current_A, why);
+      HoldAt(at_.alpha_sc, tempco_A, why);
       if (!pvsyst) HoldAt(at_.bandgap, StatedBandgap(), why);
       HoldAt(at_.n_slope, 0, why);
     } else if (options_.temperature_offset && !pvsyst) {
@@ -150,6 +159,7 @@ class Builder {
       const auto i = Position(name, "free");
       if (!i) return tl::unexpected(i.error());
       f_.fixed[*i] = kUnknown;
+      reasons_.erase(*i);
     }
     for (const auto& [name, value] : options_.fixed) {
       const auto i = Position(name, "fix");
@@ -160,6 +170,7 @@ class Builder {
                                 range.upper));
       }
       f_.fixed[*i] = value;
+      reasons_.erase(*i);
     }
     for (const auto& [name, range] : options_.bounds) {
       const auto i = Position(name, "bound");
@@ -215,9 +226,9 @@ class Builder {
   const FamilyOptions& options_;
   FamilyProblem& f_;
   const Translation& at_;
+  std::map<int, std::string> reasons_;  // why a parameter is held
   Spread irradiance_;
   Spread temperature_;
-  int unknown_temperatures_ = 0;
 };
 
 Expected<void> CheckOptions(const FamilyOptions& options) {

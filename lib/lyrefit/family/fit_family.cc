@@ -245,7 +245,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
                             job.family.free_parameters),
                 set.source);
   }
-  job.search_curves = SpreadCurves(set, fitted, options.search_curves);
+  job.search_curves = SpreadCurves(ConditionsOf(job.family.curves), fitted, options.search_curves);
   FamilyReport report = Head(job);
   DescribeCurves(job, &report);
   SearchShared(&job, &report);
@@ -289,10 +289,11 @@ Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& o
       seconds += report->seconds;
       const bool interrupted = report->interrupted;
       // The first, simpler one stays unless the next is better by more than a thousandth.
-      const bool better =
-          !best || !best->held_out ||
-          candidate.held_out_rmse_A < best->held_out->rmse.solved_current_A * (1 - 1e-3);
+      const double lowest = best && best->held_out ? best->held_out->rmse.solved_current_A
+                                                   : kInfinity;
+      const bool better = !best || candidate.held_out_rmse_A < lowest * (1 - 1e-3);
       if (better) best = std::move(*report);
+      best->interrupted = interrupted;
       if (interrupted) break;
     }
   }

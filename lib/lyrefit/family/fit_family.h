@@ -32,8 +32,8 @@ struct FamilyOptions {
   Objective objective = Objective::kSolvedCurrent;
   ConstantSet constants = ConstantSet::kCodata;
   // By symbol or name: "EgRef" -> 1.121. Held where nothing is said: dEgdT -0.0002677, PVsyst's
-  // EgRef 1.121, R_sh_exp 5.5, NsVbi 0.9 V a cell, n2 = 2; and alpha_sc, EgRef, mu_gamma, R_sh_0
-  // where temperature or irradiance hardly vary over the set.
+  // EgRef 1.121, R_sh_exp 5.5, NsVbi 0.9 V a cell, n2 = 2; and alpha_sc, EgRef and mu_gamma
+  // where the temperature hardly varies over the set.
   std::map<std::string, double> fixed;
   std::vector<std::string> freed;  // parameters of that list to be fitted after all
   BoundsSpec::Table bounds;        // of single shared parameters

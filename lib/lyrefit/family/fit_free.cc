@@ -108,7 +108,8 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.free_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
   std::size_t next = 0;
-  int failed = 0, fitted = 0, correlated = 0;
+  int failed = 0, fitted = 0, correlated = 0, refused = 0;
+  const Error* first = nullptr;
   for (FamilyCurve& curve : report.curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
@@ -121,8 +122,15 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
     }
     curve.role = CurveRole::kLeftOut;
     curve.reason = one ? one->error().message : "interrupted before its turn";
-    // An option that no curve can be fitted with is an error of the option.
-    if (one && next == 1) return tl::unexpected(one->error());
+    if (!one) continue;
+    if (first == nullptr) first = &one->error();
+    ++refused;
+    report.warnings.push_back(
+        fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
+  }
+  // What no curve can be fitted with is an error of the options, or of the set.
+  if (first != nullptr && refused == static_cast<int>(curves.size())) {
+    return tl::unexpected(*first);
   }
   if (failed > 0) {
     report.warnings.push_back(

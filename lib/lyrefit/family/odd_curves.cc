@@ -38,7 +38,7 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end)
   JointPoint point = end.point;
   for (int round = 0; round < kRounds; ++round) {
     for (int c = 0; c < curves; ++c) {
-      const double ratio = rmse[c] / (2 * median);
+      const double ratio = rmse[c] / std::max(2 * median, 1e-9 * problem.current_scale_A);
       const double factor = 1 / (1 + ratio * ratio);
       for (std::size_t k = 0; k < robust.curves[c].weight.size(); ++k) {
         robust.curves[c].weight[k] = problem.curves[c].weight[k] * factor * factor;

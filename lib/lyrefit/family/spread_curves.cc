@@ -14,8 +14,7 @@ struct Place {
   double temperature;  // steps of 25 K
 };
 
-Place PlaceOf(const IvCurve& curve) {
-  const Conditions& at = curve.conditions;
+Place PlaceOf(const Conditions& at) {
   return {std::log(std::max(at.irradiance_W_m2, 1.0) / kReferenceIrradiance_W_m2),
           (at.cell_temperature_K - kReferenceTemperature_K) / 25};
 }
@@ -26,10 +25,12 @@ double Distance(const Place& a, const Place& b) {
 
 }  // namespace
 
-std::vector<int> SpreadCurves(const CurveSet& set, const std::vector<int>& among, int count) {
+std::vector<int> SpreadCurves(const std::vector<Conditions>& conditions,
+                              const std::vector<int>& among, int count) {
   if (static_cast<int>(among.size()) <= count) return among;
+  if (count < 1) return {};
   std::vector<Place> places;
-  for (const int c : among) places.push_back(PlaceOf(set.curves[c]));
+  for (const int c : among) places.push_back(PlaceOf(conditions[c]));
   std::vector<double> nearest(among.size(), std::numeric_limits<double>::max());
   std::vector<int> taken;
   std::size_t next = 0;

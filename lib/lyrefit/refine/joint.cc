@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "lyrefit/refine/joint_linear.h"
@@ -21,22 +22,25 @@ class CurveCost : public ceres::CostFunction {
       : problem_(problem), coordinates_(coordinates), curve_(curve), unit_A_(unit_A) {
     const JointShape shape = ShapeOf(problem.curves[curve]);
     set_num_residuals(shape.residuals);
-    mutable_parameter_block_sizes()->push_back(coordinates.size());
+    if (coordinates.size() > 0) mutable_parameter_block_sizes()->push_back(coordinates.size());
     if (shape.locals > 0) mutable_parameter_block_sizes()->push_back(shape.locals);
   }
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const bool has_local = parameter_block_sizes().size() > 1;
+    // Blocks: what is shared, then the curve's own unknowns; either may be missing.
+    const bool has_shared = coordinates_.size() > 0;
+    const std::size_t own = has_shared ? 1 : 0;
+    const bool has_local = parameter_block_sizes().size() > own;
     RowMatrix shared, local;
-    const bool want_shared = jacobians != nullptr && jacobians[0] != nullptr;
-    const bool want_local = jacobians != nullptr && has_local && jacobians[1] != nullptr;
-    if (!EvaluateJointCurve(problem_, coordinates_, curve_, x[0], has_local ? x[1] : nullptr,
-                            unit_A_, residuals, want_shared ? &shared : nullptr,
-                            want_local ? &local : nullptr)) {
+    const bool want_shared = jacobians != nullptr && has_shared && jacobians[0] != nullptr;
+    const bool want_local = jacobians != nullptr && has_local && jacobians[own] != nullptr;
+    if (!EvaluateJointCurve(problem_, coordinates_, curve_, has_shared ? x[0] : nullptr,
+                            has_local ? x[own] : nullptr, unit_A_, residuals,
+                            want_shared ? &shared : nullptr, want_local ? &local : nullptr)) {
       return false;
     }
     if (want_shared) std::copy(shared.data(), shared.data() + shared.size(), jacobians[0]);
-    if (want_local) std::copy(local.data(), local.data() + local.size(), jacobians[1]);
+    if (want_local) std::copy(local.data(), local.data() + local.size(), jacobians[own]);
     return true;
   }
 
@@ -57,16 +61,29 @@ class JointPolish {
       at_.shared[i] = std::min(std::max(at_.shared[i], problem.lower[i]), problem.upper[i]);
     }
     held_ = fixed_;
-    cost_ = Cost(at_);
+    refused_.assign(problem.shared(), false);
+    // Into the bounds that only coordinates have.
+    const JointCoordinates coordinates(problem, at_.shared, held_);
+    std::vector<double> theta = coordinates.Start();
+    ClampInto(coordinates, &theta);
+    MoveTo(coordinates, theta);
   }
 
   JointEnd Run() {
     Solve(/*bounded=*/true);
     HoldWhatPresses();
+    State best;
     for (int round = 0; round < options_.max_rounds; ++round) {
       if (!SolveFree()) continue;
+      if (cost_ < best.cost) {
+        best = {at_, held_, cost_, converged_};
+      } else {  // what was let in led nowhere
+        Restore(best);
+        if (last_released_ >= 0) refused_[last_released_] = true;
+      }
       if (!ReleaseOne()) break;
     }
+    if (best.cost < cost_) Restore(best);
     JointEnd end;
     end.point = at_;
     end.held = held_;
@@ -78,6 +95,20 @@ class JointPolish {
   }
 
  private:
+  struct State {
+    JointPoint at;
+    std::vector<bool> held;
+    double cost = HUGE_VAL;
+    bool converged = false;
+  };
+  void Restore(const State& state) {
+    if (state.held.empty()) return;
+    at_ = state.at;
+    held_ = state.held;
+    cost_ = state.cost;
+    converged_ = state.converged;
+  }
+
   void AddSquares(int c, JointEnd* end) const {
     std::vector<double> residuals = Residuals(at_, c);
     const std::size_t points = problem_.curves[c].voltage_V.size();
@@ -112,7 +143,7 @@ class JointPolish {
     if (shape.temperature) packed.push_back(local[1]);
     return packed;
   }
-  static JointLocal Unpack(const JointShape& shape, const std::vector<double>& packed) {
+  static JointLocal Unpack(const JointShape& shape, const JointLocal& packed) {
     JointLocal local = {0, 0};
     std::size_t next = 0;
     if (shape.irradiance) local[0] = packed[next++];
@@ -123,35 +154,34 @@ class JointPolish {
   // One Ceres solve over what is not held; keeps the better of before and after.
   void Solve(bool bounded) {
     const JointCoordinates coordinates(problem_, at_.shared, held_);
-    converged_ = coordinates.size() == 0;
-    if (converged_) return;
+    converged_ = coordinates.size() == 0 && !HasLocals();
+    if (converged_ || !std::isfinite(cost_)) return;  // from nowhere there is no way
     std::vector<double> theta = coordinates.Start();
     ClampInto(coordinates, &theta);
     const double points = std::max<double>(1, static_cast<double>(PointCount()));
-    const double unit_A =
-        std::isfinite(cost_) ? std::max(std::sqrt(cost_ / points), 1e-13 * Scale()) : Scale();
+    const double unit_A = std::max(std::sqrt(cost_ / points), 1e-13 * Scale());
     ceres::Problem solver;
-    std::vector<std::vector<double>> locals;
-    locals.reserve(problem_.curves.size());
+    // In one block, since Ceres orders what it eliminates by address: in pieces, the last bits of a
+    // fit would hang on where they happened to lie.
+    std::vector<JointLocal> locals(problem_.curves.size());
     auto* order = new ceres::ParameterBlockOrdering;
-    bool any_local = false;
     for (std::size_t c = 0; c < problem_.curves.size(); ++c) {
       const JointShape shape = ShapeOf(problem_.curves[c]);
-      locals.push_back(Pack(shape, at_.local[c]));
-      auto* cost = new CurveCost(problem_, coordinates, static_cast<int>(c), unit_A);
-      if (shape.locals == 0) {
-        solver.AddResidualBlock(cost, nullptr, theta.data());
-      } else {
-        solver.AddResidualBlock(cost, nullptr, theta.data(), locals.back().data());
-        order->AddElementToGroup(locals.back().data(), 0);
-        any_local = true;
-      }
+      const std::vector<double> packed = Pack(shape, at_.local[c]);
+      std::copy(packed.begin(), packed.end(), locals[c].begin());
+      auto cost =
+          std::make_unique<CurveCost>(problem_, coordinates, static_cast<int>(c), unit_A);
+      std::vector<double*> blocks;
+      if (!theta.empty()) blocks.push_back(theta.data());
+      if (shape.locals > 0) blocks.push_back(locals[c].data());
+      if (!blocks.empty()) solver.AddResidualBlock(cost.release(), nullptr, blocks);
+      if (shape.locals > 0) order->AddElementToGroup(locals[c].data(), 0);
     }
-    order->AddElementToGroup(theta.data(), 1);
+    if (!theta.empty()) order->AddElementToGroup(theta.data(), 1);
     if (bounded) SetBounds(coordinates, &theta, &solver);
     ceres::Solver::Options options = SolverOptions();
     options.linear_solver_ordering.reset(order);
-    options.linear_solver_type = any_local ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
+    options.linear_solver_type = HasLocals() && !theta.empty() ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &solver, &summary);
     iterations_ += static_cast<int>(summary.iterations.size());
@@ -180,6 +210,10 @@ class JointPolish {
     return options;
   }
 
+  bool HasLocals() const {
+    return std::any_of(problem_.curves.begin(), problem_.curves.end(),
+                       [](const JointCurve& curve) { return ShapeOf(curve).locals > 0; });
+  }
   double Scale() const { return problem_.current_scale_A; }
   std::size_t PointCount() const {
     std::size_t points = 0;
@@ -254,10 +288,11 @@ class JointPolish {
       coordinates.Bounds(k, &lower, &upper);
       if (theta[k] >= lower && theta[k] <= upper) continue;
       const double end = theta[k] < lower ? lower : upper;
-      const double fraction = (end - before[k]) / (theta[k] - before[k]);
+      const double way = theta[k] - before[k];
+      const double fraction = way != 0 ? (end - before[k]) / way : 0;
       if (first >= 0 && fraction >= reach) continue;
       first = k;
-      reach = std::max(fraction, 0.0);
+      reach = std::min(std::max(fraction, 0.0), 1.0);
       bound = end;
     }
     if (first < 0) return true;
@@ -321,12 +356,14 @@ class JointPolish {
     int best = -1;
     double largest = kFlat;
     for (std::size_t k = 0; k < cosines.size(); ++k) {
-      if (!held_[now.parameter[k]] || std::fabs(cosines[k]) <= largest) continue;
+      const int i = now.parameter[k];
+      if (!held_[i] || refused_[i] || std::fabs(cosines[k]) <= largest) continue;
       largest = std::fabs(cosines[k]);
       best = now.parameter[k];
     }
     if (best < 0 || ++released_ > problem_.shared()) return false;
     held_[best] = fixed_[best];
+    last_released_ = best;
     if (best == problem_.translation.saturation_current_2) LetDiodeIn();
     return true;
   }
@@ -353,6 +390,8 @@ class JointPolish {
   bool converged_ = false;
   int iterations_ = 0;
   int released_ = 0;
+  int last_released_ = -1;
+  std::vector<bool> refused_;  // let in once, and the fit was no better for it
 };
 
 }  // namespace

@@ -45,8 +45,9 @@ class JointCoordinates {
       if (i == at.n || i == at.n_2) {
         shared[i] = 1.0 / theta[k];
       } else if (i == at.resistance_shunt) {
-        const bool zero = theta[k] < T(kSmallest);
-        shared[i] = ResistanceScale() / (zero ? T(kSmallest) : theta[k]);
+        // A free solve may step through 0 to be sent back to the bound; the slope stays right.
+        const bool zero = theta[k] < T(kSmallest) && T(-kSmallest) < theta[k];
+        shared[i] = ResistanceScale() / (theta[k] + (zero ? 2 * kSmallest : 0.0));
       } else if (!IsSaturation(i) && i != at.resistance_shunt_dark) {
         shared[i] = theta[k] * Step(i);
       }

@@ -10,6 +10,8 @@ namespace lyrefit {
 namespace {
 
 constexpr double kSingular = 1e-12;
+constexpr double kTakenOver = 1e-10;  // of a column's length: what is left of it is rounding
+constexpr double kOpen = 1e-6;        // of a gradient along a direction that nothing decides
 
 // Own unknowns of a curve in the order of its columns.
 std::vector<double> Packed(const JointShape& shape, const JointLocal& local) {
@@ -44,34 +46,98 @@ RowMatrix ProjectOut(const JointLinear& now) {
   return projected;
 }
 
+// Inverse of J'J over the shared coordinates in two factors: `half` has a column for every
+// direction that the data decide (inverse = half half'), `open` one of length 1 for every direction
+// along which nothing changes.
+struct Directions {
+  Eigen::MatrixXd half;
+  Eigen::MatrixXd open;
+  double condition = 1;
+};
+
+Directions FindDirections(const JointLinear& now) {
+  const RowMatrix projected = ProjectOut(now);
+  const int moving = static_cast<int>(projected.cols());
+  Directions found;
+  found.half.setZero(moving, 0);
+  found.open.setZero(moving, 0);
+  // Columns without influence would spoil the scale of the others: they are open by themselves.
+  std::vector<int> seen;
+  const auto add_open = [&](const Eigen::VectorXd& direction) {
+    found.open.conservativeResize(Eigen::NoChange, found.open.cols() + 1);
+    found.open.rightCols(1) = direction.normalized();
+  };
+  for (int k = 0; k < moving; ++k) {
+    const double length = projected.col(k).norm();
+    const bool visible = length > kTakenOver * now.shared.col(k).norm() && std::isfinite(length);
+    if (visible) seen.push_back(k);
+    if (!visible) add_open(Eigen::VectorXd::Unit(moving, k));
+  }
+  const int count = static_cast<int>(seen.size());
+  if (count == 0) return found;
+  // Coordinates by scaled ones.
+  Eigen::MatrixXd unscale = Eigen::MatrixXd::Zero(moving, count);
+  for (int k = 0; k < count; ++k) unscale(seen[k], k) = 1 / projected.col(seen[k]).norm();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projected * unscale);
+  // Fewer rows than columns leave the rest of the triangle 0.
+  const int rows = static_cast<int>(std::min<Eigen::Index>(count, projected.rows()));
+  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(count, count);
+  triangle.topRows(rows) = qr.matrixR().topRows(rows).template triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd square = triangle * qr.colsPermutation().transpose();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
+  const Eigen::VectorXd& singular = svd.singularValues();
+  found.condition = singular[0] / singular[count - 1];
+  for (int k = 0; k < count; ++k) {
+    const Eigen::VectorXd direction = unscale * svd.matrixV().col(k);
+    if (!(singular[k] > kSingular * singular[0])) {
+      add_open(direction);
+      continue;
+    }
+    found.half.conservativeResize(Eigen::NoChange, found.half.cols() + 1);
+    found.half.rightCols(1) = direction / singular[k];
+  }
+  return found;
+}
+
+// Whether a linear function of the coordinates stays the same along every open direction.
+bool Decided(const Eigen::VectorXd& gradient, const Directions& found) {
+  for (Eigen::Index k = 0; k < found.open.cols(); ++k) {
+    if (std::fabs(gradient.dot(found.open.col(k))) > kOpen * gradient.norm()) return false;
+  }
+  return true;
+}
+
 // Standard errors of the curves' own unknowns, and how many of them their data decide.
-void FindLocalErrors(const JointProblem& problem, const JointLinear& now,
-                     const Eigen::MatrixXd& coordinate_covariance, double variance,
-                     JointSpread* spread) {
+void FindLocalErrors(const JointProblem& problem, const JointLinear& now, const Directions& found,
+                     double variance, JointSpread* spread) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t c = 0; c < now.local.size(); ++c) {
-    JointLocal error = {nan, nan};
+    spread->local_error.push_back({nan, nan});
     const RowMatrix& local = now.local[c];
-    if (local.cols() > 0) {
-      const auto block = now.shared.middleRows(now.first_row[c], local.rows());
-      const Eigen::MatrixXd inverse = (local.transpose() * local).inverse();
-      const Eigen::MatrixXd taken = inverse * local.transpose() * block;
-      const Eigen::MatrixXd covariance =
-          variance * inverse + taken * coordinate_covariance * taken.transpose();
-      const JointCurve& curve = problem.curves[c];
-      const JointShape shape = ShapeOf(curve);
-      int column = 0;
-      const double sds[] = {curve.irradiance_sd, curve.temperature_sd_K};
-      for (int which = 0; which < 2; ++which) {
-        if (!(which == 0 ? shape.irradiance : shape.temperature)) continue;
-        const double own = covariance(column, column);
-        error[which] = std::sqrt(own);
-        const double prior = sds[which] * sds[which];
-        spread->local_degrees += std::isfinite(prior) ? std::max(0.0, 1 - own / prior) : 1;
-        ++column;
-      }
+    if (local.cols() == 0) continue;
+    const JointCurve& curve = problem.curves[c];
+    const JointShape shape = ShapeOf(curve);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(local);
+    const bool full = qr.rank() == local.cols();
+    const Eigen::MatrixXd solve = full ? Eigen::MatrixXd(qr.solve(Eigen::MatrixXd::Identity(
+                                             local.rows(), local.rows())))
+                                       : Eigen::MatrixXd::Zero(local.cols(), local.rows());
+    const Eigen::MatrixXd taken = solve * now.shared.middleRows(now.first_row[c], local.rows());
+    const Eigen::MatrixXd through = taken * found.half;
+    const Eigen::MatrixXd covariance =
+        variance * (solve * solve.transpose() + through * through.transpose());
+    int column = 0;
+    const double sds[] = {curve.irradiance_sd, curve.temperature_sd_K};
+    for (int which = 0; which < 2; ++which) {
+      if (!(which == 0 ? shape.irradiance : shape.temperature)) continue;
+      const double own = covariance(column, column);
+      const bool decided = full && Decided(taken.row(column).transpose(), found);
+      if (decided) spread->local_error[c][which] = std::sqrt(own);
+      const double prior = sds[which] * sds[which];
+      const bool free = !std::isfinite(prior);
+      spread->local_degrees += free ? 1 : decided ? std::max(0.0, 1 - own / prior) : 0;
+      ++column;
     }
-    spread->local_error.push_back(error);
   }
 }
 
@@ -93,8 +159,13 @@ JointLinear LinearizeJointly(const JointProblem& problem, const JointPoint& poin
     const JointShape shape = ShapeOf(problem.curves[c]);
     const std::vector<double> local = Packed(shape, point.local[c]);
     RowMatrix shared, own;
-    EvaluateJointCurve(problem, coordinates, static_cast<int>(c), theta.data(), local.data(), 1.0,
-                       now.residual.data() + now.first_row[c], &shared, &own);
+    if (!EvaluateJointCurve(problem, coordinates, static_cast<int>(c), theta.data(), local.data(),
+                            1.0, now.residual.data() + now.first_row[c], &shared, &own)) {
+      // No place to be: no slope either.
+      now.residual.segment(now.first_row[c], shape.residuals).setZero();
+      now.local.push_back(RowMatrix::Zero(shape.residuals, shape.locals));
+      continue;
+    }
     now.shared.middleRows(now.first_row[c], shape.residuals) = shared;
     now.local.push_back(own);
   }
@@ -110,35 +181,23 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
   spread.correlation = Eigen::MatrixXd::Zero(count, count);
   spread.covariance = Eigen::MatrixXd::Zero(count, count);
   const JointLinear now = LinearizeJointly(problem, end.point, end.held);
-  const int moving = static_cast<int>(now.shared.cols());
-  const RowMatrix projected = ProjectOut(now);
-  const Eigen::VectorXd lengths = projected.colwise().norm();
-  Eigen::MatrixXd coordinate_covariance = Eigen::MatrixXd::Zero(moving, moving);
-  if (moving > 0 && lengths.allFinite() && lengths.minCoeff() > 0) {
-    const Eigen::MatrixXd scaled = projected * lengths.cwiseInverse().asDiagonal();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-    const Eigen::MatrixXd triangle =
-        qr.matrixR().topRows(moving).template triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd square = triangle * qr.colsPermutation().transpose();
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
-    const Eigen::VectorXd& singular = svd.singularValues();
-    spread.condition = singular[0] / singular[moving - 1];
-    if (singular[moving - 1] > kSingular * singular[0]) {
-      const Eigen::MatrixXd half = lengths.cwiseInverse().asDiagonal() * svd.matrixV() *
-                                   singular.cwiseInverse().asDiagonal();
-      coordinate_covariance = variance * half * half.transpose();
-      const Eigen::MatrixXd natural = now.natural_slope * half;
-      spread.covariance = variance * natural * natural.transpose();
-      for (const int i : now.parameter) {
-        spread.standard_error[i] = std::sqrt(spread.covariance(i, i));
-        for (const int j : now.parameter) {
-          const double norm = natural.row(i).norm() * natural.row(j).norm();
-          if (norm > 0) spread.correlation(i, j) = natural.row(i).dot(natural.row(j)) / norm;
-        }
-      }
+  const Directions found = FindDirections(now);
+  spread.condition = found.condition;
+  const Eigen::MatrixXd natural = now.natural_slope * found.half;
+  std::vector<int> decided;
+  for (const int i : now.parameter) {
+    if (Decided(now.natural_slope.row(i).transpose(), found)) decided.push_back(i);
+  }
+  for (const int i : decided) {
+    spread.standard_error[i] = std::sqrt(variance) * natural.row(i).norm();
+    for (const int j : decided) {
+      const double product = natural.row(i).dot(natural.row(j));
+      const double norm = natural.row(i).norm() * natural.row(j).norm();
+      spread.covariance(i, j) = variance * product;
+      if (norm > 0) spread.correlation(i, j) = product / norm;
     }
   }
-  FindLocalErrors(problem, now, coordinate_covariance, variance, &spread);
+  FindLocalErrors(problem, now, found, variance, &spread);
   return spread;
 }
 

@@ -1,0 +1,297 @@
+#include "lyrefit/refine/joint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "family/made_family.h"
+#include "lyrefit/refine/joint_linear.h"
+#include "lyrefit/refine/joint_residuals.h"
+
+namespace lyrefit {
+namespace {
+
+double Total(const JointEnd& end) { return end.squares + end.prior_squares; }
+
+double CostAt(const JointProblem& problem, const JointPoint& point) {
+  const std::vector<bool> held(problem.shared(), true);
+  return LinearizeJointly(problem, point, held).residual.squaredNorm();
+}
+
+JointPoint PointAt(const JointProblem& problem, std::vector<double> shared) {
+  return {std::move(shared), std::vector<JointLocal>(problem.curves.size(), {0, 0})};
+}
+
+// A problem with all four kinds of own unknowns.
+JointProblem WithLocals(JointProblem problem) {
+  problem.curves[1].irradiance_sd = HUGE_VAL;
+  problem.curves[2].temperature_sd_K = HUGE_VAL;
+  problem.curves[3].irradiance_sd = 0.02;
+  problem.curves[3].temperature_sd_K = 1.5;
+  problem.noise_A = 2e-3;
+  return problem;
+}
+
+struct Law {
+  TranslationLaw law;
+  Model model;
+  bool recombination;
+};
+
+class EveryLaw : public testing::TestWithParam<Law> {
+ protected:
+  Translation law_ =
+      MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
+  std::vector<double> truth_ = MadeTruth(law_);
+};
+
+TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
+  for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
+    JointProblem problem =
+        WithLocals(MadeProblem(MadeSet(law_, truth_, kSixPlaces, 9, 2e-3), law_, truth_));
+    problem.objective = objective;
+    for (int i = 0; i < problem.shared(); ++i) {  // what a fit holds has a slope as well
+      if (problem.lower[i] < problem.upper[i]) continue;
+      problem.lower[i] = truth_[i] - 0.1 - 0.3 * std::fabs(truth_[i]);
+      problem.upper[i] = truth_[i] + 0.1 + 0.3 * std::fabs(truth_[i]);
+    }
+    const JointCoordinates coordinates(problem, truth_, std::vector<bool>(problem.shared(), false));
+    const std::vector<double> theta = coordinates.Start();
+    for (int c = 0; c < 4; ++c) {
+      const JointShape shape = ShapeOf(problem.curves[c]);
+      std::vector<double> own(shape.locals, 0.01);
+      std::vector<double> at(shape.residuals), up(at), down(at);
+      RowMatrix shared, local;
+      ASSERT_TRUE(EvaluateJointCurve(problem, coordinates, c, theta.data(), own.data(), 1e-3,
+                                     at.data(), &shared, &local));
+      const auto differ = [&](std::vector<double> moved, bool is_shared, int k, double largest,
+                              const RowMatrix& jacobian) {
+        const double step = 1e-5 * (1 + std::fabs(moved[k])), middle = moved[k];
+        const auto evaluate = [&](double x, std::vector<double>* out) {
+          moved[k] = x;
+          return EvaluateJointCurve(problem, coordinates, c, is_shared ? moved.data() : theta.data(),
+                                    is_shared ? own.data() : moved.data(), 1e-3, out->data(),
+                                    nullptr, nullptr);
+        };
+        ASSERT_TRUE(evaluate(middle + step, &up));
+        ASSERT_TRUE(evaluate(middle - step, &down));
+        for (int r = 0; r < shape.residuals; ++r) {
+          EXPECT_NEAR(jacobian(r, k), (up[r] - down[r]) / (2 * step), 1e-5 * largest)
+              << ToText(objective) << " curve " << c << (is_shared ? " shared " : " local ") << k;
+        }
+      };
+      for (int k = 0; k < coordinates.size(); ++k) {
+        differ(theta, true, k, shared.col(k).cwiseAbs().maxCoeff() + 1e-2, shared);
+      }
+      for (int k = 0; k < shape.locals; ++k) {
+        differ(own, false, k, local.col(k).cwiseAbs().maxCoeff(), local);
+      }
+    }
+  }
+}
+
+TEST_P(EveryLaw, NaturalSlopeAgreesWithCentralDifferences) {
+  const JointProblem problem =
+      MadeProblem(MadeSet(law_, truth_, kSixPlaces, 5, 0), law_, truth_);
+  const std::vector<bool> none(problem.shared(), false);
+  const JointLinear now = LinearizeJointly(problem, PointAt(problem, truth_), none);
+  const JointCoordinates coordinates(problem, truth_, none);
+  for (int k = 0; k < coordinates.size(); ++k) {
+    std::vector<double> up = coordinates.Start(), down = up;
+    const double step = 1e-6 * (1 + std::fabs(up[k]));
+    up[k] += step;
+    down[k] -= step;
+    std::vector<double> high(problem.shared()), low(problem.shared());
+    coordinates.ToShared(up.data(), high.data());
+    coordinates.ToShared(down.data(), low.data());
+    for (int i = 0; i < problem.shared(); ++i) {
+      const double slope = (high[i] - low[i]) / (2 * step);
+      EXPECT_NEAR(now.natural_slope(i, k), slope, 1e-5 * std::fabs(slope) + 1e-15) << i << " " << k;
+    }
+  }
+}
+
+TEST_P(EveryLaw, RefineJointlyRecoversAnExactFamilyFromAPoorStart) {
+  const JointProblem problem =
+      MadeProblem(MadeSet(law_, truth_, kSixPlaces, 25, 0), law_, truth_);
+  std::vector<double> start = truth_;
+  const auto set = [&](int i, double value) {
+    if (i >= 0 && problem.lower[i] < problem.upper[i]) start[i] = value;
+  };
+  set(law_.photocurrent, 3.0);
+  set(law_.saturation_current, 30 * start[law_.saturation_current]);
+  set(law_.n, 1.45);
+  set(law_.resistance_series, 0.1);
+  set(law_.resistance_shunt, 60);
+  set(law_.alpha_sc, 0);
+  set(law_.bandgap, 1.2);
+  set(law_.n_slope, 0);
+  set(law_.resistance_shunt_dark, 500);
+  set(law_.saturation_current_2, 1e-6);
+  set(law_.recombination, 0.3);
+  const JointEnd end = RefineJointly(problem, PointAt(problem, start));
+  for (int i = 0; i < law_.size(); ++i) {
+    EXPECT_NEAR(end.point.shared[i] / truth_[i], 1, 1e-8) << law_.parameters[i].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Joint, EveryLaw,
+    testing::Values(Law{TranslationLaw::kDeSoto, Model::kSingleDiode, false},
+                    Law{TranslationLaw::kDeSoto, Model::kDoubleDiode, false},
+                    Law{TranslationLaw::kPvsyst, Model::kSingleDiode, false},
+                    Law{TranslationLaw::kPvsyst, Model::kDoubleDiode, true}),
+    [](const testing::TestParamInfo<Law>& info) {
+      return ToText(info.param.law) + "_" + ToText(info.param.model);
+    });
+
+class RefineJointlyTest : public testing::Test {
+ protected:
+  JointProblem Problem(std::uint64_t seed) const {
+    return MadeProblem(MadeSet(law_, truth_, kSixPlaces, 15, 2e-3, seed), law_, truth_);
+  }
+  const Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
+  std::vector<double> truth_ = MadeTruth(law_);
+};
+
+TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
+  const JointProblem problem = WithLocals(Problem(1));
+  const JointEnd end = RefineJointly(problem, PointAt(problem, truth_));
+  EXPECT_LT(end.projected_gradient, 1e-7);
+  EXPECT_TRUE(end.converged);
+  EXPECT_NEAR(CostAt(problem, end.point), Total(end), 1e-12 * Total(end));
+  EXPECT_GT(end.prior_squares, 0);
+  const JointLinear now = LinearizeJointly(problem, end.point, end.held);
+  for (std::size_t c = 0; c < now.local.size(); ++c) {
+    const auto residual = now.residual.segment(now.first_row[c], now.local[c].rows());
+    for (int k = 0; k < now.local[c].cols(); ++k) {
+      const double cosine = now.local[c].col(k).dot(residual) /
+                            (now.local[c].col(k).norm() * now.residual.norm());
+      EXPECT_LT(std::fabs(cosine), 1e-7) << c;
+    }
+  }
+  for (int i = 0; i < problem.shared(); ++i) {
+    if (end.held[i]) continue;
+    for (const double step : {1e-3, -1e-3}) {
+      JointPoint moved = end.point;
+      moved.shared[i] *= 1 + step;
+      EXPECT_GT(CostAt(problem, moved), Total(end)) << i;
+    }
+  }
+  for (const auto& [c, which] : {std::pair(1, 0), {2, 1}, {3, 0}, {3, 1}}) {
+    for (const double step : {1e-3, -1e-3}) {
+      JointPoint moved = end.point;
+      moved.local[c][which] += step;
+      EXPECT_GT(CostAt(problem, moved), Total(end)) << c << which;
+    }
+  }
+}
+
+TEST_F(RefineJointlyTest, FitsTheCurvesOwnUnknownsWhereEverythingSharedIsHeld) {
+  JointProblem problem = Problem(1);
+  problem.lower = problem.upper = truth_;
+  problem.curves[1].irradiance_W_m2 = 900;
+  problem.curves[1].irradiance_sd = HUGE_VAL;
+  const JointEnd end = RefineJointly(problem, PointAt(problem, truth_));
+  EXPECT_NEAR(900 * (1 + end.point.local[1][0]), 1000, 2);
+}
+
+TEST_F(RefineJointlyTest, HoldsAResistanceAtItsBoundAndOnlyWhereItPresses) {
+  truth_[law_.resistance_series] = 0;
+  truth_[law_.resistance_shunt] = 1e9;
+  int at_zero = 0, perfect = 0;
+  constexpr int kSeeds = 8;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const JointProblem problem = Problem(seed);
+    std::vector<double> start = MadeTruth(law_);
+    start[law_.resistance_shunt] = 3000;
+    const JointEnd end = RefineJointly(problem, PointAt(problem, start));
+    EXPECT_LT(end.projected_gradient, 1e-6) << seed;
+    EXPECT_EQ(end.held[law_.resistance_series], end.point.shared[law_.resistance_series] == 0);
+    EXPECT_EQ(end.held[law_.resistance_shunt], end.point.shared[law_.resistance_shunt] > 1e15)
+        << end.point.shared[law_.resistance_shunt];
+    at_zero += end.held[law_.resistance_series];
+    perfect += end.held[law_.resistance_shunt];
+  }
+  EXPECT_GT(at_zero, 0);
+  EXPECT_LT(at_zero, kSeeds);
+  EXPECT_GT(perfect, 0);
+  EXPECT_LT(perfect, kSeeds);
+}
+
+TEST_F(RefineJointlyTest, FindsThatThereIsNoSecondDiode) {
+  const Translation two = MadeLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
+  std::vector<double> shared = MadeTruth(two);
+  shared[two.saturation_current] = 2e-8;
+  shared[two.n] = 1.2;
+  shared[two.saturation_current_2] = 1e-6;
+  int absent = 0;
+  constexpr int kSeeds = 8;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const CurveSet set = MadeSet(law_, truth_, kSixPlaces, 15, 2e-3, seed);
+    const JointProblem problem = MadeProblem(set, two, shared);
+    const JointEnd end = RefineJointly(problem, PointAt(problem, shared));
+    EXPECT_LT(end.projected_gradient, 1e-6) << seed;
+    const JointProblem one = MadeProblem(set, law_, truth_);
+    const double alone = Total(RefineJointly(one, PointAt(one, truth_)));
+    EXPECT_LT(Total(end), alone * (1 + 1e-9)) << seed;
+    if (!end.held[two.saturation_current_2]) continue;
+    ++absent;
+    EXPECT_NEAR(Total(end) / alone, 1, 1e-6);
+  }
+  EXPECT_GT(absent, 0);
+  EXPECT_LT(absent, kSeeds);
+}
+
+TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
+  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
+  std::vector<double> shared = MadeTruth(law);
+  shared[law.resistance_shunt_dark] = shared[law.resistance_shunt];
+  int held = 0;
+  constexpr int kSeeds = 6;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const JointProblem problem =
+        MadeProblem(MadeSet(law, shared, kSixPlaces, 15, 2e-3, seed), law, shared);
+    const JointEnd end = RefineJointly(problem, PointAt(problem, MadeTruth(law)));
+    EXPECT_LT(end.projected_gradient, 1e-6) << seed;
+    const double ratio =
+        end.point.shared[law.resistance_shunt_dark] / end.point.shared[law.resistance_shunt];
+    EXPECT_GE(ratio, 1 - 1e-12);
+    EXPECT_EQ(end.held[law.resistance_shunt_dark], ratio < 1 + 1e-9) << seed << " " << ratio;
+    held += end.held[law.resistance_shunt_dark];
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_LT(held, kSeeds);
+}
+
+TEST_F(RefineJointlyTest, LetsGoWhatBeginsAtABoundAndWantsBack) {
+  const Translation two = MadeLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
+  const std::vector<double> shared = MadeTruth(two);
+  const JointProblem problem =
+      MadeProblem(MadeSet(two, shared, kSixPlaces, 25, 1e-3), two, shared);
+  const JointEnd best = RefineJointly(problem, PointAt(problem, shared));
+  std::vector<double> start = shared;
+  start[two.resistance_series] = 0;
+  start[two.resistance_shunt] = HUGE_VAL;
+  start[two.saturation_current] = 2e-8;
+  start[two.n] = 1.2;
+  start[two.saturation_current_2] = 0;
+  const JointEnd end = RefineJointly(problem, PointAt(problem, start));
+  EXPECT_NEAR(Total(end) / Total(best), 1, 1e-7);
+  for (int i = 0; i < two.size(); ++i) {
+    EXPECT_NEAR(end.point.shared[i] / best.point.shared[i], 1, 1e-4) << two.parameters[i].name;
+  }
+}
+
+TEST_F(RefineJointlyTest, ComesBackFromAStartThatIsNoPlaceToBe) {
+  JointProblem problem = Problem(1);
+  problem.curves[0].irradiance_W_m2 = 1000;
+  problem.lower[problem.temperature_offset()] = problem.upper[problem.temperature_offset()] = 500;
+  const JointEnd end = RefineJointly(problem, PointAt(problem, truth_));
+  EXPECT_FALSE(std::isfinite(Total(end)));
+  const JointSpread spread = FindJointSpread(problem, end, 1);
+  EXPECT_TRUE(std::isnan(spread.standard_error[law_.n]));
+}
+
+}  // namespace
+}  // namespace lyrefit

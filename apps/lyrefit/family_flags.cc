@@ -67,6 +67,12 @@ void AddCurveChoiceFlags(CLI::App* verb, FamilyFlags* flags) {
   AddListFlag(verb, "--leave-out", "curves that are not fitted", &flags->leave_out)
       ->type_name("ID[,ID]")
       ->group(kGroup);
+  AddListFlag(verb, "--against",
+              "parameters from elsewhere, tested on the same curves: what --pvlib writes here or "
+              "in datasheet, or pvlib's own as JSON; once for each",
+              &flags->against_files)
+      ->type_name("FILE")
+      ->group(kGroup);
   verb->add_flag("--no-free-fits", flags->no_free_fits,
                  "do not also fit every curve on its own, the floor of the joint fit")
       ->group(kGroup);

@@ -33,6 +33,7 @@ struct FamilyFlags {
   std::string irradiance_accuracy;
   std::vector<std::string> leave_out;  // each one id or several with commas
   bool no_free_fits = false;
+  std::vector<std::string> against_files;
   std::string csv_file;
   std::string pvlib_file;
   std::string truth_file;

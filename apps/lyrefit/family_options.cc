@@ -18,12 +18,20 @@ constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss"
                                      "--loss-scale", "--kernel",        "--curve",
                                      "--no-polish",  "--temperature-C", "--irradiance-Wm2"};
 // Flags about what the curves share.
-constexpr const char* kShared[] = {
-    "--shunt",         "--recombination",        "--weights",
-    "--search-curves", "--fit-curves",           "--irradiance-offset",
-    "--folds",         "--temperature-offset",   "--irradiance-accuracy",
-    "--free",          "--temperature-accuracy", "--no-free-fits",
-    "--pvlib"};
+constexpr const char* kShared[] = {"--shunt",
+                                   "--recombination",
+                                   "--weights",
+                                   "--search-curves",
+                                   "--fit-curves",
+                                   "--irradiance-offset",
+                                   "--folds",
+                                   "--temperature-offset",
+                                   "--irradiance-accuracy",
+                                   "--free",
+                                   "--temperature-accuracy",
+                                   "--no-free-fits",
+                                   "--against",
+                                   "--pvlib"};
 // Choices that auto makes.
 constexpr const char* kChosenByAuto[] = {"--model", "--shunt", "--recombination"};
 
@@ -134,6 +142,11 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const CLI::App& verb, const Famil
     options.irradiance_accuracy = *accuracy;
   }
   if (auto known = CheckLaw(flags, options); !known) return tl::unexpected(known.error());
+  for (const std::string& file : flags.against_files) {
+    Expected<NamedParameters> other = ReadPvlibParameters(file);
+    if (!other) return tl::unexpected(other.error());
+    options.against.push_back(std::move(*other));
+  }
   return options;
 }
 

@@ -19,6 +19,7 @@ constexpr char kFitFooter[] =
     "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
     "  lyrefit fit folder_of_curves --family desoto --pvlib module.json --plot module.svg\n"
     "  lyrefit fit sweeps.csv --family auto --irradiance-accuracy 2% --leave-out 17,18\n"
+    "  lyrefit fit sweeps.csv --family auto --fit-curves 30 --against module.json\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 the fit is not usable.";
 

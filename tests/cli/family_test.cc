@@ -34,7 +34,8 @@ TEST(FamilyFlags, OfASetNeedFamily) {
         std::string("--temperature-offset"), std::string("--irradiance-accuracy 2%"),
         std::string("--temperature-accuracy 1"), std::string("--free EgRef"),
         std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-free-fits"),
-        "--csv " + folder.Path("x.csv"), "--pvlib " + folder.Path("x.json")}) {
+        std::string("--against x.json"), "--csv " + folder.Path("x.csv"),
+        "--pvlib " + folder.Path("x.json")}) {
     ExpectRefused(kRtc + " " + flag,
                   flag.substr(0, flag.find(' ')) + " is about a set of curves: it needs --family");
   }
@@ -176,6 +177,45 @@ TEST_F(FamilyVerbOnASet, PrintsTheReportAndWritesEveryFile) {
   EXPECT_TRUE(json::accept(FileText(pvlib)));
   EXPECT_THAT(FileText(pvlib), HasSubstr("I_L_ref"));
   EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
+}
+
+TEST_F(FamilyVerbOnASet, TestsParametersFromElsewhereOnTheSameCurves) {
+  const std::string own = folder_.Path("own.json");
+  const std::string other = folder_.Write(
+      "other.json",
+      R"({"a_ref": 1.0, "I_L_ref": 5.05, "I_o_ref": 1.2e-9, "R_s": 0.25, "R_sh_ref": 300,
+          "alpha_sc": 0.0025})");
+  const std::string flags = " --family desoto" + kQuick;
+  ASSERT_EQ(RunApp("fit " + Set() + flags + " --pvlib '" + own + "'").exit_code, 0);
+  const std::string against = flags + " --against '" + own + "' --against '" + other + "'";
+  const json j = FitJson(Set() + against);
+  ASSERT_EQ(j["against"].size(), 2U);
+  EXPECT_EQ(j["against"][0]["name"], "own.json");
+  EXPECT_EQ(j["against"][0]["curves"], 6);
+  EXPECT_NEAR(j["against"][0]["rmse"]["solved_current_A"].get<double>(),
+              j["in_sample"]["rmse"]["solved_current_A"].get<double>(), 1e-8);
+  EXPECT_GT(j["against"][1]["rmse"]["solved_current_A"].get<double>(), 0.05);
+  const AppResult text = RunApp("fit " + Set() + " --against '" + other +
+                                "' --family auto --fit-curves 4 --iterations 20 --population 15");
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("2 curves that were not fitted"));
+  EXPECT_THAT(text.out, HasSubstr("other.json"));
+  EXPECT_THAT(text.out, HasSubstr("each curve on its own"));
+}
+
+TEST_F(FamilyVerbOnASet, RefusesParametersOfAnotherModule) {
+  const std::string text =
+      R"({"a_ref": 1.0, "I_L_ref": 5, "I_o_ref": 1e-9, "R_s": 0.2, "R_sh_ref": 300,
+          "alpha_sc": 0.002, "cells_in_series": 60})";
+  const std::string other = folder_.Write("other.json", text);
+  ExpectRefused(Set() + " --family desoto --against '" + other + "'",
+                "other.json: expected the cells_in_series of the set, 36, found 60");
+  ExpectRefused(Set() + " --family desoto --against '" + folder_.Path("none.json") + "'",
+                "none.json");
+  const std::string bad = folder_.Write("bad.json", "{\"a_ref\": \"x\"}");
+  ExpectRefused(Set() + " --family desoto --against '" + bad + "'", "bad.json:1:2: expected");
+  ExpectRefused(Set() + " --family free --against '" + bad + "'",
+                "--against is about what curves share");
 }
 
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {

@@ -32,7 +32,7 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
                  "without_odd",     "candidates",    "correlations",    "search",
                  "refine",          "seconds",       "free_fits",       "options",
                  "rejected",        "assumptions",   "warnings",        "interrupted",
-                 "usable",          "curves"}));
+                 "usable",          "curves",        "against",         "in_sample"}));
   EXPECT_EQ(Keys(j["set"]), (Set{"name", "source"}));
   EXPECT_EQ(Keys(j["parameters"]),
             (Set{"I_L_ref", "I_o_ref", "n", "R_s", "R_sh_ref", "alpha_sc", "EgRef", "dEgdT"}));
@@ -46,6 +46,10 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["held_out"]),
             (Set{"how", "curves", "rmse", "median_solved_current_A", "largest_solved_current_A",
                  "largest_id", "median_free_solved_current_A"}));
+  ASSERT_EQ(j["against"].size(), 1U);
+  EXPECT_EQ(Keys(j["against"][0]), (Set{"name", "law", "curves", "rmse", "median_solved_current_A",
+                                        "largest_solved_current_A", "largest_id"}));
+  EXPECT_TRUE(j["in_sample"].is_null());
   EXPECT_EQ(Keys(j["without_odd"]), (Set{"ids", "rmse", "parameters"}));
   EXPECT_EQ(Keys(j["candidates"][0]),
             (Set{"law", "model", "rmse", "held_out_solved_current_A",

@@ -11,6 +11,7 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -58,8 +59,27 @@ TEST(FamilyText, TellsEachCurveAndWhatWasNotFitted) {
   EXPECT_THAT(text, HasSubstr("sweep-1: taken in the dark"));
   EXPECT_THAT(text, HasSubstr("torn: torn.csv:7:3: expected a number"));
   EXPECT_THAT(text, HasSubstr("1.100 .. 1.500 .. 1.900"));
-  EXPECT_THAT(text, HasSubstr("the same curves fitted one by one: 1.200e-03 A"));
   EXPECT_THAT(text, HasSubstr("desoto  sd <-"));
+}
+
+// 1.8 mA of 5.0026 A are 0.036 %.
+TEST(FamilyText, TellsTheTestOnCurvesNotSeenBesideParametersFromElsewhereAndTheFloor) {
+  FamilyReport report = MakeSampleFamily(8).report;
+  std::string text = FamilyText(report);
+  EXPECT_THAT(text, HasSubstr("Curves that the fit did not see\n  tested on     5 folds"));
+  EXPECT_THAT(text, ContainsRegex("joint fit +De Soto +1.8000e-03 +0.036 +2.0000e-03 +1.9000e-03 "
+                                  "+2.5000e-03  sweep-0"));
+  EXPECT_THAT(text, ContainsRegex("sheet.json +De Soto +4.8000e-03 +0.096 +5.0000e-03 +4.9000e-03 "
+                                  "+6.5000e-03  sweep-3"));
+  EXPECT_THAT(text, ContainsRegex("each curve on its own +1.2000e-03 +0.024"));
+  EXPECT_THAT(text, HasSubstr("Only the joint fit is given the sensors' errors"));
+  report.in_sample = report.held_out;
+  report.held_out.reset();
+  text = FamilyText(report);
+  EXPECT_THAT(text, HasSubstr("Parameters from elsewhere on the curves fitted"));
+  EXPECT_THAT(text, Not(HasSubstr("did not see")));
+  report.against[0].name = "a very long name of a file that nobody would type.json";
+  ExpectNarrow(FamilyText(report));
 }
 
 TEST(FamilyText, TellsHowToFitWithoutOddCurves) {

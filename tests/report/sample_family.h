@@ -110,6 +110,8 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.curves[2].odd = true;
   report.held_out =
       HeldOut{"5 folds of whole curves", 5, {2e-3, 1.9e-3}, 1.8e-3, 2.5e-3, "sweep-0", 1.2e-3};
+  report.against = {
+      {"sheet.json", "De Soto", {"", 5, {5e-3, 4.9e-3}, 4.8e-3, 6.5e-3, "sweep-3", kUnknown}}};
   report.without_odd = WithoutOdd{{"sweep-2"}, {1.1e-3, 1e-3}, report.refined};
   report.candidates = {
       {TranslationLaw::kDeSoto, Model::kSingleDiode, {2e-3, 1.9e-3}, 1.7e-3, 1.8e-3, 7, true},
@@ -140,6 +142,7 @@ inline SampleFamily MakeFreeSample(int curves) {
   report.jackknife.clear();
   report.without_odd.reset();
   report.held_out.reset();
+  report.against.clear();
   report.candidates.clear();
   for (FamilyCurve& curve : report.curves) {
     curve.parameters.clear();

@@ -42,6 +42,7 @@ std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options) {
   echo("free-fits", options.free_fits ? "yes" : "no", "yes");
   echo("folds", NumberText(options.folds), NumberText(defaults.folds));
   for (const std::string& id : options.leave_out) echo("leave-out", id, "");
+  for (const NamedParameters& other : options.against) echo("against", other.name, "");
   return echoes;
 }
 

@@ -24,12 +24,14 @@ bool CanBeTested(const JointCurve& curve) {
 }
 
 std::vector<Tested> Predict(const FamilyProblem& family, const FamilyOptions& options,
-                            const std::vector<double>& shared, const std::vector<int>& curves) {
+                            const Translation& translation, const std::vector<double>& shared,
+                            const std::vector<int>& curves) {
   std::vector<int> known;
   for (const int c : curves) {
     if (CanBeTested(family.curves.members[c].joint)) known.push_back(c);
   }
-  const JointProblem problem = JointProblemOn(family, options, known);
+  JointProblem problem = JointProblemOn(family, options, known);
+  problem.translation = translation;
   const JointPoint point{shared, std::vector<JointLocal>(known.size(), {0, 0})};
   std::vector<Tested> tested;
   for (std::size_t k = 0; k < known.size(); ++k) {
@@ -60,15 +62,27 @@ HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
   return result;
 }
 
-}  // namespace
-
+// With both sensor errors behind the shared parameters.
 HeldOut TestOn(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
                const std::vector<double>& shared, const std::vector<int>& curves) {
-  HeldOut result = Summarise(Predict(family, options, shared, curves), set);
+  HeldOut result = Summarise(Predict(family, options, family.translation, shared, curves), set);
   result.how = fmt::format("{} curves that were not fitted", result.curves);
   return result;
 }
 
+// What others found knows of no sensor errors.
+Against TestAgainst(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
+                    const NamedParameters& elsewhere, const std::vector<int>& curves) {
+  std::vector<double> shared = elsewhere.shared;
+  shared.insert(shared.end(), {0, 0});  // the sensors' errors
+  const bool pvsyst = elsewhere.translation.spec.law == TranslationLaw::kPvsyst;
+  Against against{elsewhere.name, pvsyst ? "PVsyst" : "De Soto", {}};
+  against.result = Summarise(Predict(family, options, elsewhere.translation, shared, curves), set);
+  return against;
+}
+
+// Leaves whole curves out in turn, fits the others anew from the joint optimum and tests on those
+// left out.
 HeldOut TestByFolds(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
                     const JointProblem& problem, const JointEnd& end) {
   const std::vector<int>& fitted = family.curves.fitted;
@@ -85,13 +99,60 @@ HeldOut TestByFolds(const CurveSet& set, const FamilyProblem& family, const Fami
     JointOptions quick;
     quick.function_tolerance = 1e-10;
     const JointEnd refit = RefineJointly(rest, start, quick);
-    parts[f] = Predict(family, options, refit.point.shared, left);
+    parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
   });
   std::vector<Tested> tested;
   for (const auto& part : parts) tested.insert(tested.end(), part.begin(), part.end());
   HeldOut result = Summarise(tested, set);
   result.how = fmt::format("{} folds of whole curves", folds);
   return result;
+}
+
+// Of the curves on their own: the floor.
+double FreeMedian(const FamilyReport& report, const std::vector<int>& curves) {
+  std::vector<double> rmse;
+  for (const int c : curves) {
+    const double one = report.curves[c].free_rmse.solved_current_A;
+    if (std::isfinite(one)) rmse.push_back(one);
+  }
+  return Median(std::move(rmse));
+}
+
+}  // namespace
+
+Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& options) {
+  const int cells = family.translation.spec.cells_in_series;
+  for (const NamedParameters& other : options.against) {
+    const int found = other.translation.spec.cells_in_series;
+    if (!other.cells_stated || found == cells) continue;
+    return Fail(fmt::format("expected the cells_in_series of the set, {}, found {}", cells, found),
+                other.name);
+  }
+  return {};
+}
+
+void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
+                const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+  const FamilyMembers& curves = family.curves;
+  const std::vector<int>& tested = curves.held_out.empty() ? curves.fitted : curves.held_out;
+  HeldOut held;
+  if (!curves.held_out.empty()) {
+    held = TestOn(set, family, options, end.point.shared, tested);
+  } else if (options.folds > 0 && curves.fitted.size() >= 4) {
+    held = TestByFolds(set, family, options, problem, end);
+  }
+  if (held.curves > 0) {
+    held.median_free_rmse_A = FreeMedian(*report, tested);
+    report->held_out = held;
+  }
+  for (const NamedParameters& other : options.against) {
+    report->against.push_back(TestAgainst(set, family, options, other, tested));
+  }
+  if (report->against.empty() || report->held_out) return;
+  HeldOut own = TestOn(set, family, options, end.point.shared, tested);
+  own.how = "the curves that were fitted";
+  own.median_free_rmse_A = FreeMedian(*report, tested);
+  report->in_sample = own;
 }
 
 }  // namespace lyrefit

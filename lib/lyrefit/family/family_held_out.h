@@ -1,20 +1,19 @@
 #pragma once
 
-#include <vector>
-
+#include "lyrefit/base/error.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
 
-// Tests shared parameters (with both sensor errors) on whole curves at their stated conditions.
-// Curves whose conditions nobody stated cannot be tested.
-HeldOut TestOn(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-               const std::vector<double>& shared, const std::vector<int>& curves);
+// Errors: parameters from elsewhere that are of another number of cells than the set.
+Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& options);
 
-// Leaves whole curves out in turn, fits the others anew from the joint optimum and tests on those
-// left out.
-HeldOut TestByFolds(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-                    const JointProblem& problem, const JointEnd& end);
+// Tests the joint fit on whole curves at their stated conditions, those held out or else by folds,
+// and parameters from elsewhere on the same curves: fills held_out, against and in_sample. Curves
+// whose conditions nobody stated cannot be tested; the fits of single curves are in the report
+// already.
+void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
+                const JointProblem& problem, const JointEnd& end, FamilyReport* report);
 
 }  // namespace lyrefit

@@ -76,6 +76,13 @@ struct HeldOut {
   double median_free_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
 };
 
+// Parameters from elsewhere, tested on the same curves at their stated conditions.
+struct Against {
+  std::string name;  // of the file
+  std::string law;   // "De Soto", "PVsyst"
+  HeldOut result;
+};
+
 // What one law says, beside others.
 struct FamilyCandidate {
   TranslationLaw law = TranslationLaw::kDeSoto;
@@ -121,6 +128,9 @@ struct FamilyReport {
   std::vector<FamilyCurve> curves;  // in the set's order
   std::vector<std::string> search_ids;
   std::optional<HeldOut> held_out;
+  std::vector<Against> against;  // on the curves of `held_out`; without it on those fitted
+  // The joint fit on the curves it was fitted to, where nothing else stands beside `against`.
+  std::optional<HeldOut> in_sample;
   std::optional<WithoutOdd> without_odd;
   std::vector<FamilyCandidate> candidates;  // of auto
   std::vector<Correlation> correlations;    // |value| > 0.9 among shared parameters

@@ -148,26 +148,6 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
   }
 }
 
-void FindHeldOut(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
-  const FamilyMembers& curves = job->family.curves;
-  std::vector<int> tested = curves.held_out;
-  HeldOut held;
-  if (!tested.empty()) {
-    held = TestOn(job->set, job->family, job->options, end.point.shared, tested);
-  } else if (job->options.folds > 0 && curves.fitted.size() >= 4) {
-    held = TestByFolds(job->set, job->family, job->options, problem, end);
-    tested = curves.fitted;
-  }
-  if (held.curves == 0) return;
-  std::vector<double> floor;
-  for (const int c : tested) {
-    const double rmse = report->curves[c].free_rmse.solved_current_A;
-    if (std::isfinite(rmse)) floor.push_back(rmse);
-  }
-  held.median_free_rmse_A = Median(floor);
-  report->held_out = held;
-}
-
 void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
   const std::vector<int> odd = FindOddCurves(problem, end);
   if (odd.empty()) return;
@@ -220,7 +200,9 @@ void Refine(Job* job, FamilyReport* report) {
   report->rmse.refined = FamilyRmse(problem, end.point);
   JudgeFamily(job->family, job->options, problem, end, report);
   FillCurves(*job, problem, end, report);
-  if (!job->Stop("held out")) FindHeldOut(job, problem, end, report);
+  if (!job->Stop("held out")) {
+    TestFamily(job->set, job->family, job->options, problem, end, report);
+  }
   if (!job->Stop("odd curves")) FindOdd(job, problem, end, report);
   const std::size_t curves = problem.curves.size();
   if (job->options.intervals && curves > 2 && curves <= kMostJackknifed &&
@@ -236,6 +218,9 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   const auto begin = std::chrono::steady_clock::now();
   Expected<FamilyProblem> family = MakeFamilyProblem(set, options);
   if (!family) return tl::unexpected(family.error());
+  if (auto checked = CheckAgainst(*family, options); !checked) {
+    return tl::unexpected(checked.error());
+  }
   Job job{set, options, observer, std::move(*family), {}, {}, {}, {}, false};
   const std::vector<int>& fitted = job.family.curves.fitted;
   std::size_t points = 0;

@@ -7,6 +7,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
+#include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/search/search.h"
 
@@ -54,7 +55,10 @@ struct FamilyOptions {
   bool free_fits = true;  // also fit every curve on its own: the floor
   int folds = 5;          // whole curves left out in turn; 0: none. Not used with fit_curves.
   std::vector<std::string> leave_out;  // ids
-  int threads = 0;                     // 0: all cores; never changes a result
+  // Parameters from elsewhere that are tested beside the joint fit. Error where they are of another
+  // number of cells than the set.
+  std::vector<NamedParameters> against;
+  int threads = 0;  // 0: all cores; never changes a result
 
   static SearchOptions FamilySearch() {
     SearchOptions search;

@@ -11,9 +11,6 @@ namespace lyrefit {
 namespace {
 
 constexpr double kReferenceTemperature_C = kReferenceTemperature_K - kZeroCelsius_K;
-constexpr double kPvlibShuntExponent = 5.5;  // PVsyst's default
-constexpr double kCecBandGap_eV = 1.121;
-constexpr double kCecBandGapSlope_1_K = -0.0002677;
 
 // k of the fit over k of pvlib: a voltage n Ns k T / q or an energy Eg / k restated in pvlib's k.
 double ConstantRatio(const Translation& translation) {
@@ -107,12 +104,12 @@ Expected<CecModule> CecRow(const Translation& translation, const std::vector<dou
   const Translation& at = translation;
   const double gap = shared[at.bandgap];
   const double slope = shared[at.bandgap_slope];
-  if (std::fabs(gap / kCecBandGap_eV - 1) > 1e-9 ||
-      std::fabs(slope / kCecBandGapSlope_1_K - 1) > 1e-9) {
+  if (std::fabs(gap / kPvlibBandgap_eV - 1) > 1e-9 ||
+      std::fabs(slope / kPvlibBandgapSlope_1_K - 1) > 1e-9) {
     return Fail(fmt::format(
         "a CEC row implies EgRef = {} eV and dEgdT = {} 1/K, found {} and {}: fit with both held "
         "there",
-        kCecBandGap_eV, kCecBandGapSlope_1_K, gap, slope));
+        kPvlibBandgap_eV, kPvlibBandgapSlope_1_K, gap, slope));
   }
   const TranslatedDevice reference =
       TranslateTo(at, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);

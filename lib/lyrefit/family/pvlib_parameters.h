@@ -8,6 +8,11 @@
 
 namespace lyrefit {
 
+// Defaults of pvlib's calcparams functions; a CEC row implies the band gap's.
+constexpr double kPvlibBandgap_eV = 1.121;
+constexpr double kPvlibBandgapSlope_1_K = -0.0002677;
+constexpr double kPvlibShuntExponent = 5.5;
+
 struct NamedValue {
   std::string name;
   double value;

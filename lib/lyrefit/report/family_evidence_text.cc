@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lyrefit/report/family_sections.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -35,22 +33,6 @@ std::string ShortList(const std::string& title, std::vector<std::string> sentenc
 }
 
 }  // namespace
-
-std::string FamilyHeldOutSection(const FamilyReport& report) {
-  if (!report.held_out) return "";
-  const HeldOut& h = *report.held_out;
-  std::string text = "Curves that the fit did not see\n";
-  text += Field("how", fmt::format("{}; {} tested", h.how, Plural(h.curves, "curve")));
-  text += Field("RMSE", BothLabelled(h.rmse) + ", over all their points");
-  std::string median = fmt::format("{} A solved-current", Scientific(h.median_rmse_A, 4));
-  if (!std::isnan(h.median_free_rmse_A)) {
-    median += fmt::format("; the same curves fitted one by one: {} A",
-                          Scientific(h.median_free_rmse_A, 4));
-  }
-  text += Field("median curve", median);
-  return text + Field("worst curve", fmt::format("{}: {} A solved-current", h.largest_id,
-                                                 Scientific(h.largest_rmse_A, 4)));
-}
 
 std::string FamilyCandidateSection(const FamilyReport& report) {
   if (report.candidates.empty()) return "";

@@ -87,6 +87,18 @@ Json HeldOutJson(const std::optional<HeldOut>& held_out) {
           {"median_free_solved_current_A", Number(held_out->median_free_rmse_A)}};
 }
 
+Json AgainstJson(const std::vector<Against>& against) {
+  Json list = Json::array();
+  for (const Against& one : against) {
+    Json json = {{"name", one.name}, {"law", one.law}};
+    json.update(HeldOutJson(one.result));
+    json.erase("how");  // as the joint fit
+    json.erase("median_free_solved_current_A");
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json WithoutOddJson(const FamilyReport& report) {
   if (!report.without_odd) return nullptr;
   const WithoutOdd& without = *report.without_odd;
@@ -150,6 +162,8 @@ void AddAnswer(const FamilyReport& report, Json* json) {
 void AddEvidence(const FamilyReport& report, Json* json) {
   Json& j = *json;
   j["held_out"] = HeldOutJson(report.held_out);
+  j["against"] = AgainstJson(report.against);
+  j["in_sample"] = HeldOutJson(report.in_sample);
   j["without_odd"] = WithoutOddJson(report);
   j["candidates"] = CandidatesJson(report);
   j["correlations"] = CorrelationsJson(report.correlations);

@@ -11,6 +11,11 @@ namespace lyrefit {
 // Whether the curves were fitted one by one, without shared parameters.
 inline bool OneByOne(const FamilyReport& report) { return report.estimates.empty(); }
 
+// "De Soto", as people write it.
+inline const char* LawTitle(TranslationLaw law) {
+  return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
+}
+
 // family_answer_text.cc: what came out.
 std::string FamilyParameterSection(const FamilyReport& report);
 std::string FamilySensorSection(const FamilyReport& report);
@@ -22,8 +27,10 @@ std::string FamilyCurveSection(const FamilyReport& report);
 std::string FamilyOffsetSection(const FamilyReport& report);
 std::string FreeFitSection(const FamilyReport& report);
 
-// family_evidence_text.cc: how far to trust it.
+// family_held_out_text.cc: whole curves as a test, of parameters from elsewhere too.
 std::string FamilyHeldOutSection(const FamilyReport& report);
+
+// family_evidence_text.cc: how far to trust it.
 std::string FamilyCandidateSection(const FamilyReport& report);
 std::string FamilyOddSection(const FamilyReport& report);
 std::string FamilyOutSection(const FamilyReport& report);

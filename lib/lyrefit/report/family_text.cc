@@ -11,10 +11,6 @@
 namespace lyrefit {
 namespace {
 
-std::string LawTitle(TranslationLaw law) {
-  return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
-}
-
 std::size_t Count(const FamilyReport& report, CurveRole role) {
   return static_cast<std::size_t>(
       std::count_if(report.curves.begin(), report.curves.end(),

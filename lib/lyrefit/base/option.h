@@ -57,8 +57,8 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
 }
 
 template <class Options, class Table>
-void AppendNonDefaults(const Options& options, const Table& table, std::vector<OptionEcho>* echoes,
-                       const Options& defaults = Options()) {
+void AppendNonDefaults(const Options& options, const Options& defaults, const Table& table,
+                       std::vector<OptionEcho>* echoes) {
   for (const OptionRow<Options>& row : table) {
     std::visit(
         [&](auto field) {
@@ -67,6 +67,13 @@ void AppendNonDefaults(const Options& options, const Table& table, std::vector<O
         },
         row.field);
   }
+}
+
+template <class Options, class Table>
+void AppendNonDefaults(const Options& options, const Table& table,
+                       std::vector<OptionEcho>* echoes) {
+  static const Options defaults;
+  AppendNonDefaults(options, defaults, table, echoes);
 }
 
 }  // namespace lyrefit

@@ -30,7 +30,7 @@ std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options) {
   }
   echo("weights", ToText(options.weights), ToText(defaults.weights));
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
-  AppendNonDefaults(options.search, kSearchOptionTable, &echoes, defaults.search);
+  AppendNonDefaults(options.search, defaults.search, kSearchOptionTable, &echoes);
   echo("search-curves", NumberText(options.search_curves), NumberText(defaults.search_curves));
   echo("fit-curves", NumberText(options.fit_curves), NumberText(defaults.fit_curves));
   echo("irradiance-offset", options.irradiance_offset ? "yes" : "no", "no");

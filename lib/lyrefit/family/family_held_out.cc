@@ -58,7 +58,8 @@ HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
     result.largest_id = set.curves[one.curve].name;
   }
   result.rmse = {std::sqrt(measured / points), std::sqrt(solved / points)};
-  result.median_rmse_A = Median(std::move(rmse));
+  result.median_rmse_A = Median(rmse);
+  result.curve_rmse_A = std::move(rmse);
   return result;
 }
 

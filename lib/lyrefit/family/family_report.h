@@ -73,6 +73,7 @@ struct HeldOut {
   double median_rmse_A = kUnknown;  // of the curves, solved-current
   double largest_rmse_A = kUnknown;
   std::string largest_id;
+  std::vector<double> curve_rmse_A;      // of every curve tested, solved-current
   double median_free_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
 };
 
@@ -90,6 +91,9 @@ struct FamilyCandidate {
   RmsePair rmse;
   double held_out_median_A = kUnknown;
   double held_out_rmse_A = kUnknown;  // solved-current
+  // Held-out mean square beyond that of the best law, in standard errors of the difference from
+  // curve to curve: below 1 the curves do not tell the two apart.
+  double behind_best = kUnknown;
   int free_parameters = 0;
   bool chosen = false;
 };

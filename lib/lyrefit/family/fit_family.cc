@@ -249,46 +249,4 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   return report;
 }
 
-Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& options,
-                                     const Observer& observer) {
-  std::optional<FamilyReport> best;
-  std::vector<FamilyCandidate> candidates;
-  double seconds = 0;
-  for (const TranslationLaw law : {TranslationLaw::kDeSoto, TranslationLaw::kPvsyst}) {
-    for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
-      FamilyOptions trial = options;
-      trial.law = law;
-      trial.model = model;
-      Expected<FamilyReport> report = FitFamily(set, trial, observer);
-      if (!report) return report;
-      FamilyCandidate candidate;
-      candidate.law = law;
-      candidate.model = model;
-      candidate.rmse = report->rmse.refined;
-      for (const Estimate& e : report->estimates) candidate.free_parameters += !e.fixed;
-      if (report->held_out) {
-        candidate.held_out_median_A = report->held_out->median_rmse_A;
-        candidate.held_out_rmse_A = report->held_out->rmse.solved_current_A;
-      }
-      candidates.push_back(candidate);
-      seconds += report->seconds;
-      const bool interrupted = report->interrupted;
-      // The first, simpler one stays unless the next is better by more than a thousandth.
-      const double lowest = best && best->held_out ? best->held_out->rmse.solved_current_A
-                                                   : kInfinity;
-      const bool better = !best || candidate.held_out_rmse_A < lowest * (1 - 1e-3);
-      if (better) best = std::move(*report);
-      best->interrupted = interrupted;
-      if (interrupted) break;
-    }
-  }
-  for (FamilyCandidate& candidate : candidates) {
-    candidate.chosen = candidate.law == best->translation.spec.law &&
-                       candidate.model == best->translation.spec.model;
-  }
-  best->candidates = candidates;
-  best->seconds = seconds;
-  return *best;
-}
-
 }  // namespace lyrefit

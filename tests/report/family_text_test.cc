@@ -56,6 +56,7 @@ TEST(FamilyText, TellsEachCurveAndWhatWasNotFitted) {
   const std::string text = FamilyText(MakeSampleFamily(8).report);
   EXPECT_THAT(text, HasSubstr("held out"));
   EXPECT_THAT(text, HasSubstr("228.57?"));
+  EXPECT_THAT(text, HasSubstr("1.20e-03    +1.23   -0.045  odd"));
   EXPECT_THAT(text, HasSubstr("sweep-1: taken in the dark"));
   EXPECT_THAT(text, HasSubstr("torn: torn.csv:7:3: expected a number"));
   EXPECT_THAT(text, HasSubstr("1.100 .. 1.500 .. 1.900"));

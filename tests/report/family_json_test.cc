@@ -63,11 +63,26 @@ TEST(FamilyJson, HoldsEveryCurve) {
   const json j = json::parse(FamilyJson(MakeSampleFamily(60).report));
   ASSERT_EQ(j["curves"].size(), 60U);
   const json& curve = j["curves"][2];
-  EXPECT_EQ(Keys(curve),
-            (Set{"id", "role", "reason", "odd", "points", "irradiance_Wm2", "irradiance_known",
-                 "irradiance_offset_Wm2", "temperature_C", "temperature_known",
-                 "temperature_offset_K", "short_circuit_current_A", "parameters", "rmse",
-                 "free_parameters", "free_rmse", "mean_residual_A", "residual_A"}));
+  EXPECT_EQ(Keys(curve), (Set{"id",
+                              "role",
+                              "reason",
+                              "odd",
+                              "points",
+                              "irradiance_Wm2",
+                              "irradiance_known",
+                              "irradiance_offset_Wm2",
+                              "temperature_C",
+                              "temperature_known",
+                              "temperature_offset_K",
+                              "short_circuit_current_A",
+                              "parameters",
+                              "rmse",
+                              "free_parameters",
+                              "free_rmse",
+                              "isc_excess",
+                              "voc_excess_V",
+                              "mean_residual_A",
+                              "residual_A"}));
   EXPECT_EQ(curve["odd"], true);
   EXPECT_EQ(curve["residual_A"].size(), 25U);
   EXPECT_EQ(Keys(curve["rmse"]), kPair);

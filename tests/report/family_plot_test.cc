@@ -25,10 +25,10 @@ TEST(PlotFamily, WritesAnSvgWithItsLabels) {
   const TempFolder folder;
   const std::string svg = Svg(MakeSampleFamily(30), folder.Path("family.svg"));
   EXPECT_THAT(svg, HasSubstr("</svg>"));
-  EXPECT_THAT(svg, HasSubstr("sample_module: desoto sd, solved-current RMSE 1.432e-03 A"));
+  EXPECT_THAT(svg, HasSubstr("sample_module: desoto sd, solved-current RMSE 1.432e-03 A over 28 "));
   EXPECT_THAT(svg, HasSubstr("Measured points and model"));
   EXPECT_THAT(svg, HasSubstr("Cell temperature (C)"));
-  EXPECT_THAT(svg, HasSubstr("Mean of model - measured (mA)"));
+  EXPECT_THAT(svg, HasSubstr("Mean of model - measured (mA; open: held out)"));
 }
 
 TEST(PlotFamily, DrawsCurvesFittedOneByOne) {

@@ -56,6 +56,7 @@ TEST(FamilyText, TellsEachCurveAndWhatWasNotFitted) {
   const std::string text = FamilyText(MakeSampleFamily(8).report);
   EXPECT_THAT(text, HasSubstr("held out"));
   EXPECT_THAT(text, HasSubstr("228.57?"));
+  EXPECT_THAT(text, HasSubstr("1.20e-03    +1.23   -0.045  odd"));
   EXPECT_THAT(text, HasSubstr("sweep-1: taken in the dark"));
   EXPECT_THAT(text, HasSubstr("torn: torn.csv:7:3: expected a number"));
   EXPECT_THAT(text, HasSubstr("1.100 .. 1.500 .. 1.900"));
@@ -67,18 +68,19 @@ TEST(FamilyText, TellsTheTestOnCurvesNotSeenBesideParametersFromElsewhereAndTheF
   FamilyReport report = MakeSampleFamily(8).report;
   std::string text = FamilyText(report);
   EXPECT_THAT(text, HasSubstr("Curves that the fit did not see\n  tested on     5 folds"));
-  EXPECT_THAT(text, ContainsRegex("joint fit +De Soto +1.8000e-03 +0.036 +2.0000e-03 +1.9000e-03 "
-                                  "+2.5000e-03  sweep-0"));
-  EXPECT_THAT(text, ContainsRegex("sheet.json +De Soto +4.8000e-03 +0.096 +5.0000e-03 +4.9000e-03 "
-                                  "+6.5000e-03  sweep-3"));
-  EXPECT_THAT(text, ContainsRegex("each curve on its own +1.2000e-03 +0.024"));
-  EXPECT_THAT(text, HasSubstr("Only the joint fit is given the sensors' errors"));
+  EXPECT_THAT(text, ContainsRegex("joint fit +De Soto +1.800e-03 +0.036 +1.900e-03 +2.500e-03  "
+                                  "sweep-0"));
+  EXPECT_THAT(text, ContainsRegex("sheet.json +De Soto +4.800e-03 +0.096 +4.900e-03 +6.500e-03  "
+                                  "sweep-3"));
+  EXPECT_THAT(text, ContainsRegex("each curve on its own +1.200e-03 +0.024"));
+  EXPECT_THAT(text, ContainsRegex("Only[ \n]+the[ \n]+joint[ \n]+fit"));
   report.in_sample = report.held_out;
   report.held_out.reset();
   text = FamilyText(report);
   EXPECT_THAT(text, HasSubstr("Parameters from elsewhere on the curves fitted"));
-  EXPECT_THAT(text, Not(HasSubstr("did not see")));
+  EXPECT_THAT(text, Not(HasSubstr("Curves that the fit did not see")));
   report.against[0].name = "a very long name of a file that nobody would type.json";
+  report.in_sample->largest_id = "a very long name of a curve";
   ExpectNarrow(FamilyText(report));
 }
 

@@ -54,6 +54,8 @@ inline void AddSampleCurve(int index, int curves, SampleFamily* sample) {
   curve.short_circuit_current_A = points.current_A[0];
   curve.rmse = {1.5e-3 + 1e-5 * index, 1.4e-3 + 1e-5 * index};
   curve.free_rmse = {1.3e-3, 1.2e-3};
+  curve.isc_excess = 0.0123;
+  curve.voc_excess_V = -0.045;
   curve.mean_residual_A = 1e-4 * std::cos(index);
   curve.irradiance_offset_W_m2 = {1.5, 0.2, 1.1, 1.9};
   sample->set.curves.push_back(points);

@@ -55,6 +55,9 @@ struct FamilyCurve {
   std::vector<double> free_parameters;   // empty: not done
   std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
   RmsePair free_rmse;
+  // Isc and Voc of that fit beside those of the shared parameters: what the stated conditions miss.
+  double isc_excess = kUnknown;  // relative
+  double voc_excess_V = kUnknown;
   bool odd = false;  // does not belong to the device of the others
 };
 

@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/version.h"
 #include "lyrefit/device/kernel.h"
+#include "lyrefit/device/model_points.h"
 #include "lyrefit/family/family_echo.h"
 #include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
@@ -116,6 +117,15 @@ void SearchShared(Job* job, FamilyReport* report) {
   report->searched.assign(shared.begin(), shared.begin() + job->family.translation.size());
 }
 
+// What the curve's own fit gives beyond the shared parameters.
+void FillExcess(const TranslatedDevice& shared, FamilyCurve* row) {
+  if (row->free_parameters.size() != shared.parameters.size()) return;
+  const KeyPoints model = ModelKeyPoints(shared.device, shared.parameters.data());
+  const KeyPoints own = ModelKeyPoints(shared.device, row->free_parameters.data());
+  row->isc_excess = own.short_circuit_current_A / model.short_circuit_current_A - 1;
+  row->voc_excess_V = own.open_circuit_voltage_V - model.open_circuit_voltage_V;
+}
+
 void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end,
                 FamilyReport* report) {
   const auto fill = [&](const JointProblem& from, const JointPoint& point, int k, int c) {
@@ -126,6 +136,7 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
     const TranslatedDevice device =
         TranslateTo(job.family.translation, report->refined, at.irradiance_W_m2, at.temperature_K);
     row.parameters = device.parameters;
+    FillExcess(device, &row);
     const std::vector<double> model =
         SolveCurrents(device.device, row.parameters.data(), curve.voltage_V);
     double sum = 0;

@@ -54,6 +54,10 @@ std::string Stated(double value, bool known) {
   return fmt::format("{:.5g}{}", value, known ? "" : "?");
 }
 
+std::string Signed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:+.{}f}", value, decimals) : "-";
+}
+
 std::string Marks(const FamilyCurve& curve) {
   if (curve.role == CurveRole::kFitted) return curve.odd ? "odd" : "";
   if (curve.odd) return "odd, out";
@@ -77,24 +81,25 @@ std::string FamilyCurveSection(const FamilyReport& report) {
   if (OneByOne(report) || report.curves.empty()) return "";
   const double isc = report.reference.short_circuit_current_A;
   TextTable table("lrrrrrrrrl");
-  table.Add({"", "G", "T", "Isc", "", "RMSE (A)", "RMSE (A)", "of Isc", "free fit", ""});
-  table.Add({"curve", "W/m2", "C", "A", "points", "measured", "solved", "%", "solved", ""});
+  table.Add({"", "G", "T", "RMSE (A)", "RMSE (A)", "of Isc", "free fit", "Isc off", "Voc off", ""});
+  table.Add({"curve", "W/m2", "C", "measured", "solved", "%", "solved", "%", "V", ""});
   const std::vector<const FamilyCurve*> shown = Shown(report);
   for (const FamilyCurve* curve : shown) {
     const double percent = 100 * curve->rmse.solved_current_A / isc;
     table.Add({ShortId(curve->id), Stated(curve->irradiance_W_m2, curve->irradiance_known),
                Stated(curve->temperature_C, curve->temperature_known),
-               Significant(curve->short_circuit_current_A, 4), std::to_string(curve->points),
                Scientific(curve->rmse.measured_current_A, 3),
                Scientific(curve->rmse.solved_current_A, 3),
                std::isfinite(percent) ? fmt::format("{:.3f}", percent) : "-",
-               Scientific(curve->free_rmse.solved_current_A, 3), Marks(*curve)});
+               Scientific(curve->free_rmse.solved_current_A, 3), Signed(100 * curve->isc_excess, 2),
+               Signed(curve->voc_excess_V, 3), Marks(*curve)});
   }
   return "Curves\n" + table.Text() + OthersNote(report, shown.size()) +
          Wrap("  ",
               "measured: measured-current RMSE, solved: solved-current RMSE; %: solved-current "
               "RMSE as a part of the Isc that the model has at 1000 W/m2 and 25 C; free fit: the "
-              "curve on its own; ?: nobody stated it");
+              "curve on its own; off: its own Isc and Voc less those of the model - Isc off speaks "
+              "of the irradiance, Voc off alone of the temperature; ?: nobody stated it");
 }
 
 std::string FamilyOffsetSection(const FamilyReport& report) {

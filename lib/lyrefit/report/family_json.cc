@@ -52,6 +52,8 @@ Json CurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>& devic
           {"rmse", RmsePairJson(curve.rmse)},
           {"free_parameters", ValuesJson(device, curve.free_parameters)},
           {"free_rmse", RmsePairJson(curve.free_rmse)},
+          {"isc_excess", Number(curve.isc_excess)},
+          {"voc_excess_V", Number(curve.voc_excess_V)},
           {"mean_residual_A", Number(curve.mean_residual_A)},
           {"residual_A", Numbers(curve.residual_A)}};
 }

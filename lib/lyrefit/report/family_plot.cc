@@ -50,7 +50,7 @@ std::vector<double> ModelCurrents(const FamilyReport& report, const FamilyCurve&
   return SolveCurrents(device, curve.free_parameters.data(), voltage_V);
 }
 
-// Up to twelve curves, evenly spread in the order of their irradiance.
+// Up to twelve curves, evenly spread over the irradiances: most of a sunny day looks alike.
 std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf& points) {
   std::vector<const FamilyCurve*> curves;
   for (const FamilyCurve& curve : report.curves) {
@@ -61,9 +61,16 @@ std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf&
     return a->irradiance_W_m2 < b->irradiance_W_m2;
   });
   if (curves.size() <= kMostDrawn) return curves;
+  const double least = curves.front()->irradiance_W_m2;
+  const double step = (curves.back()->irradiance_W_m2 - least) / (kMostDrawn - 1);
   std::vector<const FamilyCurve*> drawn;
   for (std::size_t i = 0; i < kMostDrawn; ++i) {
-    drawn.push_back(curves[i * (curves.size() - 1) / (kMostDrawn - 1)]);
+    const double wanted = least + step * static_cast<double>(i);
+    const FamilyCurve* const nearest = *std::min_element(
+        curves.begin(), curves.end(), [wanted](const FamilyCurve* a, const FamilyCurve* b) {
+          return std::fabs(a->irradiance_W_m2 - wanted) < std::fabs(b->irradiance_W_m2 - wanted);
+        });
+    if (drawn.empty() || drawn.back() != nearest) drawn.push_back(nearest);
   }
   return drawn;
 }
@@ -95,7 +102,12 @@ struct FamilyData {
   Block model{"model"};
   Block fitted{"fitted"};      // irradiance, RMSE in mA, temperature
   Block held_out{"held_out"};  // the same
-  Block mean{"mean"};          // irradiance, mean residual in mA, temperature
+  Block mean{"mean"};          // of fitted curves: irradiance, mean residual in mA, temperature
+  Block mean_held_out{"mean_held_out"};
+  double lowest_V = 0;
+  double highest_V = 0;
+  double lowest_A = 0;
+  double highest_A = 0;
   double coldest_C = 1e9;
   double hottest_C = -1e9;
 };
@@ -104,6 +116,10 @@ void AddCurve(const FamilyReport& report, const FamilyCurve& curve, const IvCurv
               FamilyData* data) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     data->measured.Add({points.voltage_V[i], points.current_A[i], curve.temperature_C});
+    data->lowest_V = std::min(data->lowest_V, points.voltage_V[i]);
+    data->highest_V = std::max(data->highest_V, points.voltage_V[i]);
+    data->lowest_A = std::min(data->lowest_A, points.current_A[i]);
+    data->highest_A = std::max(data->highest_A, points.current_A[i]);
   }
   const auto [low, high] = std::minmax_element(points.voltage_V.begin(), points.voltage_V.end());
   std::vector<double> voltage_V(kModelPoints);
@@ -127,9 +143,11 @@ FamilyData Collect(const FamilyReport& report, const CurveSet& set) {
   for (const FamilyCurve& curve : report.curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const RmsePair& rmse = report.estimates.empty() ? curve.free_rmse : curve.rmse;
-    Block* const block = curve.role == CurveRole::kHeldOut ? &data.held_out : &data.fitted;
-    block->Add({curve.irradiance_W_m2, 1e3 * rmse.solved_current_A, curve.temperature_C});
-    data.mean.Add({curve.irradiance_W_m2, 1e3 * curve.mean_residual_A, curve.temperature_C});
+    const bool held_out = curve.role == CurveRole::kHeldOut;
+    Block* const errors = held_out ? &data.held_out : &data.fitted;
+    errors->Add({curve.irradiance_W_m2, 1e3 * rmse.solved_current_A, curve.temperature_C});
+    Block* const means = held_out ? &data.mean_held_out : &data.mean;
+    means->Add({curve.irradiance_W_m2, 1e3 * curve.mean_residual_A, curve.temperature_C});
     data.coldest_C = std::min(data.coldest_C, curve.temperature_C);
     data.hottest_C = std::max(data.hottest_C, curve.temperature_C);
   }
@@ -153,51 +171,72 @@ void Join(const Block& block, const std::string& piece, std::string* command) {
   *command += (command->empty() ? "plot " : ", ") + piece;
 }
 
+// Where an axis begins: at 0 if only the scatter of its first points lies below.
+const char* AxisBegin(double lowest, double highest) {
+  constexpr double kScatter = 0.02;
+  return lowest < -kScatter * highest ? "*" : "0";
+}
+
+// The points of both blocks: filled those fitted, open those held out, beneath them.
+std::string BothRoles(const Block& held_out, const char* held_out_name, const Block& fitted,
+                      const char* fitted_name, double size) {
+  constexpr char kPoints[] = "${} using 1:2:3 with points pt {} ps {} lc palette notitle";
+  std::string command;
+  Join(held_out, fmt::format(kPoints, held_out_name, 6, size), &command);
+  Join(fitted, fmt::format(kPoints, fitted_name, 7, size), &command);
+  return command;
+}
+
 std::string Panel(std::string command) {
   return command.empty() ? "plot [0:1] [0:1] NaN notitle\n" : std::move(command) + "\n";
 }
 
-std::string Script(const FamilyReport& report, const FamilyData& data,
-                   const std::string& terminal) {
-  const TranslationSpec& spec = report.translation.spec;
+std::string Title(const FamilyReport& report) {
   const bool shared = !report.estimates.empty();
-  const std::string title = fmt::format("{}: {} {}, solved-current RMSE {} A{}", report.name,
-                                        shared ? ToText(spec.law) : "free", ToText(spec.model),
-                                        Scientific(report.rmse.refined.solved_current_A, 4),
-                                        report.interrupted ? ", interrupted" : "");
-  const PanelPage page(3, 3, title, LegendMark::kLine, {}, kColourBar);
-  const double size = PointSize(terminal);
-  std::string script = data.measured.Text() + data.model.Text() + data.fitted.Text() +
-                       data.held_out.Text() + data.mean.Text() + page.Begin(terminal) +
-                       ColourBar(data);
+  std::string title =
+      fmt::format("{}: {} {}", report.name, shared ? ToText(report.translation.spec.law) : "free",
+                  ToText(report.translation.spec.model));
+  if (shared) {
+    const auto fitted =
+        std::count_if(report.curves.begin(), report.curves.end(),
+                      [](const FamilyCurve& curve) { return curve.role == CurveRole::kFitted; });
+    title += fmt::format(", solved-current RMSE {} A over {} curves fitted",
+                         Scientific(report.rmse.refined.solved_current_A, 4), fitted);
+  }
+  return title + (report.interrupted ? ", interrupted" : "");
+}
+
+std::string CurvesPanel(const FamilyData& data, double size) {
   std::string curves;
   Join(data.measured,
        fmt::format("$measured using 1:2:3 with points pt 6 ps {} lc palette notitle", 0.7 * size),
        &curves);
   Join(data.model, "$model using 1:2:3 with lines lw 1.6 lc palette notitle", &curves);
+  return fmt::format("set xrange [{}:*]\nset yrange [{}:*]\n",
+                     AxisBegin(data.lowest_V, data.highest_V),
+                     AxisBegin(data.lowest_A, data.highest_A)) +
+         Panel(curves) + "unset colorbox\nset xrange [*:*]\n";
+}
+
+std::string Script(const FamilyReport& report, const FamilyData& data,
+                   const std::string& terminal) {
+  const PanelPage page(3, 3, Title(report), LegendMark::kLine, {}, kColourBar);
+  const double size = PointSize(terminal);
+  const std::string open = data.held_out.empty() ? "" : "; open: held out";
+  std::string script = data.measured.Text() + data.model.Text() + data.fitted.Text() +
+                       data.held_out.Text() + data.mean.Text() + data.mean_held_out.Text() +
+                       page.Begin(terminal) + ColourBar(data);
   script += page.Place(0, {"Measured points and model", "Voltage (V)", "Current (A)"});
-  script += Panel(curves) + "unset colorbox\n";
-  std::string errors;
-  Join(data.held_out,
-       fmt::format("$held_out using 1:2:3 with points pt 6 ps {} lc palette notitle", 1.2 * size),
-       &errors);
-  Join(data.fitted,
-       fmt::format("$fitted using 1:2:3 with points pt 7 ps {} lc palette notitle", 1.2 * size),
-       &errors);
-  script +=
-      page.Place(1, {data.held_out.empty() ? "RMSE of each curve (mA, solved-current)"
-                                           : "RMSE of each curve (mA, solved-current; o held out)",
-                     "Irradiance (W/m2)", ""});
-  script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
-  script += "set yrange [0:*]\n" + Panel(errors);
-  std::string mean;
-  Join(data.mean,
-       fmt::format("0 with lines lc rgb '#888888' notitle, $mean using 1:2:3 with points "
-                   "pt 7 ps {} lc palette notitle",
-                   1.2 * size),
-       &mean);
-  script += page.Place(2, {"Mean of model - measured (mA)", "Irradiance (W/m2)", ""});
-  return script + "set yrange [*:*]\n" + Panel(mean) + PanelPage::End();
+  script += CurvesPanel(data, size);
+  script += page.Place(
+      1, {"RMSE of each curve (mA, solved-current" + open + ")", "Irradiance (W/m2)", ""});
+  script += "set offsets graph 0.04, graph 0.04, graph 0.06, 0\nset yrange [0:*]\n";
+  script += Panel(BothRoles(data.held_out, "held_out", data.fitted, "fitted", 1.2 * size));
+  script += page.Place(2, {"Mean of model - measured (mA" + open + ")", "Irradiance (W/m2)", ""});
+  script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\nset yrange [*:*]\n";
+  script += "set xzeroaxis lc rgb '#888888'\n";
+  script += Panel(BothRoles(data.mean_held_out, "mean_held_out", data.mean, "mean", 1.2 * size));
+  return script + PanelPage::End();
 }
 
 }  // namespace

@@ -101,8 +101,8 @@ std::string OptionsText(const std::vector<OptionEcho>& options) {
   if (options.empty()) return "all at their defaults";
   std::string text;
   for (const OptionEcho& echo : options) {
-    text += fmt::format("{}{} = {} (default {})", text.empty() ? "" : ", ", echo.name, echo.value,
-                        echo.default_value);
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", echo.name, echo.value);
+    if (!echo.default_value.empty()) text += fmt::format(" (default {})", echo.default_value);
   }
   return text;
 }

@@ -247,6 +247,18 @@ INSTANTIATE_TEST_SUITE_P(FitFamily, OddCurve,
                                   std::to_string(std::get<1>(info.param));
                          });
 
+TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
+  options_.intervals = false;
+  for (int seed = 1; seed <= 10; ++seed) {
+    set_ = MadeSet(law_, truth_, ManyPlaces(12), 15, 2e-3, seed);
+    RandomStream random(8, seed);
+    for (IvCurve& curve : set_.curves) {
+      curve.conditions.irradiance_W_m2 *= 1 + 0.008 * random.Normal();
+    }
+    EXPECT_FALSE(Fit().without_odd.has_value()) << seed;
+  }
+}
+
 TEST_F(FitFamilyTest, GivesEveryCurveARowAndAReason) {
   set_ = MadeSet(law_, truth_, ManyPlaces(10), 15, 1e-3);
   set_.curves[0].conditions.cells_in_series = 72;

@@ -289,8 +289,8 @@ Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& o
       seconds += report->seconds;
       const bool interrupted = report->interrupted;
       // The first, simpler one stays unless the next is better by more than a thousandth.
-      const double lowest = best && best->held_out ? best->held_out->rmse.solved_current_A
-                                                   : kInfinity;
+      const double lowest =
+          best && best->held_out ? best->held_out->rmse.solved_current_A : kInfinity;
       const bool better = !best || candidate.held_out_rmse_A < lowest * (1 - 1e-3);
       if (better) best = std::move(*report);
       best->interrupted = interrupted;

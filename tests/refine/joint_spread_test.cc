@@ -59,7 +59,8 @@ TEST(FindJointSpread, IsTheScatterOfRepeatedMeasurements) {
     EXPECT_TRUE(std::isnan(spread.local_error[0][0]));
   }
   for (int i = 0; i < law.size(); ++i) {
-    if (shared[i].count > 0) EXPECT_NEAR(shared[i].Ratio(), 1, 0.15) << law.parameters[i].name;
+    if (shared[i].count == 0) continue;
+    EXPECT_NEAR(shared[i].Ratio(), 1, 0.15) << law.parameters[i].name;
   }
   EXPECT_NEAR(irradiance.Ratio(), 1, 0.15);
   EXPECT_NEAR(temperature.Ratio(), 1, 0.15);
@@ -149,8 +150,8 @@ TEST(FindJointProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) 
   for (int i = 0; i < law.size(); ++i) {
     if (best.held[i]) continue;
     for (const bool upper : {false, true}) {
-      const JointProfileSide side = FindJointProfileSide(
-          problem, best, {i, upper, t, variance, spread.standard_error[i]});
+      const JointProfileSide side =
+          FindJointProfileSide(problem, best, {i, upper, t, variance, spread.standard_error[i]});
       EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
       EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
       EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
@@ -166,8 +167,7 @@ TEST(FindJointProfileSide, StopsAtABoundThatTheDataAllow) {
   std::vector<double> truth = MadeTruth(law);
   truth[law.resistance_series] = 0;
   truth[law.resistance_shunt] = 1e7;
-  const JointProblem problem =
-      MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
+  const JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
   const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
   const JointProfileSide low =
       FindJointProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0});

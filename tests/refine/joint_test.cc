@@ -40,8 +40,7 @@ struct Law {
 
 class EveryLaw : public testing::TestWithParam<Law> {
  protected:
-  Translation law_ =
-      MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
+  Translation law_ = MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
   std::vector<double> truth_ = MadeTruth(law_);
 };
 
@@ -69,9 +68,9 @@ TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
         const double step = 1e-5 * (1 + std::fabs(moved[k])), middle = moved[k];
         const auto evaluate = [&](double x, std::vector<double>* out) {
           moved[k] = x;
-          return EvaluateJointCurve(problem, coordinates, c, is_shared ? moved.data() : theta.data(),
-                                    is_shared ? own.data() : moved.data(), 1e-3, out->data(),
-                                    nullptr, nullptr);
+          return EvaluateJointCurve(
+              problem, coordinates, c, is_shared ? moved.data() : theta.data(),
+              is_shared ? own.data() : moved.data(), 1e-3, out->data(), nullptr, nullptr);
         };
         ASSERT_TRUE(evaluate(middle + step, &up));
         ASSERT_TRUE(evaluate(middle - step, &down));
@@ -91,8 +90,7 @@ TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
 }
 
 TEST_P(EveryLaw, NaturalSlopeAgreesWithCentralDifferences) {
-  const JointProblem problem =
-      MadeProblem(MadeSet(law_, truth_, kSixPlaces, 5, 0), law_, truth_);
+  const JointProblem problem = MadeProblem(MadeSet(law_, truth_, kSixPlaces, 5, 0), law_, truth_);
   const std::vector<bool> none(problem.shared(), false);
   const JointLinear now = LinearizeJointly(problem, PointAt(problem, truth_), none);
   const JointCoordinates coordinates(problem, truth_, none);
@@ -112,8 +110,7 @@ TEST_P(EveryLaw, NaturalSlopeAgreesWithCentralDifferences) {
 }
 
 TEST_P(EveryLaw, RefineJointlyRecoversAnExactFamilyFromAPoorStart) {
-  const JointProblem problem =
-      MadeProblem(MadeSet(law_, truth_, kSixPlaces, 25, 0), law_, truth_);
+  const JointProblem problem = MadeProblem(MadeSet(law_, truth_, kSixPlaces, 25, 0), law_, truth_);
   std::vector<double> start = truth_;
   const auto set = [&](int i, double value) {
     if (i >= 0 && problem.lower[i] < problem.upper[i]) start[i] = value;
@@ -135,15 +132,14 @@ TEST_P(EveryLaw, RefineJointlyRecoversAnExactFamilyFromAPoorStart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Joint, EveryLaw,
-    testing::Values(Law{TranslationLaw::kDeSoto, Model::kSingleDiode, false},
-                    Law{TranslationLaw::kDeSoto, Model::kDoubleDiode, false},
-                    Law{TranslationLaw::kPvsyst, Model::kSingleDiode, false},
-                    Law{TranslationLaw::kPvsyst, Model::kDoubleDiode, true}),
-    [](const testing::TestParamInfo<Law>& info) {
-      return ToText(info.param.law) + "_" + ToText(info.param.model);
-    });
+INSTANTIATE_TEST_SUITE_P(Joint, EveryLaw,
+                         testing::Values(Law{TranslationLaw::kDeSoto, Model::kSingleDiode, false},
+                                         Law{TranslationLaw::kDeSoto, Model::kDoubleDiode, false},
+                                         Law{TranslationLaw::kPvsyst, Model::kSingleDiode, false},
+                                         Law{TranslationLaw::kPvsyst, Model::kDoubleDiode, true}),
+                         [](const testing::TestParamInfo<Law>& test) {
+                           return ToText(test.param.law) + "_" + ToText(test.param.model);
+                         });
 
 class RefineJointlyTest : public testing::Test {
  protected:
@@ -165,8 +161,8 @@ TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
   for (std::size_t c = 0; c < now.local.size(); ++c) {
     const auto residual = now.residual.segment(now.first_row[c], now.local[c].rows());
     for (int k = 0; k < now.local[c].cols(); ++k) {
-      const double cosine = now.local[c].col(k).dot(residual) /
-                            (now.local[c].col(k).norm() * now.residual.norm());
+      const double cosine =
+          now.local[c].col(k).dot(residual) / (now.local[c].col(k).norm() * now.residual.norm());
       EXPECT_LT(std::fabs(cosine), 1e-7) << c;
     }
   }
@@ -267,8 +263,7 @@ TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
 TEST_F(RefineJointlyTest, LetsGoWhatBeginsAtABoundAndWantsBack) {
   const Translation two = MadeLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
   const std::vector<double> shared = MadeTruth(two);
-  const JointProblem problem =
-      MadeProblem(MadeSet(two, shared, kSixPlaces, 25, 1e-3), two, shared);
+  const JointProblem problem = MadeProblem(MadeSet(two, shared, kSixPlaces, 25, 1e-3), two, shared);
   const JointEnd best = RefineJointly(problem, PointAt(problem, shared));
   std::vector<double> start = shared;
   start[two.resistance_series] = 0;

@@ -51,9 +51,10 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
                                         "largest_solved_current_A", "largest_id"}));
   EXPECT_TRUE(j["in_sample"].is_null());
   EXPECT_EQ(Keys(j["without_odd"]), (Set{"ids", "rmse", "parameters"}));
-  EXPECT_EQ(Keys(j["candidates"][0]),
-            (Set{"law", "model", "rmse", "held_out_solved_current_A",
-                 "held_out_median_solved_current_A", "free_parameters", "chosen"}));
+  EXPECT_EQ(
+      Keys(j["candidates"][0]),
+      (Set{"law", "model", "rmse", "held_out_solved_current_A", "held_out_median_solved_current_A",
+           "behind_best_standard_errors", "free_parameters", "chosen"}));
   EXPECT_EQ(Keys(j["temperature_coefficients"]["alpha_sc"]), (Set{"unit", "interval"}));
   EXPECT_EQ(Keys(j["rejected"][0]), (Set{"id", "error"}));
   EXPECT_EQ(Keys(j["refine"]), (Set{"termination", "projected_gradient"}));

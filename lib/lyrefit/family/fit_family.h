@@ -76,9 +76,9 @@ struct FamilyOptions {
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options = {},
                                  const Observer& observer = {});
 
-// De Soto and PVsyst with one and two diodes on the same curves, with `candidates` filled in. Of the
-// laws whose error on held-out curves is within one standard error of the lowest, the one with the
-// fewest free parameters is reported.
+// De Soto and PVsyst with one and two diodes on the same curves, with `candidates` filled in. Of
+// the laws whose error on held-out curves is within one standard error of the lowest, the one with
+// the fewest free parameters is reported.
 Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& options = {},
                                      const Observer& observer = {});
 

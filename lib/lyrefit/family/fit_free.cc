@@ -125,8 +125,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
     if (!one) continue;
     if (first == nullptr) first = &one->error();
     ++refused;
-    report.warnings.push_back(
-        fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
+    report.warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }
   // What no curve can be fitted with is an error of the options, or of the set.
   if (first != nullptr && refused == static_cast<int>(curves.size())) {

@@ -15,6 +15,30 @@ double CurveSquare(const JointProblem& problem, const JointPoint& point, int c) 
   return one * one * problem.curves[c].weight[0];
 }
 
+// Whether ordinary errors of its own readings explain a curve under these shared parameters: the
+// sensors of a good set differ by a few percent, and such a curve is no other device's.
+bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c, double noise_A,
+                     double limit_A) {
+  constexpr double kIrradianceSd = 0.02;
+  constexpr double kTemperatureSd_K = 2;
+  constexpr double kOrdinary = 3;  // standard deviations
+  JointProblem alone;
+  alone.translation = problem.translation;
+  alone.objective = problem.objective;
+  alone.curves = {problem.curves[c]};
+  alone.lower = alone.upper = point.shared;
+  alone.noise_A = noise_A;
+  FindJointScales(&alone);
+  JointCurve& curve = alone.curves[0];
+  curve.irradiance_sd = std::max(curve.irradiance_sd, kIrradianceSd);
+  curve.temperature_sd_K = std::max(curve.temperature_sd_K, kTemperatureSd_K);
+  const JointEnd end = RefineJointly(alone, {point.shared, {point.local[c]}});
+  const JointLocal& own = end.point.local[0];
+  return std::fabs(own[0]) <= kOrdinary * curve.irradiance_sd &&
+         std::fabs(own[1]) <= kOrdinary * curve.temperature_sd_K &&
+         std::sqrt(CurveSquare(alone, end.point, 0)) <= limit_A;
+}
+
 }  // namespace
 
 std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end) {
@@ -51,7 +75,9 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end)
   }
   std::vector<int> odd;
   for (int c = 0; c < curves; ++c) {
-    if (rmse[c] > kOdd * median && rmse[c] > visible) odd.push_back(c);
+    const double limit = std::max(kOdd * median, visible);
+    const double noise = std::max(median, 1e-9 * problem.current_scale_A);
+    if (rmse[c] > limit && !ReadingsExplain(problem, point, c, noise, limit)) odd.push_back(c);
   }
   // More than a third cannot be the exception.
   if (3 * static_cast<int>(odd.size()) > curves) odd.clear();

@@ -1,55 +1,17 @@
 #include "lyrefit/refine/joint.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "lyrefit/refine/joint_linear.h"
 #include "lyrefit/refine/joint_residuals.h"
+#include "lyrefit/refine/joint_solve.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kFlat = 1e-9;  // cosine below which a held parameter does not want back
-
-class CurveCost : public ceres::CostFunction {
- public:
-  CurveCost(const JointProblem& problem, const JointCoordinates& coordinates, int curve,
-            double unit_A)
-      : problem_(problem), coordinates_(coordinates), curve_(curve), unit_A_(unit_A) {
-    const JointShape shape = ShapeOf(problem.curves[curve]);
-    set_num_residuals(shape.residuals);
-    if (coordinates.size() > 0) mutable_parameter_block_sizes()->push_back(coordinates.size());
-    if (shape.locals > 0) mutable_parameter_block_sizes()->push_back(shape.locals);
-  }
-
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    // Blocks: what is shared, then the curve's own unknowns; either may be missing.
-    const bool has_shared = coordinates_.size() > 0;
-    const std::size_t own = has_shared ? 1 : 0;
-    const bool has_local = parameter_block_sizes().size() > own;
-    RowMatrix shared, local;
-    const bool want_shared = jacobians != nullptr && has_shared && jacobians[0] != nullptr;
-    const bool want_local = jacobians != nullptr && has_local && jacobians[own] != nullptr;
-    if (!EvaluateJointCurve(problem_, coordinates_, curve_, has_shared ? x[0] : nullptr,
-                            has_local ? x[own] : nullptr, unit_A_, residuals,
-                            want_shared ? &shared : nullptr, want_local ? &local : nullptr)) {
-      return false;
-    }
-    if (want_shared) std::copy(shared.data(), shared.data() + shared.size(), jacobians[0]);
-    if (want_local) std::copy(local.data(), local.data() + local.size(), jacobians[own]);
-    return true;
-  }
-
- private:
-  const JointProblem& problem_;
-  const JointCoordinates& coordinates_;
-  int curve_;
-  double unit_A_;
-};
 
 class JointPolish {
  public:
@@ -64,9 +26,7 @@ class JointPolish {
     refused_.assign(problem.shared(), false);
     // Into the bounds that only coordinates have.
     const JointCoordinates coordinates(problem, at_.shared, held_);
-    std::vector<double> theta = coordinates.Start();
-    ClampInto(coordinates, &theta);
-    MoveTo(coordinates, theta);
+    MoveTo(coordinates, StartInside(coordinates));
   }
 
   JointEnd Run() {
@@ -122,7 +82,7 @@ class JointPolish {
     const JointCoordinates coordinates(problem_, point.shared, held_);
     const std::vector<double> theta = coordinates.Start();
     std::vector<double> residuals(shape.residuals);
-    const std::vector<double> local = Pack(shape, point.local[c]);
+    const std::vector<double> local = PackLocal(shape, point.local[c]);
     const bool sound = EvaluateJointCurve(problem_, coordinates, c, theta.data(), local.data(), 1.0,
                                           residuals.data(), nullptr, nullptr);
     if (!sound) std::fill(residuals.begin(), residuals.end(), HUGE_VAL);
@@ -137,105 +97,24 @@ class JointPolish {
     return std::isfinite(cost) ? cost : HUGE_VAL;
   }
 
-  static std::vector<double> Pack(const JointShape& shape, const JointLocal& local) {
-    std::vector<double> packed;
-    if (shape.irradiance) packed.push_back(local[0]);
-    if (shape.temperature) packed.push_back(local[1]);
-    return packed;
-  }
-  static JointLocal Unpack(const JointShape& shape, const JointLocal& packed) {
-    JointLocal local = {0, 0};
-    std::size_t next = 0;
-    if (shape.irradiance) local[0] = packed[next++];
-    if (shape.temperature) local[1] = packed[next++];
-    return local;
-  }
-
   // One Ceres solve over what is not held; keeps the better of before and after.
   void Solve(bool bounded) {
     const JointCoordinates coordinates(problem_, at_.shared, held_);
-    converged_ = coordinates.size() == 0 && !HasLocals();
-    if (converged_ || !std::isfinite(cost_)) return;  // from nowhere there is no way
-    std::vector<double> theta = coordinates.Start();
-    ClampInto(coordinates, &theta);
-    const double points = std::max<double>(1, static_cast<double>(PointCount()));
-    const double unit_A = std::max(std::sqrt(cost_ / points), 1e-13 * Scale());
-    ceres::Problem solver;
-    // In one block, since Ceres orders what it eliminates by address: in pieces, the last bits of a
-    // fit would hang on where they happened to lie.
-    std::vector<JointLocal> locals(problem_.curves.size());
-    auto* order = new ceres::ParameterBlockOrdering;
-    for (std::size_t c = 0; c < problem_.curves.size(); ++c) {
-      const JointShape shape = ShapeOf(problem_.curves[c]);
-      const std::vector<double> packed = Pack(shape, at_.local[c]);
-      std::copy(packed.begin(), packed.end(), locals[c].begin());
-      auto cost =
-          std::make_unique<CurveCost>(problem_, coordinates, static_cast<int>(c), unit_A);
-      std::vector<double*> blocks;
-      if (!theta.empty()) blocks.push_back(theta.data());
-      if (shape.locals > 0) blocks.push_back(locals[c].data());
-      if (!blocks.empty()) solver.AddResidualBlock(cost.release(), nullptr, blocks);
-      if (shape.locals > 0) order->AddElementToGroup(locals[c].data(), 0);
+    converged_ = false;
+    if (!std::isfinite(cost_)) return;  // from nowhere there is no way
+    double points = 0;
+    for (const JointCurve& curve : problem_.curves) {
+      points += static_cast<double>(curve.voltage_V.size());
     }
-    if (!theta.empty()) order->AddElementToGroup(theta.data(), 1);
-    if (bounded) SetBounds(coordinates, &theta, &solver);
-    ceres::Solver::Options options = SolverOptions();
-    options.linear_solver_ordering.reset(order);
-    options.linear_solver_type = HasLocals() && !theta.empty() ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &solver, &summary);
-    iterations_ += static_cast<int>(summary.iterations.size());
-    converged_ = summary.termination_type == ceres::CONVERGENCE;
-    JointPoint end = at_;
-    coordinates.ToShared(theta.data(), end.shared.data());
-    for (std::size_t c = 0; c < locals.size(); ++c) {
-      end.local[c] = Unpack(ShapeOf(problem_.curves[c]), locals[c]);
-    }
-    const double cost = Cost(end);
+    const double least = 1e-13 * problem_.current_scale_A;
+    const double unit_A = std::max(std::sqrt(cost_ / std::max(points, 1.0)), least);
+    JointStep step = SolveJointly(problem_, coordinates, at_, {unit_A, bounded}, options_);
+    iterations_ += step.iterations;
+    converged_ = step.converged;
+    const double cost = Cost(step.point);
     if (cost <= cost_) {
-      at_ = std::move(end);
+      at_ = std::move(step.point);
       cost_ = cost;
-    }
-  }
-
-  ceres::Solver::Options SolverOptions() const {
-    ceres::Solver::Options options;
-    options.max_num_iterations = options_.max_iterations;
-    options.function_tolerance = options_.function_tolerance;
-    options.gradient_tolerance = 1e-15;
-    options.parameter_tolerance = 1e-14;
-    options.initial_trust_region_radius = 1e6;
-    options.logging_type = ceres::SILENT;
-    options.max_num_consecutive_invalid_steps = 20;
-    return options;
-  }
-
-  bool HasLocals() const {
-    return std::any_of(problem_.curves.begin(), problem_.curves.end(),
-                       [](const JointCurve& curve) { return ShapeOf(curve).locals > 0; });
-  }
-  double Scale() const { return problem_.current_scale_A; }
-  std::size_t PointCount() const {
-    std::size_t points = 0;
-    for (const JointCurve& curve : problem_.curves) points += curve.voltage_V.size();
-    return points;
-  }
-
-  static void ClampInto(const JointCoordinates& coordinates, std::vector<double>* theta) {
-    for (int k = 0; k < coordinates.size(); ++k) {
-      double lower, upper;
-      coordinates.Bounds(k, &lower, &upper);
-      (*theta)[k] = std::min(std::max((*theta)[k], lower), upper);
-    }
-  }
-
-  static void SetBounds(const JointCoordinates& coordinates, std::vector<double>* theta,
-                        ceres::Problem* solver) {
-    for (int k = 0; k < coordinates.size(); ++k) {
-      double lower, upper;
-      coordinates.Bounds(k, &lower, &upper);
-      if (std::isfinite(lower)) solver->SetParameterLowerBound(theta->data(), k, lower);
-      if (std::isfinite(upper)) solver->SetParameterUpperBound(theta->data(), k, upper);
     }
   }
 

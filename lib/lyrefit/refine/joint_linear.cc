@@ -13,14 +13,6 @@ constexpr double kSingular = 1e-12;
 constexpr double kTakenOver = 1e-10;  // of a column's length: what is left of it is rounding
 constexpr double kOpen = 1e-6;        // of a gradient along a direction that nothing decides
 
-// Own unknowns of a curve in the order of its columns.
-std::vector<double> Packed(const JointShape& shape, const JointLocal& local) {
-  std::vector<double> packed;
-  if (shape.irradiance) packed.push_back(local[0]);
-  if (shape.temperature) packed.push_back(local[1]);
-  return packed;
-}
-
 Eigen::MatrixXd NaturalSlope(const JointProblem& problem, const JointCoordinates& coordinates) {
   using Jet = ceres::Jet<double, 18>;
   const std::vector<double> theta = coordinates.Start();
@@ -119,9 +111,9 @@ void FindLocalErrors(const JointProblem& problem, const JointLinear& now, const 
     const JointShape shape = ShapeOf(curve);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(local);
     const bool full = qr.rank() == local.cols();
-    const Eigen::MatrixXd solve = full ? Eigen::MatrixXd(qr.solve(Eigen::MatrixXd::Identity(
-                                             local.rows(), local.rows())))
-                                       : Eigen::MatrixXd::Zero(local.cols(), local.rows());
+    const Eigen::MatrixXd solve =
+        full ? Eigen::MatrixXd(qr.solve(Eigen::MatrixXd::Identity(local.rows(), local.rows())))
+             : Eigen::MatrixXd::Zero(local.cols(), local.rows());
     const Eigen::MatrixXd taken = solve * now.shared.middleRows(now.first_row[c], local.rows());
     const Eigen::MatrixXd through = taken * found.half;
     const Eigen::MatrixXd covariance =
@@ -157,7 +149,7 @@ JointLinear LinearizeJointly(const JointProblem& problem, const JointPoint& poin
   now.shared.setZero(rows, coordinates.size());
   for (std::size_t c = 0; c < problem.curves.size(); ++c) {
     const JointShape shape = ShapeOf(problem.curves[c]);
-    const std::vector<double> local = Packed(shape, point.local[c]);
+    const std::vector<double> local = PackLocal(shape, point.local[c]);
     RowMatrix shared, own;
     if (!EvaluateJointCurve(problem, coordinates, static_cast<int>(c), theta.data(), local.data(),
                             1.0, now.residual.data() + now.first_row[c], &shared, &own)) {

@@ -22,12 +22,13 @@ JointLinear LinearizeJointly(const JointProblem& problem, const JointPoint& poin
                              const std::vector<bool>& held);
 
 // Linearised uncertainty at the end of a joint fit, as FindSensitivity gives it for one curve:
-// inverse of J'J times `variance`, the curves' own unknowns eliminated. What moves along a direction
-// without influence on any residual has no standard error; the others keep theirs.
+// inverse of J'J times `variance`, the curves' own unknowns eliminated. What moves along a
+// direction without influence on any residual has no standard error; the others keep theirs.
 struct JointSpread {
-  std::vector<double> standard_error;   // of each natural shared parameter; NaN: held or undetermined
-  Eigen::MatrixXd correlation;          // shared x shared, 0 where not known
-  Eigen::MatrixXd covariance;           // of the natural shared parameters
+  std::vector<double>
+      standard_error;           // of each natural shared parameter; NaN: held or undetermined
+  Eigen::MatrixXd correlation;  // shared x shared, 0 where not known
+  Eigen::MatrixXd covariance;   // of the natural shared parameters
   std::vector<JointLocal> local_error;  // standard errors of the curves' own unknowns
   double condition = 1;                 // of the Jacobian with columns of length 1
   double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors

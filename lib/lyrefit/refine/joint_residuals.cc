@@ -58,6 +58,21 @@ JointShape ShapeOf(const JointCurve& curve) {
   return shape;
 }
 
+std::vector<double> PackLocal(const JointShape& shape, const JointLocal& local) {
+  std::vector<double> packed;
+  if (shape.irradiance) packed.push_back(local[0]);
+  if (shape.temperature) packed.push_back(local[1]);
+  return packed;
+}
+
+JointLocal UnpackLocal(const JointShape& shape, const JointLocal& packed) {
+  JointLocal local = {0, 0};
+  std::size_t next = 0;
+  if (shape.irradiance) local[0] = packed[next++];
+  if (shape.temperature) local[1] = packed[next++];
+  return local;
+}
+
 bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coordinates, int index,
                         const double* theta, const double* local, double unit_A, double* residuals,
                         RowMatrix* shared_jacobian, RowMatrix* local_jacobian) {

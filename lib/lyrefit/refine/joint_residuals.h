@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "lyrefit/refine/joint_coordinates.h"
 
@@ -14,6 +15,10 @@ struct JointShape {
   bool temperature = false;
 };
 JointShape ShapeOf(const JointCurve& curve);
+
+// Unknowns of its own that a curve has, side by side, and back.
+std::vector<double> PackLocal(const JointShape& shape, const JointLocal& local);
+JointLocal UnpackLocal(const JointShape& shape, const JointLocal& packed);
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

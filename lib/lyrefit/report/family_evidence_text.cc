@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lyrefit/report/family_sections.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -36,18 +38,22 @@ std::string ShortList(const std::string& title, std::vector<std::string> sentenc
 
 std::string FamilyCandidateSection(const FamilyReport& report) {
   if (report.candidates.empty()) return "";
-  TextTable table("llrrrrr");
-  table.Add({"", "", "RMSE (A)", "RMSE (A)", "held out", "held-out median", "free"});
+  TextTable table("llrrrrrr");
+  table.Add({"", "", "RMSE (A)", "RMSE (A)", "held out", "median", "behind", "free"});
   table.Add({"law", "model", "measured-current", "solved-current", "solved-current",
-             "solved-current", "parameters"});
+             "solved-current", "best (SE)", "parameters"});
   for (const FamilyCandidate& c : report.candidates) {
     table.Add({ToText(c.law), ToText(c.model) + (c.chosen ? " <-" : ""),
                Scientific(c.rmse.measured_current_A, 4), Scientific(c.rmse.solved_current_A, 4),
                Scientific(c.held_out_rmse_A, 4), Scientific(c.held_out_median_A, 4),
+               std::isnan(c.behind_best) ? "-" : fmt::format("{:.1f}", c.behind_best),
                std::to_string(c.free_parameters)});
   }
   return "Choice of the law\n" + table.Text() +
-         Wrap("  ", "Chosen is the law that errs least on whole curves it did not see.");
+         Wrap("  ",
+              "Held out: on whole curves that the fit did not see. Behind: the mean square beyond "
+              "that of the best, in standard errors of the difference from curve to curve. Chosen "
+              "is the law with the fewest parameters that is less than one behind.");
 }
 
 std::string FamilyOddSection(const FamilyReport& report) {

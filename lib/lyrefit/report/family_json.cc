@@ -117,6 +117,7 @@ Json CandidatesJson(const FamilyReport& report) {
                           {"rmse", RmsePairJson(c.rmse)},
                           {"held_out_solved_current_A", Number(c.held_out_rmse_A)},
                           {"held_out_median_solved_current_A", Number(c.held_out_median_A)},
+                          {"behind_best_standard_errors", Number(c.behind_best)},
                           {"free_parameters", c.free_parameters},
                           {"chosen", c.chosen}});
   }

@@ -35,6 +35,7 @@
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_free.h"
 #include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/simulate.h"

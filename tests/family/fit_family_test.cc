@@ -204,6 +204,50 @@ TEST_F(FitFamilyTest, MarksOnlyWhatTheDataDoNotShow) {
   }
 }
 
+TEST_F(FitFamilyTest, KnowsCoefficientsWhoseParametersTradePlaces) {
+  // EgRef and dEgdT act as one number; what the device does with temperature is known all the same.
+  const FamilyReport plain = Fit();
+  options_.freed = {"dEgdT"};
+  const FamilyReport report = Fit();
+  for (const char* name : {"EgRef", "dEgdT"}) EXPECT_FALSE(Of(report, name).identifiable) << name;
+  EXPECT_TRUE(Of(report, "I_o_ref").identifiable);
+  for (const int k : {0, 1, 2}) {
+    const Interval& one = plain.coefficients[k].value;
+    const Interval& other = report.coefficients[k].value;
+    EXPECT_NEAR(one.value, other.value, 0.01 * one.standard_error + 1e-6 * std::fabs(one.value));
+    EXPECT_NEAR(one.standard_error / other.standard_error, 1, 0.02) << k;
+  }
+}
+
+TEST_F(FitFamilyTest, SaysThatOneIrradianceShowsNoDarkShunt) {
+  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
+  set_ = MadeSet(law, MadeTruth(law), {{1000, 25}, {1000, 45}, {1000, 65}}, 20, 1e-3);
+  options_.law = TranslationLaw::kPvsyst;
+  const FamilyReport report = Fit();
+  for (const Estimate& e : report.estimates) {
+    EXPECT_EQ(e.identifiable, e.info.name != "R_sh_0") << e.info.name << e.reason;
+  }
+  EXPECT_THAT(Of(report, "R_sh_0").reason, HasSubstr("do not fix it"));
+}
+
+TEST_F(FitFamilyTest, HoldsCoefficientsWhereNobodyStatedATemperature) {
+  for (IvCurve& curve : set_.curves) curve.temperature_known = false;
+  const FamilyReport report = Fit();
+  EXPECT_TRUE(Of(report, "alpha_sc").fixed);
+  EXPECT_TRUE(Of(report, "EgRef").fixed);
+  for (const FamilyCurve& row : report.curves) EXPECT_NEAR(row.temperature_C, 25, 1e-9);
+}
+
+TEST_F(FitFamilyTest, BearsCurvesWithoutNoise) {
+  set_ = MadeSet(law_, truth_, kSixPlaces, 20, 0);
+  options_.free_fits = true;
+  const FamilyReport report = Fit();
+  EXPECT_NEAR(Of(report, "n").refined, 1.2, 1e-9);
+  for (const Coefficient& c : report.coefficients) EXPECT_FALSE(std::isnan(c.value.high_95));
+  EXPECT_THAT(report.warnings, testing::IsEmpty());
+  EXPECT_FALSE(report.without_odd.has_value());
+}
+
 struct Stranger {
   const char* name;
   int parameter;

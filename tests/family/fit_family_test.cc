@@ -8,23 +8,12 @@
 #include <functional>
 
 #include "family/made_family.h"
+#include "family/quick.h"
 
 namespace lyrefit {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-FamilyOptions Quick() {
-  FamilyOptions options;
-  options.search.population = 12;
-  options.search.iterations = 15;
-  options.random_baseline = false;
-  options.free_fits = false;
-  options.folds = 0;
-  options.threads = 2;
-  return options;
-}
 
 class FitFamilyTest : public testing::Test {
  protected:
@@ -204,46 +193,49 @@ TEST_F(FitFamilyTest, MarksOnlyWhatTheDataDoNotShow) {
   }
 }
 
-struct Stranger {
-  const char* name;
-  int parameter;
-  double factor;
-};
-
-class OddCurve : public testing::TestWithParam<std::tuple<Stranger, int>> {};
-
-TEST_P(OddCurve, IsNamedAndOnlyIt) {
-  const auto& [stranger, count] = GetParam();
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> other = MadeTruth(law);
-  CurveSet set = MadeSet(law, other, count == 6 ? kSixPlaces : ManyPlaces(count), 20, 2e-3);
-  other[stranger.parameter] *= stranger.factor;
-  RandomStream random(9);
-  const std::string id = set.curves[2].name;
-  set.curves[2] = MadeCurve(law, other, {800, 40}, 20, 2e-3, &random);
-  set.curves[2].name = id;
-  FamilyOptions options = Quick();
-  options.intervals = false;
-  const FamilyReport report = *FitFamily(set, options);
-  ASSERT_TRUE(report.without_odd.has_value());
-  EXPECT_THAT(report.without_odd->ids, ElementsAre(id));
-  EXPECT_NEAR(report.without_odd->rmse.solved_current_A, 2e-3, 4e-4);
-  for (const FamilyCurve& row : report.curves) EXPECT_EQ(row.odd, row.id == id);
-  EXPECT_THAT(report.warnings, testing::Contains(HasSubstr("Curve " + id + " does not belong")));
-  // The same set without a stranger accuses nobody.
-  options.leave_out = {id};
-  EXPECT_FALSE(FitFamily(set, options)->without_odd.has_value());
+TEST_F(FitFamilyTest, KnowsCoefficientsWhoseParametersTradePlaces) {
+  // EgRef and dEgdT act as one number; what the device does with temperature is known all the same.
+  const FamilyReport plain = Fit();
+  options_.freed = {"dEgdT"};
+  const FamilyReport report = Fit();
+  for (const char* name : {"EgRef", "dEgdT"}) EXPECT_FALSE(Of(report, name).identifiable) << name;
+  EXPECT_TRUE(Of(report, "I_o_ref").identifiable);
+  for (const int k : {0, 1, 2}) {
+    const Interval& one = plain.coefficients[k].value;
+    const Interval& other = report.coefficients[k].value;
+    EXPECT_NEAR(one.value, other.value, 0.01 * one.standard_error + 1e-6 * std::fabs(one.value));
+    EXPECT_NEAR(one.standard_error / other.standard_error, 1, 0.02) << k;
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(FitFamily, OddCurve,
-                         testing::Combine(testing::Values(Stranger{"Isc", 0, 1.1},
-                                                          Stranger{"Voc", 1, 6},
-                                                          Stranger{"Rs", 3, 2}),
-                                          testing::Values(6, 20)),
-                         [](const testing::TestParamInfo<std::tuple<Stranger, int>>& test) {
-                           return std::string(std::get<0>(test.param).name) + "_" +
-                                  std::to_string(std::get<1>(test.param));
-                         });
+TEST_F(FitFamilyTest, SaysThatOneIrradianceShowsNoDarkShunt) {
+  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
+  set_ = MadeSet(law, MadeTruth(law), {{1000, 25}, {1000, 45}, {1000, 65}}, 20, 1e-3);
+  options_.law = TranslationLaw::kPvsyst;
+  const FamilyReport report = Fit();
+  for (const Estimate& e : report.estimates) {
+    EXPECT_EQ(e.identifiable, e.info.name != "R_sh_0") << e.info.name << e.reason;
+  }
+  EXPECT_THAT(Of(report, "R_sh_0").reason, HasSubstr("do not fix it"));
+}
+
+TEST_F(FitFamilyTest, HoldsCoefficientsWhereNobodyStatedATemperature) {
+  for (IvCurve& curve : set_.curves) curve.temperature_known = false;
+  const FamilyReport report = Fit();
+  EXPECT_TRUE(Of(report, "alpha_sc").fixed);
+  EXPECT_TRUE(Of(report, "EgRef").fixed);
+  for (const FamilyCurve& row : report.curves) EXPECT_NEAR(row.temperature_C, 25, 1e-9);
+}
+
+TEST_F(FitFamilyTest, BearsCurvesWithoutNoise) {
+  set_ = MadeSet(law_, truth_, kSixPlaces, 20, 0);
+  options_.free_fits = true;
+  const FamilyReport report = Fit();
+  EXPECT_NEAR(Of(report, "n").refined, 1.2, 1e-9);
+  for (const Coefficient& c : report.coefficients) EXPECT_FALSE(std::isnan(c.value.high_95));
+  EXPECT_THAT(report.warnings, testing::IsEmpty());
+  EXPECT_FALSE(report.without_odd.has_value());
+}
 
 TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
   options_.intervals = false;

@@ -65,7 +65,7 @@ void WarnOfParameters(const FamilyReport& report, std::vector<std::string>* warn
 
 // Residuals that hang together within curves make intervals from points too narrow.
 void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings) {
-  double joint = 0, free = 0, points = 0;
+  double joint = 0, free = 0, points = 0, largest = 0;
   for (const FamilyCurve& curve : report.curves) {
     const double alone = curve.free_rmse.solved_current_A;
     if (curve.role != CurveRole::kFitted || !std::isfinite(alone)) continue;
@@ -73,8 +73,11 @@ void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings
     joint += count * curve.rmse.solved_current_A * curve.rmse.solved_current_A;
     free += count * alone * alone;
     points += count;
+    largest = std::max(largest, curve.short_circuit_current_A);
   }
   constexpr double kVisible = 1.5;
+  constexpr double kRounding = 1e-9;  // of the current: made curves fit that well
+  if (std::sqrt(joint / std::max(points, 1.0)) < kRounding * largest) return;
   if (!(points > 0) || !(joint > kVisible * kVisible * free)) return;
   warnings->push_back(fmt::format(
       "The joint fit misses the curves by {:.3g} A, fits of their own by {:.3g} A "

@@ -168,26 +168,31 @@ class Judge {
   }
 
   // Gradient of a function of the shared parameters by central differences, and the spread that
-  // follows.
+  // follows; none where the function changes along a direction that the data leave open.
   Interval Derived(const std::function<double(const std::vector<double>&)>& value,
                    const JointSpread& spread) const {
-    const int count = family_.translation.size();
+    constexpr double kOpen = 1e-3;  // smaller changes are rounding
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
-    for (int i = 0; i < count; ++i) {
-      double step = 1e-3 * spread.standard_error[i];
-      const bool open = std::isnan(step) && !end_.held[i];
-      if (open) step = 1e-3 * std::max(std::fabs(r_.refined[i]), 1e-3);
+    for (int i = 0; i < family_.translation.size(); ++i) {
+      if (end_.held[i]) continue;
+      // A step that shows: a thousandth of what is not known, be it little or everything.
+      const bool open = std::isnan(spread.standard_error[i]);
+      const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
+      const double step = std::max(1e-3 * size, 1e-5 * std::fabs(r_.refined[i]));
       if (!(step > 0)) continue;
       std::vector<double> up = r_.refined, down = r_.refined;
       up[i] += step;
       down[i] -= step;
-      const double rise = value(up) - value(down);
-      const bool moves = std::fabs(rise) > 1e-9 * std::fabs(value(r_.refined));
-      if (open && moves) return Symmetric(value(r_.refined), kUnknown, t_);
-      if (!open) gradient[i] = rise / (up[i] - down[i]);
+      gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+    }
+    const double now = value(r_.refined);
+    for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
+      const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
+      const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
+      if (std::fabs(parts.sum()) > kOpen * least) return Symmetric(now, kUnknown, t_);
     }
     const double variance = gradient.dot(spread.covariance * gradient);
-    return Symmetric(value(r_.refined), std::sqrt(std::max(variance, 0.0)), t_);
+    return Symmetric(now, std::sqrt(std::max(variance, 0.0)), t_);
   }
 
   void FindCoefficients(const JointSpread& spread) {

@@ -108,6 +108,7 @@ Expected<void> GuessTemperatures(std::vector<FamilyMember>* members,
     notes->push_back(
         "no curve states its temperature: 25 C counts for all, and n and the saturation current "
         "absorb the difference");
+    for (FamilyMember& member : *members) member.joint.temperature_K = kReferenceTemperature_K;
     return {};
   }
   for (FamilyMember& member : *members) {

@@ -30,6 +30,7 @@ std::vector<int> SpreadCurves(const std::vector<Conditions>& conditions,
   if (static_cast<int>(among.size()) <= count) return among;
   if (count < 1) return {};
   std::vector<Place> places;
+  places.reserve(among.size());
   for (const int c : among) places.push_back(PlaceOf(conditions[c]));
   std::vector<double> nearest(among.size(), std::numeric_limits<double>::max());
   std::vector<int> taken;

@@ -140,8 +140,8 @@ class JointPolish {
       coordinates.Bounds(k, &lower, &upper);
       const double slope = now.shared.col(k).dot(now.residual);
       const double near = 1e-6 * (1 + std::fabs(theta[k]));
-      const bool low = theta[k] - lower < near && slope >= 0;
-      const bool high = upper - theta[k] < near && slope <= 0;
+      const bool low = theta[k] - lower < near && slope > 0;
+      const bool high = upper - theta[k] < near && slope < 0;
       if (!low && !high) continue;
       theta[k] = low ? lower : upper;
       pressed.push_back(coordinates.parameter(k));

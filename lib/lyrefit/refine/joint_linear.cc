@@ -171,22 +171,21 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
   JointSpread spread;
   spread.standard_error.assign(count, std::numeric_limits<double>::quiet_NaN());
   spread.correlation = Eigen::MatrixXd::Zero(count, count);
-  spread.covariance = Eigen::MatrixXd::Zero(count, count);
   const JointLinear now = LinearizeJointly(problem, end.point, end.held);
   const Directions found = FindDirections(now);
   spread.condition = found.condition;
   const Eigen::MatrixXd natural = now.natural_slope * found.half;
+  spread.covariance = variance * natural * natural.transpose();
+  spread.open = now.natural_slope * found.open;
   std::vector<int> decided;
   for (const int i : now.parameter) {
     if (Decided(now.natural_slope.row(i).transpose(), found)) decided.push_back(i);
   }
   for (const int i : decided) {
-    spread.standard_error[i] = std::sqrt(variance) * natural.row(i).norm();
+    spread.standard_error[i] = std::sqrt(spread.covariance(i, i));
     for (const int j : decided) {
-      const double product = natural.row(i).dot(natural.row(j));
       const double norm = natural.row(i).norm() * natural.row(j).norm();
-      spread.covariance(i, j) = variance * product;
-      if (norm > 0) spread.correlation(i, j) = product / norm;
+      if (norm > 0) spread.correlation(i, j) = natural.row(i).dot(natural.row(j)) / norm;
     }
   }
   FindLocalErrors(problem, now, found, variance, &spread);

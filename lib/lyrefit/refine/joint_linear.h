@@ -28,7 +28,10 @@ struct JointSpread {
   std::vector<double>
       standard_error;           // of each natural shared parameter; NaN: held or undetermined
   Eigen::MatrixXd correlation;  // shared x shared, 0 where not known
-  Eigen::MatrixXd covariance;   // of the natural shared parameters
+  // Of the natural shared parameters, from the directions that the data decide; and a column of
+  // `open` for every direction along which no residual changes.
+  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd open;
   std::vector<JointLocal> local_error;  // standard errors of the curves' own unknowns
   double condition = 1;                 // of the Jacobian with columns of length 1
   double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors

@@ -66,6 +66,12 @@ class Side {
     if (IsSaturation()) return Upwards() ? HUGE_VAL : -HUGE_VAL;
     if (!IsShunt()) return query_.upper ? problem_.upper[i] : problem_.lower[i];
     const double least = 1e-9 * problem_.current_scale_A / problem_.voltage_scale_V;
+    if (i == problem_.translation.resistance_shunt_dark) {  // relative to the other shunt
+      const std::vector<double>& shared = best_.point.shared;
+      const double shunt = shared[problem_.translation.resistance_shunt];
+      const double most = shunt * std::exp(shared[problem_.translation.shunt_exponent]);
+      return 1 / (query_.upper ? most : shunt);
+    }
     return query_.upper ? least : 1 / std::max(problem_.lower[i], 1e-9);
   }
 

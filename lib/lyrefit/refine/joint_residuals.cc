@@ -73,12 +73,12 @@ JointLocal UnpackLocal(const JointShape& shape, const JointLocal& packed) {
   return local;
 }
 
-bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coordinates, int index,
+bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coordinates, int curve,
                         const double* theta, const double* local, double unit_A, double* residuals,
                         RowMatrix* shared_jacobian, RowMatrix* local_jacobian) {
   if (!coordinates.Sane(theta)) return false;
-  const JointCurve& curve = problem.curves[index];
-  const JointShape shape = ShapeOf(curve);
+  const JointCurve& at = problem.curves[curve];
+  const JointShape shape = ShapeOf(at);
   const int moving = coordinates.size();
   CHECK_LE(moving + 2, kUnknowns);
   std::vector<Unknowns> x(moving);
@@ -90,8 +90,8 @@ bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coo
   if (shape.irradiance) relative = Unknowns(local[next], moving + next), ++next;
   if (shape.temperature) warmer = Unknowns(local[next], moving + next), ++next;
   const Unknowns irradiance =
-      curve.irradiance_W_m2 * (1.0 + relative) + shared[problem.irradiance_offset()];
-  const Unknowns temperature = curve.temperature_K + warmer + shared[problem.temperature_offset()];
+      at.irradiance_W_m2 * (1.0 + relative) + shared[problem.irradiance_offset()];
+  const Unknowns temperature = at.temperature_K + warmer + shared[problem.temperature_offset()];
   if (!(irradiance.a > 0) || !(temperature.a > 100) || !(temperature.a < 600)) return false;
   const int count = problem.translation.device.size();
   std::vector<Unknowns> device(count);
@@ -102,13 +102,13 @@ bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coo
     if (!std::isfinite(p[i])) return false;
   }
 
-  const int points = static_cast<int>(curve.voltage_V.size());
+  const int points = static_cast<int>(at.voltage_V.size());
   std::vector<double> current;
   RowMatrix slope(points, count);
-  ModelCurrents(problem, curve, p, &current, &slope);
+  ModelCurrents(problem, at, p, &current, &slope);
   for (int k = 0; k < points; ++k) {
-    const double root = std::sqrt(curve.weight[k]) / unit_A;
-    residuals[k] = root * (current[k] - curve.current_A[k]);
+    const double root = std::sqrt(at.weight[k]) / unit_A;
+    residuals[k] = root * (current[k] - at.current_A[k]);
     if (!std::isfinite(residuals[k])) return false;
     slope.row(k) *= root;
   }
@@ -123,8 +123,8 @@ bool EvaluateJointCurve(const JointProblem& problem, const JointCoordinates& coo
     local_jacobian->topRows(points).noalias() = slope * chain.rightCols(shape.locals);
   }
   int row = points, column = 0;
-  for (const auto& [is_unknown, sd] : {std::pair(shape.irradiance, curve.irradiance_sd),
-                                       std::pair(shape.temperature, curve.temperature_sd_K)}) {
+  for (const auto& [is_unknown, sd] : {std::pair(shape.irradiance, at.irradiance_sd),
+                                       std::pair(shape.temperature, at.temperature_sd_K)}) {
     if (!is_unknown) continue;
     if (std::isfinite(sd)) {
       residuals[row] = PriorResidual(problem, local[column], sd) / unit_A;

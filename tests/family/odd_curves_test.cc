@@ -1,0 +1,59 @@
+#include "lyrefit/family/odd_curves.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "family/made_family.h"
+#include "family/quick.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+struct Stranger {
+  const char* name;
+  int parameter;
+  double factor;
+};
+
+class OddCurve : public testing::TestWithParam<std::tuple<Stranger, int>> {};
+
+TEST_P(OddCurve, IsNamedAndOnlyIt) {
+  const auto& [stranger, count] = GetParam();
+  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
+  std::vector<double> other = MadeTruth(law);
+  CurveSet set = MadeSet(law, other, count == 6 ? kSixPlaces : ManyPlaces(count), 20, 2e-3);
+  other[stranger.parameter] *= stranger.factor;
+  RandomStream random(9);
+  const std::string id = set.curves[2].name;
+  set.curves[2] = MadeCurve(law, other, {800, 40}, 20, 2e-3, &random);
+  set.curves[2].name = id;
+  FamilyOptions options = Quick();
+  options.intervals = false;
+  const FamilyReport report = *FitFamily(set, options);
+  ASSERT_TRUE(report.without_odd.has_value());
+  EXPECT_THAT(report.without_odd->ids, ElementsAre(id));
+  EXPECT_NEAR(report.without_odd->rmse.solved_current_A, 2e-3, 4e-4);
+  for (const FamilyCurve& row : report.curves) EXPECT_EQ(row.odd, row.id == id);
+  EXPECT_THAT(report.warnings, testing::Contains(HasSubstr("Curve " + id + " does not belong")));
+  // The same set without a stranger accuses nobody.
+  options.leave_out = {id};
+  EXPECT_FALSE(FitFamily(set, options)->without_odd.has_value());
+}
+
+INSTANTIATE_TEST_SUITE_P(FitFamily, OddCurve,
+                         testing::Combine(testing::Values(Stranger{"Isc", 0, 1.1},
+                                                          Stranger{"Voc", 1, 6},
+                                                          Stranger{"Rs", 3, 2}),
+                                          testing::Values(6, 20)),
+                         [](const testing::TestParamInfo<std::tuple<Stranger, int>>& test) {
+                           return std::string(std::get<0>(test.param).name) + "_" +
+                                  std::to_string(std::get<1>(test.param));
+                         });
+
+}  // namespace
+}  // namespace lyrefit

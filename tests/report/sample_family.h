@@ -111,13 +111,20 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.curves[1].irradiance_known = false;
   report.curves[2].odd = true;
   report.held_out =
-      HeldOut{"5 folds of whole curves", 5, {2e-3, 1.9e-3}, 1.8e-3, 2.5e-3, "sweep-0", 1.2e-3};
+      HeldOut{"5 folds of whole curves", 5, {2e-3, 1.9e-3}, 1.8e-3, 2.5e-3, "sweep-0", {}, 1.2e-3};
   report.against = {
-      {"sheet.json", "De Soto", {"", 5, {5e-3, 4.9e-3}, 4.8e-3, 6.5e-3, "sweep-3", kUnknown}}};
+      {"sheet.json", "De Soto", {"", 5, {5e-3, 4.9e-3}, 4.8e-3, 6.5e-3, "sweep-3", {}, kUnknown}}};
   report.without_odd = WithoutOdd{{"sweep-2"}, {1.1e-3, 1e-3}, report.refined};
   report.candidates = {
-      {TranslationLaw::kDeSoto, Model::kSingleDiode, {2e-3, 1.9e-3}, 1.7e-3, 1.8e-3, 7, true},
-      {TranslationLaw::kPvsyst, Model::kDoubleDiode, {2.1e-3, 2e-3}, 1.9e-3, 2.1e-3, 9, false}};
+      {TranslationLaw::kDeSoto, Model::kSingleDiode, {2e-3, 1.9e-3}, 1.7e-3, 1.8e-3, 0, 7, true},
+      {TranslationLaw::kPvsyst,
+       Model::kDoubleDiode,
+       {2.1e-3, 2e-3},
+       1.9e-3,
+       2.1e-3,
+       2.5,
+       9,
+       false}};
   report.correlations = {{"Is1", "n1", 0.998}};
   report.search.iterations = 60;
   report.search.evaluations = 1830;

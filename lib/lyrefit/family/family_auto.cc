@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lyrefit/family/fit_family.h"
 
@@ -66,6 +69,8 @@ Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& o
                                      const Observer& observer) {
   std::vector<FamilyReport> reports;
   std::vector<FamilyCandidate> candidates;
+  std::vector<std::string> refusals;
+  std::optional<Error> first_error;
   double seconds = 0;
   bool interrupted = false;
   for (const TranslationLaw law : {TranslationLaw::kDeSoto, TranslationLaw::kPvsyst}) {
@@ -75,18 +80,25 @@ Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& o
       trial.law = law;
       trial.model = model;
       Expected<FamilyReport> report = FitFamily(set, trial, observer);
-      if (!report) return report;
+      if (!report) {  // an option that this law does not have
+        if (!first_error) first_error = report.error();
+        refusals.push_back(fmt::format("{} {} was not tried: {}", ToText(law), ToText(model),
+                                       report.error().message));
+        continue;
+      }
       candidates.push_back(Describe(*report));
       seconds += report->seconds;
       interrupted = report->interrupted;
       reports.push_back(std::move(*report));
     }
   }
+  if (reports.empty()) return tl::unexpected(*first_error);
   const std::size_t chosen = Choose(reports, &candidates);
   FamilyReport report = std::move(reports[chosen]);
   report.candidates = std::move(candidates);
   report.seconds = seconds;
   report.interrupted = interrupted;
+  report.assumptions.insert(report.assumptions.end(), refusals.begin(), refusals.end());
   return report;
 }
 

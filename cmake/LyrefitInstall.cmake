@@ -38,6 +38,7 @@ set(LYREFIT_PUBLIC_HEADERS
   family/fit_family.h
   family/fit_free.h
   family/pvlib_parameters.h
+  family/read_pvlib.h
   fit/bounds.h
   fit/fit.h
   fit/fit_report.h

@@ -9,6 +9,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kSame = 1e-6;  // relative difference of mean squares that is none
+
 FamilyCandidate Describe(const FamilyReport& report) {
   FamilyCandidate candidate;
   candidate.law = report.translation.spec.law;
@@ -27,12 +29,14 @@ double Behind(const HeldOut& one, const HeldOut& best) {
   const std::size_t count = one.curve_rmse_A.size();
   if (count != best.curve_rmse_A.size() || count < 2) return kUnknown;
   std::vector<double> difference;
-  double mean = 0;
+  double mean = 0, level = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const double a = one.curve_rmse_A[c], b = best.curve_rmse_A[c];
     difference.push_back(a * a - b * b);
     mean += difference.back() / static_cast<double>(count);
+    level += b * b / static_cast<double>(count);
   }
+  if (std::fabs(mean) <= kSame * level) return 0;
   double squares = 0;
   for (const double d : difference) squares += (d - mean) * (d - mean);
   const double error = std::sqrt(squares / static_cast<double>(count * (count - 1)));

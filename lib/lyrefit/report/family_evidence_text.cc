@@ -39,9 +39,9 @@ std::string ShortList(const std::string& title, std::vector<std::string> sentenc
 std::string FamilyCandidateSection(const FamilyReport& report) {
   if (report.candidates.empty()) return "";
   TextTable table("llrrrrrr");
-  table.Add({"", "", "RMSE (A)", "RMSE (A)", "held out", "median", "behind", "free"});
+  table.Add({"", "", "RMSE (A)", "RMSE (A)", "held out", "median", "behind", ""});
   table.Add({"law", "model", "measured-current", "solved-current", "solved-current",
-             "solved-current", "best (SE)", "parameters"});
+             "solved-current", "best (SE)", "free"});
   for (const FamilyCandidate& c : report.candidates) {
     table.Add({ToText(c.law), ToText(c.model) + (c.chosen ? " <-" : ""),
                Scientific(c.rmse.measured_current_A, 4), Scientific(c.rmse.solved_current_A, 4),
@@ -53,7 +53,7 @@ std::string FamilyCandidateSection(const FamilyReport& report) {
          Wrap("  ",
               "Held out: on whole curves that the fit did not see. Behind: the mean square beyond "
               "that of the best, in standard errors of the difference from curve to curve. Chosen "
-              "is the law with the fewest parameters that is less than one behind.");
+              "is the law with the fewest free parameters that is less than one behind.");
 }
 
 std::string FamilyOddSection(const FamilyReport& report) {

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kCorrelated = 1;  // Durbin-Watson statistic: lag-1 correlation above 0.5
+constexpr double kCorrelated = 0.01;  // p-value of the runs test
 
 double Seconds(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -117,7 +117,9 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
       FillFreeFit(**one, &curve);
       fitted += (*one)->usable;
       failed += !(*one)->usable;
-      correlated += (*one)->residuals.durbin_watson < kCorrelated;
+      const ResidualStatistics& residuals = (*one)->residuals;
+      correlated +=
+          residuals.runs < residuals.expected_runs && residuals.runs_p_value < kCorrelated;
       continue;
     }
     curve.role = CurveRole::kLeftOut;
@@ -137,10 +139,12 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   }
   if (2 * correlated > fitted) {
     report.warnings.push_back(fmt::format(
-        "The residuals hang together from point to point (Durbin-Watson below {:g} in {} of {} "
-        "fits): a law that misses, or noise that is not independent. The intervals of the single "
-        "fits are too narrow then; the spread between fits of equal curves is the honest measure.",
-        kCorrelated, correlated, fitted));
+        "The residuals keep their sign too long in {} of {} fits (p below {:g} in the runs test): "
+        "a "
+        "law that misses, or noise that hangs together from point to point. The intervals of the "
+        "single fits are too narrow then; the spread between fits of equal curves is the honest "
+        "measure.",
+        correlated, fitted, kCorrelated));
   }
   report.usable = fitted > 0;
   return report;

@@ -7,7 +7,7 @@ namespace lyrefit {
 
 // Reads the set (or the one curve) of `set`, fits it as the flags say and writes the report; the
 // exit code.
-int RunFamily(const CurveFlags& set, const FamilyFlags& flags, const FamilyOptions& options,
+int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyOptions& options,
               const ReportFlags& output);
 
 // Why no single curve could be read: `found`, or that the file holds many.

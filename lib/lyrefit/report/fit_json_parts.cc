@@ -26,13 +26,13 @@ Json RmsePairJson(const RmsePair& rmse) {
           {"solved_current_A", Number(rmse.solved_current_A)}};
 }
 
-Json KeyPointsJson(const KeyPoints& k) {
-  return {{"short_circuit_current_A", Number(k.short_circuit_current_A)},
-          {"open_circuit_voltage_V", Number(k.open_circuit_voltage_V)},
-          {"max_power_voltage_V", Number(k.max_power_voltage_V)},
-          {"max_power_current_A", Number(k.max_power_current_A)},
-          {"max_power_W", Number(k.max_power_W)},
-          {"fill_factor", Number(k.fill_factor)}};
+Json KeyPointsJson(const KeyPoints& points) {
+  return {{"short_circuit_current_A", Number(points.short_circuit_current_A)},
+          {"open_circuit_voltage_V", Number(points.open_circuit_voltage_V)},
+          {"max_power_voltage_V", Number(points.max_power_voltage_V)},
+          {"max_power_current_A", Number(points.max_power_current_A)},
+          {"max_power_W", Number(points.max_power_W)},
+          {"fill_factor", Number(points.fill_factor)}};
 }
 
 Json CorrelationsJson(const std::vector<Correlation>& correlations) {

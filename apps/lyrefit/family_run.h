@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// Reads the set (or the one curve) of `set`, fits it as the flags say and writes the report; the
+// Reads the set (or the one curve) of `flagged`, fits it as the flags say and writes the report; the
 // exit code.
 int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyOptions& options,
               const ReportFlags& output);

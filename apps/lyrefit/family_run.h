@@ -5,8 +5,8 @@
 
 namespace lyrefit {
 
-// Reads the set (or the one curve) of `flagged`, fits it as the flags say and writes the report; the
-// exit code.
+// Reads the set (or the one curve) of `flagged`, fits it as the flags say and writes the report;
+// the exit code.
 int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyOptions& options,
               const ReportFlags& output);
 

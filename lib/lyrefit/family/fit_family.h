@@ -13,8 +13,8 @@
 
 namespace lyrefit {
 
-// How the curves of a set count in the sum of squares. Where every curve states a standard deviation
-// of each current, that counts instead.
+// How the curves of a set count in the sum of squares. Where every curve states a standard
+// deviation of each current, that counts instead.
 enum class FamilyWeights {
   kEqual,  // every point alike, in ampere
   kIsc,    // relative to the largest current of its own curve

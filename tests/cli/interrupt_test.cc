@@ -35,7 +35,8 @@ pid_t StartApp(std::vector<std::string> arguments, const std::string& out) {
   return child;
 }
 
-// How long the app may take to end. The sanitizers slow it down.
+// How long the app may take to end: the promise holds for the command as it ships, and the
+// sanitizers make everything several times slower.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double kPatience_s = 5;
 #else

@@ -25,7 +25,7 @@ CurveSet ReadOrFail(const fs::path& path) {
   return set ? std::move(*set) : CurveSet();
 }
 
-// What the data sheet of the Mitsubishi PV-UE125MF5N prints.
+// Values usually quoted for the Mitsubishi PV-UE125MF5N, coefficients as its data set states them.
 NamedParameters DataSheetOfThePvue125() {
   DataSheet sheet;
   sheet.values = {7.90, 21.8, 7.23, 17.3, 0.0054, -0.0774};

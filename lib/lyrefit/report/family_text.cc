@@ -49,14 +49,7 @@ std::string Law(const FamilyReport& report) {
 }
 
 std::string Header(const FamilyReport& report) {
-  std::string text;
-  if (report.interrupted) {
-    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
-            "\n";
-  }
-  if (!report.usable) {
-    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
-  }
+  std::string text = Banner(report.interrupted, report.usable);
   const TranslationSpec& spec = report.translation.spec;
   const std::string model = ModelTitle(spec.model);
   text += fmt::format("lyrefit {}: ", report.version);
@@ -102,11 +95,7 @@ std::string BriefFamily(const FamilyReport& report) {
     text += fmt::format(", {} {}{}{}", e.info.symbol, Significant(e.refined, 6),
                         e.info.unit.empty() ? "" : " ", e.info.unit);
   }
-  if (report.interrupted) text += ", INTERRUPTED";
-  if (!report.usable) text += ", NOT USABLE";
-  if (!report.warnings.empty()) {
-    text += fmt::format(", {}", Plural(report.warnings.size(), "warning"));
-  }
+  text += BriefMarks(report.interrupted, report.usable, report.warnings.size());
   return text + "\n";
 }
 

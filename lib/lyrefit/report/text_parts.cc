@@ -47,6 +47,26 @@ std::string BoundText(double bound) {
   return Scientific(std::floor(bound / unit) * unit, 10);
 }
 
+std::string Banner(bool interrupted, bool usable) {
+  std::string text;
+  if (interrupted) {
+    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
+            "\n";
+  }
+  if (!usable) {
+    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
+  }
+  return text;
+}
+
+std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings) {
+  std::string text;
+  if (interrupted) text += ", INTERRUPTED";
+  if (!usable) text += ", NOT USABLE";
+  if (warnings > 0) text += fmt::format(", {}", Plural(warnings, "warning"));
+  return text;
+}
+
 std::string List(const std::string& title, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return "";
   std::string text = title + "\n";

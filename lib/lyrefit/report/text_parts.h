@@ -22,6 +22,12 @@ std::string CurveFields(const IvCurve& curve);
 // A proved bound, which must not be rounded up.
 std::string BoundText(double bound);
 
+// What stands above everything else of a report that is unfinished or worthless; else nothing.
+std::string Banner(bool interrupted, bool usable);
+
+// The same, and how many warnings there are, at the end of a report of one line.
+std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings);
+
 // A title and a list of sentences; nothing without sentences.
 std::string List(const std::string& title, const std::vector<std::string>& sentences);
 

@@ -10,14 +10,7 @@ namespace lyrefit {
 namespace {
 
 std::string Header(const FitReport& report) {
-  std::string text;
-  if (report.interrupted) {
-    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
-            "\n";
-  }
-  if (!report.usable) {
-    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
-  }
+  std::string text = Banner(report.interrupted, report.usable);
   text += fmt::format("lyrefit {}: {} model of {}\n", report.version, ModelTitle(report.model),
                       report.curve.name);
   text += CurveFields(report.curve);
@@ -51,11 +44,7 @@ std::string BriefReport(const FitReport& report) {
     text += fmt::format(", {} {}{}{}", info.symbol, Significant(report.refined[i], 6),
                         info.unit.empty() ? "" : " ", info.unit);
   }
-  if (report.interrupted) text += ", INTERRUPTED";
-  if (!report.usable) text += ", NOT USABLE";
-  if (!report.warnings.empty()) {
-    text += fmt::format(", {}", Plural(report.warnings.size(), "warning"));
-  }
+  text += BriefMarks(report.interrupted, report.usable, report.warnings.size());
   return text + "\n";
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/device/device.h"
+#include "lyrefit/diagnose/diagnosis.h"
+
+namespace lyrefit {
+
+struct DiagnoseOptions {
+  double level = 0.05;  // rate of false alarms over the whole catalogue
+  Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
+  std::vector<std::string> effects;  // ids to try; empty: every one the data allow
+  std::uint64_t seed = 1;
+  int draws = 2000;     // simulated nulls
+  int largest_causes = 4;  // at most so many are named
+  bool held_out = true;  // measure the gain on what was not fitted
+  int folds = 10;
+  bool extend = false;  // search and polish the extended model as a FitReport
+  int threads = 0;
+  ConstantSet constants = ConstantSet::kCodata;
+};
+
+extern const OptionRow<DiagnoseOptions> kDiagnoseOptionRows[5];
+
+// What the base model gets wrong in these data, why, and what allowing for it gains. The set holds
+// one curve (one sweep, or up and down), a lit and a dark curve (irradiance 0), or a family over
+// irradiance and temperature; the points of each curve are in the order taken.
+//
+// Errors: an unusable curve, options outside their ranges, unknown effect ids, fewer points than
+// parameters.
+Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options = {},
+                             const Observer& observer = {});
+Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& options = {},
+                             const Observer& observer = {});
+
+// Reads what ReadCurve or ReadCurveSet understand, as one measurement: up and down sweeps stay
+// together, sweeps under other conditions (a dark one among them) become curves of the set.
+Expected<CurveSet> ReadMeasurement(const std::string& path);
+
+}  // namespace lyrefit

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/effects/effect.h"
+
+namespace lyrefit {
+
+// Every effect lyrefit knows, in the order of reports. To add one: a file effects/<id>.cc with a
+// function that makes it, and its line in catalogue.cc.
+const std::vector<const Effect*>& Catalogue();
+
+// The effect with this id, nullptr if there is none.
+const Effect* FindEffect(const std::string& id);
+
+// What no current-voltage data can tell from the parameters it biases: never named as a cause.
+struct Inseparable {
+  const char* id;          // "lead_resistance"
+  const char* biases;      // "Rs"
+  const char* sentence;
+  const char* separate_by;
+  bool single_only;        // only where there is one condition
+  bool unless_dark;        // a dark curve shows it
+};
+const std::vector<Inseparable>& InseparableCauses();
+
+}  // namespace lyrefit

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+namespace lyrefit {
+
+// One point of a measurement, in the units in which effects are written: voltages per cell in
+// volt, currents in parts of the measurement's current scale (about Isc), conductances in scale
+// per volt of a cell.
+struct Reading {
+  double voltage = 0;        // per cell, V
+  double current = 0;        // in current scales
+  double irradiance = 1;     // as the sensor said, in suns (1000 W/m2)
+  double temperature_K = 0;  // of the cell, as the sensor said
+  double x = 0;              // time within the measurement, scaled to -1/2 .. 1/2
+  double rate = 0;           // dV/dt in parts of the measurement's rate scale, signed
+  int curve = 0;             // position in the set
+  int segment = 0;           // monotone stretches of voltage, counted through the whole set
+  double gap = 0;            // half the distance in x to the next reading of the same curve
+};
+
+// What the numbers of a measurement are scaled by.
+struct ReadingScale {
+  double current_A = 1;
+  int cells = 1;
+  double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
+  bool times = false;
+  double span_s = 0;  // duration; 0 where no times were recorded
+};
+
+// What kind of measurement it is: decides which effects it can show.
+struct DataTraits {
+  int curves = 1;              // with conditions of their own
+  bool single = true;          // one condition only (whatever the number of sweeps)
+  bool reverse = false;        // points well below 0 V
+  bool beyond_voc = false;     // points of negative current at light
+  bool up_down = false;        // both directions under the same conditions
+  bool dark = false;           // a dark curve beside a lit one
+  bool only_dark = false;      // nothing but dark curves
+  int irradiance_levels = 1;   // of lit curves
+  int temperature_levels = 1;
+  bool module = false;         // more than one cell in series
+  int substrings = 0;          // bypass groups; 0: not known
+  int cells = 1;
+  double lowest_voltage = 0;   // per cell
+  double highest_voltage = 0;  // per cell
+  double open_circuit = 0;     // per cell, estimate of Voc; 0 where there is none
+  double thermal_voltage = 0;  // k T / q at the reference
+  int readings = 0;
+  std::vector<double> step_times;  // x between two readings: where an irradiance step may lie
+};
+
+struct Readings {
+  std::vector<Reading> points;
+  ReadingScale scale;
+  DataTraits traits;
+  double reference_temperature_K = 298.15;  // where parameters are quoted
+  double bandgap_eV = 1.121;
+  double isc_tempco_per_K = 0;  // relative
+  double pivot_voltage = 0;     // per cell: where the diode's current is a parameter
+};
+
+}  // namespace lyrefit

@@ -41,11 +41,15 @@ struct Cell {
   S photocurrent;
   S saturation;    // of the first diode
   S inverse_n_vt;  // 1 / (n Vt)
-  S saturation_2;  // of a second diode with n = 2, 0 without
+  bool second = false;  // there is a second diode, with n = 2
+  S saturation_2;
   S inverse_2_vt;
+  S saturation_2_unit;  // saturation current of a second diode that carries 1 at the pivot voltage
   S conductance;
   S resistance;
   S thermal_voltage;
+  double reach = 1;            // largest |voltage| of the readings: where shunts are quoted
+  double substring_cells = 1;  // cells that share a bypass diode
   // Part of the cells under a part of the light; the voltage of a cell among them does not fall
   // below -bypass.
   bool grouped = false;
@@ -111,7 +115,8 @@ struct Hook {
 };
 
 // A parameter of an effect, in the units of Reading. What a person reads is the value times
-// factor x current_A^current x cells^cells x rate^rate of the measurement's scale, in `unit`.
+// factor x current_A^current x cells^cells x rate^rate of the measurement's scale, or `convert` of
+// it, in `unit`.
 struct EffectParameter {
   const char* symbol;  // "k"
   const char* name;    // "shunt_strength"
@@ -125,8 +130,10 @@ struct EffectParameter {
   int current = 0;
   int cells = 0;
   int rate = 0;
+  // What the value is multiplied by besides, given all of the effect's parameters.
+  double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
 
-  double Reported(double value, const ReadingScale& scale) const;
+  double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };
 
 // A place from which an effect is tried: a full set of its parameters at a strength that shows.

@@ -26,6 +26,8 @@ struct ReadingScale {
   double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
   bool times = false;
   double span_s = 0;  // duration; 0 where no times were recorded
+  double saturation_2_unit = 1;  // see Cell
+  double reach_V = 1;            // largest |voltage| per cell
 };
 
 // What kind of measurement it is: decides which effects it can show.

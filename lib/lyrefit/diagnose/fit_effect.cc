@@ -1,0 +1,83 @@
+#include "lyrefit/diagnose/fit_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace lyrefit {
+namespace {
+
+// Places to start from: every setting of what is searched where these are few, the three best
+// where they are many; the two best probes of effects that only descend.
+std::vector<Direction> ChooseStarts(const Effect& effect, const std::vector<Probe>& probes,
+                                    const Score& score) {
+  bool searched = false;
+  for (const EffectParameter& parameter : effect.parameters) searched |= parameter.searched;
+  const auto settings = [&](const Direction& d) {
+    std::vector<double> values;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].searched) values.push_back(probes[d.probe][k]);
+    }
+    return values;
+  };
+  std::set<std::vector<double>> all;
+  for (const Direction& d : score.directions) all.insert(settings(d));
+  const std::size_t most = !searched ? 2 : all.size() <= 8 ? all.size() : 3;
+  std::vector<Direction> starts;
+  std::set<std::vector<double>> taken;
+  for (const Direction& d : score.directions) {
+    if (starts.size() >= most) break;
+    if (searched && !taken.insert(settings(d)).second) continue;
+    starts.push_back(d);
+  }
+  return starts;
+}
+
+// A probe at the strength its score asks for, inside the bounds.
+std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direction& direction) {
+  std::vector<double> p = probe;
+  const EffectParameter& strength = effect.parameters.front();
+  if (strength.neutral != 0 || effect.size() == 0) return p;
+  bool linear = true;
+  for (const EffectParameter& parameter : effect.parameters) {
+    linear = linear && !(parameter.searched && effect.cell);
+  }
+  if (!linear) return p;  // a shade moves its knee with its depth
+  const double factor = direction.score / direction.norm;
+  p[0] *= factor;
+  const double smallest = 1e-3 * std::fabs(probe[0]);
+  if (strength.lower >= 0) p[0] = std::max(p[0], smallest);
+  p[0] = std::min(std::max(p[0], 0.9 * strength.lower), 0.9 * strength.upper);
+  return p;
+}
+
+}  // namespace
+
+LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) {
+  const Effect& effect = *score.effect;
+  const std::vector<Probe> probes = effect.probes(bench.readings->traits);
+  Law law = fit.law;
+  law.effects.push_back(&effect);
+  LawFit best;
+  for (const Direction& direction : ChooseStarts(effect, probes, score)) {
+    const Probe& probe = probes[direction.probe];
+    std::vector<double> start = fit.p;
+    for (const double value : Scaled(effect, probe, direction)) start.push_back(value);
+    if (getenv("DBG")) { fprintf(stderr,"%s",effect.id); for(double x: start) fprintf(stderr," %g",x); }
+    LawFit end = FitLaw(bench, law, start);
+    if (getenv("DBG")) { fprintf(stderr," ->"); for(double x: end.p) fprintf(stderr," %g",x);  fprintf(stderr," sum %g %ld\n",end.sum,clock()/1000);}
+    if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
+  }
+  return best;
+}
+
+LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index) {
+  Law law = fit.law;
+  std::vector<double> start = fit.p;
+  const int first = law.Offset(index), size = law.effects[index]->size();
+  start.erase(start.begin() + first, start.begin() + first + size);
+  law.effects.erase(law.effects.begin() + index);
+  return FitLaw(bench, law, start);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/workbench.h"
+
+namespace lyrefit {
+
+// `fit`'s law with one more effect, all parameters free, from the best of the effect's probes;
+// never worse than `fit` itself but for the effects that have no neutral value.
+LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score);
+
+// `fit`'s law without effect number `index`, from where it stands.
+LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index);
+
+}  // namespace lyrefit

@@ -1,0 +1,291 @@
+#include "lyrefit/diagnose/make_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/effects/law.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kLargestDark_W_m2 = 20;
+
+// Current at the smallest |V| of a curve: above 0 for a lit one.
+double CurrentNearZero(const IvCurve& curve) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < curve.size(); ++k) {
+    if (std::fabs(curve.voltage_V[k]) < std::fabs(curve.voltage_V[nearest])) nearest = k;
+  }
+  return curve.current_A[nearest];
+}
+
+double LargestMagnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::fabs(value));
+  return largest;
+}
+
+bool TimesIncrease(const std::vector<double>& time) {
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    if (!(time[k] > time[k - 1])) return false;
+  }
+  return !time.empty();
+}
+
+bool Varies(const std::vector<double>& values, double part) {
+  if (values.empty()) return false;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low > part * std::max(std::fabs(*high), std::fabs(*low));
+}
+
+// Whether a curve is dark, by its readings; says so where its metadata disagree.
+bool DecideDark(const IvCurve& curve, std::vector<std::string>* warnings) {
+  const double isc = CurrentNearZero(curve);
+  const double largest = LargestMagnitude(curve.current_A);
+  const bool said_dark =
+      curve.irradiance_known && curve.conditions.irradiance_W_m2 <= kLargestDark_W_m2;
+  const bool looks_lit = isc > 0.05 * largest;
+  const bool looks_dark = isc < 0.002 * largest && !looks_lit;
+  if (said_dark && looks_lit && largest > 0) {
+    warnings->push_back(curve.name +
+                        ": stated as dark, but it delivers current at 0 V; taken as lit at 1000 "
+                        "W/m2");
+    return false;
+  }
+  if (!said_dark && looks_dark) {
+    warnings->push_back(curve.name + ": stated as lit, but no current flows at 0 V; taken as dark");
+    return true;
+  }
+  return said_dark;
+}
+
+struct CurveLayout {
+  std::vector<double> clock;  // time or count
+  bool times = false;
+  std::vector<int> turns;
+};
+
+CurveLayout LayOut(const IvCurve& curve, std::vector<std::string>* warnings) {
+  CurveLayout layout;
+  layout.turns = FindTurns(curve.voltage_V);
+  layout.times = TimesIncrease(curve.time_s);
+  if (!curve.time_s.empty() && !layout.times) {
+    warnings->push_back(curve.name +
+                        ": the times do not increase from reading to reading; the order of the "
+                        "file is taken instead");
+  }
+  if (!curve.sweep.empty()) {
+    const std::set<int> sweeps(curve.sweep.begin(), curve.sweep.end());
+    if (sweeps.size() > 1 && layout.turns.size() == 1) {
+      warnings->push_back(curve.name +
+                          ": several sweeps are stated, but the voltage runs in one direction "
+                          "only; taken as one sweep");
+    }
+  }
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    layout.clock.push_back(layout.times ? curve.time_s[k] : static_cast<double>(k));
+  }
+  return layout;
+}
+
+// dV/dt of a cell, central inside a monotone stretch.
+double Rate(const IvCurve& curve, const CurveLayout& layout, int k, int first, int last) {
+  const int before = std::max(k - 1, first), after = std::min(k + 1, last);
+  const double span = layout.clock[after] - layout.clock[before];
+  if (!(span > 0)) return 0;
+  return (curve.voltage_V[after] - curve.voltage_V[before]) / curve.conditions.cells_in_series /
+         span;
+}
+
+void AppendCurve(const IvCurve& curve, int index, bool dark, const CurveLayout& layout,
+                 Readings* readings) {
+  const int cells = curve.conditions.cells_in_series;
+  const bool monitored = !dark && curve.irradiance_known && Varies(curve.irradiance_W_m2, 0.005);
+  const double first = layout.clock.front();
+  const double span = std::max(layout.clock.back() - first, 1e-300);
+  int segment = readings->points.empty() ? 0 : readings->points.back().segment + 1;
+  std::size_t turn = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (turn + 1 < layout.turns.size() && layout.turns[turn + 1] == static_cast<int>(k)) {
+      ++turn;
+      ++segment;
+    }
+    const int begin = layout.turns[turn];
+    const int end = turn + 1 < layout.turns.size() ? layout.turns[turn + 1] - 1
+                                                   : static_cast<int>(curve.size()) - 1;
+    Reading reading;
+    reading.voltage = curve.voltage_V[k] / cells;
+    reading.current = curve.current_A[k];
+    reading.irradiance = (monitored ? curve.irradiance_W_m2[k]
+                          : curve.irradiance_known ? curve.conditions.irradiance_W_m2
+                                                   : 1000.0) /
+                         1000;
+    if (dark) reading.irradiance = 0;
+    if (!dark && reading.irradiance * 1000 <= kLargestDark_W_m2) reading.irradiance = 1;
+    reading.temperature_K = curve.conditions.cell_temperature_K;
+    reading.x = (layout.clock[k] - first) / span - 0.5;
+    reading.gap =
+        k + 1 < curve.size() ? 0.5 * (layout.clock[k + 1] - layout.clock[k]) / span : 0;
+    reading.rate = Rate(curve, layout, static_cast<int>(k), begin, end);
+    reading.curve = index;
+    reading.segment = segment;
+    readings->points.push_back(reading);
+  }
+  readings->scale.times = readings->scale.times || layout.times;
+  if (layout.times) readings->scale.span_s = std::max(readings->scale.span_s, span);
+}
+
+int Levels(std::vector<double> values, double apart) {
+  std::sort(values.begin(), values.end());
+  int levels = values.empty() ? 0 : 1;
+  for (std::size_t k = 1; k < values.size(); ++k) levels += values[k] - values[k - 1] > apart;
+  return levels;
+}
+
+// Voltage at which a lit curve's current changes sign, per cell; 0 where it does not.
+double OpenCircuit(const std::vector<Reading>& points, int curve) {
+  std::vector<std::pair<double, double>> sorted;
+  for (const Reading& r : points) {
+    if (r.curve == curve) sorted.emplace_back(r.voltage, r.current);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  double found = 0;
+  for (std::size_t k = 1; k < sorted.size(); ++k) {
+    const auto& [v0, i0] = sorted[k - 1];
+    const auto& [v1, i1] = sorted[k];
+    if (i0 > 0 && i1 <= 0) found = v0 + (v1 - v0) * i0 / (i0 - i1);
+  }
+  return found;
+}
+
+void SetScales(const std::vector<char>& dark, Readings* readings) {
+  double scale = 0, largest = 0, rates = 0;
+  for (const Reading& r : readings->points) {
+    largest = std::max(largest, std::fabs(r.current));
+    if (dark[r.curve] == 0 && r.voltage > -0.05) scale = std::max(scale, r.current);
+    rates += r.rate * r.rate;
+  }
+  if (!(scale > 0)) scale = largest;
+  if (!(scale > 0)) scale = 1;
+  readings->scale.current_A = scale;
+  const double rate = std::sqrt(rates / static_cast<double>(readings->points.size()));
+  readings->scale.rate_V_per_s = rate > 0 ? rate : 1;
+  for (Reading& r : readings->points) {
+    r.current /= scale;
+    r.rate /= readings->scale.rate_V_per_s;
+  }
+}
+
+void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* readings) {
+  DataTraits& traits = readings->traits;
+  const IvCurve& first = set.curves.front();
+  std::vector<double> lit_irradiance, temperature;
+  traits.readings = static_cast<int>(readings->points.size());
+  traits.lowest_voltage = traits.highest_voltage = readings->points.front().voltage;
+  for (const Reading& r : readings->points) {
+    traits.lowest_voltage = std::min(traits.lowest_voltage, r.voltage);
+    traits.highest_voltage = std::max(traits.highest_voltage, r.voltage);
+    temperature.push_back(r.temperature_K);
+    if (dark[r.curve] == 0) lit_irradiance.push_back(r.irradiance);
+    if (dark[r.curve] == 0 && r.current < -0.01) traits.beyond_voc = true;
+  }
+  const bool any_dark = std::count(dark.begin(), dark.end(), 1) > 0;
+  traits.curves = static_cast<int>(set.curves.size());
+  traits.only_dark = lit_irradiance.empty();
+  traits.dark = any_dark && !traits.only_dark;
+  const bool one_curve = set.curves.size() == 1;
+  traits.irradiance_levels = one_curve ? 1 : std::max(1, Levels(lit_irradiance, 0.02));
+  traits.temperature_levels = Levels(temperature, 2);
+  traits.single = one_curve;
+  traits.reverse = traits.lowest_voltage < -0.1;
+  traits.cells = first.conditions.cells_in_series;
+  traits.module = traits.cells > 1;
+  traits.substrings = first.notes.bypass_diodes.value_or(0);
+  for (int c = 0; c < traits.curves; ++c) {
+    if (dark[c] == 0) {
+      traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
+    }
+    std::set<int> segments;
+    for (const Reading& r : readings->points) {
+      if (r.curve == c) segments.insert(r.segment);
+    }
+    traits.up_down = traits.up_down || segments.size() > 1;
+  }
+  if (!traits.single) return;
+  const std::vector<Reading>& points = readings->points;
+  for (std::size_t k = 1; k + 2 < points.size(); ++k) {
+    traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
+  }
+}
+
+}  // namespace
+
+std::vector<int> FindTurns(const std::vector<double>& voltage) {
+  const auto [low, high] = std::minmax_element(voltage.begin(), voltage.end());
+  const double jitter = 0.2 * (*high - *low);
+  std::vector<int> turns = {0};
+  int direction = 0;
+  std::size_t extreme = 0;
+  for (std::size_t k = 1; k < voltage.size(); ++k) {
+    const double move = voltage[k] - voltage[extreme];
+    if (direction == 0) {
+      if (std::fabs(move) > jitter) {
+        direction = move > 0 ? 1 : -1;
+        extreme = k;
+      }
+    } else if (direction * move >= 0) {
+      extreme = k;
+    } else if (std::fabs(move) > jitter) {
+      turns.push_back(static_cast<int>(extreme) + 1);
+      direction = -direction;
+      extreme = k;
+    }
+  }
+  return turns;
+}
+
+Expected<Measurement> MakeReadings(const CurveSet& set) {
+  if (set.curves.empty()) return Fail("there is no curve to diagnose");
+  Measurement measurement;
+  Readings& readings = measurement.readings;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    const IvCurve& curve = set.curves[c];
+    if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
+    if (curve.conditions.cells_in_series != set.curves.front().conditions.cells_in_series) {
+      return Fail(curve.name + ": its number of cells differs from the others'; a measurement is of "
+                               "one device");
+    }
+    measurement.dark.push_back(DecideDark(curve, &measurement.warnings) ? 1 : 0);
+    AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0,
+                LayOut(curve, &measurement.warnings), &readings);
+  }
+  if (readings.points.size() < 7) {
+    return Fail("a diagnosis needs 7 readings or more, there are " +
+                std::to_string(readings.points.size()));
+  }
+  SetScales(measurement.dark, &readings);
+  readings.scale.cells = set.curves.front().conditions.cells_in_series;
+  FindTraits(set, measurement.dark, &readings);
+  const DeviceNotes& notes = set.curves.front().notes;
+  readings.bandgap_eV = notes.bandgap_eV.value_or(1.121);
+  if (notes.isc_tempco_per_K) {
+    readings.isc_tempco_per_K = *notes.isc_tempco_per_K;
+  } else if (notes.isc_tempco_A_per_K) {
+    readings.isc_tempco_per_K = *notes.isc_tempco_A_per_K / readings.scale.current_A;
+  }
+  DataTraits& traits = readings.traits;
+  readings.reference_temperature_K = traits.temperature_levels > 1
+                                         ? 298.15
+                                         : set.curves.front().conditions.cell_temperature_K;
+  traits.thermal_voltage = ThermalVoltage(readings.reference_temperature_K);
+  readings.pivot_voltage =
+      traits.open_circuit > 0 ? traits.open_circuit : std::max(0.9 * traits.highest_voltage, 0.05);
+  readings.scale.reach_V =
+      std::max({std::fabs(traits.lowest_voltage), std::fabs(traits.highest_voltage), 1e-3});
+  readings.scale.saturation_2_unit = Saturation2Unit(readings);
+  return measurement;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/effects/reading.h"
+
+namespace lyrefit {
+
+// A measurement laid out reading by reading, and what had to be said about its metadata.
+struct Measurement {
+  Readings readings;
+  std::vector<char> dark;               // of each curve
+  std::vector<std::string> warnings;    // metadata that the data contradict, in plain sentences
+};
+
+// Errors: no usable curve, two devices (cell counts differ), fewer than 7 readings.
+Expected<Measurement> MakeReadings(const CurveSet& set);
+
+// Where monotone stretches of voltage begin: 0, then every turning point. Turns of less than a
+// fifth of the whole range are jitter.
+std::vector<int> FindTurns(const std::vector<double>& voltage);
+
+}  // namespace lyrefit

@@ -1,0 +1,196 @@
+#include "lyrefit/diagnose/noise.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+// Ratios of constant and relative noise that are weighed against each other.
+constexpr double kRatios[] = {0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
+constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
+constexpr double kSmallestNoise = 1e-7;
+// Squares beyond this many variances count as this many: steps and outliers are not noise.
+constexpr double kLargestSquare = 6.63;
+constexpr double kCutMean = 0.967;  // mean of a squared normal number cut there
+// Second differences overlap: three of them say about as much as this many independent squares.
+constexpr double kEvidence = 0.5;
+
+struct Difference {
+  double square;
+  double constant;  // by how much constant noise enters
+  double relative;  // by how much noise in proportion to the current does
+};
+
+std::vector<Difference> Differences(const Readings& readings, const std::vector<char>& dark,
+                                    bool want_dark, const std::vector<double>& residual,
+                                    const std::vector<char>& used) {
+  std::vector<int> chain;
+  std::vector<Difference> differences;
+  int segment = -1;
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    const Reading& r = readings.points[k];
+    if (used[k] == 0 || (dark[r.curve] != 0) != want_dark) continue;
+    if (r.segment != segment) chain.clear();
+    segment = r.segment;
+    chain.push_back(static_cast<int>(k));
+    if (chain.size() < 3) continue;
+    const int a = chain[chain.size() - 3], b = chain[chain.size() - 2], c = chain.back();
+    const double va = readings.points[a].voltage, vb = readings.points[b].voltage,
+                 vc = readings.points[c].voltage;
+    // A line through the outer two, so that uneven steps do not count.
+    double part = vc != va ? (vb - va) / (vc - va) : 0.5;
+    if (!(part > 0.05 && part < 0.95)) part = 0.5;
+    const double weight[] = {1 - part, -1, part};
+    const int at[] = {a, b, c};
+    Difference difference{0, 0, 0};
+    double value = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double current = readings.points[at[i]].current;
+      value += weight[i] * residual[at[i]];
+      difference.constant += weight[i] * weight[i];
+      difference.relative += weight[i] * weight[i] * current * current;
+    }
+    difference.square = value * value;
+    differences.push_back(difference);
+  }
+  return differences;
+}
+
+// Scale (squared) of noise with the given shape, large squares cut.
+double CutScale(const std::vector<Difference>& differences, double ratio2) {
+  std::vector<double> squares;
+  for (const Difference& d : differences) {
+    squares.push_back(d.square / (ratio2 * d.constant + d.relative));
+  }
+  std::vector<double> sorted = squares;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  double scale = sorted[sorted.size() / 2] / 0.455;
+  double mean = 0;
+  for (const double s : squares) mean += s / static_cast<double>(squares.size());
+  if (!(scale > 0)) scale = mean;
+  for (int round = 0; round < 6; ++round) {
+    double sum = 0;
+    for (const double s : squares) sum += std::min(s, kLargestSquare * scale);
+    scale = sum / (kCutMean * static_cast<double>(squares.size()));
+  }
+  return scale;
+}
+
+double LogLikelihood(const std::vector<Difference>& differences, double ratio2, double scale) {
+  double sum = 0;
+  for (const Difference& d : differences) {
+    const double variance = scale * (ratio2 * d.constant + d.relative);
+    sum -= 0.5 * (std::log(variance) + std::min(d.square / variance, kLargestSquare));
+  }
+  return kEvidence * sum;
+}
+
+// Average over the shapes by their likelihood: with few readings nothing is decided.
+NoiseLaw Weigh(const std::vector<Difference>& differences) {
+  double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
+  for (int k = 0; k < kRatioCount; ++k) {
+    const double ratio2 = kRatios[k] * kRatios[k];
+    scale[k] = std::max(CutScale(differences, ratio2), 1e-30);
+    likelihood[k] = LogLikelihood(differences, ratio2, scale[k]);
+    best = std::max(best, likelihood[k]);
+  }
+  double constant2 = 0, relative2 = 0, sum = 0;
+  for (int k = 0; k < kRatioCount; ++k) {
+    const double weight = std::exp(likelihood[k] - best);
+    sum += weight;
+    constant2 += weight * scale[k] * kRatios[k] * kRatios[k];
+    relative2 += weight * scale[k];
+  }
+  return {std::sqrt(constant2 / sum), std::sqrt(relative2 / sum)};
+}
+
+NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated) {
+  if (differences.size() < 3) return {kSmallestNoise, 0};
+  if (stated != nullptr) {
+    const double relative = std::max(stated->relative, 1e-12);
+    const double ratio2 = std::pow(stated->constant / relative, 2);
+    const double scale = CutScale(differences, ratio2);
+    return {std::sqrt(scale * ratio2), std::sqrt(scale)};
+  }
+  return Weigh(differences);
+}
+
+double Deviation(const NoiseLaw& law, double current) {
+  const double relative = law.relative * current;
+  return std::sqrt(law.constant * law.constant + relative * relative);
+}
+
+}  // namespace
+
+Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
+                    const std::vector<double>& residual, const std::vector<char>& used,
+                    const DeviceNotes& notes, double grid_step) {
+  Noise noise;
+  NoiseLaw stated;
+  const bool is_stated = notes.current_noise_constant_A && notes.current_noise_relative;
+  if (is_stated) {
+    stated.constant = *notes.current_noise_constant_A / readings.scale.current_A;
+    stated.relative = *notes.current_noise_relative;
+  }
+  const auto lit = Differences(readings, dark, false, residual, used);
+  const auto unlit = Differences(readings, dark, true, residual, used);
+  if (lit.size() >= 3) noise.lit = Estimate(lit, is_stated ? &stated : nullptr);
+  if (unlit.size() >= 3) noise.dark = Estimate(unlit, nullptr);
+  if (lit.size() < 3) noise.lit = noise.dark;
+  if (unlit.size() < 3) noise.dark = noise.lit;
+  // A grid leaves no two readings closer than its own rounding noise.
+  const double smallest = std::max(kSmallestNoise, grid_step * 0.25);
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    const Reading& r = readings.points[k];
+    const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
+    noise.sigma.push_back(std::max(Deviation(law, r.current), smallest));
+  }
+  return noise;
+}
+
+Autocorrelation EstimateAutocorrelation(const Readings& readings,
+                                        const std::vector<double>& residual,
+                                        const std::vector<char>& used, int parameters) {
+  constexpr int kWaves = 6;
+  double product = 0, square = 0, bias = 0;
+  int count = 0;
+  std::vector<double> chain;
+  const auto close = [&] {
+    const int n = static_cast<int>(chain.size());
+    if (n >= 12) {
+      const int waves = std::min(kWaves, n / 4);
+      Eigen::MatrixXd smooth(n, waves);
+      for (int i = 0; i < n; ++i) {
+        for (int w = 0; w < waves; ++w) {
+          smooth(i, w) = std::cos(M_PI * w * (i + 0.5) / n) * std::sqrt((w == 0 ? 1.0 : 2.0) / n);
+        }
+      }
+      Eigen::VectorXd e = Eigen::Map<Eigen::VectorXd>(chain.data(), n);
+      e -= smooth * (smooth.transpose() * e);
+      for (int i = 0; i + 1 < n; ++i) product += e[i] * e[i + 1];
+      square += e.squaredNorm();
+      // What removing `waves` smooth shapes takes from the neighbours' product.
+      bias -= smooth.topRows(n - 1).cwiseProduct(smooth.bottomRows(n - 1)).sum();
+      count += n;
+    }
+    chain.clear();
+  };
+  int segment = -1;
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    if (used[k] == 0) continue;
+    if (readings.points[k].segment != segment) close();
+    segment = readings.points[k].segment;
+    chain.push_back(residual[k]);
+  }
+  close();
+  Autocorrelation result;
+  if (count < 20 || !(square > 0)) return result;
+  const double free = count + bias - parameters;
+  result.value = (product - bias * square / std::max(free, 1.0)) / square;
+  result.standard_error = 1 / std::sqrt(static_cast<double>(count));
+  return result;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/effects/reading.h"
+
+namespace lyrefit {
+
+// Noise of the readings, in current scales: sd^2 = constant^2 + (relative I)^2, of lit and of dark
+// curves apart.
+struct NoiseLaw {
+  double constant = 0;
+  double relative = 0;
+};
+
+struct Noise {
+  NoiseLaw lit;
+  NoiseLaw dark;
+  std::vector<double> sigma;  // of each reading
+};
+
+// From second differences of the residuals inside each monotone stretch, which smooth misfit does
+// not reach. `notes`: noise stated beforehand decides the shape, never the size. `sigma_A`, where
+// not empty, is the readings' own stated deviation and does the same.
+Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
+                    const std::vector<double>& residual, const std::vector<char>& used,
+                    const DeviceNotes& notes, double grid_step);
+
+// Lag-1 correlation of whitened residuals with their smooth part removed, and its standard error.
+struct Autocorrelation {
+  double value = 0;
+  double standard_error = 1;
+};
+Autocorrelation EstimateAutocorrelation(const Readings& readings,
+                                        const std::vector<double>& residual,
+                                        const std::vector<char>& used, int parameters);
+
+}  // namespace lyrefit

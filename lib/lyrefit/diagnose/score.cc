@@ -1,0 +1,305 @@
+#include "lyrefit/diagnose/score.h"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "lyrefit/base/random.h"
+
+namespace lyrefit {
+namespace {
+
+// An effect that would need more than its bound to come to this many noise units cannot be seen.
+constexpr double kDetectable = 4.7;
+// Directions of one effect that are more alike than this count as one.
+constexpr double kAlike = 0.97;
+constexpr double kTail = 0.02;  // below it p-values follow the F distribution's tail
+
+struct Candidate {
+  Score score;
+  bool two_sided = false;
+  Eigen::MatrixXd directions;  // unit columns; none for outliers
+};
+
+double TailOf(double statistic, int degrees) {
+  const boost::math::fisher_f f(1, std::max(degrees, 1));
+  if (!(statistic > 0)) return 1;
+  return std::max(boost::math::cdf(boost::math::complement(f, statistic)), 1e-300);
+}
+
+bool IsTwoSided(const Effect& effect) {
+  if (effect.parameters.empty()) return true;
+  const EffectParameter& strength = effect.parameters.front();
+  return strength.lower < strength.neutral && strength.neutral < strength.upper &&
+         strength.neutral == 0;
+}
+
+// Smooth waves along every monotone stretch.
+std::vector<Eigen::VectorXd> Waves(const Workbench& bench) {
+  const std::vector<Reading>& points = bench.readings->points;
+  const int last_segment = points.back().segment;
+  const int most = bench.readings->traits.single ? 7 : 3;
+  std::vector<Eigen::VectorXd> waves;
+  for (int segment = 0; segment <= last_segment; ++segment) {
+    std::vector<int> at;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].segment == segment && bench.used[k] != 0) at.push_back(static_cast<int>(k));
+    }
+    const int count = static_cast<int>(at.size());
+    for (int w = 0; w < std::min(most, count / 4); ++w) {
+      Eigen::VectorXd wave = Eigen::VectorXd::Zero(static_cast<int>(points.size()));
+      for (int i = 0; i < count; ++i) wave[at[i]] = std::cos(M_PI * w * (i + 0.5) / count);
+      waves.push_back(wave);
+    }
+  }
+  return waves;
+}
+
+struct Raw {
+  Eigen::VectorXd signature;
+  int probe;
+};
+
+std::vector<Raw> Signatures(const Workbench& bench, const LawFit& fit, const Effect& effect) {
+  std::vector<Raw> raw;
+  if (std::strcmp(effect.id, "unknown_structure") == 0) {
+    for (Eigen::VectorXd& wave : Waves(bench)) raw.push_back({std::move(wave), -1});
+    return raw;
+  }
+  const std::vector<Probe> probes = effect.probes(bench.readings->traits);
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    Eigen::VectorXd signature = Signature(bench, fit, effect, probes[k]);
+    if (signature.allFinite() && signature.norm() > 0) {
+      raw.push_back({std::move(signature), static_cast<int>(k)});
+    }
+  }
+  return raw;
+}
+
+// How far from its neutral value a probe's strength may still grow.
+double Headroom(const Effect& effect, const Probe& probe) {
+  const EffectParameter& strength = effect.parameters.front();
+  const double used = std::fabs(probe[0] - strength.neutral);
+  const double upper = std::fabs(strength.upper - strength.neutral);
+  const double lower = std::fabs(strength.lower - strength.neutral);
+  return used > 0 ? std::max(upper, lower) / used : 1;
+}
+
+Candidate Prepare(const Workbench& bench, const LawFit& fit, const Linearized& linear,
+                  const Effect& effect) {
+  Candidate candidate;
+  candidate.score.effect = &effect;
+  candidate.two_sided = IsTwoSided(effect);
+  const std::vector<Probe> probes =
+      effect.probes != nullptr ? effect.probes(bench.readings->traits) : std::vector<Probe>();
+  std::vector<Eigen::VectorXd> kept;
+  for (const Raw& raw : Signatures(bench, fit, effect)) {
+    const Eigen::VectorXd rest =
+        raw.signature - linear.basis * (linear.basis.transpose() * raw.signature);
+    Direction direction;
+    direction.probe = raw.probe;
+    direction.norm = rest.norm();
+    direction.kept = direction.norm / raw.signature.norm();
+    candidate.score.kept = std::max(candidate.score.kept, direction.kept);
+    const bool wave = raw.probe < 0;
+    if (!(direction.kept > (wave ? 1e-2 : 1e-7))) continue;
+    if (!wave && direction.norm * Headroom(effect, probes[raw.probe]) < kDetectable) continue;
+    const Eigen::VectorXd unit = rest / direction.norm;
+    direction.score = -unit.dot(linear.residual);
+    candidate.score.directions.push_back(direction);
+    kept.push_back(unit);
+  }
+  candidate.score.testable = !kept.empty();
+  if (kept.empty()) {
+    candidate.score.why_not =
+        "the base model absorbs it: no strength within its bounds would show in these data";
+    return candidate;
+  }
+  // The best direction of each lot of like ones stands for the lot in the null.
+  std::vector<int> order(kept.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  const auto size = [&](int k) {
+    const double s = candidate.score.directions[k].score;
+    return candidate.two_sided ? std::fabs(s) : s;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size(a) > size(b); });
+  std::vector<int> distinct;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    bool alike = false;
+    for (const int other : distinct) {
+      const double cosine = kept[k].dot(kept[other]);
+      alike = alike || (candidate.two_sided ? std::fabs(cosine) : cosine) > kAlike;
+    }
+    if (!alike) distinct.push_back(static_cast<int>(k));
+  }
+  candidate.directions.resize(linear.residual.size(), static_cast<int>(distinct.size()));
+  for (std::size_t k = 0; k < distinct.size(); ++k) {
+    candidate.directions.col(static_cast<int>(k)) = kept[distinct[k]];
+  }
+  std::vector<Direction> sorted;
+  for (const int k : order) sorted.push_back(candidate.score.directions[k]);
+  candidate.score.directions = sorted;
+  return candidate;
+}
+
+double Statistic(double score, double sum, int degrees) {
+  const double rest = std::max(sum - score * score, 1e-12 * sum);
+  return score * score / (rest / (degrees - 1));
+}
+
+// The largest statistic of each candidate in each simulated null.
+Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
+                              const std::vector<Candidate>& candidates, int degrees, int draws,
+                              std::uint64_t seed) {
+  const int count = static_cast<int>(linear.residual.size());
+  const Eigen::VectorXd room =
+      (1 - linear.basis.rowwise().squaredNorm().array()).max(1e-9).sqrt().inverse().matrix();
+  Eigen::MatrixXd largest = Eigen::MatrixXd::Zero(draws, static_cast<int>(candidates.size()));
+  constexpr int kLot = 250;
+  RandomStream random(seed, 0);
+  for (int first = 0; first < draws; first += kLot) {
+    const int lot = std::min(kLot, draws - first);
+    Eigen::MatrixXd noise(count, lot);
+    for (int d = 0; d < lot; ++d) {
+      for (int k = 0; k < count; ++k) noise(k, d) = bench.used[k] != 0 ? random.Normal() : 0.0;
+    }
+    noise -= linear.basis * (linear.basis.transpose() * noise).eval();
+    const Eigen::VectorXd sums = noise.colwise().squaredNorm();
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (!candidates[c].score.testable) continue;
+      Eigen::VectorXd best(lot);
+      if (candidates[c].directions.cols() == 0) {
+        best = (room.asDiagonal() * noise).cwiseAbs().colwise().maxCoeff();
+      } else {
+        const Eigen::MatrixXd along = candidates[c].directions.transpose() * noise;
+        best = candidates[c].two_sided ? along.cwiseAbs().colwise().maxCoeff().eval()
+                                       : along.colwise().maxCoeff().cwiseMax(0.0).eval();
+      }
+      for (int d = 0; d < lot; ++d) {
+        largest(first + d, static_cast<int>(c)) = Statistic(best[d], sums[d], degrees);
+      }
+    }
+  }
+  return largest;
+}
+
+// p-value of a statistic given the sorted (falling) statistics of the nulls.
+class NullLaw {
+ public:
+  NullLaw(Eigen::VectorXd nulls, int degrees) : nulls_(std::move(nulls)), degrees_(degrees) {
+    std::sort(nulls_.begin(), nulls_.end(), std::greater<double>());
+    edge_ = static_cast<int>(kTail * static_cast<double>(nulls_.size()));
+    edge_tail_ = TailOf(nulls_[edge_], degrees_);
+  }
+  double Of(double statistic) const {
+    if (statistic > nulls_[edge_]) return kTail * TailOf(statistic, degrees_) / edge_tail_;
+    const auto above = std::upper_bound(nulls_.begin(), nulls_.end(), statistic,
+                                        std::greater<double>()) - nulls_.begin();
+    return std::max(kTail, static_cast<double>(above) / static_cast<double>(nulls_.size()));
+  }
+  // How many independent directions would give such nulls.
+  double Directions() const { return std::max(kTail / edge_tail_, 0.5); }
+
+ private:
+  Eigen::VectorXd nulls_;
+  int degrees_;
+  int edge_;
+  double edge_tail_;
+};
+
+void CountTheList(const Eigen::MatrixXd& nulls, int degrees, std::vector<Candidate>* candidates) {
+  const int draws = static_cast<int>(nulls.rows());
+  Eigen::VectorXd smallest = Eigen::VectorXd::Ones(draws);
+  for (std::size_t c = 0; c < candidates->size(); ++c) {
+    Score& score = (*candidates)[c].score;
+    if (!score.testable) continue;
+    const NullLaw law(nulls.col(static_cast<int>(c)), degrees);
+    score.p_value = law.Of(score.statistic);
+    score.charge = 2 * std::log(law.Directions());
+    for (int d = 0; d < draws; ++d) {
+      smallest[d] = std::min(smallest[d], law.Of(nulls(d, static_cast<int>(c))));
+    }
+  }
+  std::sort(smallest.begin(), smallest.end());
+  const int edge = static_cast<int>(kTail * draws);
+  for (Candidate& candidate : *candidates) {
+    Score& score = candidate.score;
+    if (!score.testable) continue;
+    const double p = score.p_value;
+    if (p < smallest[edge]) {
+      score.corrected_p = kTail * p / smallest[edge];
+    } else {
+      const auto below = std::upper_bound(smallest.begin(), smallest.end(), p) - smallest.begin();
+      score.corrected_p = static_cast<double>(below) / draws;
+    }
+    score.corrected_p = std::max(score.corrected_p, p);
+  }
+}
+
+Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, const Effect& effect) {
+  Candidate candidate;
+  candidate.score.effect = &effect;
+  candidate.two_sided = true;
+  candidate.score.testable = true;
+  candidate.score.kept = 1;
+  Direction best;
+  for (int k = 0; k < linear.residual.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double room = 1 - linear.basis.row(k).squaredNorm();
+    if (room < 1e-6) continue;
+    const double score = std::fabs(linear.residual[k]) / std::sqrt(room);
+    if (score > best.score) {
+      best = {-1, 1, 1, score};
+      candidate.score.outlier = k;
+    }
+  }
+  candidate.score.directions = {best};
+  return candidate;
+}
+
+}  // namespace
+
+Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
+                          const Probe& probe) {
+  Law law = fit.law;
+  law.effects.push_back(&effect);
+  std::vector<double> p = fit.p;
+  p.insert(p.end(), probe.begin(), probe.end());
+  const int count = static_cast<int>(bench.readings->points.size());
+  Eigen::VectorXd moved(count);
+  LawWorkspace workspace;
+  if (!EvaluateLaw(law, *bench.readings, p.data(), &workspace, moved.data(), nullptr)) {
+    return Eigen::VectorXd::Zero(count);
+  }
+  for (int k = 0; k < count; ++k) moved[k] -= fit.current[k];
+  return Whiten(bench, moved);
+}
+
+std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
+                                const std::vector<const Effect*>& candidates, int draws,
+                                std::uint64_t seed) {
+  const Linearized linear = Linearize(bench, fit);
+  const int degrees = bench.count() - static_cast<int>(linear.basis.cols());
+  const double sum = linear.residual.squaredNorm();
+  std::vector<Candidate> prepared;
+  for (const Effect* effect : candidates) {
+    const bool outliers = std::strcmp(effect->id, "outliers") == 0;
+    prepared.push_back(outliers ? PrepareOutliers(bench, linear, *effect)
+                                : Prepare(bench, fit, linear, *effect));
+    Candidate& candidate = prepared.back();
+    if (degrees < 3) candidate.score.testable = false;
+    if (!candidate.score.testable) continue;
+    const double best = candidate.score.directions.front().score;
+    const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
+    candidate.score.statistic = Statistic(size, sum, degrees);
+  }
+  if (degrees >= 3) {
+    CountTheList(SimulateNulls(bench, linear, prepared, degrees, draws, seed), degrees, &prepared);
+  }
+  std::vector<Score> scores;
+  for (Candidate& candidate : prepared) scores.push_back(std::move(candidate.score));
+  return scores;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,299 @@
+#include "lyrefit/diagnose/select.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/effects/catalogue.h"
+
+namespace lyrefit {
+namespace {
+
+bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
+
+class Selector {
+ public:
+  Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
+           const std::vector<char>& used, const ValueFindings& values, double correlation,
+           const SelectOptions& options)
+      : readings_(readings),
+        dark_(dark),
+        notes_(notes),
+        values_(values),
+        options_(options),
+        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation} {}
+
+  Selection Run() {
+    Law law;
+    law.second_diode = options_.second_diode;
+    fit_ = FitBase(bench_, law);
+    Selection selection{fit_, fit_, {}, {}, 1, {}, 1, false, bench_, bench_, {}};
+    if (!fit_.usable) return selection;
+    SettleNoise();
+    fit_ = FitBase(bench_, law);
+    selection.base = fit_;
+    selection.base_bench = bench_;
+    if (values_.clip_level > 0) AddClip();
+    Extend(&selection);
+    selection.extended = fit_;
+    selection.causes = causes_;
+    selection.outliers = outliers_;
+    selection.outlier_p = outlier_p_;
+    selection.bench = bench_;
+    selection.noise = noise_;
+    return selection;
+  }
+
+ private:
+  // Noise from the residuals of the present law, which is then fitted anew.
+  void SettleNoise() {
+    for (int round = 0; round < 2; ++round) {
+      std::vector<double> residual(readings_.points.size());
+      for (std::size_t k = 0; k < residual.size(); ++k) {
+        residual[k] = fit_.current[k] - readings_.points[k].current;
+      }
+      noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grid_step);
+      bench_.sigma = noise_.sigma;
+      LawFit again = FitLaw(bench_, fit_.law, fit_.p);
+      if (again.usable) fit_ = std::move(again);
+    }
+  }
+
+  void AddClip() {
+    const Effect* clip = FindEffect("clip");
+    Law law = fit_.law;
+    law.effects.push_back(clip);
+    std::vector<double> start = fit_.p;
+    start.push_back(values_.clip_level);
+    fit_ = FitLaw(bench_, law, start);
+    causes_.push_back({clip, 0, {}});
+    SettleNoise();
+  }
+
+  bool InLaw(const Effect* effect) const {
+    for (const Effect* other : fit_.law.effects) {
+      if (other == effect) return true;
+      if (other->cell && effect->cell && Is(other, "shading") && Is(effect, "mismatch")) return true;
+      if (other->cell && effect->cell && Is(other, "mismatch") && Is(effect, "shading")) return true;
+    }
+    return false;
+  }
+
+  std::vector<const Effect*> Open() const {
+    std::vector<const Effect*> open;
+    for (const Effect* effect : options_.candidates) {
+      if (!InLaw(effect)) open.push_back(effect);
+    }
+    return open;
+  }
+
+  double Variance(const LawFit& fit) const {
+    const int degrees = bench_.count() - FreeCount(bench_, fit.law);
+    return fit.sum / std::max(degrees, 1);
+  }
+
+  std::vector<Rival> FitAll(const std::vector<Score>& scores) const {
+    std::vector<Rival> rivals;
+    for (const Score& score : scores) {
+      const bool fits = score.testable && score.effect->probes != nullptr &&
+                        fit_.law.size() + score.effect->size() <= 20;
+      if (!fits) continue;
+      Rival rival{score, FitEffect(bench_, fit_, score), 0};
+      if (rival.fit.usable) rivals.push_back(std::move(rival));
+    }
+    double variance = Variance(fit_);
+    for (const Rival& rival : rivals) variance = std::min(variance, Variance(rival.fit));
+    for (Rival& rival : rivals) {
+      rival.statistic = (fit_.sum - rival.fit.sum) / std::max(variance, 1e-300);
+    }
+    std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
+      return a.Charged() > b.Charged();
+    });
+    return rivals;
+  }
+
+  static const Score* Find(const std::vector<Score>& scores, const char* id) {
+    for (const Score& score : scores) {
+      if (Is(score.effect, id)) return &score;
+    }
+    return nullptr;
+  }
+
+  void Extend(Selection* selection) {
+    const int most = options_.largest_causes + static_cast<int>(causes_.size());
+    for (int step = 0;; ++step) {
+      const std::vector<Score> scores =
+          ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step);
+      double smallest = 1;
+      for (const Score& score : scores) {
+        if (score.testable) smallest = std::min(smallest, score.corrected_p);
+      }
+      const Score* unknown = Find(scores, "unknown_structure");
+      selection->unknown_p = unknown != nullptr ? unknown->corrected_p : 1;
+      std::vector<Rival> rivals;
+      if (step == 0) selection->trials = rivals = FitAll(scores);
+      if (step == 0) AddUntried(scores, &selection->trials);
+      if (!(smallest < options_.level)) return;
+      if (static_cast<int>(causes_.size()) >= most) return;
+      if (step > 0) rivals = FitAll(scores);
+      if (TakeOutlier(scores, rivals)) continue;
+      if (rivals.empty() || !Accept(rivals.front(), smallest)) {
+        selection->unknown = causes_.empty() && outliers_.empty() &&
+                             selection->unknown_p < options_.level;
+        return;
+      }
+      Exchange();
+      Prune();
+    }
+  }
+
+  // Effects that were scored but have nothing to fit are trials as well.
+  static void AddUntried(const std::vector<Score>& scores, std::vector<Rival>* trials) {
+    for (const Score& score : scores) {
+      const bool there = std::any_of(trials->begin(), trials->end(), [&](const Rival& r) {
+        return r.score.effect == score.effect;
+      });
+      if (!there) trials->push_back({score, {}, 0});
+    }
+  }
+
+  // A single reading that is further off than any cause explains goes first.
+  bool TakeOutlier(const std::vector<Score>& scores, const std::vector<Rival>& rivals) {
+    const Score* outliers = Find(scores, "outliers");
+    if (outliers == nullptr || !outliers->testable || outliers->outlier < 0) return false;
+    if (!(outliers->corrected_p < options_.level)) return false;
+    const double most = std::max(1.0, 0.05 * static_cast<double>(readings_.points.size()));
+    if (static_cast<double>(outliers_.size()) >= most) return false;
+    Workbench without = bench_;
+    without.used[outliers->outlier] = 0;
+    LawFit fit = FitLaw(without, fit_.law, fit_.p);
+    const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
+    const double gain = (fit_.sum - fit.sum) / std::max(variance, 1e-300);
+    if (!rivals.empty() && gain - outliers->charge < rivals.front().Charged()) return false;
+    bench_.used[outliers->outlier] = 0;
+    outliers_.push_back(outliers->outlier);
+    outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
+    fit_ = std::move(fit);
+    SettleNoise();
+    return true;
+  }
+
+  bool Accept(const Rival& rival, double corrected_p) {
+    if (!(rival.Charged() > 4)) return false;
+    fit_ = rival.fit;
+    causes_.push_back({rival.score.effect, std::min(corrected_p, rival.score.corrected_p), {}});
+    SettleNoise();
+    return true;
+  }
+
+  // Every cause but the last gives its place to any effect that does better beside the others.
+  void Exchange() {
+    for (int round = 0; round < 2; ++round) {
+      bool changed = false;
+      for (int c = 0; c + 1 < static_cast<int>(causes_.size()); ++c) {
+        if (Is(causes_[c].effect, "clip") && values_.clip_level > 0) continue;
+        changed = ExchangeOne(c) || changed;
+      }
+      if (!changed) return;
+    }
+  }
+
+  bool ExchangeOne(int c) {
+    const LawFit present = fit_;
+    const std::vector<ChosenCause> chosen = causes_;
+    const Effect* effect = causes_[c].effect;
+    fit_ = FitWithout(bench_, present, c);
+    causes_.erase(causes_.begin() + c);
+    if (fit_.usable) {
+      const std::vector<Rival> rivals =
+          FitAll(ScoreEffects(bench_, fit_, Open(), options_.draws / 4 + 100, options_.seed));
+      const auto own = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
+        return r.score.effect == effect;
+      });
+      const double kept = own == rivals.end() ? 0
+                                              : own->Charged() + std::max(0.0, own->fit.sum - present.sum) /
+                                                                     Variance(present);
+      if (!rivals.empty() && rivals.front().score.effect != effect &&
+          rivals.front().Charged() > kept + 1) {
+        fit_ = rivals.front().fit;
+        causes_.push_back({rivals.front().score.effect, chosen[c].corrected_p, {}});
+        SettleNoise();
+        return true;
+      }
+    }
+    fit_ = present;
+    causes_ = chosen;
+    return false;
+  }
+
+  // Drops causes that the later ones made idle.
+  void Prune() {
+    for (int c = static_cast<int>(causes_.size()) - 1; c >= 0 && causes_.size() > 1; --c) {
+      if (Is(causes_[c].effect, "clip") && values_.clip_level > 0) continue;
+      LawFit without = FitWithout(bench_, fit_, c);
+      if (!without.usable) continue;
+      const double loss = (without.sum - fit_.sum) / std::max(Variance(fit_), 1e-300);
+      if (loss > 8 + 2 * causes_[c].effect->size()) continue;
+      fit_ = std::move(without);
+      causes_.erase(causes_.begin() + c);
+      SettleNoise();
+    }
+  }
+
+  const Readings& readings_;
+  const std::vector<char>& dark_;
+  const DeviceNotes& notes_;
+  const ValueFindings& values_;
+  const SelectOptions& options_;
+  Workbench bench_;
+  Noise noise_;
+  LawFit fit_;
+  std::vector<ChosenCause> causes_;
+  std::vector<int> outliers_;
+  double outlier_p_ = 1;
+};
+
+}  // namespace
+
+Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
+                       const DeviceNotes& notes, const std::vector<char>& used,
+                       const ValueFindings& values, double correlation,
+                       const SelectOptions& options) {
+  return Selector(readings, dark, notes, used, values, correlation, options).Run();
+}
+
+void FindRivals(const SelectOptions& options, Selection* selection) {
+  for (std::size_t c = 0; c < selection->causes.size(); ++c) {
+    const Workbench& bench = selection->bench;
+    const LawFit without = FitWithout(bench, selection->extended, static_cast<int>(c));
+    if (!without.usable) continue;
+    std::vector<const Effect*> open;
+    for (const Effect* effect : options.candidates) {
+      const auto& in = selection->extended.law.effects;
+      const bool other = std::find(in.begin(), in.end(), effect) != in.end() &&
+                         effect != selection->causes[c].effect;
+      if (!other && effect->probes != nullptr) open.push_back(effect);
+    }
+    double variance = selection->extended.sum;
+    variance /= std::max(bench.count() - FreeCount(bench, selection->extended.law), 1);
+    std::vector<Rival>& rivals = selection->causes[c].rivals;
+    for (const Score& score :
+         ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed)) {
+      if (!score.testable || without.law.size() + score.effect->size() > 20) continue;
+      Rival rival{score, FitEffect(bench, without, score), 0};
+      if (!rival.fit.usable) continue;
+      const bool own = score.effect == selection->causes[c].effect;
+      const double sum =
+          own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
+      rival.statistic = (without.sum - sum) / std::max(variance, 1e-300);
+      rivals.push_back(std::move(rival));
+    }
+    std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
+      return a.Charged() > b.Charged();
+    });
+  }
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lyrefit/diagnose/noise.h"
+#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/workbench.h"
+
+namespace lyrefit {
+
+struct SelectOptions {
+  double level = 0.05;
+  int draws = 2000;
+  int largest_causes = 4;
+  std::uint64_t seed = 1;
+  bool second_diode = false;  // in the base
+  std::vector<const Effect*> candidates;  // allowed by the kind of data
+};
+
+// What is read off the values before any fit.
+struct ValueFindings {
+  double grid_step = 0;           // of the currents, in scales; 0: none
+  double clip_level = 0;          // in scales; 0: none
+  std::vector<int> clipped;       // readings
+};
+
+// An effect fitted in the company of others.
+struct Rival {
+  Score score;
+  LawFit fit;
+  double statistic = 0;  // what it takes off the sum of squares, in units of the noise variance
+  double Charged() const { return statistic - score.charge; }
+};
+
+struct ChosenCause {
+  const Effect* effect = nullptr;
+  double corrected_p = 1;  // when it entered
+  std::vector<Rival> rivals;  // every effect in its place, the best first, itself among them
+};
+
+struct Selection {
+  LawFit base;
+  LawFit extended;                  // base where nothing was found
+  std::vector<ChosenCause> causes;  // in the order of extended.law.effects
+  std::vector<int> outliers;        // readings left out as wrong
+  double outlier_p = 1;
+  std::vector<Rival> trials;        // each effect on the base model
+  double unknown_p = 1;             // corrected, of unknown structure in what `extended` leaves
+  bool unknown = false;             // it is the verdict
+  Workbench bench;                  // with the noise of the extended model
+  Workbench base_bench;             // with the noise of the base model
+  Noise noise;
+};
+
+// Extend-and-repeat with a backward step and exchanges, as described in the README of this room.
+// `used` marks readings that may be looked at.
+Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
+                       const DeviceNotes& notes, const std::vector<char>& used,
+                       const ValueFindings& values, double correlation,
+                       const SelectOptions& options);
+
+// Fills `rivals` of every cause: who could stand in its place.
+void FindRivals(const SelectOptions& options, Selection* selection);
+
+}  // namespace lyrefit

@@ -1,0 +1,95 @@
+#include "lyrefit/diagnose/values.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+// Whether all values are whole multiples of `step` from the first, to a fortieth of it.
+bool LieOn(const std::vector<double>& sorted, double step) {
+  for (const double value : sorted) {
+    const double steps = (value - sorted.front()) / step;
+    if (std::fabs(steps - std::round(steps)) > 0.03 + 2e-6 * std::fabs(steps)) return false;
+  }
+  return true;
+}
+
+// The same step, from the whole range.
+double Sharpen(const std::vector<double>& sorted, double step) {
+  double xy = 0, xx = 0;
+  for (const double value : sorted) {
+    const double steps = std::round((value - sorted.front()) / step);
+    xy += steps * (value - sorted.front());
+    xx += steps * steps;
+  }
+  return xx > 0 ? xy / xx : step;
+}
+
+}  // namespace
+
+double FindGrid(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 8) return 0;
+  const double range = sorted.back() - sorted.front();
+  // Differences below a millionth of the range are digits, not steps.
+  double smallest = range;
+  std::vector<double> distinct = {sorted.front()};
+  for (const double value : sorted) {
+    const double difference = value - distinct.back();
+    if (difference < 1e-6 * range) continue;
+    smallest = std::min(smallest, difference);
+    distinct.push_back(value);
+  }
+  if (distinct.size() < 3) return 0;
+  for (int part = 1; part <= 3; ++part) {
+    const double step = smallest / part;
+    if (step < 2e-4 * range) break;
+    // From the near values outwards: the step must be sharp before many are counted.
+    double sharp = step;
+    bool on = true;
+    for (std::size_t count = 3; on; count = 2 * count) {
+      const std::size_t upto = std::min(count, distinct.size());
+      std::vector<double> near(distinct.end() - static_cast<std::ptrdiff_t>(upto), distinct.end());
+      on = LieOn(near, sharp);
+      sharp = Sharpen(near, sharp);
+      if (upto == distinct.size()) break;
+    }
+    if (on && LieOn(distinct, sharp)) return sharp;
+  }
+  return 0;
+}
+
+ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& dark) {
+  ValueFindings findings;
+  std::vector<double> currents;
+  double largest = 0;
+  for (const Reading& r : readings.points) {
+    currents.push_back(r.current);
+    if (dark[r.curve] == 0) largest = std::max(largest, r.current);
+  }
+  findings.grid_step = FindGrid(currents);
+  // Exact repeats of the largest current; on a coarse grid they say nothing.
+  std::vector<int> repeats;
+  std::vector<double> below;
+  for (std::size_t k = 0; k < currents.size(); ++k) {
+    if (dark[readings.points[k].curve] != 0) continue;
+    if (currents[k] >= largest * (1 - 1e-9)) {
+      repeats.push_back(static_cast<int>(k));
+    } else {
+      below.push_back(currents[k]);
+    }
+  }
+  std::sort(below.begin(), below.end());
+  int ties = 0;
+  for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
+  const bool many = repeats.size() >= 4 && static_cast<int>(repeats.size()) > 3 * (ties + 1);
+  if (many && findings.grid_step == 0) {
+    findings.clip_level = largest;
+    findings.clipped = repeats;
+  }
+  return findings;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,156 @@
+#include "lyrefit/diagnose/workbench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/refine/least_squares.h"
+
+namespace lyrefit {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+bool Held(const Readings& readings, const Law& law, int parameter) {
+  if (parameter == kBasePhotocurrent && readings.traits.only_dark) return true;
+  return law.Searched(parameter);
+}
+
+// Row by row, in place: rows of left-out readings become 0.
+template <class Matrix>
+void WhitenRows(const Workbench& bench, Matrix* rows) {
+  const std::vector<Reading>& points = bench.readings->points;
+  const int count = static_cast<int>(points.size());
+  for (int k = 0; k < count; ++k) {
+    rows->row(k) *= bench.used[k] != 0 ? 1 / bench.sigma[k] : 0.0;
+  }
+  if (bench.correlation == 0) return;
+  const double rho = bench.correlation, scale = 1 / std::sqrt(1 - rho * rho);
+  for (int k = count - 1; k > 0; --k) {
+    const bool chained = points[k].segment == points[k - 1].segment && bench.used[k] != 0 &&
+                         bench.used[k - 1] != 0;
+    if (chained) rows->row(k) = scale * (rows->row(k) - rho * rows->row(k - 1));
+  }
+}
+
+LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorkspace* workspace,
+                                std::vector<double>* current) {
+  LeastSquaresProblem problem;
+  const int count = static_cast<int>(bench.readings->points.size());
+  problem.residuals = count;
+  for (int k = 0; k < law.size(); ++k) {
+    problem.lower.push_back(law.Lower(k));
+    problem.upper.push_back(law.Upper(k));
+    problem.held.push_back(Held(*bench.readings, law, k) ? 1 : 0);
+  }
+  current->resize(count);
+  problem.evaluate = [&bench, law, workspace, current, count](const double* p, double* residuals,
+                                                              double* jacobian) {
+    if (!EvaluateLaw(law, *bench.readings, p, workspace, current->data(), jacobian)) return false;
+    Eigen::Map<Eigen::VectorXd> r(residuals, count);
+    for (int k = 0; k < count; ++k) r[k] = (*current)[k] - bench.readings->points[k].current;
+    WhitenRows(bench, &r);
+    if (jacobian != nullptr) {
+      Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
+      WhitenRows(bench, &rows);
+    }
+    return true;
+  };
+  return problem;
+}
+
+std::vector<double> BaseStart(const Readings& readings, double n, double resistance) {
+  double brightest = 0;
+  for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
+  std::vector<double> p = {brightest > 0 ? 1 / brightest : 0, 0, n, resistance, 0.05};
+  return p;
+}
+
+}  // namespace
+
+int Workbench::count() const {
+  return static_cast<int>(std::count(used.begin(), used.end(), 1));
+}
+
+Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
+  Eigen::VectorXd result = values;
+  WhitenRows(bench, &result);
+  return result;
+}
+
+LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start) {
+  LawFit fit;
+  fit.law = law;
+  LawWorkspace workspace;
+  const LeastSquaresProblem problem = MakeProblem(bench, law, &workspace, &fit.current);
+  const LeastSquaresEnd end = SolveLeastSquares(problem, start);
+  fit.p = end.p;
+  fit.sum = end.sum_of_squares;
+  fit.usable = end.usable && EvaluateLaw(law, *bench.readings, fit.p.data(), &workspace,
+                                         fit.current.data(), nullptr);
+  return fit;
+}
+
+LawFit FitBase(const Workbench& bench, const Law& law) {
+  LawFit best;
+  for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
+    std::vector<double> start = BaseStart(*bench.readings, n, resistance);
+    if (law.second_diode) start.push_back(0.05);
+    LawFit fit = FitLaw(bench, law, start);
+    if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
+  }
+  return best;
+}
+
+Linearized Linearize(const Workbench& bench, const LawFit& fit) {
+  const int count = static_cast<int>(bench.readings->points.size()), size = fit.law.size();
+  LawWorkspace workspace;
+  std::vector<double> current;
+  const LeastSquaresProblem problem = MakeProblem(bench, fit.law, &workspace, &current);
+  Linearized linear;
+  linear.residual.resize(count);
+  RowMatrix jacobian(count, size);
+  problem.evaluate(fit.p.data(), linear.residual.data(), jacobian.data());
+  const Eigen::VectorXd gradient = jacobian.transpose() * linear.residual;
+  for (int k = 0; k < size; ++k) {
+    if (problem.held[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
+    const double slack = 1e-9 * (problem.upper[k] - problem.lower[k]);
+    const bool pressed = (fit.p[k] <= problem.lower[k] + slack && gradient[k] >= 0) ||
+                         (fit.p[k] >= problem.upper[k] - slack && gradient[k] <= 0);
+    if (!pressed) linear.free.push_back(k);
+  }
+  linear.jacobian.resize(count, static_cast<int>(linear.free.size()));
+  Eigen::MatrixXd scaled = linear.jacobian;
+  for (std::size_t k = 0; k < linear.free.size(); ++k) {
+    linear.jacobian.col(k) = jacobian.col(linear.free[k]);
+    scaled.col(k) = linear.jacobian.col(k).normalized();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const int rank = static_cast<int>(qr.rank());
+  linear.basis = qr.householderQ() * Eigen::MatrixXd::Identity(count, rank);
+  return linear;
+}
+
+std::vector<double> StandardErrors(const Linearized& linear, int parameters) {
+  std::vector<double> errors(parameters, 0.0);
+  if (linear.free.empty()) return errors;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
+      linear.jacobian * linear.jacobian.colwise().norm().cwiseInverse().asDiagonal(),
+      Eigen::ComputeThinU | Eigen::ComputeThinV);
+  for (std::size_t k = 0; k < linear.free.size(); ++k) {
+    double variance = 0;
+    for (int j = 0; j < svd.singularValues().size(); ++j) {
+      const double s = std::max(svd.singularValues()[j], 1e-12);
+      variance += std::pow(svd.matrixV()(static_cast<int>(k), j) / s, 2);
+    }
+    errors[linear.free[k]] = std::sqrt(variance) / linear.jacobian.col(k).norm();
+  }
+  return errors;
+}
+
+int FreeCount(const Workbench& bench, const Law& law) {
+  int count = 0;
+  for (int k = 0; k < law.size(); ++k) count += Held(*bench.readings, law, k) ? 0 : 1;
+  return count;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "lyrefit/effects/law.h"
+#include "lyrefit/effects/reading.h"
+
+namespace lyrefit {
+
+// What laws are fitted to: readings, how far each is trusted, and which of them count.
+struct Workbench {
+  const Readings* readings = nullptr;
+  std::vector<double> sigma;
+  std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
+  double correlation = 0;  // lag 1, of the noise
+
+  int count() const;  // of used readings
+};
+
+// Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
+// remains. Left-out readings become 0.
+Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values);
+
+struct LawFit {
+  Law law;
+  std::vector<double> p;
+  double sum = 0;  // of squared whitened residuals
+  bool usable = false;
+  std::vector<double> current;  // of every reading, left out or not
+};
+
+// Least squares in all parameters of `law` that are not `searched`, from `start`.
+LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start);
+
+// The base model from several starts.
+LawFit FitBase(const Workbench& bench, const Law& law);
+
+// The fit's linear picture: whitened residual (model - measured) and its derivatives by the
+// parameters that are free to move, i.e. neither held nor pressed against a bound.
+struct Linearized {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;
+  std::vector<int> free;
+  Eigen::MatrixXd basis;  // orthonormal, of the jacobian's columns
+};
+Linearized Linearize(const Workbench& bench, const LawFit& fit);
+
+// Standard errors of all parameters (0 where not free), for unit noise.
+std::vector<double> StandardErrors(const Linearized& linear, int parameters);
+
+// Free parameters of a law on this bench.
+int FreeCount(const Workbench& bench, const Law& law);
+
+}  // namespace lyrefit

@@ -1,0 +1,36 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect BackContact() {
+  Effect e;
+  e.id = "back_contact";
+  e.title = "blocking back contact (rollover)";
+  e.where = "device";
+  e.equation = "V = Vj - I Rs - Vt ln(1 + I / Ib)";
+  e.reference = "Demtsu and Sites 2006, Thin Solid Films 510, 320";
+  e.sentence = "a barrier at the back contact blocks: the curve bends over beyond open circuit";
+  e.needs = "points beyond open circuit";
+  e.acts = "at open circuit and beyond";
+  e.confused_with = {"rs_current", "transient"};
+  e.separate_by = "points further beyond open circuit, or another irradiance";
+  e.parameters = {{"1/Ib", "barrier", "1/A", "inverse saturation current of the barrier", 0, 60, 0,
+                   false, 1, -1}};
+  e.series = [](const auto* p, const auto& cell, const auto& current) {
+    constexpr double kSmallest = 1e-2;  // below it the tangent goes on
+    const auto inside = 1.0 + current * p[0];
+    if (inside < kSmallest) {
+      return cell.thermal_voltage * (std::log(kSmallest) + (inside - kSmallest) * (1 / kSmallest));
+    }
+    return cell.thermal_voltage * log(inside);
+  };
+  e.why_not = [](const DataTraits& traits) -> WhyNot {
+    if (traits.beyond_voc) return {};
+    return "needs points beyond open circuit";
+  };
+  e.probes = [](const DataTraits&) { return Strengths({0.5, 3, 12, 40}); };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,27 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect Bandgap() {
+  Effect e;
+  e.id = "bandgap";
+  e.title = "band gap not as stated";
+  e.where = "conditions";
+  e.equation = "Eg -> Eg + c";
+  e.reference = "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010";
+  e.sentence = "the open-circuit voltage falls with temperature as with another band gap";
+  e.needs = "several temperatures";
+  e.acts = "open-circuit voltage against temperature";
+  e.confused_with = {"temp_offset", "voltage_offset", "temp_gradient"};
+  e.separate_by = "a second thermometer on the cell; four temperatures or more";
+  e.parameters = {{"c", "bandgap_error", "eV", "true minus stated", -0.5, 0.5, 0}};
+  e.sky = [](const auto* p, const Reading&, auto* sky) {
+    sky->bandgap_eV = sky->bandgap_eV + p[0];
+  };
+  e.why_not = NeedsTemperatures;
+  e.probes = [](const DataTraits&) { return Strengths({0.01}); };
+  return e;
+}
+
+}  // namespace lyrefit

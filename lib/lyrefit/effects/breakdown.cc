@@ -1,0 +1,45 @@
+#include <cmath>
+
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect Breakdown() {
+  Effect e;
+  e.id = "breakdown";
+  e.title = "reverse breakdown";
+  e.where = "device";
+  e.equation = "I = ... - a Vj (1 - Vj / Vbr)^-3.4";
+  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.sentence = "in reverse the junction begins to break down: a hot spot where a cell is shaded";
+  e.needs = "reverse bias beyond about a third of the breakdown voltage";
+  e.acts = "at the most negative voltages";
+  e.confused_with = {"nonohmic_shunt"};
+  e.separate_by = "reverse bias closer to breakdown, or another irradiance";
+  e.parameters = {{"a", "breakdown_factor", "S", "conductance of a cell at 0 V", 0, 3, 0, false, 1, 1},
+                  {"Vbr", "breakdown_voltage", "V", "breakdown voltage of a cell", 0.15, 0.97, 0.6}};
+  // Inside: the current at the most negative reading, and that voltage as a part of Vbr.
+  e.parameters[0].convert = [](const double* p, const ReadingScale& scale) {
+    return std::pow(1 - p[1], 3.4) / scale.reach_V;
+  };
+  e.parameters[1].convert = [](const double* p, const ReadingScale& scale) {
+    return -scale.reach_V / (p[1] * p[1]);
+  };
+  e.junction = [](const auto* p, const auto& cell, const auto& voltage) {
+    const auto v = voltage * (1.0 / cell.reach);
+    auto gap = 1.0 + v * p[1];
+    if (gap < 0.02) gap = gap * 0.0 + 0.02;
+    return -p[0] * v * exp(3.4 * log((1.0 - p[1]) / gap));
+  };
+  e.why_not = [](const DataTraits& traits) -> WhyNot {
+    if (traits.lowest_voltage < -1.5) return {};
+    return "needs reverse bias of some volt per cell";
+  };
+  e.probes = [](const DataTraits&) {
+    return std::vector<Probe>{{0.02, 0.25}, {0.02, 0.5}, {0.02, 0.75}, {0.02, 0.92}};
+  };
+  return e;
+}
+
+}  // namespace lyrefit

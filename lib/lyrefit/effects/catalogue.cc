@@ -1,0 +1,73 @@
+#include "lyrefit/effects/catalogue.h"
+
+#include <cmath>
+
+#include "lyrefit/effects/catalogue_entries.h"
+
+namespace lyrefit {
+namespace {
+
+const std::vector<Effect>& Entries() {
+  static const std::vector<Effect> entries = {
+      SecondDiode(),       NonohmicShunt(),      Breakdown(),
+      Collection(),        Photoshunt(),         BackContact(),
+      RsCurrent(),         Shading(),            Mismatch(),
+      Drift(),             IrradianceStep(),     Transient(),
+      TemperatureDrift(),  Capacitance(),        TimingSkew(),
+      Clip(),              Outliers(),           Quantisation(),
+      CurrentOffset(),     VoltageOffset(),      SensorOffset(),
+      SensorNonlinearity(), TemperatureOffset(), TemperatureGradient(),
+      Bandgap(),           IscTemperatureCoefficient(), TemperatureOrCells(),
+      UnknownStructure(),
+  };
+  return entries;
+}
+
+}  // namespace
+
+double EffectParameter::ReportedFactor(const double* p, const ReadingScale& scale) const {
+  double result = factor * std::pow(scale.current_A, current) * std::pow(scale.cells, cells) *
+                  std::pow(scale.rate_V_per_s, rate);
+  if (convert != nullptr) result *= convert(p, scale);
+  return result;
+}
+
+const std::vector<const Effect*>& Catalogue() {
+  static const std::vector<const Effect*> catalogue = [] {
+    std::vector<const Effect*> list;
+    for (const Effect& entry : Entries()) list.push_back(&entry);
+    return list;
+  }();
+  return catalogue;
+}
+
+const Effect* FindEffect(const std::string& id) {
+  for (const Effect* effect : Catalogue()) {
+    if (id == effect->id) return effect;
+  }
+  return nullptr;
+}
+
+const std::vector<Inseparable>& InseparableCauses() {
+  static const std::vector<Inseparable> causes = {
+      {"lead_resistance", "Rs", "resistance of the leads adds to Rs", "four-wire measurement", false,
+       false},
+      {"current_gain", "Iph, Is, Rs, Rsh", "a wrong gain of the current scales every current",
+       "a second instrument or a calibrated resistor", false, false},
+      {"irradiance_scale", "Iph", "a wrong irradiance, or gain of its sensor, scales Iph",
+       "a calibrated reference cell", false, false},
+      {"temperature", "n, Is", "a wrong temperature is absorbed by n and Is",
+       "curves at several temperatures, or a thermometer on the cell", true, false},
+      {"current_offset", "Iph", "an offset of the current is absorbed by Iph",
+       "a dark curve, or a reading with open leads", true, true},
+      {"voltage_offset", "Is", "an offset of the voltage is absorbed by Is",
+       "a dark curve, or a reading with shorted leads", true, true},
+      {"drift", "Rsh", "light that fades during a sweep looks like a lower Rsh",
+       "a sweep up and down, or a reference cell beside the module", true, false},
+      {"photoshunt", "Rsh", "whether the shunt depends on light shows only at other irradiances",
+       "a second irradiance or a dark curve", true, true},
+  };
+  return causes;
+}
+
+}  // namespace lyrefit

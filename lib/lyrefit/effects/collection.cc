@@ -1,0 +1,33 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect Collection() {
+  Effect e;
+  e.id = "collection";
+  e.title = "voltage-dependent collection";
+  e.where = "device";
+  e.equation = "I = ... - Iph chi / (Vbi - Vj),  Vbi = 0.9 V a junction";
+  e.reference = "Merten et al. 1998, doi:10.1109/16.661229; PVsyst";
+  e.sentence = "the weaker the field in the cell, the more of the light's current is lost";
+  e.needs = "several irradiances or a dark curve; on one lit sweep it looks like a shunt";
+  e.acts = "between short circuit and the knee, in proportion to light";
+  e.confused_with = {"nonohmic_shunt", "photoshunt", "second_diode"};
+  e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
+  e.parameters = {{"chi", "d2mutau", "V", "loss parameter of a cell", 0, 0.3, 0}};
+  e.junction = [](const auto* p, const auto& cell, const auto& voltage) {
+    constexpr double kBuiltIn = 0.9;
+    constexpr double kClosest = 0.03;  // beyond it the tangent goes on
+    const auto gap = kBuiltIn - voltage;
+    if (gap < kClosest) {
+      return -(cell.photocurrent * p[0]) * (1.0 / kClosest + (kClosest - gap) / (kClosest * kClosest));
+    }
+    return -(cell.photocurrent * p[0]) / gap;
+  };
+  e.why_not = NeedsLight;
+  e.probes = [](const DataTraits&) { return Strengths({0.005, 0.05}); };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,27 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect CurrentOffset() {
+  Effect e;
+  e.id = "current_offset";
+  e.title = "offset of the current";
+  e.where = "instrument";
+  e.equation = "I -> I + c";
+  e.reference = "IEC 60904-1:2020 (offsets)";
+  e.sentence = "the instrument shows a current where none flows";
+  e.needs = "a dark curve, or several irradiances";
+  e.acts = "everywhere alike";
+  e.confused_with = {"sensor_offset", "voltage_offset"};
+  e.separate_by = "a reading with open leads; a dark curve; the sensor covered";
+  e.parameters = {{"c", "current_offset", "A", "what the instrument adds", -0.1, 0.1, 0, false, 1, 1}};
+  e.instrument = [](const auto* p, const Reading&, auto* solved) {
+    solved->current = solved->current + p[0];
+  };
+  e.why_not = NeedsLightLevels;
+  e.probes = [](const DataTraits&) { return Strengths({0.001}); };
+  return e;
+}
+
+}  // namespace lyrefit

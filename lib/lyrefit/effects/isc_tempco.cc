@@ -1,0 +1,27 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect IscTemperatureCoefficient() {
+  Effect e;
+  e.id = "isc_tempco";
+  e.title = "temperature coefficient of Isc not as stated";
+  e.where = "conditions";
+  e.equation = "alpha -> alpha + c";
+  e.reference = "IEC 60891:2021";
+  e.sentence = "the short-circuit current follows the temperature otherwise than stated";
+  e.needs = "several temperatures";
+  e.acts = "short-circuit current against temperature";
+  e.confused_with = {"sensor_nonlin"};
+  e.separate_by = "a measurement of the coefficient at constant light";
+  e.parameters = {{"c", "tempco_error", "1/K", "true minus stated, relative", -0.01, 0.01, 0}};
+  e.sky = [](const auto* p, const Reading&, auto* sky) {
+    sky->isc_tempco_per_K = sky->isc_tempco_per_K + p[0];
+  };
+  e.why_not = NeedsTemperatures;
+  e.probes = [](const DataTraits&) { return Strengths({0.0001}); };
+  return e;
+}
+
+}  // namespace lyrefit

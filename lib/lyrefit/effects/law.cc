@@ -1,0 +1,430 @@
+#include "lyrefit/effects/law.h"
+
+#include <glog/logging.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lyrefit/base/constants.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargestExponent = 200;
+constexpr double kNear_V = 2;  // a former root farther from a plain guess is no start
+
+struct Bound {
+  double lower;
+  double upper;
+};
+constexpr Bound kBaseBounds[] = {{0, 20}, {-60, 40}, {0.2, 8}, {0, 3}, {0, 50}, {0, 20}};
+
+// The parameters' view of a law: where each effect's stretch begins.
+template <class S>
+struct Bench {
+  const Law& law;
+  const Readings& readings;
+  const S* p;
+  std::vector<int> offsets;
+};
+
+template <class S>
+Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
+  const double k_eV = ThermalVoltage(1.0);
+  const double reference_K = bench.readings.reference_temperature_K;
+  const double pivot = bench.readings.pivot_voltage;
+  const S* p = bench.p;
+  const S ratio = sky.temperature_K * (1 / reference_K);
+  const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
+  const S barrier = sky.bandgap_eV * (1 / (k_eV * reference_K)) - sky.bandgap_eV * inverse_vt;
+  const S inverse_n = 1.0 / p[kBaseIdeality];
+  const S pivot_exponential = exp(inverse_n * (pivot / (k_eV * reference_K)));
+  Cell<S> cell;
+  cell.irradiance = sky.irradiance;
+  cell.thermal_voltage = sky.temperature_K * k_eV;
+  cell.photocurrent =
+      sky.irradiance * p[kBasePhotocurrent] *
+      (1.0 + sky.isc_tempco_per_K * (sky.temperature_K - reference_K));
+  cell.saturation = exp(p[kBasePivot] + barrier) * (ratio * ratio * ratio) /
+                    (pivot_exponential - 1.0);
+  cell.inverse_n_vt = inverse_vt * inverse_n;
+  cell.inverse_2_vt = 0.5 * inverse_vt;
+  cell.saturation_2_unit = bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) *
+                           exp(0.5 * barrier);
+  cell.second = bench.law.second_diode;
+  cell.saturation_2 =
+      bench.law.second_diode ? p[kBaseSecond] * cell.saturation_2_unit : S(0.0);
+  cell.conductance = p[kBaseConductance];
+  cell.resistance = p[kBaseResistance];
+  cell.share = S(0.0);
+  cell.light = S(1.0);
+  cell.bypass = S(0.0);
+  cell.reach = bench.readings.scale.reach_V;
+  const DataTraits& traits = bench.readings.traits;
+  const int substrings = traits.substrings > 0 ? traits.substrings : 3;
+  cell.substring_cells = static_cast<double>(traits.cells) / substrings;
+  return cell;
+}
+
+template <class S>
+Sky<S> SkyAt(const Bench<S>& bench, const Reading& reading) {
+  Sky<S> sky{S(reading.voltage), S(reading.irradiance), S(reading.temperature_K),
+             S(bench.readings.bandgap_eV), S(bench.readings.isc_tempco_per_K)};
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->sky.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], reading, &sky);
+  }
+  return sky;
+}
+
+template <class S>
+Cell<S> CellAt(const Bench<S>& bench, const Sky<S>& sky) {
+  Cell<S> cell = CellUnder(bench, sky);
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->cell.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], &cell);
+  }
+  return cell;
+}
+
+template <class T>
+T Cut(const T& exponent) {
+  return exponent < kLargestExponent ? exponent : T(kLargestExponent);
+}
+
+// F(Vj): current of a cell under `light` of its photocurrent. With plain parameters the result
+// carries its slope.
+template <class S>
+Tangent<S> CellCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& light,
+                       const Tangent<S>& voltage) {
+  using T = Tangent<S>;
+  Cell<S> lit = cell;
+  lit.photocurrent = cell.photocurrent * light;
+  T current = T(lit.photocurrent) -
+              (exp(Cut(T(voltage * cell.inverse_n_vt))) - 1.0) * T(cell.saturation) -
+              voltage * cell.conductance;
+  if (cell.second) {
+    current = current -
+              (exp(Cut(T(voltage * cell.inverse_2_vt))) - 1.0) * T(cell.saturation_2);
+  }
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->junction.template For<S>();
+    if (stage != nullptr) current = current + stage(bench.p + bench.offsets[e], lit, voltage);
+  }
+  return current;
+}
+
+// D(I): what stands between junction and terminal, Vj = V + D.
+template <class S>
+Tangent<S> SeriesDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
+  Tangent<S> drop = current * cell.resistance;
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->series.template For<S>();
+    if (stage != nullptr) drop = drop + stage(bench.p + bench.offsets[e], cell, current);
+  }
+  return drop;
+}
+
+// Root of a rising function from `start`: Newton inside a bracket that grows with what is seen.
+// `f` returns value and slope. The last value is at most rounding away from 0.
+template <class F>
+double RisingRoot(F f, double start) {
+  constexpr int kMaxIterations = 120;
+  constexpr int kPatience = 40;  // Newton steps before plain halving
+  double rise = 0.15;            // upwards the diode's exponential overshoots
+  double low = -kInfinity, high = kInfinity, x = start;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const Slope1 y = f(x);
+    if (y.a == 0) return x;
+    (y.a < 0 ? low : high) = x;
+    const bool bracketed = std::isfinite(low) && std::isfinite(high);
+    double next = x - y.a / y.v[0];
+    if (next > x + rise) {
+      next = x + rise;
+      rise *= 2;
+    }
+    if (bracketed && (!(next > low && next < high) || iteration > kPatience)) {
+      next = 0.5 * (low + high);
+    } else if (!std::isfinite(next) || next == x) {
+      return x;
+    }
+    const double step = std::fabs(next - x);
+    x = next;
+    if (step < 1e-13 * (1 + std::fabs(x))) break;
+  }
+  return x;
+}
+
+struct Root {
+  double junction;
+  double current;
+  double slope;  // dF/dVj
+  // Of the shaded group.
+  bool bypassed = false;
+  double shaded_junction = 0;
+  double shaded_slope = 0;
+};
+
+Root SolveUniform(const Bench<double>& bench, const Cell<double>& cell, double voltage,
+                  double start) {
+  const auto excess = [&](double vj) {
+    const Slope1 x(vj, 0);
+    const Slope1 drop = SeriesDrop(bench, cell, CellCurrent(bench, cell, 1.0, x));
+    return x - voltage - drop;
+  };
+  Root root;
+  root.junction = RisingRoot(excess, start);
+  const Slope1 current = CellCurrent(bench, cell, 1.0, Slope1(root.junction, 0));
+  root.current = current.a;
+  root.slope = current.v[0];
+  return root;
+}
+
+// The shaded group at a known current: its junction voltage, or the bypass diode's drop.
+void SolveShaded(const Bench<double>& bench, const Cell<double>& cell, double current, double drop,
+                 Root* root) {
+  const double held = drop - cell.bypass;
+  root->bypassed = CellCurrent(bench, cell, cell.light, Slope1(held, 0)).a < current;
+  if (root->bypassed) return;
+  const auto excess = [&](double vj) {
+    return Slope1(current) - CellCurrent(bench, cell, cell.light, Slope1(vj, 0));
+  };
+  root->shaded_junction = RisingRoot(excess, root->shaded_junction);
+  root->shaded_slope =
+      CellCurrent(bench, cell, cell.light, Slope1(root->shaded_junction, 0)).v[0];
+}
+
+Root SolveGrouped(const Bench<double>& bench, const Cell<double>& cell, double voltage,
+                  double start) {
+  Root root;
+  root.shaded_junction = start;
+  const double w = cell.share;
+  const auto excess = [&](double vj) {
+    const Slope1 x(vj, 0);
+    const Slope1 current = CellCurrent(bench, cell, 1.0, x);
+    const Slope1 drop = SeriesDrop(bench, cell, current);
+    SolveShaded(bench, cell, current.a, drop.a, &root);
+    Slope1 shaded(-cell.bypass);
+    if (!root.bypassed) {
+      shaded.a = root.shaded_junction - drop.a;
+      shaded.v[0] = current.v[0] / root.shaded_slope - drop.v[0];
+    }
+    return (1 - w) * (x - drop) + w * shaded - voltage;
+  };
+  root.junction = RisingRoot(excess, start);
+  const Slope1 current = CellCurrent(bench, cell, 1.0, Slope1(root.junction, 0));
+  root.current = current.a;
+  root.slope = current.v[0];
+  const Slope1 drop = SeriesDrop(bench, cell, Slope1(root.current));
+  SolveShaded(bench, cell, root.current, drop.a, &root);
+  return root;
+}
+
+// Current and junction voltage as duals, given the root in plain numbers (implicit function
+// theorem).
+template <class S>
+void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
+                   const Bench<double>& plain, const Cell<double>& plain_cell, const Root& root,
+                   S* current, S* junction) {
+  const S drop = SeriesDrop(bench, cell, S(root.current));
+  const double resistance =
+      SeriesDrop(plain, plain_cell, Slope1(root.current, 0)).v[0];  // dD/dI
+  const S missing = CellCurrent(bench, cell, S(1.0), S(root.junction)) - root.current;
+  if (!cell.grouped) {
+    const S shift = voltage + drop - root.junction;
+    *current = root.current + (missing + root.slope * shift) / (1 - root.slope * resistance);
+    *junction = root.junction + shift + resistance * (*current - root.current);
+    return;
+  }
+  const S lit = root.junction - missing / root.slope - drop;
+  double slope = (1 - plain_cell.share) * (1 / root.slope - resistance);
+  S shaded = -cell.bypass;
+  if (!root.bypassed) {
+    shaded = root.shaded_junction -
+             (CellCurrent(bench, cell, cell.light, S(root.shaded_junction)) - root.current) /
+                 root.shaded_slope -
+             drop;
+    slope += plain_cell.share * (1 / root.shaded_slope - resistance);
+  }
+  const S excess = (1.0 - cell.share) * lit + cell.share * shaded - voltage;
+  *current = root.current - excess / slope;
+  *junction = root.junction + (*current - root.current - missing) / root.slope;
+}
+
+template <class S>
+S Recorded(const Bench<S>& bench, const Reading& reading, const Cell<S>& cell, const S& current,
+           const S& junction) {
+  Solved<S> solved;
+  solved.current = current;
+  solved.resistance = cell.resistance;
+  solved.diode_conductance =
+      cell.saturation * cell.inverse_n_vt * exp(Cut(S(junction * cell.inverse_n_vt)));
+  if (cell.second) {
+    solved.diode_conductance =
+        solved.diode_conductance +
+        cell.saturation_2 * cell.inverse_2_vt * exp(Cut(S(junction * cell.inverse_2_vt)));
+  }
+  solved.conductance = solved.diode_conductance + cell.conductance;
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->instrument.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], reading, &solved);
+  }
+  return solved.current;
+}
+
+template <class S>
+Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
+  Bench<S> bench{law, readings, p, {}};
+  int offset = law.base_size();
+  for (const Effect* effect : law.effects) {
+    bench.offsets.push_back(offset);
+    offset += effect->size();
+  }
+  return bench;
+}
+
+// Cells are the same for readings under the same sky: the last one is kept.
+template <class S>
+class CellKeeper {
+ public:
+  explicit CellKeeper(const Bench<S>& bench) : bench_(bench) {
+    for (const Effect* effect : bench.law.effects) varies_ = varies_ || effect->sky;
+  }
+  const Cell<S>& At(const Reading& reading, Sky<S>* sky) {
+    *sky = SkyAt(bench_, reading);
+    if (varies_ || !known_ || reading.irradiance != irradiance_ ||
+        reading.temperature_K != temperature_) {
+      cell_ = CellAt(bench_, *sky);
+      irradiance_ = reading.irradiance;
+      temperature_ = reading.temperature_K;
+      known_ = true;
+    }
+    return cell_;
+  }
+
+ private:
+  const Bench<S>& bench_;
+  bool varies_ = false;
+  bool known_ = false;
+  double irradiance_ = 0;
+  double temperature_ = 0;
+  Cell<S> cell_;
+};
+
+bool HasInstrument(const Law& law) {
+  for (const Effect* effect : law.effects) {
+    if (effect->instrument) return true;
+  }
+  return false;
+}
+
+template <class S>
+bool Evaluate(const Law& law, const Readings& readings, const double* values,
+              LawWorkspace* workspace, double* current, double* jacobian) {
+  const int size = law.size();
+  const Bench<double> plain = MakeBench(law, readings, values);
+  std::vector<S> duals(size);
+  if constexpr (!std::is_same_v<S, double>) {
+    for (int k = 0; k < size; ++k) duals[k] = S(values[k], k);
+  }
+  const Bench<S> bench = MakeBench(law, readings, static_cast<const S*>(duals.data()));
+  CellKeeper<double> plain_cells(plain);
+  CellKeeper<S> cells(bench);
+  const bool instrument = HasInstrument(law);
+  const std::size_t count = readings.points.size();
+  const bool fresh = workspace->junction.size() != count;
+  if (fresh) workspace->junction.assign(count, 0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Reading& reading = readings.points[k];
+    Sky<double> sky;
+    const Cell<double>& cell = plain_cells.At(reading, &sky);
+    if (!(sky.temperature_K > 100 && sky.temperature_K < 700)) return false;
+    double& start = workspace->junction[k];
+    const double guess = sky.voltage + reading.current * cell.resistance;
+    if (fresh || !(std::fabs(start - guess) < kNear_V)) start = guess;
+    const Root root = cell.grouped ? SolveGrouped(plain, cell, sky.voltage, start)
+                                   : SolveUniform(plain, cell, sky.voltage, start);
+    start = root.junction;
+    current[k] = root.current;
+    if constexpr (std::is_same_v<S, double>) {
+      if (instrument) {
+        current[k] = Recorded(plain, reading, cell, root.current, root.junction);
+      }
+    } else {
+      Sky<S> dual_sky;
+      const Cell<S>& dual_cell = cells.At(reading, &dual_sky);
+      S dual_current, dual_junction;
+      Differentiate(bench, dual_cell, dual_sky.voltage, plain, cell, root, &dual_current,
+                    &dual_junction);
+      if (instrument) {
+        dual_current = Recorded(bench, reading, dual_cell, dual_current, dual_junction);
+      }
+      current[k] = dual_current.a;
+      for (int i = 0; i < size; ++i) jacobian[k * size + i] = dual_current.v[i];
+    }
+    if (!std::isfinite(current[k])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int Law::size() const {
+  int size = base_size();
+  for (const Effect* effect : effects) size += effect->size();
+  return size;
+}
+
+int Law::Offset(int effect) const {
+  int offset = base_size();
+  for (int e = 0; e < effect; ++e) offset += effects[e]->size();
+  return offset;
+}
+
+namespace {
+
+const EffectParameter* ParameterAt(const Law& law, int parameter) {
+  int at = parameter - law.base_size();
+  for (const Effect* effect : law.effects) {
+    if (at < effect->size()) return &effect->parameters[at];
+    at -= effect->size();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+double Law::Lower(int parameter) const {
+  if (parameter < base_size()) return kBaseBounds[parameter].lower;
+  return ParameterAt(*this, parameter)->lower;
+}
+
+double Law::Upper(int parameter) const {
+  if (parameter < base_size()) return kBaseBounds[parameter].upper;
+  return ParameterAt(*this, parameter)->upper;
+}
+
+bool Law::Searched(int parameter) const {
+  return parameter >= base_size() && ParameterAt(*this, parameter)->searched;
+}
+
+bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
+                 double* current, double* jacobian) {
+  CHECK_LE(law.size(), 20);
+  if (jacobian == nullptr) return Evaluate<double>(law, readings, p, workspace, current, nullptr);
+  if (law.size() <= 8) return Evaluate<Narrow>(law, readings, p, workspace, current, jacobian);
+  return Evaluate<Wide>(law, readings, p, workspace, current, jacobian);
+}
+
+double SaturationCurrent(const Law&, const Readings& readings, const double* p) {
+  const double vt = ThermalVoltage(readings.reference_temperature_K);
+  return std::exp(p[kBasePivot]) / std::expm1(readings.pivot_voltage / (p[kBaseIdeality] * vt));
+}
+
+double Saturation2Unit(const Readings& readings) {
+  return std::exp(-readings.pivot_voltage /
+                  (2 * ThermalVoltage(readings.reference_temperature_K)));
+}
+
+}  // namespace lyrefit

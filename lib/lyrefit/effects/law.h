@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/effects/effect.h"
+#include "lyrefit/effects/reading.h"
+
+namespace lyrefit {
+
+// Base model and causes together: one parameter vector for a whole measurement. Base parameters
+// first, then those of each effect in turn.
+//
+// Base: one diode (a second with n = 2 if asked for), five parameters for all readings,
+//   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
+//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg constant
+//   n, Rs and Gsh = 1 / Rsh constant, whatever the light and the temperature
+// that is De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010) with a shunt that
+// does not know the light, so that one that does is a finding. The recombination diode follows
+// (T / Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
+enum BaseParameter {
+  kBasePhotocurrent = 0,  // at g = 1 and Tref
+  kBasePivot = 1,         // ln of the first diode's current at the pivot voltage: unlike ln Is it is
+                          // almost uncorrelated with n
+  kBaseIdeality = 2,
+  kBaseResistance = 3,
+  kBaseConductance = 4,
+  kBaseSecond = 5,  // dd: the second diode's current at the pivot voltage
+};
+
+struct Law {
+  bool second_diode = false;  // in the base
+  std::vector<const Effect*> effects;
+
+  int base_size() const { return second_diode ? 6 : 5; }
+  int size() const;
+  int Offset(int effect) const;  // of its first parameter
+  // Bounds of all parameters.
+  double Lower(int parameter) const;
+  double Upper(int parameter) const;
+  bool Searched(int parameter) const;  // not to be descended in
+};
+
+// Junction voltages of the last evaluation, from which the next starts.
+struct LawWorkspace {
+  std::vector<double> junction;
+};
+
+// Recorded current of every reading. `jacobian`, where given, receives its derivatives by all
+// parameters, row by row. False where it cannot be had (a step left the physical range).
+bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
+                 double* current, double* jacobian);
+
+// Saturation current (in scales) and thermal voltage at the reference, as in the base law.
+double SaturationCurrent(const Law& law, const Readings& readings, const double* p);
+
+// exp(-pivot / 2 Vt): saturation current of a diode with n = 2 that carries 1 at the pivot.
+double Saturation2Unit(const Readings& readings);
+
+}  // namespace lyrefit

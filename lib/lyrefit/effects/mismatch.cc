@@ -1,0 +1,38 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect Mismatch() {
+  Effect e;
+  e.id = "mismatch";
+  e.title = "unequal cells in series";
+  e.where = "device";
+  e.equation = "V = (1 - w) Vcell(I; Iph) + w Vcell(I; (1 - d) Iph), per cell, no bypass conducts";
+  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.sentence = "some cells deliver less current than the others, and no bypass diode helps";
+  e.needs = "a curve of a module";
+  e.acts = "between short circuit and the knee";
+  e.confused_with = {"shading", "transient", "nonohmic_shunt"};
+  e.separate_by = "cover one cell after the other, or an electroluminescence image";
+  e.parameters = {
+      {"d", "current_deficit", "", "part of the current that the weaker cells miss", 0, 0.9, 0},
+      {"w", "weaker_share", "", "part of the cells that is weaker", 0.005, 0.95, 0.3}};
+  e.cell = [](const auto* p, auto* cell) {
+    cell->grouped = true;
+    cell->light = 1.0 - p[0];
+    cell->share = p[1];
+    cell->bypass = p[0] * 0.0 + 1e6;
+  };
+  e.why_not = NeedsModule;
+  e.probes = [](const DataTraits& traits) {
+    std::vector<Probe> probes;
+    for (const double share : {1.0 / traits.cells, 0.1, 0.3, 0.6}) {
+      for (const double deficit : {0.01, 0.03, 0.06, 0.12}) probes.push_back({deficit, share});
+    }
+    return probes;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,48 @@
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+WhyNot NeedsLight(const DataTraits& traits) {
+  if (traits.only_dark) return "needs a lit curve";
+  return {};
+}
+
+WhyNot NeedsOneLitCondition(const DataTraits& traits) {
+  if (auto why = NeedsLight(traits)) return why;
+  if (!traits.single) return "acts during one sweep; each curve of a set has its own";
+  return {};
+}
+
+WhyNot NeedsModule(const DataTraits& traits) {
+  if (auto why = NeedsOneLitCondition(traits)) return why;
+  if (!traits.module) return "needs cells in series";
+  return {};
+}
+
+WhyNot NeedsUpDown(const DataTraits& traits) {
+  if (!traits.up_down) return "needs a sweep up and a sweep down";
+  return {};
+}
+
+WhyNot NeedsLightLevels(const DataTraits& traits) {
+  if (traits.dark || traits.irradiance_levels > 1) return {};
+  return "needs a second level of light, or a dark curve";
+}
+
+WhyNot NeedsIrradiances(const DataTraits& traits) {
+  if (traits.irradiance_levels < 2) return "needs curves under several irradiances";
+  return {};
+}
+
+WhyNot NeedsTemperatures(const DataTraits& traits) {
+  if (traits.temperature_levels < 2) return "needs curves at several temperatures";
+  return {};
+}
+
+std::vector<Probe> Strengths(const std::vector<double>& values) {
+  std::vector<Probe> probes;
+  for (const double value : values) probes.push_back({value});
+  return probes;
+}
+
+}  // namespace lyrefit

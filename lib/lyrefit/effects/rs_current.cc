@@ -1,0 +1,30 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect RsCurrent() {
+  Effect e;
+  e.id = "rs_current";
+  e.title = "series resistance that depends on current";
+  e.where = "device";
+  e.equation = "V = Vj - I Rs - Rs1 I |I|";
+  e.reference = "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
+                "IEEE Trans. Electron Devices 33, 391";
+  e.sentence = "the series resistance is spread over the cell, or changes with the current";
+  e.needs = "little noise near the knee, or several irradiances";
+  e.acts = "from the knee to open circuit";
+  e.confused_with = {"back_contact", "transient"};
+  e.separate_by = "curves at several irradiances";
+  e.parameters = {{"Rs1", "resistance_per_current", "ohm/A", "change of Rs with current", -0.2, 0.2,
+                   0, false, 1, -2, 1}};
+  e.series = [](const auto* p, const auto& cell, const auto& current) {
+    (void)cell;
+    return p[0] * current * abs(current);
+  };
+  e.why_not = NeedsLight;
+  e.probes = [](const DataTraits&) { return Strengths({0.01, -0.005}); };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,32 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect SecondDiode() {
+  Effect e;
+  e.id = "second_diode";
+  e.title = "second diode (recombination)";
+  e.where = "device";
+  e.equation = "I = ... - Is2 (exp(Vj / 2 Vt) - 1)";
+  e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
+  e.sentence = "carriers recombine in the junction itself, which softens the knee";
+  e.needs = "any curve with little noise; a dark curve shows it far better";
+  e.acts = "below the maximum power point";
+  e.confused_with = {"nonohmic_shunt", "temp_gradient", "collection"};
+  e.separate_by = "a dark curve, or curves at low irradiance";
+  e.parameters = {{"Is2", "saturation_current_2", "A", "saturation current of the diode with n = 2",
+                   0, 3, 0, false, 1, 1}};
+  e.parameters[0].convert = [](const double*, const ReadingScale& scale) {
+    return scale.saturation_2_unit;
+  };
+  e.cell = [](const auto* p, auto* cell) {
+    cell->second = true;
+    cell->saturation_2 = cell->saturation_2 + p[0] * cell->saturation_2_unit;
+  };
+  e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
+  e.probes = [](const DataTraits&) { return Strengths({0.02, 0.2}); };
+  return e;
+}
+
+}  // namespace lyrefit

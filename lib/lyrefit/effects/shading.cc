@@ -1,0 +1,56 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+namespace {
+
+// Shares of the substrings that can be shaded: j of k. Where nobody said how many bypass diodes
+// there are, two and three.
+std::vector<double> Shares(const DataTraits& traits) {
+  std::vector<double> shares;
+  const int first = traits.substrings > 1 ? traits.substrings : 2;
+  const int last = traits.substrings > 1 ? traits.substrings : 3;
+  for (int k = first; k <= last; ++k) {
+    for (int j = 1; j < k; ++j) shares.push_back(static_cast<double>(j) / k);
+  }
+  return shares;
+}
+
+}  // namespace
+
+Effect Shading() {
+  Effect e;
+  e.id = "shading";
+  e.title = "partial shading";
+  e.where = "device";
+  e.equation = "V = (1 - w) Vcell(I; Iph) + w max(Vcell(I; (1 - d) Iph), -Vb), per cell";
+  e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
+  e.sentence = "part of the module gets less light, and its bypass diodes conduct";
+  e.needs = "a curve of a module; the number of bypass diodes helps";
+  e.acts = "at a step of the current, at a fixed voltage";
+  e.confused_with = {"irr_step", "transient", "mismatch"};
+  e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
+  e.parameters = {
+      {"d", "shading_depth", "", "part of the light that the shaded cells miss", 0, 0.999, 0},
+      {"w", "shaded_share", "", "part of the cells that is shaded", 0.01, 0.99, 0.3, true},
+      {"Vb", "bypass_voltage", "V", "drop of a conducting bypass diode", 0, 1.2, 0.5}};
+  e.cell = [](const auto* p, auto* cell) {
+    cell->grouped = true;
+    cell->light = 1.0 - p[0];
+    cell->share = p[1];
+    cell->bypass = p[2] * (1.0 / cell->substring_cells);
+  };
+  e.why_not = NeedsModule;
+  e.probes = [](const DataTraits& traits) {
+    std::vector<Probe> probes;
+    for (const double share : Shares(traits)) {
+      for (const double depth : {0.01, 0.02, 0.035, 0.06, 0.12, 0.25, 0.45, 0.65, 0.85}) {
+        probes.push_back({depth, share, 0.5});
+      }
+    }
+    return probes;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

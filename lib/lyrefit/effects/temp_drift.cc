@@ -1,0 +1,27 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect TemperatureDrift() {
+  Effect e;
+  e.id = "temp_drift";
+  e.title = "drift of the cell temperature";
+  e.where = "sweep";
+  e.equation = "T -> T + r x, x = -1/2 .. 1/2 over the measurement";
+  e.reference = "IEC 60904-1:2020 (temperature stable during the sweep)";
+  e.sentence = "the cells warmed or cooled while the curve was taken";
+  e.needs = "a sweep up and down";
+  e.acts = "near open circuit, in the order of time";
+  e.confused_with = {"drift", "timing_skew", "capacitance"};
+  e.separate_by = "a sweep up and down; a shorter sweep";
+  e.parameters = {{"r", "temperature_change", "K", "warming over the measurement", -30, 30, 0}};
+  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
+    sky->temperature_K = sky->temperature_K + p[0] * reading.x;
+  };
+  e.why_not = NeedsOneLitCondition;
+  e.probes = [](const DataTraits&) { return Strengths({1}); };
+  return e;
+}
+
+}  // namespace lyrefit

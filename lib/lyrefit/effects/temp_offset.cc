@@ -1,0 +1,27 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect TemperatureOffset() {
+  Effect e;
+  e.id = "temp_offset";
+  e.title = "offset of the temperature sensor";
+  e.where = "conditions";
+  e.equation = "T -> T + c";
+  e.reference = "IEC 60904-5:2011 (equivalent cell temperature)";
+  e.sentence = "the cells are warmer or colder than the sensor says, everywhere alike";
+  e.needs = "several temperatures";
+  e.acts = "open-circuit voltage against temperature";
+  e.confused_with = {"bandgap", "voltage_offset", "second_diode"};
+  e.separate_by = "a second thermometer on the cell; four temperatures or more";
+  e.parameters = {{"c", "temperature_offset", "K", "true minus shown", -25, 25, 0}};
+  e.sky = [](const auto* p, const Reading&, auto* sky) {
+    sky->temperature_K = sky->temperature_K + p[0];
+  };
+  e.why_not = NeedsTemperatures;
+  e.probes = [](const DataTraits&) { return Strengths({1}); };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace lyrefit {
+
+// A least-squares problem of any origin: minimise the sum of squares of `residuals` numbers over
+// parameters between bounds.
+struct LeastSquaresProblem {
+  int residuals = 0;
+  std::vector<double> lower;  // -+infinity where there is no bound
+  std::vector<double> upper;
+  std::vector<char> held;  // 1: stays at its start; empty: all move
+  // Residuals at `p` and, where `jacobian` is given, their derivatives row by row. False where the
+  // model cannot be evaluated: the step is shortened.
+  std::function<bool(const double* p, double* residuals, double* jacobian)> evaluate;
+};
+
+struct LeastSquaresOptions {
+  int max_iterations = 60;
+  double function_tolerance = 1e-9;  // relative change of the cost
+};
+
+struct LeastSquaresEnd {
+  std::vector<double> p;
+  double sum_of_squares = 0;
+  bool converged = false;
+  bool usable = false;  // false: the start itself could not be evaluated
+  int iterations = 0;
+};
+
+// Ceres' bounded trust region with dense QR from `start`, which is moved inside the bounds.
+LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
+                                  const std::vector<double>& start,
+                                  const LeastSquaresOptions& options = {});
+
+}  // namespace lyrefit

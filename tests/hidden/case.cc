@@ -84,7 +84,7 @@ Case MakeNull(Kind kind, NoiseType noise, std::uint64_t seed) {
   DeviceWish wish = WishFor({}, kind, &random);
   wish.second_diode = made.second_diode = random.Chance(0.2);
   Scene scene = DrawScene(kind, noise, wish, &random);
-  if (random.Chance(0.4)) {
+  if (!made.second_diode && random.Chance(0.4)) {
     const Hide& hide = Absorbed()[random.Index(static_cast<int>(Absorbed().size()))];
     Scene with = scene;
     if (Shows(hide, kind) && hide.apply(DrawShape(&random), random.Uniform(0.1, 1), &with)) {

@@ -30,7 +30,7 @@ struct Cell {
   double interval_s = 0;  // 0: no charging
 };
 
-// The cell where `suns` and `kelvin` really hold; `light` weakens the photocurrent alone.
+// A cell of the device where `suns` and `kelvin` really hold.
 Cell CellUnder(const Device& device, const Effects& effects, double suns, double kelvin);
 
 double JunctionCurrent(const Cell& cell, double junction_voltage);

@@ -35,24 +35,43 @@ std::vector<const Hide*> HidesCalled(const std::string& name, Kind kind) {
   return hides;
 }
 
+Request RequestFor(const StudyOptions& options, Kind kind, const Hide& hide, int number,
+                   double lowest, double highest) {
+  std::uint64_t name = 0;
+  for (const char* letter = hide.name; *letter; ++letter) name = 131 * name + *letter;
+  Request request;
+  request.kind = kind;
+  request.hides = {&hide};
+  request.seed = SeedOf(options.seed, name, static_cast<int>(kind), number);
+  request.misfit = Random(request.seed).LogUniform(lowest, highest);
+  return request;
+}
+
+Case NullFor(const StudyOptions& options, Kind kind, int number) {
+  const std::uint64_t seed = SeedOf(options.seed, number);
+  return MakeNull(kind, static_cast<NoiseType>(number % kNoiseTypes), seed);
+}
+
 std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Hide& hide, int cases,
                           double lowest, double highest) {
   std::vector<Run> runs(cases);
-  std::uint64_t name = 0;
-  for (const char* letter = hide.name; *letter; ++letter) name = 131 * name + *letter;
   ForEach(cases, options.threads, [&](int i) {
-    Request request;
-    request.kind = kind;
-    request.hides = {&hide};
-    request.seed = SeedOf(options.seed, name, static_cast<int>(kind), i);
-    request.misfit = Random(request.seed).LogUniform(lowest, highest);
+    const Request request = RequestFor(options, kind, hide, i, lowest, highest);
     const std::optional<Case> made = MakeCase(request);
     if (!made) return;
-    runs[i].made = true;
-    runs[i].hidden = *made;
-    runs[i].answer = Ask(made->measurement, i, options.level, request.seed);
+    runs[i] = {true, *made, Ask(made->measurement, i, options.level, request.seed)};
   });
   return runs;
+}
+
+std::string Text(const Answer& answer) {
+  std::string text = answer.error;
+  for (const Claim& claim : answer.claims) {
+    if (!text.empty()) text += " ";
+    text += claim.id;
+    for (const std::string& other : claim.equivalents) text += "|" + other;
+  }
+  return text.empty() ? "-" : text;
 }
 
 namespace {
@@ -60,6 +79,7 @@ namespace {
 constexpr const char* kUsage =
     "hidden_study MODE [--kind fwd|rev|updown|dark|famG|famGT|all] [--effect ID|all] [--cases N]\n"
     "             [--level P] [--seed N] [--threads N] [--csv FILE]\n"
+    "             [--rows FILE] [--number I]\n"
     "MODE: silence, power, pairs, confusion, size, show\n";
 
 bool Read(int argc, char** argv, StudyOptions* options) {
@@ -72,6 +92,8 @@ bool Read(int argc, char** argv, StudyOptions* options) {
       {"--level", [&](const char* text) { options->level = std::atof(text); }},
       {"--seed", [&](const char* text) { options->seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { options->threads = std::atoi(text); }},
+      {"--rows", [&](const char* text) { options->rows = text; }},
+      {"--number", [&](const char* text) { options->number = std::atoi(text); }},
       {"--csv", [&](const char* text) { options->csv = text; }},
   };
   for (int i = 2; i < argc; i += 2) {

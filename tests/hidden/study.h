@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,8 +13,10 @@ struct StudyOptions {
   std::string mode;
   std::string kind = "all";
   std::string effect = "all";
-  std::string csv;  // file; empty: none
-  int cases = 0;    // 0: the mode's own number
+  std::string csv;   // file for the table; empty: none
+  std::string rows;  // file for every case; empty: none
+  int cases = 0;     // 0: the mode's own number
+  int number = 0;    // of the case to show
   double level = 0.05;
   std::uint64_t seed = 1;
   int threads = 0;  // 0: as many as there are processors
@@ -31,7 +32,8 @@ int StudyPairs(const StudyOptions& options);
 int StudyConfusion(const StudyOptions& options);
 // How often the 95 % interval of a named effect's size holds the truth.
 int StudySize(const StudyOptions& options);
-// One case as a table of readings, with its answer.
+// One case of `power` or, without an effect, of `silence`, as a table of readings; what is in it
+// and what is answered go to the error output.
 int ShowCase(const StudyOptions& options);
 
 // body(0) .. body(count - 1), each writing only to its own slot.
@@ -44,10 +46,16 @@ struct Run {
   Case hidden;
   Answer answer;
 };
+Request RequestFor(const StudyOptions& options, Kind kind, const Hide& hide, int number,
+                   double lowest, double highest);
+Case NullFor(const StudyOptions& options, Kind kind, int number);
 std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Hide& hide, int cases,
                           double lowest, double highest);
 
 std::vector<const Hide*> HidesCalled(const std::string& name, Kind kind);
+
+// "drift|temp_drift clip": every claim with its set.
+std::string Text(const Answer& answer);
 
 double Percent(int part, int whole);  // NaN of nothing
 

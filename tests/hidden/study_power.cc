@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "hidden/study.h"
 
@@ -96,55 +96,56 @@ void Report(Kind kind, const Hide& hide, const std::vector<Run>& runs, Bands* me
   if (failed > 0) std::printf("        %s: %d errors: %s\n", hide.name, failed, error.c_str());
 }
 
+void PrintRows(Kind kind, const Hide& hide, const std::vector<Run>& runs, std::FILE* rows) {
+  for (std::size_t i = 0; i < runs.size() && rows != nullptr; ++i) {
+    if (!runs[i].made) continue;
+    const Case& hidden = runs[i].hidden;
+    const Judgement judgement = Judge(hidden, runs[i].answer);
+    std::fprintf(rows, "%s,%s,%zu,%s,%d,%zu,%.3f,%.4g,%d,%d,%d,%.3f,%s\n", Name(kind), hide.name, i,
+                 Name(hidden.noise), hidden.measurement.cells, hidden.measurement.voltage.size(),
+                 hidden.causes[0].misfit, hidden.causes[0].strength, judgement.detected,
+                 judgement.first_right, judgement.named, runs[i].answer.seconds,
+                 Text(runs[i].answer).c_str());
+  }
+}
+
+// Nothing where no file is asked for.
+bool Open(const std::string& path, const char* header, std::FILE** file) {
+  *file = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
+  if (*file != nullptr) std::fputs(header, *file);
+  if (*file == nullptr && !path.empty()) std::perror(path.c_str());
+  return *file != nullptr || path.empty();
+}
+
 }  // namespace
 
 int StudyPower(const StudyOptions& options) {
   const int cases = options.cases > 0 ? options.cases : 200;
-  std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
-  if (!options.csv.empty() && csv == nullptr) {
-    std::perror(options.csv.c_str());
+  std::FILE* csv = nullptr;
+  std::FILE* rows = nullptr;
+  if (!Open(options.csv,
+            "kind,effect,misfit_from,misfit_to,cases,ideal_percent,detected,first_right,in_set,"
+            "named,mean_set_size,seconds\n",
+            &csv) ||
+      !Open(options.rows,
+            "kind,effect,number,noise,cells,readings,misfit,strength,detected,first_right,named,"
+            "seconds,answer\n",
+            &rows)) {
     return 1;
-  }
-  if (csv != nullptr) {
-    std::fprintf(csv, "kind,effect,misfit_from,misfit_to,cases,ideal_percent,detected,");
-    std::fprintf(csv, "first_right,in_set,named,mean_set_size,seconds\n");
   }
   std::printf("%-7s %-21s %-7s %5s %7s %7s %7s %7s %7s %5s %7s\n", "kind", "effect", "misfit",
               "cases", "ideal%", "found%", "first%", "inset%", "named%", "size", "s/case");
   for (const Kind kind : KindsCalled(options.kind)) {
     Bands mean;
     for (const Hide* hide : HidesCalled(options.effect, kind)) {
-      Report(kind, *hide, RunCases(options, kind, *hide, cases, kEdges[0], kEdges[kBands]), &mean,
-             csv);
+      const auto runs = RunCases(options, kind, *hide, cases, kEdges[0], kEdges[kBands]);
+      Report(kind, *hide, runs, &mean, csv);
+      PrintRows(kind, *hide, runs, rows);
     }
     Print(Name(kind), "all", mean, csv);
   }
   if (csv != nullptr) std::fclose(csv);
-  return 0;
-}
-
-int StudyConfusion(const StudyOptions& options) {
-  const int cases = options.cases > 0 ? options.cases : 100;
-  std::printf("%-7s %-21s %5s  %s\n", "kind", "effect", "cases", "first name, % of cases");
-  for (const Kind kind : KindsCalled(options.kind)) {
-    for (const Hide* hide : HidesCalled(options.effect, kind)) {
-      std::map<std::string, int> firsts;
-      int made = 0;
-      for (const Run& run : RunCases(options, kind, *hide, cases, 7, kEdges[kBands])) {
-        if (!run.made) continue;
-        ++made;
-        ++firsts[Judge(run.hidden, run.answer).first];
-      }
-      std::vector<std::pair<int, std::string>> order;
-      for (const auto& [name, count] : firsts) order.push_back({-count, name});
-      std::sort(order.begin(), order.end());
-      std::printf("%-7s %-21s %5d ", Name(kind), hide->name, made);
-      for (const auto& [count, name] : order) {
-        std::printf(" %s %.0f", name.c_str(), Percent(-count, made));
-      }
-      std::printf("\n");
-    }
-  }
+  if (rows != nullptr) std::fclose(rows);
   return 0;
 }
 

@@ -63,9 +63,8 @@ int StudySilence(const StudyOptions& options) {
   for (const Kind kind : KindsCalled(options.kind)) {
     std::vector<Quiet> runs(cases);
     ForEach(cases, options.threads, [&](int i) {
-      const std::uint64_t seed = SeedOf(options.seed, i);
-      runs[i].hidden = MakeNull(kind, static_cast<NoiseType>(i % kNoiseTypes), seed);
-      runs[i].answer = Ask(runs[i].hidden.measurement, i, options.level, seed);
+      runs[i].hidden = NullFor(options, kind, i);
+      runs[i].answer = Ask(runs[i].hidden.measurement, i, options.level, SeedOf(options.seed, i));
     });
     Alarms independent;
     for (int type = 0; type < kNoiseTypes; ++type) {

@@ -43,31 +43,4 @@ int StudySize(const StudyOptions& options) {
   return 0;
 }
 
-int ShowCase(const StudyOptions& options) {
-  const Kind kind = KindsCalled(options.kind).front();
-  Request request;
-  request.kind = kind;
-  request.seed = options.seed;
-  if (options.effect != "all") request.hides = {FindHide(options.effect)};
-  const std::optional<Case> made = MakeCase(request);
-  if (!made) return 1;
-  const Measurement& taken = made->measurement;
-  for (const Cause& cause : made->causes) {
-    std::fprintf(stderr, "%s strength %g misfit %g\n", cause.name.c_str(), cause.strength,
-                 cause.misfit);
-  }
-  std::fprintf(stderr, "cells %d bypass %d Eg %g tempco %g noise %s\n", taken.cells,
-               taken.bypass_diodes, taken.bandgap_eV, taken.isc_tempco_per_K, Name(made->noise));
-  std::printf("voltage_V,current_A,sweep,irradiance_Wm2,temperature_C%s\n",
-              taken.time.empty() ? "" : ",time_s");
-  for (std::size_t i = 0; i < taken.voltage.size(); ++i) {
-    const int sweep = taken.sweep.empty() ? 0 : taken.sweep[i];
-    std::printf("%.7g,%.7g,%d,%g,%g", taken.voltage[i], taken.current[i], sweep,
-                taken.irradiance[i], taken.temperature[i]);
-    if (!taken.time.empty()) std::printf(",%.6g", taken.time[i]);
-    std::printf("\n");
-  }
-  return 0;
-}
-
 }  // namespace hidden

@@ -1,0 +1,153 @@
+#include "hidden/hide.h"
+
+namespace hidden {
+namespace {
+
+using Names = std::vector<std::string>;
+constexpr Kind kFwd = Kind::kForward, kDark = Kind::kDark;
+constexpr Kind kFamG = Kind::kIrradiances, kFamGT = Kind::kConditions;
+
+bool TemperatureOffset(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.temperature_offset_K = shape.sign * strength;
+  return true;
+}
+
+bool TemperatureGradient(const Shape&, double strength, Scene* scene) {
+  scene->effects.temperature_gradient_K = strength;
+  return true;
+}
+
+bool SensorBend(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.sensor_bend = shape.sign * strength;
+  return true;
+}
+
+bool SensorOffset(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.sensor_offset = shape.sign * strength;
+  return true;
+}
+
+bool Bandgap(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.bandgap_eV = shape.sign * strength;
+  return true;
+}
+
+bool IscTempco(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.isc_tempco_per_K = shape.sign * strength;
+  return true;
+}
+
+bool Lead(const Shape&, double strength, Scene* scene) {
+  scene->effects.lead_ohm = strength * scene->device.resistance;
+  return true;
+}
+
+bool Gain(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.current_gain = shape.sign * strength / 20;
+  return true;
+}
+
+bool OffsetOnOneCurve(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.current_offset_A = shape.sign * strength * scene->device.photocurrent / 200;
+  return true;
+}
+
+// Over equal steps of voltage fading light is a shunt.
+bool FadingLight(const Shape&, double strength, Scene* scene) {
+  scene->effects.drift = -strength / 40;
+  return scene->plan.even;
+}
+
+bool TemperatureOnOneCurve(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.temperature_offset_K = 12 * strength * shape.sign;
+  const double kelvin = kReferenceK + scene->effects.temperature_offset_K;
+  return scene->device.ideality * kelvin / kReferenceK > 1.02;
+}
+
+bool SensorGain(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.sensor_gain = shape.sign * strength / 20;
+  return true;
+}
+
+}  // namespace
+
+const std::vector<Hide>& ConditionHides() {
+  static const std::vector<Hide> hides = {
+      {"temp_offset",
+       {kFamGT},
+       1e-3,
+       25,
+       TemperatureOffset,
+       [](const Shape&, const Scene&) { return Names{"bandgap"}; },
+       [](const Scene& s) {
+         return Size{"K", s.effects.temperature_offset_K};
+       }},
+      {"temp_gradient",
+       {kDark, kFamG, kFamGT},
+       1e-3,
+       25,
+       TemperatureGradient,
+       nullptr,
+       [](const Scene& s) {
+         return Size{"K", s.effects.temperature_gradient_K};
+       }},
+      {"sensor_nonlin",
+       {kFamG, kFamGT},
+       1e-5,
+       0.4,
+       SensorBend,
+       nullptr,
+       [](const Scene& s) {
+         return Size{"1", s.effects.sensor_bend};
+       }},
+      {"sensor_offset",
+       {kFamG, kFamGT},
+       1e-5,
+       0.1,
+       SensorOffset,
+       [](const Shape&, const Scene& s) {
+         return s.plan.kind == kFamG ? Names{"current_offset", "voltage_offset"}
+                                     : Names{"current_offset"};
+       },
+       [](const Scene& s) {
+         return Size{"W/m2", 1000 * s.effects.sensor_offset};
+       }},
+      {"bandgap",
+       {kFamGT},
+       1e-5,
+       0.5,
+       Bandgap,
+       [](const Shape&, const Scene&) { return Names{"temp_offset"}; },
+       [](const Scene& s) {
+         return Size{"eV", s.effects.bandgap_eV};
+       }},
+      {"isc_tempco",
+       {kFamGT},
+       1e-7,
+       0.01,
+       IscTempco,
+       nullptr,
+       [](const Scene& s) {
+         return Size{"1/K", s.effects.isc_tempco_per_K};
+       }},
+  };
+  return hides;
+}
+
+const std::vector<Hide>& Absorbed() {
+  static const std::vector<Hide> hides = {
+      {"lead_resistance",
+       {kFwd, Kind::kReverse, Kind::kUpDown, kDark, kFamG, kFamGT},
+       0.1,
+       1,
+       Lead},
+      {"current_gain", {kFwd, Kind::kReverse, Kind::kUpDown, kDark, kFamG, kFamGT}, 0.1, 1, Gain},
+      {"current_offset", {kFwd, Kind::kReverse, Kind::kUpDown}, 0.1, 1, OffsetOnOneCurve},
+      {"drift", {kFwd}, 0.1, 1, FadingLight},
+      {"temp_offset", {kFwd, Kind::kReverse, Kind::kUpDown}, 0.1, 1, TemperatureOnOneCurve},
+      {"sensor_gain", {kFamG, kFamGT}, 0.1, 1, SensorGain},
+  };
+  return hides;
+}
+
+}  // namespace hidden

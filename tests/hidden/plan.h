@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hidden/device.h"
+
+namespace hidden {
+
+enum class Kind { kForward, kReverse, kUpDown, kDark, kIrradiances, kConditions };
+constexpr int kKinds = 6;
+const char* Name(Kind kind);  // "fwd", "rev", "updown", "dark", "famG", "famGT"
+std::vector<Kind> KindsCalled(const std::string& name);  // "all" or one
+
+// A reading to be taken: what is set and what the sensors show.
+struct Setting {
+  double voltage = 0;  // terminals of the whole device
+  double time_s = 0;
+  int sweep = 0;
+  int curve = 0;
+  double suns = 1;
+  double kelvin = kReferenceK;
+};
+
+struct Plan {
+  Kind kind = Kind::kForward;
+  bool even = true;    // steps of voltage
+  bool times = false;  // written down
+  std::vector<Setting> settings;
+
+  double X(double time_s) const;  // -1/2 .. 1/2
+  double Rate() const;            // typical |dV/dt| of a cell's share, V/s
+};
+
+Plan DrawPlan(Kind kind, const Device& device, Random* random);
+
+}  // namespace hidden

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "hidden/judge.h"
+
+namespace hidden {
+namespace {
+
+constexpr int kCases = 4;
+constexpr double kLevel = 0.05;
+
+struct Place {
+  Kind kind;
+  const Hide* hide;
+};
+
+void PrintTo(const Place& place, std::ostream* out) {
+  *out << place.hide->name << " in " << Name(place.kind);
+}
+
+std::vector<Place> Places() {
+  std::vector<Place> places;
+  for (const Kind kind : KindsCalled("all")) {
+    for (const Hide& hide : Hides()) {
+      if (Shows(hide, kind)) places.push_back({kind, &hide});
+    }
+  }
+  return places;
+}
+
+std::string Told(const Answer& answer) {
+  std::string text = answer.error;
+  for (const Claim& claim : answer.claims) {
+    text += " " + claim.id;
+    for (const std::string& other : claim.equivalents) text += "|" + other;
+    for (const Strength& strength : claim.strengths) {
+      text += " " + strength.symbol + "=" + std::to_string(strength.value) + strength.unit;
+    }
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+// Within its interval widened by half, or within 60 % of the truth.
+bool Sane(const Sized& size, double truth) {
+  const double slack = std::max(0.6 * std::fabs(truth), 0.75 * (size.high - size.low));
+  return std::fabs(size.value - truth) <= slack;
+}
+
+class Seek : public testing::TestWithParam<Place> {};
+
+// All are found; at least three of four are named; what is named has about its size.
+TEST_P(Seek, FindsNamesAndSizesWhatIsHidden) {
+  const auto [kind, hide] = GetParam();
+  int named = 0;
+  for (int i = 0; i < kCases; ++i) {
+    Request request;
+    request.kind = kind;
+    request.hides = {hide};
+    request.seed = SeedOf(2024, i);
+    request.misfit = 12 + 8.0 * i / (kCases - 1);
+    const std::optional<Case> made = MakeCase(request);
+    ASSERT_TRUE(made) << "no device for case " << i;
+    const Answer answer = Ask(made->measurement, i, kLevel, 1);
+    ASSERT_EQ(answer.error, "");
+    const Judgement judgement = Judge(*made, answer);
+    EXPECT_TRUE(judgement.detected) << "case " << i << " strength " << made->causes[0].strength;
+    if (judgement.named) {
+      ++named;
+    } else {
+      std::cout << "case " << i << " said:" << Told(answer) << "\n";
+    }
+    if (const std::optional<Sized> size = SizeOf(made->causes[0], answer)) {
+      EXPECT_TRUE(Sane(*size, made->causes[0].size.value))
+          << "case " << i << " is " << made->causes[0].size.value << made->causes[0].size.unit
+          << ", said:" << Told(answer);
+    }
+  }
+  EXPECT_GE(named, kCases - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hidden, Seek, testing::ValuesIn(Places()), [](const auto& place) {
+  return std::string(Name(place.param.kind)) + "_" + place.param.hide->name;
+});
+
+double AtLeast(int count, int cases, double rate) {  // binomial
+  double term = std::pow(1 - rate, cases), below = 0;
+  for (int k = 0; k < count; ++k) {
+    below += term;
+    term *= (cases - k) * rate / ((k + 1) * (1 - rate));
+  }
+  return 1 - below;
+}
+
+// More alarms than this have a probability below 0.002 where the level is kept.
+TEST(Silence, IsKeptWhereNothingIsHidden) {
+  int cases = 0, alarms = 0;
+  for (const Kind kind : KindsCalled("all")) {
+    for (int i = 0; i < 8; ++i) {
+      const Case made = MakeNull(kind, static_cast<NoiseType>(i % (kNoiseTypes - 1)), 100 + i);
+      const Answer answer = Ask(made.measurement, i, kLevel, 1);
+      ASSERT_EQ(answer.error, "");
+      ++cases;
+      if (Counted(made, answer).empty()) continue;
+      ++alarms;
+      std::cout << Name(kind) << " " << i << " with " << made.absorbed << ":" << Told(answer)
+                << "\n";
+    }
+  }
+  EXPECT_GT(AtLeast(alarms, cases, kLevel), 0.002) << alarms << " alarms in " << cases;
+}
+
+}  // namespace
+}  // namespace hidden

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "hidden/study.h"
+
+namespace hidden {
+namespace {
+
+constexpr std::array<double, 6> kEdges = {3, 5, 7, 10, 15, 25};
+constexpr int kBands = 5;
+
+double NormalBelow(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+// Threshold of a blind search over as many effective directions as the kind of data has.
+double BlindThreshold(Kind kind, double level) {
+  constexpr std::array<double, kKinds> kDirections = {5.7, 6.8, 9.1, 6.0, 6.9, 10.4};
+  const double beyond = level / kDirections[static_cast<int>(kind)];
+  double low = 0, high = 10;
+  while (high - low > 1e-9) {
+    const double middle = (low + high) / 2;
+    (1 - NormalBelow(middle) > beyond ? low : high) = middle;
+  }
+  return low;
+}
+
+struct Band {
+  int cases = 0;
+  int detected = 0;
+  int first_right = 0;
+  int in_set = 0;
+  int named = 0;
+  int set_size = 0;
+  double ideal = 0;
+  double seconds = 0;
+
+  void Add(const Run& run, double threshold) {
+    const Judgement judgement = Judge(run.hidden, run.answer);
+    ++cases;
+    detected += judgement.detected;
+    first_right += judgement.first_right;
+    in_set += judgement.in_set;
+    named += judgement.named;
+    set_size += judgement.set_size;
+    ideal += NormalBelow(run.hidden.causes[0].misfit - threshold);
+    seconds += run.answer.seconds;
+  }
+};
+
+// The last one is for what the base model absorbs: it can only be seen in the values.
+using Bands = std::array<Band, kBands + 1>;
+
+int BandOf(double misfit) {
+  if (misfit < 0.5 * kEdges[0]) return kBands;
+  const auto edge = std::upper_bound(kEdges.begin(), kEdges.end(), misfit);
+  return std::clamp(static_cast<int>(edge - kEdges.begin()) - 1, 0, kBands - 1);
+}
+
+void Print(const char* kind, const char* effect, const Bands& bands, std::FILE* csv) {
+  for (int i = 0; i <= kBands; ++i) {
+    const Band& band = bands[i];
+    if (band.cases == 0) continue;
+    const double from = i < kBands ? kEdges[i] : 0;
+    const double to = i < kBands ? kEdges[i + 1] : 0;
+    const double size = band.detected > 0 ? static_cast<double>(band.set_size) / band.detected : 0;
+    const double ideal = 100 * band.ideal / band.cases;
+    const double seconds = band.seconds / band.cases;
+    std::printf("%-7s %-21s %3.0f-%-3.0f %5d %7.1f %7.1f %7.1f %7.1f %7.1f %5.2f %7.3f\n", kind,
+                effect, from, to, band.cases, ideal, Percent(band.detected, band.cases),
+                Percent(band.first_right, band.cases), Percent(band.in_set, band.cases),
+                Percent(band.named, band.cases), size, seconds);
+    if (csv == nullptr) continue;
+    std::fprintf(csv, "%s,%s,%g,%g,%d,%.2f,%d,%d,%d,%d,%.3f,%.4f\n", kind, effect, from, to,
+                 band.cases, ideal, band.detected, band.first_right, band.in_set, band.named, size,
+                 seconds);
+  }
+}
+
+void Report(Kind kind, const Hide& hide, const std::vector<Run>& runs, Bands* mean,
+            std::FILE* csv) {
+  Bands bands;
+  int missing = 0, failed = 0;
+  std::string error;
+  const double threshold = BlindThreshold(kind, 0.05);
+  for (const Run& run : runs) {
+    missing += !run.made;
+    if (!run.made) continue;
+    if (!run.answer.error.empty()) ++failed, error = run.answer.error;
+    const int band = BandOf(run.hidden.causes[0].misfit);
+    bands[band].Add(run, threshold);
+    if (band < kBands) (*mean)[band].Add(run, threshold);
+  }
+  Print(Name(kind), hide.name, bands, csv);
+  if (missing > 0) std::printf("        %s: no device for %d cases\n", hide.name, missing);
+  if (failed > 0) std::printf("        %s: %d errors: %s\n", hide.name, failed, error.c_str());
+}
+
+void PrintRows(Kind kind, const Hide& hide, const std::vector<Run>& runs, std::FILE* rows) {
+  for (std::size_t i = 0; i < runs.size() && rows != nullptr; ++i) {
+    if (!runs[i].made) continue;
+    const Case& hidden = runs[i].hidden;
+    const Judgement judgement = Judge(hidden, runs[i].answer);
+    std::fprintf(rows, "%s,%s,%zu,%s,%d,%zu,%.3f,%.4g,%d,%d,%d,%.3f,%s\n", Name(kind), hide.name, i,
+                 Name(hidden.noise), hidden.measurement.cells, hidden.measurement.voltage.size(),
+                 hidden.causes[0].misfit, hidden.causes[0].strength, judgement.detected,
+                 judgement.first_right, judgement.named, runs[i].answer.seconds,
+                 Text(runs[i].answer).c_str());
+  }
+}
+
+// Nothing where no file is asked for.
+bool Open(const std::string& path, const char* header, std::FILE** file) {
+  *file = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
+  if (*file != nullptr) std::fputs(header, *file);
+  if (*file == nullptr && !path.empty()) std::perror(path.c_str());
+  return *file != nullptr || path.empty();
+}
+
+}  // namespace
+
+int StudyPower(const StudyOptions& options) {
+  const int cases = options.cases > 0 ? options.cases : 200;
+  std::FILE* csv = nullptr;
+  std::FILE* rows = nullptr;
+  if (!Open(options.csv,
+            "kind,effect,misfit_from,misfit_to,cases,ideal_percent,detected,first_right,in_set,"
+            "named,mean_set_size,seconds\n",
+            &csv) ||
+      !Open(options.rows,
+            "kind,effect,number,noise,cells,readings,misfit,strength,detected,first_right,named,"
+            "seconds,answer\n",
+            &rows)) {
+    return 1;
+  }
+  std::printf("%-7s %-21s %-7s %5s %7s %7s %7s %7s %7s %5s %7s\n", "kind", "effect", "misfit",
+              "cases", "ideal%", "found%", "first%", "inset%", "named%", "size", "s/case");
+  for (const Kind kind : KindsCalled(options.kind)) {
+    Bands mean;
+    for (const Hide* hide : HidesCalled(options.effect, kind)) {
+      const auto runs = RunCases(options, kind, *hide, cases, kEdges[0], kEdges[kBands]);
+      Report(kind, *hide, runs, &mean, csv);
+      PrintRows(kind, *hide, runs, rows);
+    }
+    Print(Name(kind), "all", mean, csv);
+  }
+  if (csv != nullptr) std::fclose(csv);
+  if (rows != nullptr) std::fclose(rows);
+  return 0;
+}
+
+}  // namespace hidden

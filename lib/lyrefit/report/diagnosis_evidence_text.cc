@@ -117,8 +117,9 @@ std::string DiagnosisUntriedSection(const Diagnosis& diagnosis) {
     }
   }
   std::vector<std::string> sentences;
+  sentences.reserve(reasons.size());
   for (const auto& [reason, effects] : reasons) {
-    sentences.push_back(reason.empty() ? effects : effects + ": " + reason);
+    sentences.push_back(reason.empty() ? effects : fmt::format("{}: {}", effects, reason));
   }
   return List("Effects not tried", sentences);
 }

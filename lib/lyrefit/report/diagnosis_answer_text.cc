@@ -32,7 +32,7 @@ std::string SizeText(const CauseParameter& parameter) {
 }
 
 std::string CertaintyText(const Cause& cause, double level) {
-  const std::string p =
+  std::string p =
       fmt::format("corrected p = {}, to be below {:g}", Significant(cause.corrected_p, 2), level);
   if (cause.evidence != "values") return p;
   return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);

@@ -8,6 +8,7 @@ set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 set(LYREFIT_PUBLIC_HEADERS
   lyrefit.h
   base/constants.h
+  base/dual.h
   base/enum_text.h
   base/error.h
   base/file.h
@@ -32,6 +33,11 @@ set(LYREFIT_PUBLIC_HEADERS
   device/solve.h
   device/term.h
   device/translation.h
+  diagnose/diagnose.h
+  diagnose/diagnosis.h
+  effects/catalogue.h
+  effects/effect.h
+  effects/reading.h
   family/coefficients.h
   family/data_sheet.h
   family/family_report.h
@@ -57,6 +63,9 @@ set(LYREFIT_PUBLIC_HEADERS
   report/coverage_text.h
   report/data_sheet_json.h
   report/data_sheet_text.h
+  report/diagnosis_json.h
+  report/diagnosis_plot.h
+  report/diagnosis_text.h
   report/family_csv.h
   report/family_json.h
   report/family_plot.h

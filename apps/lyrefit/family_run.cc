@@ -37,17 +37,9 @@ Expected<CurveSet> ReadSet(const std::string& path) {
 Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
   Expected<CurveSet> set = ReadSet(flags.file);
   if (!set) return set;
-  for (IvCurve& curve : set->curves) {
-    if (auto applied = ApplyConditionFlags(flags.conditions, &curve); !applied) {
-      return tl::unexpected(applied.error());
-    }
-  }
-  IvCurve common;  // carries the sentences that hold for the whole set
-  common.assumptions = set->assumptions;
-  if (auto applied = ApplyConditionFlags(flags.conditions, &common); !applied) {
+  if (auto applied = ApplyConditionFlags(flags.conditions, &*set); !applied) {
     return tl::unexpected(applied.error());
   }
-  set->assumptions = common.assumptions;
   return set;
 }
 

@@ -140,6 +140,17 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) 
   return {};
 }
 
+Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
+  for (IvCurve& curve : set->curves) {
+    if (auto applied = ApplyConditionFlags(flags, &curve); !applied) return applied;
+  }
+  IvCurve common;  // carries the sentences that hold for the whole set
+  common.assumptions = set->assumptions;
+  if (auto applied = ApplyConditionFlags(flags, &common); !applied) return applied;
+  set->assumptions = common.assumptions;
+  return {};
+}
+
 void AddCurveFlags(CLI::App* app, CurveFlags* flags) {
   app->add_option("CURVE", flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
       ->required();

@@ -11,6 +11,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
@@ -99,6 +100,8 @@ void AddConditionFlags(CLI::App* app, ConditionFlags* flags);
 
 // Checks the flags and puts them into `curve`, where they replace what was assumed.
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve);
+// The same for every curve of a set.
+Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set);
 
 // One curve and what is said about it.
 struct CurveFlags {

@@ -12,6 +12,7 @@
 #include "compare_command.h"
 #include "coverage_command.h"
 #include "data_sheet_command.h"
+#include "diagnose_command.h"
 #include "fit_command.h"
 #include "lyrefit/base/version.h"
 #include "output.h"
@@ -28,6 +29,7 @@ constexpr char kFooter[] =
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
     "  lyrefit fit folder_of_curves --family desoto\n"
     "  lyrefit simulate --from fit.json --out curve.csv\n"
+    "  lyrefit diagnose sweep.csv --plot diagnosis.svg\n"
     "  lyrefit compare data/rtc_france --algorithms lo,mlo,de,random\n"
     "\n"
     "lyrefit VERB --help lists every flag of a verb.";
@@ -79,6 +81,7 @@ int Main(int argc, char** argv) {
       MakeVerb<BudgetCommand>(&app),    MakeVerb<SensitivityCommand>(&app),
       MakeVerb<DataSheetCommand>(&app), MakeVerb<AuditCommand>(&app),
       MakeVerb<ReproduceCommand>(&app), MakeVerb<CoverageCommand>(&app),
+      MakeVerb<DiagnoseCommand>(&app),
   };
   try {
     app.parse(argc, argv);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The beginner's door to lyrefit: everything that reading, fitting, simulating, certifying and
-// comparing I-V curves takes.
+// The beginner's door to lyrefit: everything that reading, fitting, simulating, certifying,
+// comparing and diagnosing I-V curves takes.
 //
 //   #include <iostream>
 //   #include "lyrefit/lyrefit.h"
@@ -20,7 +20,8 @@
 // FitFamily fits one device to curves under different irradiance and temperature.
 // Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
 // other, Audit checks published parameters. FitDataSheet finds a device from a data sheet alone,
-// PvlibParameters hands one to pvlib.
+// PvlibParameters hands one to pvlib. Diagnose says what the model gets wrong in a measurement and
+// why.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/curve_set.h"
@@ -29,6 +30,8 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "lyrefit/device/translation.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/family_report.h"
@@ -51,6 +54,9 @@
 #include "lyrefit/report/compare_text.h"
 #include "lyrefit/report/data_sheet_json.h"
 #include "lyrefit/report/data_sheet_text.h"
+#include "lyrefit/report/diagnosis_json.h"
+#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/diagnosis_text.h"
 #include "lyrefit/report/family_csv.h"
 #include "lyrefit/report/family_json.h"
 #include "lyrefit/report/family_plot.h"

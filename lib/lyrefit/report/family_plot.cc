@@ -7,6 +7,7 @@
 #include <map>
 
 #include "lyrefit/device/kernel.h"
+#include "lyrefit/report/data_block.h"
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
@@ -75,35 +76,13 @@ std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf&
   return drawn;
 }
 
-// Rows of gnuplot data; those that hold something not finite are left out.
-class Block {
- public:
-  explicit Block(const std::string& name) : text_("$" + name + " << END_OF_DATA\n") {}
-  void Add(std::initializer_list<double> row) {
-    std::string line;
-    for (const double value : row) {
-      if (!std::isfinite(value)) return;
-      line += fmt::format("{:.9g} ", value);
-    }
-    text_ += line + "\n";
-    ++rows_;
-  }
-  void EndLine() { text_ += "\n"; }
-  std::string Text() const { return text_ + "END_OF_DATA\n"; }
-  bool empty() const { return rows_ == 0; }
-
- private:
-  std::string text_;
-  int rows_ = 0;
-};
-
 struct FamilyData {
-  Block measured{"measured"};
-  Block model{"model"};
-  Block fitted{"fitted"};      // irradiance, RMSE in mA, temperature
-  Block held_out{"held_out"};  // the same
-  Block mean{"mean"};          // of fitted curves: irradiance, mean residual in mA, temperature
-  Block mean_held_out{"mean_held_out"};
+  DataBlock measured{"measured"};
+  DataBlock model{"model"};
+  DataBlock fitted{"fitted"};      // irradiance, RMSE in mA, temperature
+  DataBlock held_out{"held_out"};  // the same
+  DataBlock mean{"mean"};          // of fitted curves: irradiance, mean residual in mA, temperature
+  DataBlock mean_held_out{"mean_held_out"};
   double lowest_V = 0;
   double highest_V = 0;
   double lowest_A = 0;
@@ -144,9 +123,9 @@ FamilyData Collect(const FamilyReport& report, const CurveSet& set) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const RmsePair& rmse = report.estimates.empty() ? curve.free_rmse : curve.rmse;
     const bool held_out = curve.role == CurveRole::kHeldOut;
-    Block* const errors = held_out ? &data.held_out : &data.fitted;
+    DataBlock* const errors = held_out ? &data.held_out : &data.fitted;
     errors->Add({curve.irradiance_W_m2, 1e3 * rmse.solved_current_A, curve.temperature_C});
-    Block* const means = held_out ? &data.mean_held_out : &data.mean;
+    DataBlock* const means = held_out ? &data.mean_held_out : &data.mean;
     means->Add({curve.irradiance_W_m2, 1e3 * curve.mean_residual_A, curve.temperature_C});
     data.coldest_C = std::min(data.coldest_C, curve.temperature_C);
     data.hottest_C = std::max(data.hottest_C, curve.temperature_C);
@@ -165,12 +144,6 @@ std::string ColourBar(const FamilyData& data) {
       one ? data.coldest_C - 1 : data.coldest_C, one ? data.hottest_C + 1 : data.hottest_C);
 }
 
-// What a plot command draws of a block that has rows.
-void Join(const Block& block, const std::string& piece, std::string* command) {
-  if (block.empty()) return;
-  *command += (command->empty() ? "plot " : ", ") + piece;
-}
-
 // Where an axis begins: at 0 if only the scatter of its first points lies below.
 const char* AxisBegin(double lowest, double highest) {
   constexpr double kScatter = 0.02;
@@ -178,17 +151,12 @@ const char* AxisBegin(double lowest, double highest) {
 }
 
 // The points of both blocks: filled those fitted, open those held out, beneath them.
-std::string BothRoles(const Block& held_out, const char* held_out_name, const Block& fitted,
-                      const char* fitted_name, double size) {
-  constexpr char kPoints[] = "${} using 1:2:3 with points pt {} ps {} lc palette notitle";
+std::string BothRoles(const DataBlock& held_out, const DataBlock& fitted, double size) {
+  constexpr char kPoints[] = "using 1:2:3 with points pt {} ps {} lc palette notitle";
   std::string command;
-  Join(held_out, fmt::format(kPoints, held_out_name, 6, size), &command);
-  Join(fitted, fmt::format(kPoints, fitted_name, 7, size), &command);
+  JoinPlot(held_out, fmt::format(kPoints, 6, size), &command);
+  JoinPlot(fitted, fmt::format(kPoints, 7, size), &command);
   return command;
-}
-
-std::string Panel(std::string command) {
-  return command.empty() ? "plot [0:1] [0:1] NaN notitle\n" : std::move(command) + "\n";
 }
 
 std::string Title(const FamilyReport& report) {
@@ -208,14 +176,14 @@ std::string Title(const FamilyReport& report) {
 
 std::string CurvesPanel(const FamilyData& data, double size) {
   std::string curves;
-  Join(data.measured,
-       fmt::format("$measured using 1:2:3 with points pt 6 ps {} lc palette notitle", 0.7 * size),
-       &curves);
-  Join(data.model, "$model using 1:2:3 with lines lw 1.6 lc palette notitle", &curves);
+  JoinPlot(data.measured,
+           fmt::format("using 1:2:3 with points pt 6 ps {} lc palette notitle", 0.7 * size),
+           &curves);
+  JoinPlot(data.model, "using 1:2:3 with lines lw 1.6 lc palette notitle", &curves);
   return fmt::format("set xrange [{}:*]\nset yrange [{}:*]\n",
                      AxisBegin(data.lowest_V, data.highest_V),
                      AxisBegin(data.lowest_A, data.highest_A)) +
-         Panel(curves) + "unset colorbox\nset xrange [*:*]\n";
+         PlotLine(curves) + "unset colorbox\nset xrange [*:*]\n";
 }
 
 std::string Script(const FamilyReport& report, const FamilyData& data,
@@ -231,11 +199,11 @@ std::string Script(const FamilyReport& report, const FamilyData& data,
   script += page.Place(
       1, {"RMSE of each curve (mA, solved-current" + open + ")", "Irradiance (W/m2)", ""});
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, 0\nset yrange [0:*]\n";
-  script += Panel(BothRoles(data.held_out, "held_out", data.fitted, "fitted", 1.2 * size));
+  script += PlotLine(BothRoles(data.held_out, data.fitted, 1.2 * size));
   script += page.Place(2, {"Mean of model - measured (mA" + open + ")", "Irradiance (W/m2)", ""});
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\nset yrange [*:*]\n";
   script += "set xzeroaxis lc rgb '#888888'\n";
-  script += Panel(BothRoles(data.mean_held_out, "mean_held_out", data.mean, "mean", 1.2 * size));
+  script += PlotLine(BothRoles(data.mean_held_out, data.mean, 1.2 * size));
   return script + PanelPage::End();
 }
 

@@ -43,6 +43,18 @@ Json CorrelationsJson(const std::vector<Correlation>& correlations) {
   return list;
 }
 
+Json LargestErrorJson(const ResidualStatistics& r) {
+  return {{"current_A", Number(r.largest_A)}, {"voltage_V", Number(r.largest_at_V)}};
+}
+
+Json ResidualsJson(const ResidualStatistics& r) {
+  return {{"mean_A", Number(r.mean_A)},
+          {"runs", r.runs},
+          {"expected_runs", Number(r.expected_runs)},
+          {"runs_p_value", Number(r.runs_p_value)},
+          {"durbin_watson", Number(r.durbin_watson)}};
+}
+
 Json SearchJson(const SearchOptions& options, const SearchSummary& search) {
   Json trace = Json::array();
   for (const TracePoint& point : search.trace) {

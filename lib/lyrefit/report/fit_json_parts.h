@@ -16,6 +16,8 @@ Json RmsePairJson(const RmsePair& rmse);
 
 Json KeyPointsJson(const KeyPoints& points);
 Json CorrelationsJson(const std::vector<Correlation>& correlations);
+Json LargestErrorJson(const ResidualStatistics& r);
+Json ResidualsJson(const ResidualStatistics& r);  // all but the largest error
 Json SearchJson(const SearchOptions& options, const SearchSummary& search);
 
 }  // namespace lyrefit

@@ -45,14 +45,6 @@ Json FloorJson(const FitReport& report) {
           {"refined_above", Number(floor.above)}};
 }
 
-Json ResidualsJson(const ResidualStatistics& r) {
-  return {{"mean_A", Number(r.mean_A)},
-          {"runs", r.runs},
-          {"expected_runs", Number(r.expected_runs)},
-          {"runs_p_value", Number(r.runs_p_value)},
-          {"durbin_watson", Number(r.durbin_watson)}};
-}
-
 Json RefineJson(const RefineReport& refine) {
   Json starts = Json::array();
   for (const StartReport& start : refine.starts) {
@@ -96,8 +88,7 @@ void AddAnswer(const FitReport& report, Json* json) {
   j["singlediode"] = SingleDiodeJson(report);
   j["rmse"] = RmseJson(report);
   j["floor"] = FloorJson(report);
-  j["largest_error"] = {{"current_A", Number(report.residuals.largest_A)},
-                        {"voltage_V", Number(report.residuals.largest_at_V)}};
+  j["largest_error"] = LargestErrorJson(report.residuals);
   j["key_points"] = {{"measured", KeyPointsJson(report.measured)},
                      {"simulated", KeyPointsJson(report.simulated)}};
 }

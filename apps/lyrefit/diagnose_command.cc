@@ -1,0 +1,219 @@
+#include "diagnose_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "effect_text.h"
+#include "interrupt.h"
+#include "lyrefit/report/diagnosis_json.h"
+#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/diagnosis_text.h"
+#include "lyrefit/report/json_report.h"
+#include "output.h"
+#include "study_flags.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr char kDiagnoseFooter[] =
+    "Examples:\n"
+    "  lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --plot diagnosis.svg\n"
+    "  lyrefit diagnose folder_of_curves --base dd --json diagnosis.json --extend model.json\n"
+    "  lyrefit diagnose roof/*.csv --effects nonohmic_shunt,clip --answers answers.json\n"
+    "  lyrefit diagnose --explain nonohmic_shunt\n"
+    "\n"
+    "A measurement is one sweep, up and down sweeps, a lit and a dark curve, or curves over\n"
+    "irradiance and temperature, in one file or folder. Of several files every one has a line.\n"
+    "\n"
+    "Exit codes: 0 fine, found or not; 1 bad input or options, of several files some could not be\n"
+    "diagnosed; 2 a fit is not usable.";
+
+// As the answers name it: "data/roof/sweep.csv" is "sweep".
+std::string Stem(const std::string& file) {
+  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).stem().string();
+}
+
+}  // namespace
+
+DiagnoseCommand::DiagnoseCommand(CLI::App* app)
+    : command_(app->add_subcommand("diagnose",
+                                   "Say what a diode model gets wrong in a measurement, and why")) {
+  command_->add_option("CURVE", files_, "files or folders, a measurement each");
+  AddConditionFlags(command_, &conditions_);
+  AddDiagnosisFlags();
+  AddCatalogueFlags();
+  AddReportFlags(command_, "diagnosis", "diagnosis", &output_);
+  command_
+      ->add_option("--extend", extend_file_,
+                   "the model with its causes, fitted, as the JSON of fit; - for standard output, "
+                   "alone")
+      ->type_name("FILE")
+      ->group("Output");
+  command_
+      ->add_option("--answers", answers_file_,
+                   "the bare answers by file as JSON, each cause with what it could be too; - for "
+                   "standard output, alone")
+      ->type_name("FILE")
+      ->group("Output");
+  command_->footer(kDiagnoseFooter);
+}
+
+void DiagnoseCommand::AddDiagnosisFlags() {
+  const auto parse_base = [this](const std::string& text) {
+    const std::optional<Model> model = FromText<Model>(text);
+    if (!model || *model == Model::kTripleDiode) {
+      throw CLI::ValidationError("--base", "expected sd or dd, found '" + text + "'");
+    }
+    options_.base = *model;
+  };
+  command_
+      ->add_option_function<std::string>("--base", parse_base,
+                                         "the model that is diagnosed: sd, or dd with n2 = 2 "
+                                         "(default sd)")
+      ->type_name("NAME")
+      ->group("Diagnosis");
+  command_->add_option("--effects", effects_, "those to try (default: all that the data can show)")
+      ->type_name("ID[,ID]")
+      ->group("Diagnosis");
+  AddTableFlags(command_, kDiagnoseOptionRows, "Diagnosis", &options_);
+  command_
+      ->add_flag("--no-held-out", no_held_out_,
+                 "do not measure the gain on readings that were not fitted")
+      ->group("Diagnosis");
+  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)
+      ->group("Diagnosis");
+  command_
+      ->add_option("--threads", options_.threads,
+                   "0: all cores; never changes a result (default 0)")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N")
+      ->group("Diagnosis");
+}
+
+void DiagnoseCommand::AddCatalogueFlags() {
+  command_->add_flag("--list", list_, "list the effects that are known")->group("Catalogue");
+  command_->add_option("--explain", explain_, "say all about one effect")
+      ->type_name("EFFECT")
+      ->group("Catalogue");
+}
+
+Expected<void> DiagnoseCommand::CheckFlags() {
+  if (files_.empty()) return Fail("CURVE is required: a file or folder to diagnose");
+  if (files_.size() > 1 && !(output_.plot_file.empty() && extend_file_.empty())) {
+    return Fail("--plot and --extend are for one CURVE");
+  }
+  options_.held_out = !no_held_out_;
+  options_.extend = !extend_file_.empty();
+  if (!effects_.empty()) {
+    auto ids = ParseList("--effects", effects_);
+    if (!ids) return tl::unexpected(ids.error());
+    options_.effects = std::move(*ids);
+  }
+  if (auto checked = CheckEffects("--effects", options_.effects); !checked) return checked;
+  if (auto checked = CheckNames(); !checked) return checked;
+  return CheckTargets();
+}
+
+// Answers are told apart by their names.
+Expected<void> DiagnoseCommand::CheckNames() const {
+  if (answers_file_.empty()) return {};
+  std::set<std::string> names;
+  for (const std::string& file : files_) {
+    if (!names.insert(Stem(file)).second) {
+      return Fail(fmt::format("--answers: two files are named '{}'", Stem(file)), file);
+    }
+  }
+  return {};
+}
+
+Expected<void> DiagnoseCommand::CheckTargets() const {
+  if ((output_.json_file == "-") + (extend_file_ == "-") + (answers_file_ == "-") > 1) {
+    return Fail("only one of --json, --extend and --answers can have standard output");
+  }
+  for (const std::string& file : {extend_file_, answers_file_}) {
+    if (auto writable = CheckWritable(file); !writable) return writable;
+  }
+  return CheckReportFlags(output_);
+}
+
+Expected<Diagnosis> DiagnoseCommand::DiagnoseFile(const std::string& file) const {
+  Expected<CurveSet> set = ReadMeasurement(file);
+  if (!set) return tl::unexpected(set.error());
+  if (conditions_.irradiance_W_m2 && set->curves.size() > 1) {
+    return Fail(fmt::format("--irradiance-Wm2 is for one curve, this measurement has {}",
+                            set->curves.size()),
+                file);
+  }
+  if (auto applied = ApplyConditionFlags(conditions_, &*set); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  Expected<Diagnosis> diagnosis = Diagnose(*set, options_, TerminalObserver());
+  ClearProgressLine();
+  if (!diagnosis && diagnosis.error().file.empty()) diagnosis.error().file = file;
+  return diagnosis;
+}
+
+Expected<void> DiagnoseCommand::WriteText(const std::vector<Diagnosis>& diagnoses) const {
+  std::string text;
+  for (const Diagnosis& diagnosis : diagnoses) {
+    const bool brief = output_.brief || files_.size() > 1;
+    text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis);
+  }
+  return WriteOutput("-", text);
+}
+
+Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
+                                      const std::vector<Diagnosis>& diagnoses) const {
+  if (diagnoses.empty()) return {};
+  const Diagnosis& first = diagnoses.front();
+  if (!output_.json_file.empty()) {
+    const std::string json = files_.size() > 1 ? DiagnosisJson(diagnoses) : DiagnosisJson(first);
+    if (auto written = WriteOutput(output_.json_file, json); !written) return written;
+  }
+  if (!extend_file_.empty()) {
+    auto written = WriteOutput(extend_file_, JsonReport(first.extended));
+    if (!written) return written;
+  }
+  if (!answers_file_.empty()) {
+    auto written = WriteOutput(answers_file_, AnswersJson(names, diagnoses));
+    if (!written) return written;
+  }
+  if (!output_.plot_file.empty()) {
+    if (auto drawn = PlotDiagnosis(first, output_.plot_file); !drawn) return drawn;
+  }
+  const bool piped = extend_file_ == "-" || answers_file_ == "-";
+  return output_.text() && !piped ? WriteText(diagnoses) : Expected<void>();
+}
+
+int DiagnoseCommand::Run() {
+  if (list_ || !explain_.empty()) {
+    const Expected<std::string> text = list_ ? EffectList() : ExplainEffect(explain_);
+    if (!text) return Refuse(text.error());
+    const auto written = WriteOutput("-", *text);
+    return written ? kExitFine : Refuse(written.error());
+  }
+  if (auto checked = CheckFlags(); !checked) return Refuse(checked.error());
+  const InterruptGuard guard;
+  std::vector<std::string> names;
+  std::vector<Diagnosis> diagnoses;
+  int exit_code = kExitFine;
+  for (const std::string& file : files_) {
+    Expected<Diagnosis> diagnosis = DiagnoseFile(file);
+    if (!diagnosis) {
+      exit_code = Refuse(diagnosis.error());
+      continue;
+    }
+    if (!diagnosis->extended.usable && exit_code == kExitFine) exit_code = kExitNotUsable;
+    names.push_back(Stem(file));
+    diagnoses.push_back(std::move(*diagnosis));
+    if (diagnoses.back().interrupted) break;
+  }
+  if (auto written = Write(names, diagnoses); !written) return Refuse(written.error());
+  return exit_code;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "flags.h"
+#include "lyrefit/diagnose/diagnose.h"
+
+namespace lyrefit {
+
+// `lyrefit diagnose`: says what the base model gets wrong in a measurement, and why.
+class DiagnoseCommand {
+ public:
+  explicit DiagnoseCommand(CLI::App* app);
+  bool Chosen() const { return command_->parsed(); }
+  int Run();
+
+ private:
+  void AddDiagnosisFlags();
+  void AddCatalogueFlags();
+  Expected<void> CheckFlags();
+  Expected<void> CheckTargets() const;
+  Expected<void> CheckNames() const;
+  Expected<Diagnosis> DiagnoseFile(const std::string& file) const;
+  Expected<void> Write(const std::vector<std::string>& names,
+                       const std::vector<Diagnosis>& diagnoses) const;
+  Expected<void> WriteText(const std::vector<Diagnosis>& diagnoses) const;
+
+  CLI::App* command_;
+  DiagnoseOptions options_;
+  std::vector<std::string> files_;
+  ConditionFlags conditions_;
+  std::string effects_;
+  bool no_held_out_ = false;
+  std::string extend_file_;
+  std::string answers_file_;
+  std::string explain_;
+  bool list_ = false;
+  ReportFlags output_;
+};
+
+}  // namespace lyrefit

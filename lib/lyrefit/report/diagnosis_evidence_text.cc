@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "lyrefit/report/diagnosis_sections.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+std::string NoiseText(const Evidence& evidence) {
+  std::string text = fmt::format("{} A and {} % of the current (one standard deviation)",
+                                 Significant(evidence.noise_constant_A, 3),
+                                 Significant(100 * evidence.noise_relative, 3));
+  if (evidence.noise_dark_A > 0) {
+    text += fmt::format("; in the dark {} A", Significant(evidence.noise_dark_A, 3));
+  }
+  return text + fmt::format("; autocorrelation {}", Significant(evidence.autocorrelation, 2));
+}
+
+std::string ResidualText(const ResidualStatistics& r) {
+  return fmt::format("largest {} A at {} V; {} of one sign, {} expected (p = {}); Durbin-Watson {}",
+                     Significant(r.largest_A, 3), Significant(r.largest_at_V, 4),
+                     Plural(r.runs, "run"), Significant(r.expected_runs, 3),
+                     Significant(r.runs_p_value, 2), Significant(r.durbin_watson, 3));
+}
+
+std::string WhitenessText(const Diagnosis& diagnosis) {
+  const Evidence& evidence = diagnosis.evidence;
+  std::string text = fmt::format("p = {} of pure noise with the base model",
+                                 Significant(evidence.whiteness_p_value, 2));
+  if (diagnosis.verdict.found) {
+    text += fmt::format(", {} with the causes", Significant(evidence.whiteness_after_p_value, 2));
+  }
+  return text;
+}
+
+// "current 0.00100 A, voltage 0.0100 V"
+std::string GridText(const Evidence& evidence) {
+  std::string text;
+  if (evidence.grid_step_A > 0) {
+    text += fmt::format("current {} A", Significant(evidence.grid_step_A, 3));
+  }
+  if (evidence.grid_step_V > 0) {
+    text += fmt::format("{}voltage {} V", text.empty() ? "" : ", ",
+                        Significant(evidence.grid_step_V, 3));
+  }
+  return text;
+}
+
+bool IsCause(const Diagnosis& diagnosis, const std::string& id) {
+  const std::vector<Cause>& causes = diagnosis.verdict.causes;
+  return std::any_of(causes.begin(), causes.end(),
+                     [&id](const Cause& cause) { return cause.id == id; });
+}
+
+std::vector<std::string> TrialRow(const Diagnosis& diagnosis, const Trial& trial) {
+  return {trial.effect + (IsCause(diagnosis, trial.effect) ? " <-" : ""),
+          Scientific(trial.rmse_A, 3),
+          Significant(trial.misfit, 3),
+          Significant(trial.p_value, 2),
+          Significant(trial.corrected_p, 2),
+          Significant(trial.delta_aicc, 3),
+          Scientific(trial.held_out_rmse_A, 3),
+          Significant(trial.kept, 2)};
+}
+
+}  // namespace
+
+std::string DiagnosisEvidenceSection(const Diagnosis& diagnosis) {
+  const Evidence& evidence = diagnosis.evidence;
+  std::string text = "What the readings show\n" + Field("noise", NoiseText(evidence));
+  text += Field("misfit", fmt::format("the base model's residuals are {} times the noise",
+                                      Significant(evidence.misfit_ratio, 3)));
+  text += Field("residuals", ResidualText(evidence.residuals));
+  text += Field("whiteness", WhitenessText(diagnosis));
+  const std::string grid = GridText(evidence);
+  if (!grid.empty()) text += Field("grid", grid);
+  if (evidence.clipped_points > 0) {
+    text += Field("clipped", fmt::format("{} at {} A", Plural(evidence.clipped_points, "point"),
+                                         Significant(evidence.clip_level_A, 5)));
+  }
+  for (const Finding& finding : evidence.findings) text += Wrap("  - ", finding.sentence);
+  return text;
+}
+
+std::string DiagnosisTrialSection(const Diagnosis& diagnosis) {
+  TextTable table("lrrrrrrr");
+  table.Add({"effect", "RMSE (A)", "misfit", "p", "corrected p", "dAICc", "held out (A)", "kept"});
+  bool any = false;
+  for (const Trial& trial : diagnosis.trials) {
+    if (!trial.tried) continue;
+    table.Add(TrialRow(diagnosis, trial));
+    any = true;
+  }
+  if (!any) return "";
+  return "Effects tried, one at a time (RMSE solved-current)\n" + table.Text() +
+         Wrap("  ",
+              "<-: named as a cause. Misfit: what the effect takes away, in units of the noise. "
+              "Corrected p: the whole catalogue counted. dAICc: with the effect minus without. "
+              "Kept: the part of its signature that the base model cannot absorb.");
+}
+
+std::string DiagnosisUntriedSection(const Diagnosis& diagnosis) {
+  std::vector<std::pair<std::string, std::string>> reasons;  // and the effects they hold for
+  for (const Trial& trial : diagnosis.trials) {
+    if (trial.tried) continue;
+    const auto same = std::find_if(reasons.begin(), reasons.end(), [&trial](const auto& one) {
+      return one.first == trial.why_not;
+    });
+    if (same == reasons.end()) {
+      reasons.emplace_back(trial.why_not, trial.effect);
+    } else {
+      same->second += ", " + trial.effect;
+    }
+  }
+  std::vector<std::string> sentences;
+  sentences.reserve(reasons.size());
+  for (const auto& [reason, effects] : reasons) {
+    sentences.push_back(reason.empty() ? effects : fmt::format("{}: {}", effects, reason));
+  }
+  return List("Effects not tried", sentences);
+}
+
+std::string DiagnosisLimitSection(const Diagnosis& diagnosis) {
+  std::vector<std::string> sentences;
+  for (const CannotBeExcluded& cause : diagnosis.verdict.cannot_be_excluded) {
+    std::string text =
+        fmt::format("{} (biases {}): {}", cause.id, cause.biases, FullSentence(cause.sentence));
+    if (!cause.separate_by.empty()) text += " To tell: " + FullSentence(cause.separate_by);
+    sentences.push_back(std::move(text));
+  }
+  return List("What these data cannot exclude", sentences);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,114 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
+// Little to do where the answer does not matter.
+const std::string kQuick = "--effects nonohmic_shunt --draws 200 --no-held-out ";
+
+TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
+  const struct {
+    std::string arguments;
+    std::string complaint;
+  } cases[] = {
+      {"diagnose", "CURVE is required"},
+      {"diagnose no_such_file.csv", "no_such_file.csv: the file does not exist"},
+      {kVerb + "--level 7", "--level: 7 is outside ["},
+      {kVerb + "--base td", "--base: expected sd or dd, found 'td'"},
+      {kVerb + "--effects nonsense", "--effects: expected one of "},
+      {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
+      {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
+      {kVerb + "--json - --answers -", "only one of --json, --extend and --answers"},
+      {kVerb + "--json no_such_folder/x.json", "cannot write"},
+      {kVerb + "--plot x.pdf", ".svg or .png"},
+      {kVerb + "other.csv --plot x.svg", "--plot and --extend are for one CURVE"},
+      {kVerb + "elsewhere/rtc_france.csv --answers x.json", "two files are named 'rtc_france'"},
+      {"diagnose --explain nonsense", "--explain: expected one of "},
+  };
+  for (const auto& one : cases) {
+    const AppResult result = RunApp(one.arguments);
+    EXPECT_EQ(result.exit_code, 1) << one.arguments;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, StartsWith("lyrefit: "));
+    EXPECT_THAT(result.err, HasSubstr(one.complaint));
+  }
+}
+
+TEST(DiagnoseVerb, ListsTheEffectsWhereOneIsUnknown) {
+  const AppResult result = RunApp(kVerb + "--effects nonsense");
+  EXPECT_THAT(result.err, HasSubstr("nonohmic_shunt, "));
+  EXPECT_THAT(result.err, HasSubstr("found 'nonsense'"));
+}
+
+TEST(DiagnoseVerb, ExplainsAnEffect) {
+  const AppResult result = RunApp("diagnose --explain nonohmic_shunt");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("non-ohmic shunt (nonohmic_shunt)\n"));
+  for (const char* part :
+       {"equation", "reference", "data needed", "confused with", "to tell", "bounds"}) {
+    EXPECT_THAT(result.out, HasSubstr(part));
+  }
+}
+
+TEST(DiagnoseVerb, ListsTheCatalogue) {
+  const AppResult result = RunApp("diagnose --list");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("nonohmic_shunt"));
+  EXPECT_THAT(result.out, HasSubstr("device"));
+}
+
+TEST(DiagnoseVerb, PrintsTheDiagnosis) {
+  const AppResult result = RunApp(kVerb + kQuick);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("diagnosis of rtc_france"));
+  EXPECT_THAT(result.out, HasSubstr("Verdict\n"));
+}
+
+TEST(DiagnoseVerb, WritesEveryFileItIsAskedFor) {
+  const TempFolder folder;
+  const AppResult result =
+      RunApp(kVerb + kQuick + "--quiet --json '" + folder.Path("d.json") + "' --extend '" +
+             folder.Path("e.json") + "' --answers '" + folder.Path("a.json") + "' --plot '" +
+             folder.Path("d.svg") + "'");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(json::parse(FileText(folder.Path("d.json"))).contains("verdict"));
+  EXPECT_TRUE(json::parse(FileText(folder.Path("e.json"))).contains("parameters"));
+  EXPECT_TRUE(json::parse(FileText(folder.Path("a.json"))).contains("rtc_france"));
+  EXPECT_THAT(FileText(folder.Path("d.svg")), HasSubstr("</svg>"));
+}
+
+// Of several files each has its line or its complaint.
+TEST(DiagnoseVerb, GoesOnBehindAFileThatCannotBeRead) {
+  const std::string files = "diagnose no_such_file.csv '" + DataFolder("rtc_france") + "' ";
+  const AppResult text = RunApp(files + kQuick);
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_THAT(text.err, HasSubstr("no_such_file.csv"));
+  EXPECT_THAT(text.out, StartsWith("rtc_france: "));
+  const json j = json::parse(RunApp(files + kQuick + "--json -").out, nullptr, false);
+  ASSERT_TRUE(j.is_array());
+  EXPECT_EQ(j.size(), 1U);
+}
+
+TEST(DiagnoseVerb, RepeatsItself) {
+  const std::string verb = kVerb + kQuick + "--seed 3 --json - ";
+  json one = json::parse(RunApp(verb + "--threads 1").out, nullptr, false);
+  json two = json::parse(RunApp(verb + "--threads 2").out, nullptr, false);
+  ASSERT_TRUE(one.is_object());
+  RemoveSeconds(&one);
+  RemoveSeconds(&two);
+  EXPECT_EQ(one, two);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,97 @@
+#include "lyrefit/report/diagnosis_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sample_diagnosis.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using Set = std::set<std::string>;
+
+Set Keys(const json& j) {
+  Set keys;
+  for (const auto& [key, value] : j.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
+  const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
+  EXPECT_EQ(Keys(j),
+            (Set{"lyrefit_version", "name", "source", "base", "base_sentence", "objective", "seed",
+                 "level", "verdict", "gain", "evidence", "trials", "non_default_options",
+                 "warnings", "interrupted", "usable", "seconds", "curves", "points"}));
+  EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "sentence", "causes", "cannot_be_excluded"}));
+  EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
+            (Set{"id", "title", "sentence", "equivalents", "separate_by", "strength", "interval",
+                 "units", "at_bound", "corrected_p", "evidence", "acts", "points"}));
+  EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
+            (Set{"id", "biases", "sentence", "separate_by"}));
+  EXPECT_EQ(Keys(j["trials"][0]),
+            (Set{"effect", "title", "tried", "why_not", "rmse_A", "misfit", "p_value",
+                 "corrected_p", "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
+  EXPECT_EQ(Keys(j["gain"]), (Set{"rmse_before_A", "rmse_after_A", "held_out_before_A",
+                                  "held_out_after_A", "held_out_gain_A2", "held_out_gain_error_A2",
+                                  "folds", "gain", "sentence", "parameter_shift"}));
+  EXPECT_EQ(Keys(j["evidence"]),
+            (Set{"kind", "noise", "misfit_ratio", "autocorrelation", "grid_step_A", "grid_step_V",
+                 "clipped_points", "clip_level_A", "largest_error", "residuals",
+                 "whiteness_p_value", "whiteness_after_p_value", "findings"}));
+  EXPECT_EQ(Keys(j["points"]), (Set{"curve", "segment", "voltage_V", "current_A", "sigma_A",
+                                    "before_A", "after_A", "time_s"}));
+}
+
+TEST(DiagnosisJson, TellsTheCauseWithItsInterval) {
+  const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
+  EXPECT_EQ(j["objective"], "solved-current");
+  EXPECT_EQ(j["verdict"]["found"], true);
+  const json& cause = j["verdict"]["causes"][0];
+  EXPECT_EQ(cause["id"], "irradiance_step");
+  EXPECT_EQ(cause["equivalents"], json({"irradiance_drift"}));
+  EXPECT_EQ(cause["strength"], json({{"d", -0.019}, {"V1", 12.1}}));
+  EXPECT_EQ(cause["interval"]["d"], json({-0.0212, -0.0168}));
+  EXPECT_EQ(cause["units"]["V1"], "V");
+  EXPECT_EQ(cause["at_bound"]["V1"], true);
+  EXPECT_EQ(j["gain"]["parameter_shift"]["Rs"]["before"], 0.262);
+  EXPECT_EQ(j["points"]["voltage_V"].size(), 60U);
+  EXPECT_EQ(j["trials"][0]["parameters"]["k"]["unit"], "A/V");
+}
+
+TEST(DiagnosisJson, WritesNullForWhatIsNotKnown) {
+  const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
+  EXPECT_TRUE(j["points"]["time_s"][0].is_null());
+  EXPECT_TRUE(j["gain"]["parameter_shift"]["Pmax"]["standard_error"].is_null());
+  const json& untried = j["trials"][3];
+  EXPECT_EQ(untried["tried"], false);
+  EXPECT_EQ(untried["why_not"], "needs sweeps in both directions");
+  EXPECT_TRUE(untried["rmse_A"].is_null());
+  EXPECT_TRUE(untried["parameters"].is_object());
+  EXPECT_TRUE(j["trials"][0]["why_not"].is_null());
+}
+
+TEST(DiagnosisJson, TakesNamesThatAreNotUtf8) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  diagnosis.name = "caf\xe9";
+  EXPECT_TRUE(json::accept(DiagnosisJson(diagnosis)));
+}
+
+TEST(DiagnosisJson, WritesSeveralAsAnArray) {
+  const json j = json::parse(DiagnosisJson({SampleDiagnosis(), SampleUpDown()}));
+  ASSERT_EQ(j.size(), 2U);
+  EXPECT_EQ(j[1]["name"], "up_down");
+}
+
+TEST(AnswersJson, ListsEachCauseWithItsEquivalents) {
+  const json j = json::parse(
+      AnswersJson({"a", "b", "c"}, {SampleDiagnosis(), SampleLitAndDark(), SampleUpDown()}));
+  EXPECT_EQ(j["a"], json::parse(R"([["irradiance_step", "irradiance_drift"]])"));
+  EXPECT_EQ(j["b"], json::array());
+  EXPECT_EQ(j["c"].size(), 2U);
+}
+
+}  // namespace
+}  // namespace lyrefit

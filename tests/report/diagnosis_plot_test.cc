@@ -1,0 +1,81 @@
+#include "lyrefit/report/diagnosis_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "../temp_folder.h"
+#include "sample_diagnosis.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string Svg(const Diagnosis& diagnosis, const std::string& path) {
+  const auto drawn = PlotDiagnosis(diagnosis, path);
+  EXPECT_TRUE(drawn) << drawn.error().ToString();
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(PlotDiagnosis, WritesAnSvgWithItsLabels) {
+  const TempFolder folder;
+  const std::string svg = Svg(SampleDiagnosis(), folder.Path("diagnosis.svg"));
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+  EXPECT_THAT(svg, HasSubstr("sample_module: solved-current RMSE 1.31e-02 A, with the causes"));
+  EXPECT_THAT(svg, HasSubstr("Residuals of the sd model"));
+  EXPECT_THAT(svg, HasSubstr("Residuals with the causes"));
+  EXPECT_THAT(svg, HasSubstr(">step of the irradiance<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">down<")));
+}
+
+TEST(PlotDiagnosis, TellsUpFromDown) {
+  const TempFolder folder;
+  const std::string svg = Svg(SampleUpDown(), folder.Path("diagnosis.svg"));
+  EXPECT_THAT(svg, HasSubstr(">up<"));
+  EXPECT_THAT(svg, HasSubstr(">down<"));
+  EXPECT_THAT(svg, HasSubstr(">capacitance of the junction<"));
+  EXPECT_THAT(svg, HasSubstr(">non-ohmic shunt<"));
+}
+
+TEST(PlotDiagnosis, NamesTheCurvesOfAFamily) {
+  const TempFolder folder;
+  Diagnosis diagnosis = SampleDiagnosisOfFamily(5);
+  EXPECT_THAT(Svg(diagnosis, folder.Path("family.svg")), HasSubstr(">sweep-4<"));
+  AddSampleSweep(
+      {"both", 500, 25, false, true}, [](int, double, bool) { return 0.0; }, &diagnosis);
+  EXPECT_THAT(Svg(diagnosis, folder.Path("both.svg")), HasSubstr("(triangles: down)"));
+}
+
+TEST(PlotDiagnosis, DrawsNoModelWithCausesWhereNoneWasFound) {
+  const TempFolder folder;
+  const std::string svg = Svg(SampleLitAndDark(), folder.Path("diagnosis.svg"));
+  EXPECT_THAT(svg, HasSubstr(">dark<"));
+  EXPECT_THAT(svg, Not(HasSubstr("with the causes")));
+}
+
+// No noise, no points: a picture nevertheless.
+TEST(PlotDiagnosis, LeavesOutWhatIsNotKnown) {
+  const TempFolder folder;
+  Diagnosis diagnosis = SampleDiagnosis();
+  for (DiagnosedPoint& point : diagnosis.points) point.sigma_A = 0;
+  EXPECT_THAT(Svg(diagnosis, folder.Path("milliampere.svg")), HasSubstr("measured (mA)"));
+  for (DiagnosedPoint& point : diagnosis.points) point.before_A = point.after_A = kUnknown;
+  EXPECT_THAT(Svg(diagnosis, folder.Path("no_model.svg")), HasSubstr("</svg>"));
+  diagnosis.points.clear();
+  EXPECT_THAT(Svg(diagnosis, folder.Path("empty.svg")), HasSubstr("</svg>"));
+}
+
+TEST(PlotDiagnosis, RefusesOtherExtensions) {
+  const TempFolder folder;
+  const auto drawn = PlotDiagnosis(SampleDiagnosis(), folder.Path("diagnosis.pdf"));
+  ASSERT_FALSE(drawn);
+  EXPECT_THAT(drawn.error().ToString(), HasSubstr(".svg or .png"));
+}
+
+}  // namespace
+}  // namespace lyrefit

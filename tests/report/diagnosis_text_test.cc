@@ -1,0 +1,115 @@
+#include "lyrefit/report/diagnosis_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "lyrefit/report/text_layout.h"
+#include "sample_diagnosis.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(DiagnosisText, TellsTheVerdictBeforeItsEvidence) {
+  const std::string text = DiagnosisText(SampleDiagnosis());
+  EXPECT_THAT(text, StartsWith("lyrefit 1.2.3: diagnosis of sample_module\n"));
+  const std::size_t verdict = text.find("The light stepped down by 1.9 %");
+  const std::size_t cause = text.find("Cause 1 of 1: step of the irradiance (irradiance_step)");
+  const std::size_t evidence = text.find("What the readings show");
+  const std::size_t trials = text.find("Effects tried");
+  ASSERT_NE(trials, std::string::npos);
+  EXPECT_LT(verdict, cause);
+  EXPECT_LT(cause, evidence);
+  EXPECT_LT(evidence, trials);
+}
+
+TEST(DiagnosisText, GivesEachCauseItsSizeAndWhatElseItCouldBe) {
+  const std::string text = DiagnosisText(SampleDiagnosis());
+  EXPECT_THAT(text, HasSubstr("relative step d = -0.0190, 95 %: -0.0212 .. -0.0168"));
+  EXPECT_THAT(text, HasSubstr("from V1 = 12.1 V, 95 %: 11.80 .. 12.40 V, at its bound"));
+  EXPECT_THAT(text, HasSubstr("corrected p = 2.0e-07"));
+  EXPECT_THAT(text, HasSubstr("or else       drift of the irradiance (irradiance_drift)"));
+  EXPECT_THAT(text, HasSubstr("to tell       a reference cell read with every point"));
+}
+
+TEST(DiagnosisText, ShowsTheGainAndWhatMoved) {
+  const std::string text = DiagnosisText(SampleDiagnosis());
+  EXPECT_THAT(text, HasSubstr("RMSE in A, solved-current"));
+  EXPECT_THAT(text, HasSubstr("held out in 10 parts        1.520e-02    2.400e-03"));
+  EXPECT_THAT(text, HasSubstr("error falls by 84 %"));
+  EXPECT_THAT(text, HasSubstr("Rsh (ohm)"));
+  EXPECT_THAT(text, HasSubstr("-32.86 %"));
+}
+
+TEST(DiagnosisText, ShowsTrialsAndWhyOthersWereNot) {
+  const std::string text = DiagnosisText(SampleDiagnosis());
+  EXPECT_THAT(text, HasSubstr("irradiance_step <-  2.10e-03"));
+  EXPECT_THAT(text, HasSubstr("- capacitance, instrument_lag: needs sweeps in both directions\n"));
+  EXPECT_THAT(text, HasSubstr("lead_resistance (biases Rs)"));
+  EXPECT_THAT(text, HasSubstr("currents lie on a grid"));
+  EXPECT_THAT(text, HasSubstr("seed = 7 (default 1)"));
+}
+
+TEST(DiagnosisText, NamesNoCauseWhereThereIsNone) {
+  const std::string text = DiagnosisText(SampleLitAndDark());
+  EXPECT_THAT(text, HasSubstr("Something is there, but none of the known causes fits.\n"));
+  EXPECT_THAT(text, HasSubstr("No gain.\n"));
+  EXPECT_THAT(text, HasSubstr("1 dark curve"));
+  EXPECT_THAT(text, HasSubstr("in the dark 0.000200\n"));
+  EXPECT_THAT(text, Not(HasSubstr("Cause ")));
+  EXPECT_THAT(text, Not(HasSubstr("<-  ")));
+  EXPECT_THAT(text, Not(HasSubstr("What a fit that ignores")));
+}
+
+// What was seen in the values has no fit behind it.
+TEST(DiagnosisText, TakesCausesSeenInTheValues) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  Cause& cause = diagnosis.verdict.causes[0];
+  cause.evidence = "values";
+  cause.corrected_p = kUnknown;
+  cause.strength.clear();
+  diagnosis.evidence.clipped_points = 3;
+  diagnosis.evidence.clip_level_A = 5.02;
+  const std::string text = DiagnosisText(diagnosis);
+  EXPECT_THAT(text, HasSubstr("certainty     seen in the values themselves\n"));
+  EXPECT_THAT(text, HasSubstr("clipped       3 points at 5.0200 A"));
+}
+
+TEST(DiagnosisText, SaysWhatIsUnfinishedOrWorthless) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  diagnosis.interrupted = true;
+  diagnosis.extended.usable = false;
+  diagnosis.warnings = {"the noise was guessed"};
+  const std::string text = DiagnosisText(diagnosis);
+  EXPECT_THAT(text, StartsWith("INTERRUPTED"));
+  EXPECT_THAT(text, HasSubstr("NOT USABLE"));
+  EXPECT_THAT(text, HasSubstr("Warnings\n  - the noise was guessed"));
+  EXPECT_THAT(BriefDiagnosis(diagnosis), HasSubstr("INTERRUPTED, NOT USABLE, 1 warning"));
+}
+
+TEST(DiagnosisText, FitsATerminalOf100Columns) {
+  for (const Diagnosis& diagnosis :
+       {SampleDiagnosis(), SampleUpDown(), SampleDiagnosisOfFamily(5), SampleLitAndDark()}) {
+    std::istringstream lines(DiagnosisText(diagnosis));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth)) << line;
+    }
+  }
+}
+
+TEST(BriefDiagnosis, IsOneLine) {
+  EXPECT_EQ(BriefDiagnosis(SampleDiagnosis()),
+            "sample_module: irradiance_step d -0.0190 (corrected p 2.0e-07) or irradiance_drift; "
+            "RMSE 1.310e-02 -> 2.100e-03 A solved-current\n");
+  EXPECT_EQ(BriefDiagnosis(SampleLitAndDark()),
+            "lit_and_dark: Something is there, but none of the known causes fits. RMSE 1.310e-02 A "
+            "solved-current\n");
+}
+
+}  // namespace
+}  // namespace lyrefit

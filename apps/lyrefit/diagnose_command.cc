@@ -84,8 +84,6 @@ void DiagnoseCommand::AddDiagnosisFlags() {
       ->add_flag("--no-held-out", no_held_out_,
                  "do not measure the gain on readings that were not fitted")
       ->group("Diagnosis");
-  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)
-      ->group("Diagnosis");
   command_
       ->add_option("--threads", options_.threads,
                    "0: all cores; never changes a result (default 0)")

@@ -23,10 +23,18 @@ struct DiagnoseOptions {
   int folds = 10;
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;
-  ConstantSet constants = ConstantSet::kCodata;
 };
 
-extern const OptionRow<DiagnoseOptions> kDiagnoseOptionRows[5];
+inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
+    {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
+     0.5},
+    {"seed", "", "seed of the simulated nulls and of the search", &DiagnoseOptions::seed, 0,
+     1.8446744073709552e19},
+    {"draws", "", "simulated nulls that set the level", &DiagnoseOptions::draws, 200, 1e6},
+    {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
+    {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,
+     100},
+};
 
 // What the base model gets wrong in these data, why, and what allowing for it gains. The set holds
 // one curve (one sweep, or up and down), a lit and a dark curve (irradiance 0), or a family over

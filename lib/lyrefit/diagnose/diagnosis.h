@@ -105,6 +105,7 @@ struct CannotBeExcluded {
 
 struct Verdict {
   bool found = false;
+  bool unexplained = false;  // something is there that no known cause fits
   std::vector<Cause> causes;  // the most certain first
   std::vector<CannotBeExcluded> cannot_be_excluded;
   std::string sentence;
@@ -141,14 +142,19 @@ struct Diagnosis {
   std::string base_sentence;  // what the base model assumes
   std::uint64_t seed = 0;
   double level = 0.05;
+  int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;
   std::vector<DiagnosedPoint> points;
   Evidence evidence;
   std::vector<Trial> trials;  // in the order of the catalogue
   Verdict verdict;
   Gain gain;
-  FitReport extended;  // the extended model's fit; the base model's where nothing was found
+  // The extended model (the base model where nothing was found) as a fit like any other. With
+  // DiagnoseOptions::extend it is searched and polished; without, only `device`, `estimates` and
+  // `usable` are filled.
+  FitReport extended;
   std::vector<OptionEcho> non_default_options;
+  std::vector<std::string> assumptions;  // what the reader of the files had to assume
   std::vector<std::string> warnings;
   double seconds = 0;
   bool interrupted = false;

@@ -63,9 +63,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) 
     const Probe& probe = probes[direction.probe];
     std::vector<double> start = fit.p;
     for (const double value : Scaled(effect, probe, direction)) start.push_back(value);
-    if (getenv("DBG")) { fprintf(stderr,"%s",effect.id); for(double x: start) fprintf(stderr," %g",x); }
     LawFit end = FitLaw(bench, law, start);
-    if (getenv("DBG")) { fprintf(stderr," ->"); for(double x: end.p) fprintf(stderr," %g",x);  fprintf(stderr," sum %g %ld\n",end.sum,clock()/1000);}
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   return best;

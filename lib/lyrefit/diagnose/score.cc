@@ -143,9 +143,9 @@ Candidate Prepare(const Workbench& bench, const LawFit& fit, const Linearized& l
   return candidate;
 }
 
-double Statistic(double score, double sum, int degrees) {
+double Statistic(double score, double sum, int degrees, double least_variance) {
   const double rest = std::max(sum - score * score, 1e-12 * sum);
-  return score * score / (rest / (degrees - 1));
+  return score * score / std::max(rest / (degrees - 1), least_variance);
 }
 
 // The largest statistic of each candidate in each simulated null.
@@ -177,7 +177,7 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
                                        : along.colwise().maxCoeff().cwiseMax(0.0).eval();
       }
       for (int d = 0; d < lot; ++d) {
-        largest(first + d, static_cast<int>(c)) = Statistic(best[d], sums[d], degrees);
+        largest(first + d, static_cast<int>(c)) = Statistic(best[d], sums[d], degrees, bench.least_variance);
       }
     }
   }
@@ -227,6 +227,7 @@ void CountTheList(const Eigen::MatrixXd& nulls, int degrees, std::vector<Candida
     Score& score = candidate.score;
     if (!score.testable) continue;
     const double p = score.p_value;
+    score.catalogue = std::max(1.0, kTail / smallest[edge]);
     if (p < smallest[edge]) {
       score.corrected_p = kTail * p / smallest[edge];
     } else {
@@ -260,6 +261,11 @@ Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, cons
 
 }  // namespace
 
+double CorrectedP(const Score& score, double statistic, int degrees) {
+  return std::min(
+      1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees));
+}
+
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
                           const Probe& probe) {
   Law law = fit.law;
@@ -292,7 +298,7 @@ std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
     if (!candidate.score.testable) continue;
     const double best = candidate.score.directions.front().score;
     const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
-    candidate.score.statistic = Statistic(size, sum, degrees);
+    candidate.score.statistic = Statistic(size, sum, degrees, bench.least_variance);
   }
   if (degrees >= 3) {
     CountTheList(SimulateNulls(bench, linear, prepared, degrees, draws, seed), degrees, &prepared);

@@ -27,6 +27,7 @@ struct Score {
   double p_value = 1;      // all its directions counted, by simulated nulls
   double corrected_p = 1;  // the whole catalogue counted
   double charge = 0;       // 2 ln of its effective number of directions
+  double catalogue = 1;    // how many such effects the whole list is worth
   double kept = 0;         // of its best kept direction
   int outlier = -1;        // of `outliers`: the reading
 };
@@ -38,6 +39,9 @@ struct Score {
 std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
                                 const std::vector<const Effect*>& candidates, int draws,
                                 std::uint64_t seed);
+
+// p-value of a statistic that an effect reached in a fit, its directions and the list counted.
+double CorrectedP(const Score& score, double statistic, int degrees);
 
 // What an effect's probe does to the fitted currents, whitened.
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <set>
 
 #include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -23,13 +24,15 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
-        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation} {}
+        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation, 0} {}
 
   Selection Run() {
     Law law;
     law.second_diode = options_.second_diode;
     fit_ = FitBase(bench_, law);
-    Selection selection{fit_, fit_, {}, {}, 1, {}, 1, false, bench_, bench_, {}};
+    Selection selection;
+    selection.base = selection.extended = fit_;
+    selection.bench = selection.base_bench = bench_;
     if (!fit_.usable) return selection;
     SettleNoise();
     fit_ = FitBase(bench_, law);
@@ -56,19 +59,35 @@ class Selector {
       }
       noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grid_step);
       bench_.sigma = noise_.sigma;
+      WidenByRounding();
       LawFit again = FitLaw(bench_, fit_.law, fit_.p);
       if (again.usable) fit_ = std::move(again);
     }
   }
 
+  // A grid much coarser than the noise leaves errors that neighbours share.
+  void WidenByRounding() {
+    if (!(values_.grid_step > 0)) return;
+    std::vector<double> sorted = noise_.sigma;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    if (values_.grid_step < kCoarseGrid * sorted[sorted.size() / 2]) return;
+    bench_.least_variance = 1;
+    for (std::size_t k = 0; k < bench_.sigma.size(); ++k) {
+      bench_.sigma[k] = std::hypot(bench_.sigma[k], values_.rounding[k]);
+    }
+  }
+
+  // Clipped readings say no more than that they were clipped: they are left out, and the limit
+  // stays what the values show.
   void AddClip() {
+    for (const int k : values_.clipped) bench_.used[k] = 0;
     const Effect* clip = FindEffect("clip");
     Law law = fit_.law;
     law.effects.push_back(clip);
     std::vector<double> start = fit_.p;
     start.push_back(values_.clip_level);
     fit_ = FitLaw(bench_, law, start);
-    causes_.push_back({clip, 0, {}});
+    causes_.push_back({clip, 0, {}, {}});
     SettleNoise();
   }
 
@@ -90,8 +109,7 @@ class Selector {
   }
 
   double Variance(const LawFit& fit) const {
-    const int degrees = bench_.count() - FreeCount(bench_, fit.law);
-    return fit.sum / std::max(degrees, 1);
+    return std::max(fit.sum / Degrees(fit), bench_.least_variance);
   }
 
   std::vector<Rival> FitAll(const std::vector<Score>& scores) const {
@@ -123,6 +141,7 @@ class Selector {
 
   void Extend(Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
+    std::set<std::set<const Effect*>> seen;
     for (int step = 0;; ++step) {
       const std::vector<Score> scores =
           ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step);
@@ -131,21 +150,28 @@ class Selector {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
       }
       const Score* unknown = Find(scores, "unknown_structure");
-      selection->unknown_p = unknown != nullptr ? unknown->corrected_p : 1;
+      selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
       std::vector<Rival> rivals;
-      if (step == 0) selection->trials = rivals = FitAll(scores);
-      if (step == 0) AddUntried(scores, &selection->trials);
-      if (!(smallest < options_.level)) return;
+      if (step == 0 && options_.trials) {
+        selection->trials = rivals = FitAll(scores);
+        AddUntried(scores, &selection->trials);
+      }
+      const bool later = !causes_.empty() || !outliers_.empty();
+      level_ = options_.level * (later ? kLaterLevel : 1);
+      if (!(smallest < level_)) return;
       if (static_cast<int>(causes_.size()) >= most) return;
-      if (step > 0) rivals = FitAll(scores);
+      if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (TakeOutlier(scores, rivals)) continue;
-      if (rivals.empty() || !Accept(rivals.front(), smallest)) {
+      if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown = causes_.empty() && outliers_.empty() &&
-                             selection->unknown_p < options_.level;
+                             selection->unknown_p < level_;
         return;
       }
       Exchange();
       Prune();
+      Readmit();
+      const std::set<const Effect*> present(fit_.law.effects.begin(), fit_.law.effects.end());
+      if (!seen.insert(present).second) return;  // what was dropped came back
     }
   }
 
@@ -163,7 +189,7 @@ class Selector {
   bool TakeOutlier(const std::vector<Score>& scores, const std::vector<Rival>& rivals) {
     const Score* outliers = Find(scores, "outliers");
     if (outliers == nullptr || !outliers->testable || outliers->outlier < 0) return false;
-    if (!(outliers->corrected_p < options_.level)) return false;
+    if (!(outliers->corrected_p < level_)) return false;
     const double most = std::max(1.0, 0.05 * static_cast<double>(readings_.points.size()));
     if (static_cast<double>(outliers_.size()) >= most) return false;
     Workbench without = bench_;
@@ -171,7 +197,8 @@ class Selector {
     LawFit fit = FitLaw(without, fit_.law, fit_.p);
     const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
     const double gain = (fit_.sum - fit.sum) / std::max(variance, 1e-300);
-    if (!rivals.empty() && gain - outliers->charge < rivals.front().Charged()) return false;
+    const bool beaten = !rivals.empty() && gain - outliers->charge < rivals.front().Charged();
+    if (beaten && !Isolated(outliers->outlier)) return false;
     bench_.used[outliers->outlier] = 0;
     outliers_.push_back(outliers->outlier);
     outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
@@ -180,10 +207,48 @@ class Selector {
     return true;
   }
 
-  bool Accept(const Rival& rival, double corrected_p) {
-    if (!(rival.Charged() > 4)) return false;
+  // Readings that the causes found since explain are no outliers.
+  void Readmit() {
+    constexpr double kPlausible = 3.5;
+    const std::size_t before = outliers_.size();
+    const auto plausible = [&](int k) {
+      return std::fabs(fit_.current[k] - readings_.points[k].current) <
+             kPlausible * bench_.sigma[k];
+    };
+    for (const int k : outliers_) bench_.used[k] = plausible(k) ? 1 : 0;
+    outliers_.erase(std::remove_if(outliers_.begin(), outliers_.end(), plausible),
+                    outliers_.end());
+    if (outliers_.size() == before) return;
+    fit_ = FitLaw(bench_, fit_.law, fit_.p);
+    SettleNoise();
+  }
+
+  // Whether a reading is far off while its neighbours are not.
+  bool Isolated(int reading) const {
+    const auto off = [&](int k) {
+      return (fit_.current[k] - readings_.points[k].current) / bench_.sigma[k];
+    };
+    const double here = off(reading);
+    int neighbours = 0;
+    for (const int k : {reading - 1, reading + 1}) {
+      const bool there = k >= 0 && k < static_cast<int>(readings_.points.size());
+      if (!there || readings_.points[k].segment != readings_.points[reading].segment) continue;
+      if (bench_.used[k] == 0) continue;
+      if (off(k) / here > 0.35) return false;
+      ++neighbours;
+    }
+    return neighbours == 2;
+  }
+
+  int Degrees(const LawFit& fit) const {
+    return std::max(bench_.count() - FreeCount(bench_, fit.law), 1);
+  }
+
+  bool Accept(const Rival& rival) {
+    const double p = CorrectedP(rival.score, rival.statistic, Degrees(rival.fit));
+    if (!(p < level_)) return false;
     fit_ = rival.fit;
-    causes_.push_back({rival.score.effect, std::min(corrected_p, rival.score.corrected_p), {}});
+    causes_.push_back({rival.score.effect, p, rival.score, {}});
     SettleNoise();
     return true;
   }
@@ -218,7 +283,8 @@ class Selector {
       if (!rivals.empty() && rivals.front().score.effect != effect &&
           rivals.front().Charged() > kept + 1) {
         fit_ = rivals.front().fit;
-        causes_.push_back({rivals.front().score.effect, chosen[c].corrected_p, {}});
+        causes_.push_back(
+            {rivals.front().score.effect, chosen[c].corrected_p, rivals.front().score, {}});
         SettleNoise();
         return true;
       }
@@ -235,7 +301,7 @@ class Selector {
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable) continue;
       const double loss = (without.sum - fit_.sum) / std::max(Variance(fit_), 1e-300);
-      if (loss > 8 + 2 * causes_[c].effect->size()) continue;
+      if (CorrectedP(causes_[c].score, loss, Degrees(fit_)) < options_.level * kLaterLevel) continue;
       fit_ = std::move(without);
       causes_.erase(causes_.begin() + c);
       SettleNoise();
@@ -253,6 +319,7 @@ class Selector {
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;
   double outlier_p_ = 1;
+  double level_ = 0;  // of the present step
 };
 
 }  // namespace
@@ -267,7 +334,8 @@ Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
 void FindRivals(const SelectOptions& options, Selection* selection) {
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     const Workbench& bench = selection->bench;
-    const LawFit without = FitWithout(bench, selection->extended, static_cast<int>(c));
+    selection->without.push_back(FitWithout(bench, selection->extended, static_cast<int>(c)));
+    const LawFit& without = selection->without.back();
     if (!without.usable) continue;
     std::vector<const Effect*> open;
     for (const Effect* effect : options.candidates) {
@@ -276,8 +344,9 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
                          effect != selection->causes[c].effect;
       if (!other && effect->probes != nullptr) open.push_back(effect);
     }
-    double variance = selection->extended.sum;
-    variance /= std::max(bench.count() - FreeCount(bench, selection->extended.law), 1);
+    const LawFit& extended = selection->extended;
+    const int degrees = std::max(bench.count() - FreeCount(bench, extended.law), 1);
+    const double variance = std::max(extended.sum / degrees, bench.least_variance);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
     for (const Score& score :
          ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed)) {

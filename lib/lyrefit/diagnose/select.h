@@ -9,12 +9,17 @@
 
 namespace lyrefit {
 
+// Every cause after the first must pass this part of the level: each step is one more chance to be
+// wrong.
+constexpr double kLaterLevel = 0.2;
+
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
   int largest_causes = 4;
   std::uint64_t seed = 1;
   bool second_diode = false;  // in the base
+  bool trials = true;         // fit every effect on the base model even where none is wanted
   std::vector<const Effect*> candidates;  // allowed by the kind of data
 };
 
@@ -23,6 +28,7 @@ struct ValueFindings {
   double grid_step = 0;           // of the currents, in scales; 0: none
   double clip_level = 0;          // in scales; 0: none
   std::vector<int> clipped;       // readings
+  std::vector<double> rounding;   // of each reading: standard deviation of what a coarse grid adds
 };
 
 // An effect fitted in the company of others.
@@ -36,6 +42,7 @@ struct Rival {
 struct ChosenCause {
   const Effect* effect = nullptr;
   double corrected_p = 1;  // when it entered
+  Score score;             // then
   std::vector<Rival> rivals;  // every effect in its place, the best first, itself among them
 };
 
@@ -43,6 +50,7 @@ struct Selection {
   LawFit base;
   LawFit extended;                  // base where nothing was found
   std::vector<ChosenCause> causes;  // in the order of extended.law.effects
+  std::vector<LawFit> without;      // the extended law without each cause, filled by FindRivals
   std::vector<int> outliers;        // readings left out as wrong
   double outlier_p = 1;
   std::vector<Rival> trials;        // each effect on the base model
@@ -60,7 +68,7 @@ Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
                        const ValueFindings& values, double correlation,
                        const SelectOptions& options);
 
-// Fills `rivals` of every cause: who could stand in its place.
+// Fills `without` and the `rivals` of every cause: who could stand in its place.
 void FindRivals(const SelectOptions& options, Selection* selection);
 
 }  // namespace lyrefit

@@ -26,6 +26,24 @@ double Sharpen(const std::vector<double>& sorted, double step) {
   return xx > 0 ? xy / xx : step;
 }
 
+// Neighbours that show the same value share their rounding error: together they count as one.
+std::vector<double> Rounding(const Readings& readings, double step) {
+  std::vector<double> rounding(readings.points.size(), 0.0);
+  for (std::size_t first = 0; step > 0 && first < rounding.size();) {
+    std::size_t last = first;
+    while (last + 1 < rounding.size() &&
+           readings.points[last + 1].segment == readings.points[first].segment &&
+           std::fabs(readings.points[last + 1].current - readings.points[first].current) <
+               0.1 * step) {
+      ++last;
+    }
+    const double run = static_cast<double>(last - first + 1);
+    for (std::size_t k = first; k <= last; ++k) rounding[k] = step * std::sqrt(run / 12);
+    first = last + 1;
+  }
+  return rounding;
+}
+
 }  // namespace
 
 double FindGrid(const std::vector<double>& values) {
@@ -70,6 +88,7 @@ ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& da
     if (dark[r.curve] == 0) largest = std::max(largest, r.current);
   }
   findings.grid_step = FindGrid(currents);
+  findings.rounding = Rounding(readings, findings.grid_step);
   // Exact repeats of the largest current; on a coarse grid they say nothing.
   std::vector<int> repeats;
   std::vector<double> below;

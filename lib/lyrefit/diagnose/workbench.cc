@@ -108,8 +108,12 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
   const LeastSquaresProblem problem = MakeProblem(bench, fit.law, &workspace, &current);
   Linearized linear;
   linear.residual.resize(count);
-  RowMatrix jacobian(count, size);
-  problem.evaluate(fit.p.data(), linear.residual.data(), jacobian.data());
+  RowMatrix jacobian = RowMatrix::Zero(count, size);
+  const bool fine = problem.evaluate(fit.p.data(), linear.residual.data(), jacobian.data());
+  if (!fine || !jacobian.allFinite() || !linear.residual.allFinite()) {
+    linear.residual.setZero();
+    jacobian.setZero();
+  }
   const Eigen::VectorXd gradient = jacobian.transpose() * linear.residual;
   for (int k = 0; k < size; ++k) {
     if (problem.held[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
@@ -119,10 +123,14 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
     if (!pressed) linear.free.push_back(k);
   }
   linear.jacobian.resize(count, static_cast<int>(linear.free.size()));
-  Eigen::MatrixXd scaled = linear.jacobian;
+  Eigen::MatrixXd scaled(count, static_cast<int>(linear.free.size()));
   for (std::size_t k = 0; k < linear.free.size(); ++k) {
     linear.jacobian.col(k) = jacobian.col(linear.free[k]);
     scaled.col(k) = linear.jacobian.col(k).normalized();
+  }
+  if (linear.free.empty()) {
+    linear.basis = Eigen::MatrixXd::Zero(count, 0);
+    return linear;
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   const int rank = static_cast<int>(qr.rank());

@@ -14,6 +14,9 @@ struct Workbench {
   std::vector<double> sigma;
   std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
   double correlation = 0;  // lag 1, of the noise
+  // The noise's size follows the residuals, but its variance is not taken below this part of
+  // sigma^2: 1 where sigma holds more than noise.
+  double least_variance = 0;
 
   int count() const;  // of used readings
 };

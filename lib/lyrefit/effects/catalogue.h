@@ -20,8 +20,7 @@ struct Inseparable {
   const char* biases;      // "Rs"
   const char* sentence;
   const char* separate_by;
-  bool single_only;        // only where there is one condition
-  bool unless_dark;        // a dark curve shows it
+  bool (*applies)(const DataTraits&);  // whether data of this kind leave it open
 };
 const std::vector<Inseparable>& InseparableCauses();
 

@@ -12,6 +12,7 @@ Effect Collection();
 Effect Photoshunt();
 Effect BackContact();
 Effect RsCurrent();
+Effect DistributedRs();
 Effect Shading();
 Effect Mismatch();
 Effect Drift();

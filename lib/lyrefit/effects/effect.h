@@ -50,12 +50,15 @@ struct Cell {
   S thermal_voltage;
   double reach = 1;            // largest |voltage| of the readings: where shunts are quoted
   double substring_cells = 1;  // cells that share a bypass diode
-  // Part of the cells under a part of the light; the voltage of a cell among them does not fall
-  // below -bypass.
+  // Part of the cells under a part of the light, with bypass diodes or without.
   bool grouped = false;
   S share;
   S light;
-  S bypass;
+  bool bypassed = false;
+  S bypass;  // voltage over a bypass diode that carries the current scale
+  // Every cell in two halves, the second reached through a lateral resistance.
+  bool halved = false;
+  S lateral;
 };
 
 // A reading solved for: what instruments make of it.

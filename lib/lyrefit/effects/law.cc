@@ -55,11 +55,14 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   cell.second = bench.law.second_diode;
   cell.saturation_2 =
       bench.law.second_diode ? p[kBaseSecond] * cell.saturation_2_unit : S(0.0);
-  cell.conductance = p[kBaseConductance];
+  // A cell in a string must carry the others' current in reverse, if at a huge voltage.
+  constexpr double kSmallestConductance = 1e-8;
+  cell.conductance = p[kBaseConductance] + kSmallestConductance;
   cell.resistance = p[kBaseResistance];
   cell.share = S(0.0);
   cell.light = S(1.0);
   cell.bypass = S(0.0);
+  cell.lateral = S(0.0);
   cell.reach = bench.readings.scale.reach_V;
   const DataTraits& traits = bench.readings.traits;
   const int substrings = traits.substrings > 0 ? traits.substrings : 3;
@@ -93,15 +96,11 @@ T Cut(const T& exponent) {
   return exponent < kLargestExponent ? exponent : T(kLargestExponent);
 }
 
-// F(Vj): current of a cell under `light` of its photocurrent. With plain parameters the result
-// carries its slope.
+// F(Vj) of a cell with its own photocurrent. With plain parameters the result carries its slope.
 template <class S>
-Tangent<S> CellCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& light,
-                       const Tangent<S>& voltage) {
+Tangent<S> JunctionCurrent(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& voltage) {
   using T = Tangent<S>;
-  Cell<S> lit = cell;
-  lit.photocurrent = cell.photocurrent * light;
-  T current = T(lit.photocurrent) -
+  T current = T(cell.photocurrent) -
               (exp(Cut(T(voltage * cell.inverse_n_vt))) - 1.0) * T(cell.saturation) -
               voltage * cell.conductance;
   if (cell.second) {
@@ -110,20 +109,9 @@ Tangent<S> CellCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& ligh
   }
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->junction.template For<S>();
-    if (stage != nullptr) current = current + stage(bench.p + bench.offsets[e], lit, voltage);
+    if (stage != nullptr) current = current + stage(bench.p + bench.offsets[e], cell, voltage);
   }
   return current;
-}
-
-// D(I): what stands between junction and terminal, Vj = V + D.
-template <class S>
-Tangent<S> SeriesDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
-  Tangent<S> drop = current * cell.resistance;
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->series.template For<S>();
-    if (stage != nullptr) drop = drop + stage(bench.p + bench.offsets[e], cell, current);
-  }
-  return drop;
 }
 
 // Root of a rising function from `start`: Newton inside a bracket that grows with what is seen.
@@ -156,43 +144,111 @@ double RisingRoot(F f, double start) {
   return x;
 }
 
+// Current of a cell in two halves, the second behind a lateral resistance R:
+// I = (F(V) + F(Vb)) / 2, Vb = V + R F(Vb) / 2.
+template <class S>
+Tangent<S> HalvedCurrent(const Bench<S>& bench, const Cell<S>& cell, const Bench<double>& plain,
+                         const Cell<double>& plain_cell, const Tangent<S>& voltage) {
+  using T = Tangent<S>;
+  const double half = 0.5 * plain_cell.lateral;
+  double slope = 0;
+  const auto excess = [&](double v) {
+    const Slope1 current = JunctionCurrent(plain, plain_cell, Slope1(v, 0));
+    slope = 1 - half * current.v[0];
+    return Slope1(v, 0) - ValueOf(voltage) - half * current;
+  };
+  const double far = RisingRoot(excess, ValueOf(voltage));
+  excess(far);
+  const T there = JunctionCurrent(bench, cell, T(far));
+  const T second = far - (far - voltage - 0.5 * cell.lateral * there) / slope;
+  return 0.5 * (JunctionCurrent(bench, cell, voltage) + JunctionCurrent(bench, cell, second));
+}
+
+template <class S>
+Cell<S> UnderLight(const Cell<S>& cell, const S& light) {
+  Cell<S> lit = cell;
+  lit.photocurrent = cell.photocurrent * light;
+  return lit;
+}
+
+// Current of a cell, halves and all, in plain numbers with its slope by the voltage.
+Slope1 CellCurrent(const Bench<double>& bench, const Cell<double>& cell, const Slope1& voltage) {
+  if (!cell.halved) return JunctionCurrent(bench, cell, voltage);
+  return HalvedCurrent(bench, cell, bench, cell, voltage);
+}
+
+// The same as duals.
+template <class S>
+S CellCurrent(const Bench<S>& bench, const Cell<S>& cell, const Bench<double>& plain,
+              const Cell<double>& plain_cell, const S& voltage) {
+  if (!cell.halved) return JunctionCurrent(bench, cell, voltage);
+  return HalvedCurrent(bench, cell, plain, plain_cell, voltage);
+}
+
+// Current through the bypass diodes beside a group of cells, per voltage `reverse` of a cell
+// against its own direction.
+template <class S>
+Tangent<S> BypassCurrent(const Cell<S>& cell, const Tangent<S>& reverse) {
+  using T = Tangent<S>;
+  constexpr double kIdeality = 1.2;
+  if (!cell.bypassed) return T(0.0);
+  const S inverse = (1 / kIdeality) / cell.thermal_voltage;
+  const S start = exp(-(cell.bypass * inverse));
+  return (exp(Cut(T(reverse * (cell.substring_cells * inverse)))) - 1.0) * T(start);
+}
+
+// D(I): what stands between junction and terminal, Vj = V + D.
+template <class S>
+Tangent<S> SeriesDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
+  Tangent<S> drop = current * cell.resistance;
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->series.template For<S>();
+    if (stage != nullptr) drop = drop + stage(bench.p + bench.offsets[e], cell, current);
+  }
+  return drop;
+}
+
 struct Root {
-  double junction;
-  double current;
-  double slope;  // dF/dVj
-  // Of the shaded group.
-  bool bypassed = false;
+  double junction = 0;
+  double current = 0;
+  double slope = 0;  // dF/dVj
+  // Of the shaded group: its junction voltage, and that voltage's slope by the current.
   double shaded_junction = 0;
   double shaded_slope = 0;
+  double shaded_by_current = 0;
 };
 
 Root SolveUniform(const Bench<double>& bench, const Cell<double>& cell, double voltage,
                   double start) {
+  Root root;
   const auto excess = [&](double vj) {
     const Slope1 x(vj, 0);
-    const Slope1 drop = SeriesDrop(bench, cell, CellCurrent(bench, cell, 1.0, x));
-    return x - voltage - drop;
+    const Slope1 current = CellCurrent(bench, cell, x);
+    root.current = current.a;
+    root.slope = current.v[0];
+    return x - voltage - SeriesDrop(bench, cell, current);
   };
-  Root root;
   root.junction = RisingRoot(excess, start);
-  const Slope1 current = CellCurrent(bench, cell, 1.0, Slope1(root.junction, 0));
-  root.current = current.a;
-  root.slope = current.v[0];
+  excess(root.junction);
   return root;
 }
 
-// The shaded group at a known current: its junction voltage, or the bypass diode's drop.
-void SolveShaded(const Bench<double>& bench, const Cell<double>& cell, double current, double drop,
-                 Root* root) {
-  const double held = drop - cell.bypass;
-  root->bypassed = CellCurrent(bench, cell, cell.light, Slope1(held, 0)).a < current;
-  if (root->bypassed) return;
+// The shaded group at a known current and series drop. Its cells and their bypass diode carry the
+// current together: F(v) + B(D - v) = I.
+void SolveShaded(const Bench<double>& bench, const Cell<double>& shaded, double current,
+                 const Slope1& drop, Root* root) {
+  double bypass_slope = 0;
   const auto excess = [&](double vj) {
-    return Slope1(current) - CellCurrent(bench, cell, cell.light, Slope1(vj, 0));
+    const Slope1 x(vj, 0);
+    const Slope1 bypass = BypassCurrent(shaded, drop.a - x);
+    bypass_slope = -bypass.v[0];
+    const Slope1 cells = CellCurrent(bench, shaded, x);
+    root->shaded_slope = cells.v[0] + bypass.v[0];
+    return Slope1(current) - cells - bypass;
   };
   root->shaded_junction = RisingRoot(excess, root->shaded_junction);
-  root->shaded_slope =
-      CellCurrent(bench, cell, cell.light, Slope1(root->shaded_junction, 0)).v[0];
+  excess(root->shaded_junction);
+  root->shaded_by_current = (1 - bypass_slope * drop.v[0]) / root->shaded_slope;
 }
 
 Root SolveGrouped(const Bench<double>& bench, const Cell<double>& cell, double voltage,
@@ -200,24 +256,21 @@ Root SolveGrouped(const Bench<double>& bench, const Cell<double>& cell, double v
   Root root;
   root.shaded_junction = start;
   const double w = cell.share;
+  const Cell<double> dim = UnderLight(cell, cell.light);
   const auto excess = [&](double vj) {
     const Slope1 x(vj, 0);
-    const Slope1 current = CellCurrent(bench, cell, 1.0, x);
-    const Slope1 drop = SeriesDrop(bench, cell, current);
-    SolveShaded(bench, cell, current.a, drop.a, &root);
-    Slope1 shaded(-cell.bypass);
-    if (!root.bypassed) {
-      shaded.a = root.shaded_junction - drop.a;
-      shaded.v[0] = current.v[0] / root.shaded_slope - drop.v[0];
-    }
+    const Slope1 current = CellCurrent(bench, cell, x);
+    root.current = current.a;
+    root.slope = current.v[0];
+    const Slope1 by_current = SeriesDrop(bench, cell, Slope1(current.a, 0));
+    SolveShaded(bench, dim, current.a, by_current, &root);
+    Slope1 drop(by_current.a), shaded(root.shaded_junction - by_current.a);
+    drop.v[0] = by_current.v[0] * current.v[0];
+    shaded.v[0] = root.shaded_by_current * current.v[0] - drop.v[0];
     return (1 - w) * (x - drop) + w * shaded - voltage;
   };
   root.junction = RisingRoot(excess, start);
-  const Slope1 current = CellCurrent(bench, cell, 1.0, Slope1(root.junction, 0));
-  root.current = current.a;
-  root.slope = current.v[0];
-  const Slope1 drop = SeriesDrop(bench, cell, Slope1(root.current));
-  SolveShaded(bench, cell, root.current, drop.a, &root);
+  excess(root.junction);
   return root;
 }
 
@@ -230,7 +283,8 @@ void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
   const S drop = SeriesDrop(bench, cell, S(root.current));
   const double resistance =
       SeriesDrop(plain, plain_cell, Slope1(root.current, 0)).v[0];  // dD/dI
-  const S missing = CellCurrent(bench, cell, S(1.0), S(root.junction)) - root.current;
+  const S missing =
+      CellCurrent(bench, cell, plain, plain_cell, S(root.junction)) - root.current;
   if (!cell.grouped) {
     const S shift = voltage + drop - root.junction;
     *current = root.current + (missing + root.slope * shift) / (1 - root.slope * resistance);
@@ -238,15 +292,14 @@ void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
     return;
   }
   const S lit = root.junction - missing / root.slope - drop;
-  double slope = (1 - plain_cell.share) * (1 / root.slope - resistance);
-  S shaded = -cell.bypass;
-  if (!root.bypassed) {
-    shaded = root.shaded_junction -
-             (CellCurrent(bench, cell, cell.light, S(root.shaded_junction)) - root.current) /
-                 root.shaded_slope -
-             drop;
-    slope += plain_cell.share * (1 / root.shaded_slope - resistance);
-  }
+  const Cell<S> dim = UnderLight(cell, cell.light);
+  const Cell<double> plain_dim = UnderLight(plain_cell, plain_cell.light);
+  const S carried = CellCurrent(bench, dim, plain, plain_dim, S(root.shaded_junction)) +
+                    BypassCurrent(dim, S(drop - root.shaded_junction));
+  const S shaded = root.shaded_junction - (carried - root.current) / root.shaded_slope - drop;
+  const double w = plain_cell.share;
+  const double slope = (1 - w) * (1 / root.slope - resistance) +
+                       w * (root.shaded_by_current - resistance);
   const S excess = (1.0 - cell.share) * lit + cell.share * shaded - voltage;
   *current = root.current - excess / slope;
   *junction = root.junction + (*current - root.current - missing) / root.slope;

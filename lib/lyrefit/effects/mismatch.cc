@@ -22,7 +22,6 @@ Effect Mismatch() {
     cell->grouped = true;
     cell->light = 1.0 - p[0];
     cell->share = p[1];
-    cell->bypass = p[0] * 0.0 + 1e6;
   };
   e.why_not = NeedsModule;
   e.probes = [](const DataTraits& traits) {

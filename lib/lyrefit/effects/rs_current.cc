@@ -9,12 +9,12 @@ Effect RsCurrent() {
   e.title = "series resistance that depends on current";
   e.where = "device";
   e.equation = "V = Vj - I Rs - Rs1 I |I|";
-  e.reference = "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
-                "IEEE Trans. Electron Devices 33, 391";
-  e.sentence = "the series resistance is spread over the cell, or changes with the current";
+  e.reference = "Fong, McIntosh and Blakers 2013 (series resistance as a function of current), "
+                "Progress in Photovoltaics 21, 490";
+  e.sentence = "the series resistance changes with the current";
   e.needs = "little noise near the knee, or several irradiances";
   e.acts = "from the knee to open circuit";
-  e.confused_with = {"back_contact", "transient"};
+  e.confused_with = {"distributed_rs", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
   e.parameters = {{"Rs1", "resistance_per_current", "ohm/A", "change of Rs with current", -0.2, 0.2,
                    0, false, 1, -2, 1}};

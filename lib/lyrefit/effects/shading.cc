@@ -23,7 +23,8 @@ Effect Shading() {
   e.id = "shading";
   e.title = "partial shading";
   e.where = "device";
-  e.equation = "V = (1 - w) Vcell(I; Iph) + w max(Vcell(I; (1 - d) Iph), -Vb), per cell";
+  e.equation = "V = (1 - w) Vcell(I; Iph) + w Vcell(I - Ib; (1 - d) Iph) per cell, "
+               "Ib of the bypass diode, which drops Vb at Isc";
   e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
   e.sentence = "part of the module gets less light, and its bypass diodes conduct";
   e.needs = "a curve of a module; the number of bypass diodes helps";
@@ -33,12 +34,13 @@ Effect Shading() {
   e.parameters = {
       {"d", "shading_depth", "", "part of the light that the shaded cells miss", 0, 0.999, 0},
       {"w", "shaded_share", "", "part of the cells that is shaded", 0.01, 0.99, 0.3, true},
-      {"Vb", "bypass_voltage", "V", "drop of a conducting bypass diode", 0, 1.2, 0.5}};
+      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
   e.cell = [](const auto* p, auto* cell) {
     cell->grouped = true;
     cell->light = 1.0 - p[0];
     cell->share = p[1];
-    cell->bypass = p[2] * (1.0 / cell->substring_cells);
+    cell->bypassed = true;
+    cell->bypass = p[2];
   };
   e.why_not = NeedsModule;
   e.probes = [](const DataTraits& traits) {

@@ -1,0 +1,290 @@
+#include "lyrefit/diagnose/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+// Causes whose fit is at most this much worse cannot be told from the best (in chi-square, after
+// what each pays for its freedom).
+constexpr double kEquivalenceWidth = 6;
+
+std::string Short(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+int DegreesOf(const Workbench& bench, const LawFit& fit) {
+  return std::max(bench.count() - FreeCount(bench, fit.law), 1);
+}
+
+double VarianceOf(const Workbench& bench, const LawFit& fit) {
+  return std::max(fit.sum / DegreesOf(bench, fit), bench.least_variance);
+}
+
+// Readings at which a cause moves the current most: above half of the largest move, in noise.
+std::vector<int> WhereItActs(const Workbench& bench, const LawFit& with, const LawFit& without) {
+  std::vector<double> moves;
+  double largest = 0;
+  for (std::size_t k = 0; k < with.current.size(); ++k) {
+    moves.push_back(std::fabs(with.current[k] - without.current[k]) / bench.sigma[k]);
+    largest = std::max(largest, moves.back());
+  }
+  std::vector<int> points;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    if (largest > 0 && moves[k] > 0.5 * largest) points.push_back(static_cast<int>(k));
+  }
+  return points;
+}
+
+void AddSeparation(const Effect& effect, std::vector<std::string>* separate_by) {
+  const std::string text = effect.separate_by;
+  if (text.empty()) return;
+  if (std::find(separate_by->begin(), separate_by->end(), text) == separate_by->end()) {
+    separate_by->push_back(text);
+  }
+}
+
+std::string CauseSentence(const Cause& cause, const Effect& effect) {
+  std::string text = effect.sentence;
+  for (std::size_t k = 0; k < cause.strength.size(); ++k) {
+    text += (k == 0 ? "; " : ", ") + StrengthText(cause.strength[k]);
+  }
+  return text;
+}
+
+Cause ValueCause(const char* id, double p) {
+  const Effect& effect = *FindEffect(id);
+  Cause cause;
+  cause.id = id;
+  cause.title = effect.title;
+  cause.acts = effect.acts;
+  cause.evidence = "values";
+  cause.corrected_p = p;
+  return cause;
+}
+
+// Maximum power of the device by itself: the law's device terms at the brightest lit curve's
+// conditions, without what the sweep and the instruments did.
+double DevicePower(const Workbench& bench, const LawFit& fit) {
+  const Readings& measured = *bench.readings;
+  Readings grid = measured;
+  grid.points.clear();
+  Reading at = measured.points.front();
+  for (const Reading& r : measured.points) {
+    if (r.irradiance > at.irradiance) at = r;
+  }
+  at.x = at.rate = 0;
+  const double top = 1.1 * measured.pivot_voltage;
+  constexpr int kPoints = 400;
+  for (int k = 0; k <= kPoints; ++k) {
+    at.voltage = top * k / kPoints;
+    at.current = at.irradiance > 0 ? 1 : 0;
+    grid.points.push_back(at);
+  }
+  Law law;
+  law.second_diode = fit.law.second_diode;
+  std::vector<double> p(fit.p.begin(), fit.p.begin() + fit.law.base_size());
+  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
+    if (std::strcmp(fit.law.effects[e]->where, "device") != 0) continue;
+    law.effects.push_back(fit.law.effects[e]);
+    const int first = fit.law.Offset(static_cast<int>(e));
+    p.insert(p.end(), fit.p.begin() + first, fit.p.begin() + first + fit.law.effects[e]->size());
+  }
+  LawWorkspace workspace;
+  std::vector<double> current(grid.points.size());
+  if (!EvaluateLaw(law, grid, p.data(), &workspace, current.data(), nullptr)) return kUnknown;
+  int best = 0;
+  const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
+  for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
+  double peak = power(best);
+  if (best > 0 && best < kPoints) {  // the parabola's top
+    const double a = power(best - 1), b = power(best), c = power(best + 1);
+    const double bend = a - 2 * b + c;
+    if (bend < 0) peak = b - (a - c) * (a - c) / (8 * bend);
+  }
+  return peak * measured.scale.cells * measured.scale.current_A;
+}
+
+}  // namespace
+
+double RmseOf(const Workbench& bench, const std::vector<double>& current) {
+  double sum = 0;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double r = current[k] - bench.readings->points[k].current;
+    sum += r * r;
+  }
+  return bench.readings->scale.current_A * std::sqrt(sum / std::max(bench.count(), 1));
+}
+
+std::string StrengthText(const CauseParameter& parameter) {
+  std::string text = parameter.symbol + " = " + Short(parameter.value);
+  if (!parameter.unit.empty()) text += " " + parameter.unit;
+  if (std::isfinite(parameter.low_95)) {
+    text += " (" + Short(parameter.low_95) + " to " + Short(parameter.high_95) + ")";
+  }
+  return text;
+}
+
+std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
+                                               int index) {
+  const Effect& effect = *fit.law.effects[index];
+  const int first = fit.law.Offset(index);
+  const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
+  const double spread =
+      StudentT95(DegreesOf(bench, fit)) * std::sqrt(VarianceOf(bench, fit));
+  std::vector<CauseParameter> described;
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    const double value = fit.p[first + k];
+    const double factor = info.ReportedFactor(fit.p.data() + first, bench.readings->scale);
+    CauseParameter parameter{info.symbol, info.name, info.unit, value * factor,
+                             kUnknown,    kUnknown,  false};
+    const double slack = 1e-6 * (info.upper - info.lower);
+    parameter.at_bound = value <= info.lower + slack || value >= info.upper - slack;
+    if (errors[first + k] > 0) {
+      const double half = spread * errors[first + k];
+      const double low = std::max(value - half, info.lower) * factor;
+      const double high = std::min(value + half, info.upper) * factor;
+      parameter.low_95 = std::min(low, high);
+      parameter.high_95 = std::max(low, high);
+    }
+    described.push_back(parameter);
+  }
+  return described;
+}
+
+std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
+                                  const std::vector<const Effect*>& candidates) {
+  const Workbench& bench = selection.base_bench;
+  const int points = bench.count();
+  const double base_aicc =
+      FindInformation(selection.base.sum / points, points, FreeCount(bench, selection.base.law))
+          .aicc;
+  std::vector<Trial> trials;
+  for (const Effect* effect : Catalogue()) {
+    Trial trial;
+    trial.effect = effect->id;
+    trial.title = effect->title;
+    const bool allowed =
+        std::find(candidates.begin(), candidates.end(), effect) != candidates.end();
+    const auto reason = effect->why_not(readings.traits);
+    if (reason) {
+      trial.why_not = *reason;
+    } else if (effect->probes == nullptr && !allowed) {
+      trial.why_not = "looked for in the values and the base model's parameters, not fitted";
+    } else if (!allowed) {
+      trial.why_not = "not asked for";
+    }
+    for (const Rival& rival : selection.trials) {
+      if (rival.score.effect != effect) continue;
+      trial.kept = rival.score.kept;
+      if (!rival.score.testable) {
+        trial.why_not = rival.score.why_not;
+        continue;
+      }
+      trial.tried = true;
+      trial.p_value = rival.score.p_value;
+      trial.corrected_p = rival.score.corrected_p;
+      trial.misfit = std::sqrt(std::max(rival.statistic, rival.score.statistic));
+      if (!rival.fit.usable) continue;
+      trial.rmse_A = RmseOf(bench, rival.fit.current);
+      trial.delta_aicc =
+          FindInformation(rival.fit.sum / points, points, FreeCount(bench, rival.fit.law)).aicc -
+          base_aicc;
+      trial.parameters = DescribeParameters(bench, rival.fit, rival.fit.law.effects.size() - 1);
+    }
+    trials.push_back(trial);
+  }
+  return trials;
+}
+
+std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values) {
+  std::vector<Cause> causes;
+  const Workbench& bench = selection.bench;
+  for (std::size_t c = 0; c < selection.causes.size(); ++c) {
+    const ChosenCause& chosen = selection.causes[c];
+    const Effect& effect = *chosen.effect;
+    Cause cause = ValueCause(effect.id, chosen.corrected_p);
+    const bool by_values = std::strcmp(effect.id, "clip") == 0 && values.clip_level > 0;
+    cause.evidence = by_values ? "values" : "fit";
+    cause.strength = DescribeParameters(bench, selection.extended, static_cast<int>(c));
+    double own = 0;
+    for (const Rival& rival : chosen.rivals) {
+      if (rival.score.effect == &effect) own = rival.Charged();
+    }
+    for (const Rival& rival : chosen.rivals) {
+      if (rival.score.effect == &effect || by_values) continue;
+      if (rival.Charged() < own - kEquivalenceWidth) continue;
+      cause.equivalents.push_back(rival.score.effect->id);
+      AddSeparation(effect, &cause.separate_by);
+      AddSeparation(*rival.score.effect, &cause.separate_by);
+    }
+    cause.points = by_values ? values.clipped
+                             : WhereItActs(bench, selection.extended, selection.without[c]);
+    cause.sentence = CauseSentence(cause, effect);
+    causes.push_back(std::move(cause));
+  }
+  if (!selection.outliers.empty()) {
+    Cause cause = ValueCause("outliers", selection.outlier_p);
+    cause.evidence = "fit";
+    cause.points = selection.outliers;
+    std::sort(cause.points.begin(), cause.points.end());
+    cause.sentence = std::string(FindEffect("outliers")->sentence) + "; " +
+                     std::to_string(cause.points.size()) + " of " +
+                     std::to_string(bench.readings->points.size()) + " readings, left out";
+    causes.push_back(std::move(cause));
+  }
+  return causes;
+}
+
+std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
+  const Workbench& bench = selection.bench;
+  const Readings& readings = *bench.readings;
+  const LawFit &before = selection.base, &after = selection.extended;
+  const std::vector<double> errors = StandardErrors(Linearize(bench, after), after.law.size());
+  const double sd = std::sqrt(VarianceOf(bench, after));
+  const double scale = readings.scale.current_A, cells = readings.scale.cells;
+  double brightest = 1;
+  if (readings.traits.single && !readings.traits.only_dark) {
+    brightest = readings.points.front().irradiance;
+  }
+  std::vector<ParameterShift> shifts;
+  const auto add = [&](const char* symbol, const char* name, const char* unit, auto value,
+                       double error) {
+    shifts.push_back({symbol, name, unit, value(before), value(after), error});
+  };
+  const double per_p = brightest * scale;
+  add("Iph", "photocurrent", "A", [&](const LawFit& f) { return f.p[kBasePhotocurrent] * per_p; },
+      errors[kBasePhotocurrent] * sd * per_p);
+  add("Is1", "saturation_current", "A",
+      [&](const LawFit& f) {
+        return scale * SaturationCurrent(f.law, readings, f.p.data());
+      },
+      kUnknown);
+  add("n1", "n", "", [](const LawFit& f) { return f.p[kBaseIdeality]; },
+      errors[kBaseIdeality] * sd);
+  add("Rs", "resistance_series", "ohm",
+      [&](const LawFit& f) { return f.p[kBaseResistance] * cells / scale; },
+      errors[kBaseResistance] * sd * cells / scale);
+  const double g = after.p[kBaseConductance];
+  add("Rsh", "resistance_shunt", "ohm",
+      [&](const LawFit& f) { return cells / (f.p[kBaseConductance] * scale); },
+      errors[kBaseConductance] * sd * cells / (g * g * scale));
+  if (!readings.traits.only_dark) {
+    add("Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); }, kUnknown);
+  }
+  return shifts;
+}
+
+}  // namespace lyrefit

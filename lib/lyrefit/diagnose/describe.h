@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/select.h"
+
+namespace lyrefit {
+
+// A fit's effect `index` in a person's units, with symmetric 95 % intervals cut at the bounds.
+std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
+                                               int index);
+
+// One trial an effect of the catalogue, fitted or not.
+std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
+                                  const std::vector<const Effect*>& candidates);
+
+// The causes found, what cannot be told from them and where they act.
+std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values);
+
+// "k = 0.085 A/V^2 (0.08 to 0.09)"
+std::string StrengthText(const CauseParameter& parameter);
+
+// Base parameters with and without the causes, and the maximum power of the device.
+std::vector<ParameterShift> DescribeShifts(const Selection& selection);
+
+// RMSE in ampere over the readings a bench uses.
+double RmseOf(const Workbench& bench, const std::vector<double>& current);
+
+}  // namespace lyrefit

@@ -1,0 +1,192 @@
+#include "lyrefit/diagnose/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "lyrefit/diagnose/values.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+double MedianSigma(const Noise& noise) { return Median(noise.sigma); }
+
+std::vector<double> Residuals(const Readings& readings, const LawFit& fit) {
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    residuals.push_back((fit.current[k] - readings.points[k].current) *
+                        readings.scale.current_A);
+  }
+  return residuals;
+}
+
+// Ljung-Box over 8 lags inside each stretch, of whitened residuals.
+double Whiteness(const Workbench& bench, const LawFit& fit) {
+  constexpr int kLags = 8;
+  const std::vector<Reading>& points = bench.readings->points;
+  const int count = static_cast<int>(points.size());
+  Eigen::VectorXd r(count);
+  for (int k = 0; k < count; ++k) r[k] = fit.current[k] - points[k].current;
+  r = Whiten(bench, r);
+  const double total = r.squaredNorm();
+  if (count < 3 * kLags || !(total > 0)) return 1;
+  double statistic = 0;
+  for (int lag = 1; lag <= kLags; ++lag) {
+    double product = 0;
+    for (int k = lag; k < count; ++k) {
+      if (points[k].segment == points[k - lag].segment) product += r[k] * r[k - lag];
+    }
+    const double correlation = product / total;
+    statistic += correlation * correlation / (count - lag);
+  }
+  statistic *= static_cast<double>(count) * (count + 2);
+  return boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared(kLags), statistic));
+}
+
+
+void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
+  std::vector<Finding>& findings = evidence->findings;
+  if (evidence->clipped_points > 0) {
+    findings.push_back({"clipping",
+                        fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
+                                    evidence->clipped_points, evidence->clip_level_A),
+                        values.clipped});
+  }
+  if (evidence->grid_step_A > 0) {
+    findings.push_back(
+        {"grid",
+         fmt::format("all currents lie on a grid of {:.4g} A, {:.2g} times the noise",
+                     evidence->grid_step_A, values.grid_step / MedianSigma(selection.noise)),
+         {}});
+  }
+  if (evidence->misfit_ratio > 1.1) {
+    findings.push_back({"misfit",
+                        fmt::format("the base model misses by {:.3g} times the noise",
+                                    evidence->misfit_ratio),
+                        {}});
+  }
+  if (evidence->residuals.runs_p_value < 0.01) {
+    findings.push_back(
+        {"runs",
+         fmt::format("residuals of one sign stand together: {} runs where {:.0f} are expected "
+                     "(p = {:.2g})",
+                     evidence->residuals.runs, evidence->residuals.expected_runs,
+                     evidence->residuals.runs_p_value),
+         {}});
+  }
+  if (selection.bench.correlation > 0) {
+    findings.push_back({"autocorrelation",
+                        fmt::format("neighbouring noise is correlated by {:.2f}; the tests allow "
+                                    "for it",
+                                    selection.bench.correlation),
+                        {}});
+  }
+  const LawFit& fit = selection.extended;
+  for (const auto& [at, name] :
+       {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
+    if (fit.p[at] > 1e-9) continue;
+    findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
+  }
+}
+
+}  // namespace
+
+std::string KindOfData(const Readings& readings) {
+  const DataTraits& t = readings.traits;
+  std::string text;
+  if (t.only_dark) {
+    text = "dark only";
+  } else if (t.single) {
+    text = t.up_down ? "one curve, up and down" : "one sweep";
+  } else if (t.dark && t.curves == 2) {
+    text = "a lit and a dark curve";
+  } else {
+    text = fmt::format("{} curves over {} irradiances and {} temperatures", t.curves,
+                       t.irradiance_levels, t.temperature_levels);
+    if (t.dark) text += ", with a dark one";
+  }
+  if (t.reverse) text += fmt::format(", reverse bias to {:.3g} V", t.lowest_voltage * t.cells);
+  if (t.beyond_voc) text += ", beyond open circuit";
+  if (t.up_down && !readings.scale.times) text += ", without times";
+  return text;
+}
+
+bool IsCoarse(const Selection& selection, const ValueFindings& values) {
+  return values.grid_step > kCoarseGrid * MedianSigma(selection.noise);
+}
+
+Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
+                          const Autocorrelation& autocorrelation) {
+  const Workbench& bench = selection.base_bench;
+  const Readings& readings = *bench.readings;
+  const double scale = readings.scale.current_A;
+  Evidence evidence;
+  evidence.kind = KindOfData(readings);
+  evidence.noise_constant_A = selection.noise.lit.constant * scale;
+  evidence.noise_relative = selection.noise.lit.relative;
+  if (readings.traits.dark || readings.traits.only_dark) {
+    evidence.noise_dark_A = selection.noise.dark.constant * scale;
+  }
+  const int degrees = std::max(bench.count() - FreeCount(bench, selection.base.law), 1);
+  evidence.misfit_ratio = std::sqrt(selection.base.sum / degrees);
+  evidence.autocorrelation = autocorrelation.value;
+  evidence.grid_step_A = values.grid_step * scale;
+  std::vector<double> voltages;
+  for (const Reading& r : readings.points) voltages.push_back(r.voltage * readings.scale.cells);
+  evidence.grid_step_V = FindGrid(voltages);
+  evidence.clipped_points = static_cast<int>(values.clipped.size());
+  evidence.clip_level_A = values.clip_level * scale;
+  evidence.residuals = FindResidualStatistics(voltages, Residuals(readings, selection.base));
+  evidence.whiteness_p_value = Whiteness(bench, selection.base);
+  evidence.whiteness_after_p_value = Whiteness(selection.bench, selection.extended);
+  AddFindings(selection, values, &evidence);
+  return evidence;
+}
+
+std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
+  // No junction has n below 1; a little slack for a temperature that is a few kelvin off. Above 3
+  // the number of cells is rather wrong than the junction.
+  constexpr double kSmallest = 0.97, kLargest = 3, kSure = 1e-4;
+  const LawFit& fit = selection.extended;
+  const Workbench& bench = selection.bench;
+  const Readings& readings = *bench.readings;
+  const double n = fit.p[kBaseIdeality];
+  if (n >= kSmallest && n <= kLargest) return {};
+  const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
+  const int degrees = std::max(bench.count() - FreeCount(bench, fit.law), 1);
+  const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
+  if (!(error > 0)) return {};
+  const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
+  const double p = boost::math::cdf(boost::math::complement(boost::math::normal(), distance));
+  if (!(p < kSure)) return {};
+  const Effect& effect = *FindEffect("temperature_or_cells");
+  Cause cause;
+  cause.id = effect.id;
+  cause.title = effect.title;
+  cause.acts = effect.acts;
+  cause.evidence = "fit";
+  cause.corrected_p = p;
+  cause.separate_by = {effect.separate_by};
+  // n Ns T is what the data say; the plausible range of n turns it into the others'.
+  const double kelvin = readings.reference_temperature_K * n;
+  const double cells = readings.scale.cells * n;
+  const double z = 1.96 * error;
+  cause.strength = {{"n", "n", "", n, n - z, n + z, false},
+                    {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - 273.15,
+                     kelvin / 1.5 - 273.15, kelvin - 273.15, false},
+                    {"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
+  cause.sentence = fmt::format(
+      "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
+      "or {:.0f} to {:.0f} cells",
+      effect.sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
+      kelvin / 1.5 - 273.15, kelvin - 273.15, std::ceil(cells / 1.5), std::floor(cells));
+  return {cause};
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/select.h"
+
+namespace lyrefit {
+
+// "one sweep from -0.1 V to 0.6 V, beyond open circuit", in words.
+std::string KindOfData(const Readings& readings);
+
+// Everything that was seen before a cause was thought of.
+Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
+                          const Autocorrelation& autocorrelation);
+
+// Whether the grid of the currents is coarse for their noise.
+bool IsCoarse(const Selection& selection, const ValueFindings& values);
+
+// n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
+// plausible. Nothing where n is.
+std::vector<Cause> CheckTemperatureAndCells(const Selection& selection);
+
+}  // namespace lyrefit

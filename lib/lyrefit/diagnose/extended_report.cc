@@ -1,0 +1,226 @@
+#include "lyrefit/diagnose/extended_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/version.h"
+#include "lyrefit/diagnose/describe.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+namespace {
+
+// Where birds look for the base parameters, around what is known of every curve.
+Box SearchBox(const Selection& selection) {
+  const Law& law = selection.extended.law;
+  const std::vector<double>& p = selection.extended.p;
+  Box box;
+  const double iph = selection.base.p[kBasePhotocurrent];
+  box.lower = {0.8 * iph, -3, 0.5, 0, 0};
+  box.upper = {1.2 * iph, 2, 3, 0.3, 1};
+  if (law.second_diode) {
+    box.lower.push_back(0);
+    box.upper.push_back(1);
+  }
+  for (int k = law.base_size(); k < law.size(); ++k) {
+    const bool held = law.Searched(k);
+    box.lower.push_back(held ? p[k] : law.Lower(k));
+    box.upper.push_back(held ? p[k] + 1e-12 : law.Upper(k));
+  }
+  return box;
+}
+
+struct Searched {
+  LawFit polished;
+  RmseTable rmse;
+  SearchOptions options;
+  SearchSummary summary;
+  std::vector<double> best;
+};
+
+Searched SearchLaw(const Selection& selection, std::uint64_t seed, const Observer& observer) {
+  const Workbench& bench = selection.bench;
+  const Readings& readings = *bench.readings;
+  const Law& law = selection.extended.law;
+  std::vector<double> current(readings.points.size());
+  LawWorkspace workspace;
+  const auto rmse = [&](const double* p) {
+    // From a fresh start each time: the value must not hang on the bird before.
+    workspace.junction.clear();
+    if (!EvaluateLaw(law, readings, p, &workspace, current.data(), nullptr)) return kInfinity;
+    return RmseOf(bench, current);
+  };
+  Searched searched;
+  searched.options.seed = seed;
+  searched.options.population = 40;
+  searched.options.iterations = 100;
+  const Box box = SearchBox(selection);
+  searched.summary = Search(rmse, box, searched.options, observer);
+  searched.best = searched.summary.best.x;
+  searched.rmse.searched.solved_current_A = searched.summary.best.objective;
+  SearchOptions random = searched.options;
+  random.algorithm = Algorithm::kRandom;
+  searched.rmse.random_baseline.solved_current_A = Search(rmse, box, random).best.objective;
+  searched.polished = FitLaw(bench, law, searched.best);
+  if (searched.polished.usable) {
+    searched.rmse.best_bird_polished.solved_current_A = RmseOf(bench, searched.polished.current);
+  }
+  return searched;
+}
+
+struct Row {
+  const char* symbol;
+  const char* name;
+  const char* unit;
+  const char* doc;
+};
+
+// Values in a person's units, in the order of the report.
+std::vector<double> Reported(const Workbench& bench, const Law& law, const std::vector<double>& p) {
+  const Readings& readings = *bench.readings;
+  const double scale = readings.scale.current_A, cells = readings.scale.cells;
+  double light = 1;
+  if (readings.traits.single && !readings.traits.only_dark) {
+    light = readings.points.front().irradiance;
+  }
+  std::vector<double> values = {p[kBasePhotocurrent] * light * scale,
+                                SaturationCurrent(law, readings, p.data()) * scale,
+                                p[kBaseIdeality], p[kBaseResistance] * cells / scale,
+                                cells / (p[kBaseConductance] * scale)};
+  if (law.second_diode) {
+    values.push_back(p[kBaseSecond] * readings.scale.saturation_2_unit * scale);
+    values.push_back(2);
+  }
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    const int first = law.Offset(static_cast<int>(e));
+    for (int k = 0; k < law.effects[e]->size(); ++k) {
+      values.push_back(p[first + k] * law.effects[e]->parameters[k].ReportedFactor(
+                                          p.data() + first, readings.scale));
+    }
+  }
+  return values;
+}
+
+void AddEstimates(const Selection& selection, const std::vector<double>& searched,
+                  FitReport* report) {
+  static const Row kBase[] = {{"Iph", "photocurrent", "A", "photocurrent"},
+                              {"Is1", "saturation_current", "A", "saturation current"},
+                              {"n1", "n", "", "ideality, per cell"},
+                              {"Rs", "resistance_series", "ohm", "series resistance"},
+                              {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
+  const Law& law = selection.extended.law;
+  const Readings& readings = *selection.bench.readings;
+  const std::vector<double> refined = Reported(selection.bench, law, selection.extended.p);
+  std::vector<double> errors(refined.size(), kUnknown);
+  for (const ParameterShift& shift : DescribeShifts(selection)) {
+    for (int k = 0; k < 5; ++k) {
+      if (shift.symbol == kBase[k].symbol) errors[k] = shift.standard_error;
+    }
+  }
+  const auto add = [&](const Row& row) {
+    const std::size_t k = report->estimates.size();
+    Estimate estimate;
+    estimate.info = {row.symbol, row.name, row.unit, row.doc};
+    estimate.refined = refined[k];
+    if (!searched.empty()) estimate.searched = searched[k];
+    if (errors[k] > 0 && std::isfinite(errors[k])) {
+      estimate.standard_error = errors[k];
+      estimate.low_95 = std::max(0.0, refined[k] - 1.96 * errors[k]);
+      estimate.high_95 = refined[k] + 1.96 * errors[k];
+      estimate.interval = IntervalMethod::kSymmetric;
+    }
+    report->device.parameters.push_back(estimate.info);
+    report->estimates.push_back(estimate);
+    return &report->estimates.back();
+  };
+  for (const Row& row : kBase) add(row);
+  if (law.second_diode) {
+    add({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
+    add({"n2", "n_2", "", "ideality of the second diode"})->fixed = true;
+  }
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    const auto parameters =
+        DescribeParameters(selection.bench, selection.extended, static_cast<int>(e));
+    for (int k = 0; k < law.effects[e]->size(); ++k) {
+      const EffectParameter& info = law.effects[e]->parameters[k];
+      const std::string symbol = std::string(law.effects[e]->id) + "." + info.symbol;
+      const std::string name = std::string(law.effects[e]->id) + "_" + info.name;
+      Estimate* estimate = add({symbol.c_str(), name.c_str(), info.unit, info.doc});
+      estimate->low_95 = parameters[k].low_95;
+      estimate->high_95 = parameters[k].high_95;
+      estimate->fixed = info.searched;
+      if (std::isfinite(estimate->low_95)) estimate->interval = IntervalMethod::kSymmetric;
+      const double factor = info.ReportedFactor(
+          selection.extended.p.data() + law.Offset(static_cast<int>(e)), readings.scale);
+      estimate->bounds.lower = std::min(info.lower * factor, info.upper * factor);
+      estimate->bounds.upper = std::max(info.lower * factor, info.upper * factor);
+    }
+  }
+  report->refined = refined;
+  report->searched = searched.empty() ? refined : searched;
+  report->best_bird_polished = report->refined;
+}
+
+IvCurve AllPoints(const CurveSet& set) {
+  IvCurve all = set.curves.front();
+  if (set.curves.size() == 1) return all;
+  all.name = set.name;
+  for (std::size_t c = 1; c < set.curves.size(); ++c) {
+    const IvCurve& curve = set.curves[c];
+    all.voltage_V.insert(all.voltage_V.end(), curve.voltage_V.begin(), curve.voltage_V.end());
+    all.current_A.insert(all.current_A.end(), curve.current_A.begin(), curve.current_A.end());
+  }
+  all.sigma_A.clear();
+  all.time_s.clear();
+  all.sweep.clear();
+  all.irradiance_W_m2.clear();
+  all.temperature_C.clear();
+  return all;
+}
+
+}  // namespace
+
+FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool search,
+                         std::uint64_t seed, const Observer& observer) {
+  const Workbench& bench = selection.bench;
+  const Readings& readings = *bench.readings;
+  const LawFit& fit = selection.extended;
+  FitReport report;
+  report.version = Version();
+  report.model = fit.law.second_diode ? Model::kDoubleDiode : Model::kSingleDiode;
+  report.bounds_name = "catalogue of effects";
+  report.usable = fit.usable;
+  report.polished = true;
+  if (!fit.usable) return report;
+  std::vector<double> searched;
+  if (search) {
+    const Searched found = SearchLaw(selection, seed, observer);
+    report.rmse = found.rmse;
+    report.search_options = found.options;
+    report.search = found.summary;
+    report.interrupted = found.summary.termination == SearchTermination::kInterrupted;
+    searched = Reported(bench, fit.law, found.best);
+  }
+  AddEstimates(selection, searched, &report);
+  if (!search) return report;
+  report.curve = AllPoints(set);
+  report.rmse.refined.solved_current_A = RmseOf(bench, fit.current);
+  report.refine.termination = "converged";
+  report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    report.model_current_A.push_back(fit.current[k] * readings.scale.current_A);
+    report.residual_A.push_back(report.model_current_A[k] - report.curve.current_A[k]);
+  }
+  report.measured = FindKeyPoints(report.curve.voltage_V, report.curve.current_A);
+  report.simulated = FindKeyPoints(report.curve.voltage_V, report.model_current_A);
+  report.residuals = FindResidualStatistics(report.curve.voltage_V, report.residual_A);
+  const double rmse = report.rmse.refined.solved_current_A;
+  report.criteria = FindInformation(rmse * rmse, bench.count(), FreeCount(bench, fit.law));
+  report.warnings.push_back(
+      "an extended model: its causes change currents as 'lyrefit diagnose --explain' says; the "
+      "readings are weighted by their estimated noise");
+  return report;
+}
+
+}  // namespace lyrefit

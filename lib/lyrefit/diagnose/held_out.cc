@@ -1,0 +1,128 @@
+#include "lyrefit/diagnose/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+
+namespace lyrefit {
+namespace {
+
+struct Squares {
+  double sum = 0;
+  int count = 0;
+  double Mean() const { return count > 0 ? sum / count : 0; }
+};
+
+// Squares of one fold, in current scales.
+struct Fold {
+  Squares before;
+  Squares after;
+  std::vector<Squares> trials;
+};
+
+class Judge {
+ public:
+  Judge(const Readings& readings, const std::vector<int>& folds, int fold,
+        const std::vector<char>& counted)
+      : readings_(readings) {
+    for (std::size_t k = 0; k < folds.size(); ++k) {
+      if (folds[k] == fold && counted[k] != 0) held_.push_back(static_cast<int>(k));
+    }
+  }
+  Squares Of(const std::vector<double>& current) const {
+    Squares squares;
+    for (const int k : held_) {
+      const double r = current[k] - readings_.points[k].current;
+      squares.sum += r * r;
+      ++squares.count;
+    }
+    return squares;
+  }
+  bool empty() const { return held_.empty(); }
+
+ private:
+  const Readings& readings_;
+  std::vector<int> held_;
+};
+
+void AddSquares(const Squares& from, Squares* to) {
+  to->sum += from.sum;
+  to->count += from.count;
+}
+
+}  // namespace
+
+std::vector<int> MakeFolds(const Readings& readings, int folds) {
+  std::vector<int> of;
+  const int count = static_cast<int>(readings.points.size());
+  const bool by_curve = readings.traits.curves > 2;
+  const int length = std::max(2, count / (3 * folds));
+  for (int k = 0; k < count; ++k) {
+    of.push_back((by_curve ? readings.points[k].curve : k / length) % folds);
+  }
+  return of;
+}
+
+void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
+                    const DeviceNotes& notes, const ValueFindings& values,
+                    const SelectOptions& options, const Selection& selection, int folds,
+                    int threads, Gain* gain, std::vector<Trial>* trials) {
+  const std::vector<int> of = MakeFolds(readings, folds);
+  const int used_folds = *std::max_element(of.begin(), of.end()) + 1;
+  std::vector<Fold> results(used_folds);
+  ParallelFor(used_folds, threads, [&](int f) {
+    const Judge judge(readings, of, f, selection.bench.used);
+    if (judge.empty()) return;
+    std::vector<char> used(of.size(), 1);
+    for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
+    SelectOptions inner = options;
+    inner.trials = false;
+    inner.draws = std::max(options.draws / 2, 200);
+    const Selection again = SelectCauses(readings, dark, notes, used, values,
+                                         selection.bench.correlation, inner);
+    Fold& result = results[f];
+    if (!again.base.usable || !again.extended.usable) return;
+    result.before = judge.Of(again.base.current);
+    result.after = judge.Of(again.extended.current);
+    Workbench bench = selection.base_bench;
+    for (std::size_t k = 0; k < of.size(); ++k) bench.used[k] = bench.used[k] != 0 ? used[k] : 0;
+    for (const Rival& rival : selection.trials) {
+      Squares squares;
+      if (rival.fit.usable) {
+        const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p);
+        if (fit.usable) squares = judge.Of(fit.current);
+      }
+      result.trials.push_back(squares);
+    }
+  });
+  Squares before, after;
+  std::vector<Squares> by_trial(selection.trials.size());
+  std::vector<double> gains;
+  for (const Fold& fold : results) {
+    if (fold.before.count == 0) continue;
+    AddSquares(fold.before, &before);
+    AddSquares(fold.after, &after);
+    for (std::size_t t = 0; t < by_trial.size(); ++t) AddSquares(fold.trials[t], &by_trial[t]);
+    gains.push_back(fold.before.Mean() - fold.after.Mean());
+  }
+  gain->folds = static_cast<int>(gains.size());
+  if (gains.size() < 2) return;
+  const double scale = readings.scale.current_A;
+  gain->held_out_before_A = scale * std::sqrt(before.Mean());
+  gain->held_out_after_A = scale * std::sqrt(after.Mean());
+  double mean = 0, square = 0;
+  for (const double g : gains) mean += g / static_cast<double>(gains.size());
+  for (const double g : gains) square += (g - mean) * (g - mean);
+  const double n = static_cast<double>(gains.size());
+  gain->held_out_gain_A2 = scale * scale * mean;
+  gain->held_out_gain_error_A2 = scale * scale * std::sqrt(square / (n * (n - 1)));
+  for (std::size_t t = 0; t < by_trial.size(); ++t) {
+    for (Trial& trial : *trials) {
+      if (trial.effect != selection.trials[t].score.effect->id) continue;
+      if (by_trial[t].count > 0) trial.held_out_rmse_A = scale * std::sqrt(by_trial[t].Mean());
+    }
+  }
+}
+
+}  // namespace lyrefit

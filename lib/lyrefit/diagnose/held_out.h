@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/select.h"
+
+namespace lyrefit {
+
+// Which readings are left out together: whole curves of a set of three or more, else short
+// contiguous blocks spread over the sweep. One number a reading, 0 .. folds - 1.
+std::vector<int> MakeFolds(const Readings& readings, int folds);
+
+// Fills the held-out part of `gain` and of `trials`: in every fold the base model, each effect and
+// the whole selection are fitted without it and tried on it.
+void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
+                    const DeviceNotes& notes, const ValueFindings& values,
+                    const SelectOptions& options, const Selection& selection, int folds,
+                    int threads, Gain* gain, std::vector<Trial>* trials);
+
+}  // namespace lyrefit

@@ -1,0 +1,31 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect DistributedRs() {
+  Effect e;
+  e.id = "distributed_rs";
+  e.title = "series resistance spread over the cell";
+  e.where = "device";
+  e.equation = "two half cells, I = (F(Va) + F(Vb)) / 2, Vb = Va + R F(Vb) / 2";
+  e.reference = "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
+                "IEEE Trans. Electron Devices 33, 391";
+  e.sentence = "the current from far parts of the cell passes a resistance of its own: a sheet, a "
+               "broken finger";
+  e.needs = "little noise near the knee, or several irradiances";
+  e.acts = "from the knee to open circuit";
+  e.confused_with = {"rs_current", "back_contact", "transient"};
+  e.separate_by = "curves at several irradiances";
+  e.parameters = {{"Rlat", "resistance_lateral", "ohm", "between the halves of the cells", 0, 2, 0,
+                   false, 1, -1, 1}};
+  e.cell = [](const auto* p, auto* cell) {
+    cell->halved = true;
+    cell->lateral = p[0];
+  };
+  e.why_not = NeedsLight;
+  e.probes = [](const DataTraits&) { return Strengths({0.02, 0.1}); };
+  return e;
+}
+
+}  // namespace lyrefit

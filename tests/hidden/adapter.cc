@@ -43,12 +43,14 @@ lyrefit::CurveSet ToSet(const Measurement& from, int number) {
 
 }  // namespace
 
-Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed) {
+Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
+           bool second_diode) {
   lyrefit::DiagnoseOptions options;
   options.level = level;
   options.seed = seed;
   options.held_out = false;
   options.threads = 1;
+  if (second_diode) options.base = lyrefit::Model::kDoubleDiode;
   Answer answer;
   const auto start = std::chrono::steady_clock::now();
   const auto diagnosis = lyrefit::Diagnose(ToSet(measurement, number), options);

@@ -31,6 +31,8 @@ struct Answer {
 };
 
 // Hands the readings, and no word of what is in them, to the diagnosis under test.
-Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed);
+// `second_diode`: the base model has two diodes.
+Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
+           bool second_diode = false);
 
 }  // namespace hidden

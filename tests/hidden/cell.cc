@@ -35,7 +35,7 @@ Cell CellUnder(const Device& device, const Effects& effects, double suns, double
   cell.thermal_voltage = kBoltzmannOverCharge * kelvin;
   cell.saturation = device.saturation * ratio * ratio * ratio * std::exp(arrhenius);
   cell.n_vt = device.ideality * cell.thermal_voltage;
-  cell.saturation_2 = device.saturation_2 * std::pow(ratio, 1.5) * std::exp(arrhenius / 2);
+  cell.saturation_2 = device.saturation_2 * std::pow(ratio, 2.5) * std::exp(arrhenius / 2);
   cell.two_vt = 2 * cell.thermal_voltage;
   cell.conductance = Shunt(device, effects, suns);
   cell.resistance = device.resistance + effects.lead_ohm;

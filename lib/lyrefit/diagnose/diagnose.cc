@@ -44,7 +44,7 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
 Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes& notes,
                                const ValueFindings& values, const SelectOptions& options,
                                Selection* selection) {
-  constexpr double kNotable = 0.1, kSure = 2.5;
+  constexpr double kNotable = 0.1, kSure = 1.6;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
   *selection = SelectCauses(readings, measurement.dark, notes, used, values, 0, options);

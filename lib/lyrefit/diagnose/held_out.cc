@@ -78,6 +78,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
     SelectOptions inner = options;
     inner.trials = false;
+    inner.calibration = selection.calibration;
     inner.draws = std::max(options.draws / 2, 200);
     const Selection again = SelectCauses(readings, dark, notes, used, values,
                                          selection.bench.correlation, inner);

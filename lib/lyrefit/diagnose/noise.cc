@@ -8,7 +8,8 @@ namespace lyrefit {
 namespace {
 
 // Ratios of constant and relative noise that are weighed against each other.
-constexpr double kRatios[] = {0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
+constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06,
+                              0.12, 0.25, 0.5,  1,    2,    100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
 constexpr double kSmallestNoise = 1e-7;
 // Squares beyond this many variances count as this many: steps and outliers are not noise.

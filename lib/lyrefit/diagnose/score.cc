@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/diagnose/noise.h"
 
 namespace lyrefit {
 namespace {
@@ -208,34 +209,36 @@ class NullLaw {
   double edge_tail_;
 };
 
-void CountTheList(const Eigen::MatrixXd& nulls, int degrees, std::vector<Candidate>* candidates) {
+// The whole list under its nulls.
+struct ListLaw {
+  std::vector<NullLaw> laws;  // of the testable candidates, in order
+  Eigen::VectorXd smallest;   // rising: the smallest p-value of each null
+  int edge = 0;
+
+  double Catalogue() const { return std::max(1.0, kTail / smallest[edge]); }
+  double Corrected(double p) const {
+    if (p < smallest[edge]) return std::max(p, kTail * p / smallest[edge]);
+    const auto below = std::upper_bound(smallest.begin(), smallest.end(), p) - smallest.begin();
+    return std::max(p, static_cast<double>(below) / static_cast<double>(smallest.size()));
+  }
+};
+
+ListLaw CountTheList(const Eigen::MatrixXd& nulls, int degrees,
+                     const std::vector<Candidate>& candidates) {
   const int draws = static_cast<int>(nulls.rows());
-  Eigen::VectorXd smallest = Eigen::VectorXd::Ones(draws);
-  for (std::size_t c = 0; c < candidates->size(); ++c) {
-    Score& score = (*candidates)[c].score;
-    if (!score.testable) continue;
-    const NullLaw law(nulls.col(static_cast<int>(c)), degrees);
-    score.p_value = law.Of(score.statistic);
-    score.charge = 2 * std::log(law.Directions());
+  ListLaw list;
+  list.smallest = Eigen::VectorXd::Ones(draws);
+  list.edge = static_cast<int>(kTail * draws);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (!candidates[c].score.testable) continue;
+    list.laws.emplace_back(nulls.col(static_cast<int>(c)), degrees);
     for (int d = 0; d < draws; ++d) {
-      smallest[d] = std::min(smallest[d], law.Of(nulls(d, static_cast<int>(c))));
+      list.smallest[d] =
+          std::min(list.smallest[d], list.laws.back().Of(nulls(d, static_cast<int>(c))));
     }
   }
-  std::sort(smallest.begin(), smallest.end());
-  const int edge = static_cast<int>(kTail * draws);
-  for (Candidate& candidate : *candidates) {
-    Score& score = candidate.score;
-    if (!score.testable) continue;
-    const double p = score.p_value;
-    score.catalogue = std::max(1.0, kTail / smallest[edge]);
-    if (p < smallest[edge]) {
-      score.corrected_p = kTail * p / smallest[edge];
-    } else {
-      const auto below = std::upper_bound(smallest.begin(), smallest.end(), p) - smallest.begin();
-      score.corrected_p = static_cast<double>(below) / draws;
-    }
-    score.corrected_p = std::max(score.corrected_p, p);
-  }
+  std::sort(list.smallest.begin(), list.smallest.end());
+  return list;
 }
 
 Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, const Effect& effect) {
@@ -259,11 +262,121 @@ Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, cons
   return candidate;
 }
 
+// A law's candidates on their bench.
+struct Prepared {
+  Linearized linear;
+  int degrees = 0;
+  std::vector<Candidate> candidates;
+};
+
+Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
+                    const std::vector<const Effect*>& effects) {
+  Prepared prepared;
+  prepared.linear = Linearize(bench, fit);
+  prepared.degrees = bench.count() - static_cast<int>(prepared.linear.basis.cols());
+  const double sum = prepared.linear.residual.squaredNorm();
+  for (const Effect* effect : effects) {
+    const bool outliers = std::strcmp(effect->id, "outliers") == 0;
+    Candidate candidate = outliers ? PrepareOutliers(bench, prepared.linear, *effect)
+                                   : Prepare(bench, fit, prepared.linear, *effect);
+    if (prepared.degrees < 3) candidate.score.testable = false;
+    if (candidate.score.testable) {
+      const double best = candidate.score.directions.front().score;
+      const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
+      candidate.score.statistic =
+          Statistic(size, sum, prepared.degrees, bench.least_variance);
+    }
+    prepared.candidates.push_back(std::move(candidate));
+  }
+  return prepared;
+}
+
+// One null whose noise is estimated anew: statistics of the testable candidates.
+class Refit {
+ public:
+  Refit(const Workbench& bench, const Prepared& prepared, const NoiseQuestion& question)
+      : bench_(bench), prepared_(prepared), question_(question) {}
+
+  std::vector<double> Draw(RandomStream* random) const {
+    const Readings& readings = *bench_.readings;
+    const int count = static_cast<int>(readings.points.size());
+    Eigen::VectorXd noise(count);  // in noise units of the bench
+    for (int k = 0; k < count; ++k) {
+      const double fresh = random->Normal();
+      noise[k] = bench_.used[k] != 0 ? fresh : 0.0;
+    }
+    const Eigen::VectorXd left =
+        noise - prepared_.linear.basis * (prepared_.linear.basis.transpose() * noise);
+    std::vector<double> residual(count);
+    for (int k = 0; k < count; ++k) residual[k] = left[k] * bench_.sigma[k];
+    const Noise again = EstimateNoise(readings, question_.dark, residual, bench_.used,
+                                      question_.notes, question_.grid_step);
+    Eigen::VectorXd weight(count);
+    for (int k = 0; k < count; ++k) {
+      weight[k] = bench_.used[k] != 0 ? bench_.sigma[k] / again.sigma[k] : 0.0;
+    }
+    return Statistics(noise, weight);
+  }
+
+ private:
+  std::vector<double> Statistics(const Eigen::VectorXd& noise,
+                                 const Eigen::VectorXd& weight) const {
+    const Eigen::MatrixXd jacobian = weight.asDiagonal() * prepared_.linear.basis;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+    const Eigen::MatrixXd basis =
+        qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+    Eigen::VectorXd rest = weight.cwiseProduct(noise);
+    rest -= basis * (basis.transpose() * rest);
+    const double sum = rest.squaredNorm();
+    std::vector<double> statistics;
+    for (const Candidate& candidate : prepared_.candidates) {
+      if (!candidate.score.testable) continue;
+      double size = 0;
+      if (candidate.directions.cols() == 0) {
+        for (int k = 0; k < rest.size(); ++k) {
+          const double room = std::max(1 - basis.row(k).squaredNorm(), 1e-9);
+          size = std::max(size, std::fabs(rest[k]) / std::sqrt(room));
+        }
+      } else {
+        Eigen::MatrixXd directions = weight.asDiagonal() * candidate.directions;
+        directions -= basis * (basis.transpose() * directions).eval();
+        const Eigen::ArrayXd along = (directions.transpose() * rest).array() /
+                                     directions.colwise().norm().transpose().array().max(1e-12);
+        size = candidate.two_sided ? along.abs().maxCoeff() : std::max(along.maxCoeff(), 0.0);
+      }
+      statistics.push_back(Statistic(size, sum, prepared_.degrees, bench_.least_variance));
+    }
+    return statistics;
+  }
+
+  const Workbench& bench_;
+  const Prepared& prepared_;
+  const NoiseQuestion& question_;
+};
+
 }  // namespace
 
-double CorrectedP(const Score& score, double statistic, int degrees) {
-  return std::min(
-      1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees));
+double Calibration::Corrected(double p) const {
+  if (nulls.empty()) return p;
+  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows.
+  constexpr double kPart = 0.2;
+  const double x = -std::log(std::max(p, 1e-300));
+  const std::size_t count = nulls.size();
+  const std::size_t edge = count - static_cast<std::size_t>(kPart * static_cast<double>(count)) - 1;
+  if (x > nulls[edge]) {
+    double excess = 0;
+    for (std::size_t k = edge + 1; k < count; ++k) excess += nulls[k] - nulls[edge];
+    excess /= static_cast<double>(count - edge - 1);
+    return std::min(1.0, std::max(p, kPart * std::exp(-(x - nulls[edge]) / excess)));
+  }
+  const auto above = nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), x);
+  return std::max(p, static_cast<double>(above) / static_cast<double>(count));
+}
+
+double CorrectedP(const Score& score, double statistic, int degrees,
+                  const Calibration& calibration) {
+  return calibration.Corrected(std::min(
+      1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees)));
 }
 
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
@@ -284,28 +397,52 @@ Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effec
 
 std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
                                 const std::vector<const Effect*>& candidates, int draws,
-                                std::uint64_t seed) {
-  const Linearized linear = Linearize(bench, fit);
-  const int degrees = bench.count() - static_cast<int>(linear.basis.cols());
-  const double sum = linear.residual.squaredNorm();
-  std::vector<Candidate> prepared;
-  for (const Effect* effect : candidates) {
-    const bool outliers = std::strcmp(effect->id, "outliers") == 0;
-    prepared.push_back(outliers ? PrepareOutliers(bench, linear, *effect)
-                                : Prepare(bench, fit, linear, *effect));
-    Candidate& candidate = prepared.back();
-    if (degrees < 3) candidate.score.testable = false;
-    if (!candidate.score.testable) continue;
-    const double best = candidate.score.directions.front().score;
-    const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
-    candidate.score.statistic = Statistic(size, sum, degrees, bench.least_variance);
-  }
-  if (degrees >= 3) {
-    CountTheList(SimulateNulls(bench, linear, prepared, degrees, draws, seed), degrees, &prepared);
-  }
+                                std::uint64_t seed, const Calibration& calibration) {
+  Prepared prepared = PrepareAll(bench, fit, candidates);
   std::vector<Score> scores;
-  for (Candidate& candidate : prepared) scores.push_back(std::move(candidate.score));
+  ListLaw list;
+  if (prepared.degrees >= 3) {
+    list = CountTheList(SimulateNulls(bench, prepared.linear, prepared.candidates,
+                                      prepared.degrees, draws, seed),
+                        prepared.degrees, prepared.candidates);
+  }
+  std::size_t at = 0;
+  for (Candidate& candidate : prepared.candidates) {
+    Score& score = candidate.score;
+    if (score.testable) {
+      const NullLaw& law = list.laws[at++];
+      score.p_value = law.Of(score.statistic);
+      score.charge = 2 * std::log(law.Directions());
+      score.catalogue = list.Catalogue();
+      score.corrected_p = calibration.Corrected(list.Corrected(score.p_value));
+    }
+    scores.push_back(std::move(score));
+  }
   return scores;
+}
+
+Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
+                            const std::vector<const Effect*>& candidates,
+                            const NoiseQuestion& question, int draws, std::uint64_t seed) {
+  Calibration calibration;
+  const Prepared prepared = PrepareAll(bench, fit, candidates);
+  if (prepared.degrees < 3) return calibration;
+  const ListLaw list = CountTheList(SimulateNulls(bench, prepared.linear, prepared.candidates,
+                                                  prepared.degrees, 2 * draws, seed),
+                                    prepared.degrees, prepared.candidates);
+  if (list.laws.empty()) return calibration;
+  const Refit refit(bench, prepared, question);
+  RandomStream random(seed, 1);
+  for (int d = 0; d < draws; ++d) {
+    const std::vector<double> statistics = refit.Draw(&random);
+    double smallest = 1;
+    for (std::size_t c = 0; c < statistics.size(); ++c) {
+      smallest = std::min(smallest, list.laws[c].Of(statistics[c]));
+    }
+    calibration.nulls.push_back(-std::log(std::max(list.Corrected(smallest), 1e-300)));
+  }
+  std::sort(calibration.nulls.begin(), calibration.nulls.end());
+  return calibration;
 }
 
 }  // namespace lyrefit

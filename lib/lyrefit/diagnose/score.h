@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/workbench.h"
 
 namespace lyrefit {
@@ -32,16 +33,36 @@ struct Score {
   int outlier = -1;        // of `outliers`: the reading
 };
 
+// What the list's corrected p-value really is worth. Linear nulls know the weights; in truth these
+// come from the same few readings, which makes extremes more frequent than they say. Found from
+// nulls that estimate their noise anew.
+struct Calibration {
+  std::vector<double> nulls;  // -ln of the corrected p-value of each such null, rising; empty: none
+  double Corrected(double p) const;
+};
+
+// What a null has to estimate anew.
+struct NoiseQuestion {
+  const std::vector<char>& dark;
+  const DeviceNotes& notes;
+  double grid_step;
+};
+
 // Scores every effect of `candidates` on the residuals of `fit`; "unknown_structure" is scored on
 // smooth waves along each stretch, "outliers" on single readings. `draws` simulated nulls (noise
 // through the same projections) give p-values and their correction for the whole list, boundaries
 // and grids of probes included.
 std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
                                 const std::vector<const Effect*>& candidates, int draws,
-                                std::uint64_t seed);
+                                std::uint64_t seed, const Calibration& calibration = {});
+
+Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
+                            const std::vector<const Effect*>& candidates,
+                            const NoiseQuestion& question, int draws, std::uint64_t seed);
 
 // p-value of a statistic that an effect reached in a fit, its directions and the list counted.
-double CorrectedP(const Score& score, double statistic, int degrees);
+double CorrectedP(const Score& score, double statistic, int degrees,
+                  const Calibration& calibration);
 
 // What an effect's probe does to the fitted currents, whitened.
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,

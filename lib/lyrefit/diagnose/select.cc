@@ -39,6 +39,7 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0) AddClip();
+    Calibrate();
     Extend(&selection);
     selection.extended = fit_;
     selection.causes = causes_;
@@ -46,6 +47,7 @@ class Selector {
     selection.outlier_p = outlier_p_;
     selection.bench = bench_;
     selection.noise = noise_;
+    selection.calibration = calibration_;
     return selection;
   }
 
@@ -89,6 +91,14 @@ class Selector {
     fit_ = FitLaw(bench_, law, start);
     causes_.push_back({clip, 0, {}, {}});
     SettleNoise();
+  }
+
+  void Calibrate() {
+    calibration_ = options_.calibration;
+    if (!calibration_.nulls.empty() || !options_.calibrate) return;
+    const NoiseQuestion question{dark_, notes_, values_.grid_step};
+    calibration_ = CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5,
+                                   options_.seed);
   }
 
   bool InLaw(const Effect* effect) const {
@@ -144,7 +154,7 @@ class Selector {
     std::set<std::set<const Effect*>> seen;
     for (int step = 0;; ++step) {
       const std::vector<Score> scores =
-          ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step);
+          ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step, calibration_);
       double smallest = 1;
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
@@ -245,7 +255,7 @@ class Selector {
   }
 
   bool Accept(const Rival& rival) {
-    const double p = CorrectedP(rival.score, rival.statistic, Degrees(rival.fit));
+    const double p = CorrectedP(rival.score, rival.statistic, Degrees(rival.fit), calibration_);
     if (!(p < level_)) return false;
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
@@ -301,7 +311,7 @@ class Selector {
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable) continue;
       const double loss = (without.sum - fit_.sum) / std::max(Variance(fit_), 1e-300);
-      if (CorrectedP(causes_[c].score, loss, Degrees(fit_)) < options_.level * kLaterLevel) continue;
+      if (CorrectedP(causes_[c].score, loss, Degrees(fit_), calibration_) < options_.level * kLaterLevel) continue;
       fit_ = std::move(without);
       causes_.erase(causes_.begin() + c);
       SettleNoise();
@@ -315,6 +325,7 @@ class Selector {
   const SelectOptions& options_;
   Workbench bench_;
   Noise noise_;
+  Calibration calibration_;
   LawFit fit_;
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;

@@ -16,6 +16,8 @@ constexpr double kLaterLevel = 0.2;
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
+  Calibration calibration;  // of the list's p-values; found where it is empty and asked for
+  bool calibrate = true;
   int largest_causes = 4;
   std::uint64_t seed = 1;
   bool second_diode = false;  // in the base
@@ -59,6 +61,7 @@ struct Selection {
   Workbench bench;                  // with the noise of the extended model
   Workbench base_bench;             // with the noise of the base model
   Noise noise;
+  Calibration calibration;
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.

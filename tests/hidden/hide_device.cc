@@ -96,6 +96,9 @@ Names PhotoshuntTwins(const Shape& shape, const Scene&) {
   return shape.misfit < 12 ? Names{"collection"} : Names{};
 }
 
+// Lumped and distributed are two forms of one cause.
+Names RsCurrentTwins(const Shape&, const Scene&) { return {"distributed_rs"}; }
+
 Names MismatchTwins(const Shape&, const Scene&) { return {"shading"}; }
 
 }  // namespace
@@ -140,7 +143,12 @@ const std::vector<Hide>& DeviceHides() {
          return Size{plain ? "S" : nullptr, s.effects.photoshunt / s.device.cells};
        }},
       {"back_contact", {kFwd, kRev, kUpDown, kDark, kFamG, kFamGT}, 1e-3, 60, BackContact},
-      {"rs_current", {kFwd, kRev, kUpDown, kDark, kFamG, kFamGT}, 1e-5, 0.2, RsCurrent},
+      {"rs_current",
+       {kFwd, kRev, kUpDown, kDark, kFamG, kFamGT},
+       1e-5,
+       0.2,
+       RsCurrent,
+       RsCurrentTwins},
       {"shading", {kFwd, kUpDown}, 1e-4, 0.97, Shading, nullptr, nullptr, Wish::kModule},
       {"mismatch", {kFwd, kUpDown}, 1e-4, 0.5, Mismatch, MismatchTwins, nullptr, Wish::kModule},
   };

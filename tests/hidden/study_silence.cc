@@ -64,8 +64,8 @@ int StudySilence(const StudyOptions& options) {
     std::vector<Quiet> runs(cases);
     ForEach(cases, options.threads, [&](int i) {
       runs[i].hidden = NullFor(options, kind, i);
-      runs[i].answer = Ask(runs[i].hidden.measurement, i, options.level,
-                           SeedOf(options.seed, i), runs[i].hidden.second_diode);
+      runs[i].answer = Ask(runs[i].hidden.measurement, i, options.level, SeedOf(options.seed, i),
+                           runs[i].hidden.second_diode);
     });
     Alarms independent;
     for (int type = 0; type < kNoiseTypes; ++type) {

@@ -141,8 +141,7 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
   const Effect& effect = *fit.law.effects[index];
   const int first = fit.law.Offset(index);
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const double spread =
-      StudentT95(DegreesOf(bench, fit)) * std::sqrt(VarianceOf(bench, fit));
+  const double spread = StudentT95(DegreesOf(bench, fit)) * std::sqrt(VarianceOf(bench, fit));
   std::vector<CauseParameter> described;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
@@ -230,8 +229,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
       AddSeparation(effect, &cause.separate_by);
       AddSeparation(*rival.score.effect, &cause.separate_by);
     }
-    cause.points = by_values ? values.clipped
-                             : WhereItActs(bench, selection.extended, selection.without[c]);
+    cause.points =
+        by_values ? values.clipped : WhereItActs(bench, selection.extended, selection.without[c]);
     cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));
   }
@@ -265,24 +264,28 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
     shifts.push_back({symbol, name, unit, value(before), value(after), error});
   };
   const double per_p = brightest * scale;
-  add("Iph", "photocurrent", "A", [&](const LawFit& f) { return f.p[kBasePhotocurrent] * per_p; },
+  add(
+      "Iph", "photocurrent", "A", [&](const LawFit& f) { return f.p[kBasePhotocurrent] * per_p; },
       errors[kBasePhotocurrent] * sd * per_p);
-  add("Is1", "saturation_current", "A",
-      [&](const LawFit& f) {
-        return scale * SaturationCurrent(f.law, readings, f.p.data());
-      },
+  add(
+      "Is1", "saturation_current", "A",
+      [&](const LawFit& f) { return scale * SaturationCurrent(f.law, readings, f.p.data()); },
       kUnknown);
-  add("n1", "n", "", [](const LawFit& f) { return f.p[kBaseIdeality]; },
+  add(
+      "n1", "n", "", [](const LawFit& f) { return f.p[kBaseIdeality]; },
       errors[kBaseIdeality] * sd);
-  add("Rs", "resistance_series", "ohm",
+  add(
+      "Rs", "resistance_series", "ohm",
       [&](const LawFit& f) { return f.p[kBaseResistance] * cells / scale; },
       errors[kBaseResistance] * sd * cells / scale);
   const double g = after.p[kBaseConductance];
-  add("Rsh", "resistance_shunt", "ohm",
+  add(
+      "Rsh", "resistance_shunt", "ohm",
       [&](const LawFit& f) { return cells / (f.p[kBaseConductance] * scale); },
       errors[kBaseConductance] * sd * cells / (g * g * scale));
   if (!readings.traits.only_dark) {
-    add("Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); }, kUnknown);
+    add(
+        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); }, kUnknown);
   }
   return shifts;
 }

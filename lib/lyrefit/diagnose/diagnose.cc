@@ -44,7 +44,7 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
 Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes& notes,
                                const ValueFindings& values, const SelectOptions& options,
                                Selection* selection) {
-  constexpr double kNotable = 0.1, kSure = 1.6;
+  constexpr double kNotable = 0.08, kSure = 1;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
   *selection = SelectCauses(readings, measurement.dark, notes, used, values, 0, options);
@@ -56,7 +56,7 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes
   const Autocorrelation correlation =
       EstimateAutocorrelation(readings, whitened, selection->bench.used,
                               FreeCount(selection->bench, selection->extended.law));
-  const bool coarse = IsCoarse(*selection, values);
+  const bool coarse = IsCoarse(readings, measurement.dark, selection->noise, values.grids);
   if (!coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
     *selection = SelectCauses(readings, measurement.dark, notes, used, values,
@@ -65,8 +65,8 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes
   return correlation;
 }
 
-void DescribePoints(const CurveSet& set, const Measurement& measurement,
-                    const Selection& selection, Diagnosis* diagnosis) {
+void DescribePoints(const CurveSet& set, const Measurement& measurement, const Selection& selection,
+                    Diagnosis* diagnosis) {
   const Readings& readings = measurement.readings;
   const double scale = readings.scale.current_A;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
@@ -102,7 +102,8 @@ Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
   cause.acts = effect.acts;
   cause.evidence = "values";
   cause.corrected_p = 0;
-  const double step = values.grid_step * readings.scale.current_A;
+  const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
+  const double step = finest * readings.scale.current_A;
   cause.strength = {{"q", "resolution", "A", step, step, step, false}};
   cause.sentence = std::string(effect.sentence) + "; " + StrengthText(cause.strength.front());
   return cause;
@@ -135,15 +136,17 @@ std::string VerdictSentence(const Verdict& verdict) {
   return text + ".";
 }
 
-Verdict Decide(const Readings& readings, const Selection& selection, const ValueFindings& values,
-               const DiagnoseOptions& options) {
+Verdict Decide(const Measurement& measurement, const Selection& selection,
+               const ValueFindings& values, const DiagnoseOptions& options) {
+  const Readings& readings = measurement.readings;
   Verdict verdict;
   verdict.causes = DescribeCauses(selection, values);
   const auto wanted = [&](const char* id) {
     return options.effects.empty() ||
            std::find(options.effects.begin(), options.effects.end(), id) != options.effects.end();
   };
-  if (wanted("quantisation") && IsCoarse(selection, values)) {
+  if (wanted("quantisation") &&
+      IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
     verdict.causes.push_back(QuantisationCause(readings, values));
   }
   if (wanted("temperature_or_cells")) {
@@ -180,8 +183,7 @@ void DescribeGain(const Selection& selection, Gain* gain) {
   }
 }
 
-void AddWarnings(const Selection& selection, const Measurement& measurement,
-                 Diagnosis* diagnosis) {
+void AddWarnings(const Selection& selection, const Measurement& measurement, Diagnosis* diagnosis) {
   diagnosis->warnings = measurement.warnings;
   if (selection.bench.correlation > 0) {
     diagnosis->warnings.push_back(
@@ -243,8 +245,8 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
   diagnosis.base_sentence =
       "one diode and five parameters for all readings, photocurrent in proportion to light, Rsh "
       "that does not know the light";
-  if (select.second_diode) diagnosis.base_sentence = "two diodes (n2 = 2), else " +
-                                                     diagnosis.base_sentence.substr(14);
+  if (select.second_diode)
+    diagnosis.base_sentence = "two diodes (n2 = 2), else " + diagnosis.base_sentence.substr(14);
   diagnosis.seed = options.seed;
   diagnosis.level = options.level;
   diagnosis.cells_in_series = readings.scale.cells;
@@ -260,7 +262,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
                    options.threads, &diagnosis.gain, &diagnosis.trials);
   }
   diagnosis.evidence = DescribeEvidence(selection, values, correlation);
-  diagnosis.verdict = Decide(readings, selection, values, options);
+  diagnosis.verdict = Decide(*measurement, selection, values, options);
   DescribeGain(selection, &diagnosis.gain);
   DescribePoints(set, *measurement, selection, &diagnosis);
   AddWarnings(selection, *measurement, &diagnosis);

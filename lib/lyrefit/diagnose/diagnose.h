@@ -13,13 +13,13 @@
 namespace lyrefit {
 
 struct DiagnoseOptions {
-  double level = 0.05;  // rate of false alarms over the whole catalogue
+  double level = 0.05;               // rate of false alarms over the whole catalogue
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
   std::vector<std::string> effects;  // ids to try; empty: every one the data allow
   std::uint64_t seed = 1;
-  int draws = 2000;     // simulated nulls
+  int draws = 2000;        // simulated nulls
   int largest_causes = 4;  // at most so many are named
-  bool held_out = true;  // measure the gain on what was not fitted
+  bool held_out = true;    // measure the gain on what was not fitted
   int folds = 10;
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;

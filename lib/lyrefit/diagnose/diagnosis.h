@@ -42,18 +42,18 @@ struct Finding {
 };
 
 struct Evidence {
-  std::string kind;            // "one sweep from 0 V to beyond Voc", in words
+  std::string kind;             // "one sweep from 0 V to beyond Voc", in words
   double noise_constant_A = 0;  // standard deviation, constant part (lit curves)
   double noise_relative = 0;    // part of |current|
   double noise_dark_A = 0;      // constant part of dark curves; 0 without
-  double misfit_ratio = 0;      // base residual's standard deviation / noise's from second differences
-  double autocorrelation = 0;   // lag 1, of the noise (smooth misfit removed)
-  double grid_step_A = 0;       // greatest common step of the currents; 0: none seen
+  double misfit_ratio = 0;  // base residual's standard deviation / noise's from second differences
+  double autocorrelation = 0;  // lag 1, of the noise (smooth misfit removed)
+  double grid_step_A = 0;      // greatest common step of the currents; 0: none seen
   double grid_step_V = 0;
   int clipped_points = 0;
   double clip_level_A = 0;
-  ResidualStatistics residuals;  // of the base model
-  double whiteness_p_value = 1;  // portmanteau of the base residuals
+  ResidualStatistics residuals;        // of the base model
+  double whiteness_p_value = 1;        // portmanteau of the base residuals
   double whiteness_after_p_value = 1;  // of the extended model's
   std::vector<Finding> findings;
 };
@@ -72,10 +72,10 @@ struct Trial {
   std::string effect;
   std::string title;
   bool tried = false;
-  std::string why_not;          // where it was not
-  double rmse_A = kUnknown;     // base model with this one effect
-  double misfit = kUnknown;     // norm of what it takes away, in noise units
-  double p_value = kUnknown;    // all of the effect's probes counted
+  std::string why_not;            // where it was not
+  double rmse_A = kUnknown;       // base model with this one effect
+  double misfit = kUnknown;       // norm of what it takes away, in noise units
+  double p_value = kUnknown;      // all of the effect's probes counted
   double corrected_p = kUnknown;  // the whole catalogue counted
   double delta_aicc = kUnknown;   // with the effect minus without: negative is better
   double held_out_rmse_A = kUnknown;
@@ -105,7 +105,7 @@ struct CannotBeExcluded {
 
 struct Verdict {
   bool found = false;
-  bool unexplained = false;  // something is there that no known cause fits
+  bool unexplained = false;   // something is there that no known cause fits
   std::vector<Cause> causes;  // the most certain first
   std::vector<CannotBeExcluded> cannot_be_excluded;
   std::string sentence;
@@ -126,9 +126,9 @@ struct Gain {
   double rmse_after_A = kUnknown;
   double held_out_before_A = kUnknown;  // whole blocks or curves left out, selection repeated
   double held_out_after_A = kUnknown;
-  double held_out_gain_A2 = kUnknown;  // mean difference of squares over the blocks
+  double held_out_gain_A2 = kUnknown;        // mean difference of squares over the blocks
   double held_out_gain_error_A2 = kUnknown;  // its standard error
-  bool gain = false;                   // more than its standard error
+  bool gain = false;                         // more than its standard error
   int folds = 0;
   std::string sentence;
   std::vector<ParameterShift> shifts;
@@ -138,7 +138,7 @@ struct Diagnosis {
   std::string version;  // of lyrefit
   std::string name;
   std::string source;
-  std::string base;  // "sd" or "dd"
+  std::string base;           // "sd" or "dd"
   std::string base_sentence;  // what the base model assumes
   std::uint64_t seed = 0;
   double level = 0.05;

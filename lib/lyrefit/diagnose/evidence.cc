@@ -19,8 +19,7 @@ double MedianSigma(const Noise& noise) { return Median(noise.sigma); }
 std::vector<double> Residuals(const Readings& readings, const LawFit& fit) {
   std::vector<double> residuals;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    residuals.push_back((fit.current[k] - readings.points[k].current) *
-                        readings.scale.current_A);
+    residuals.push_back((fit.current[k] - readings.points[k].current) * readings.scale.current_A);
   }
   return residuals;
 }
@@ -45,10 +44,8 @@ double Whiteness(const Workbench& bench, const LawFit& fit) {
     statistic += correlation * correlation / (count - lag);
   }
   statistic *= static_cast<double>(count) * (count + 2);
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(kLags), statistic));
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(kLags), statistic));
 }
-
 
 void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
   std::vector<Finding>& findings = evidence->findings;
@@ -61,15 +58,16 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
   if (evidence->grid_step_A > 0) {
     findings.push_back(
         {"grid",
-         fmt::format("all currents lie on a grid of {:.4g} A, {:.2g} times the noise",
-                     evidence->grid_step_A, values.grid_step / MedianSigma(selection.noise)),
+         fmt::format("all currents lie on a grid of {:.4g} A; the noise is {:.3g} A",
+                     evidence->grid_step_A,
+                     MedianSigma(selection.noise) * selection.bench.readings->scale.current_A),
          {}});
   }
   if (evidence->misfit_ratio > 1.1) {
-    findings.push_back({"misfit",
-                        fmt::format("the base model misses by {:.3g} times the noise",
-                                    evidence->misfit_ratio),
-                        {}});
+    findings.push_back(
+        {"misfit",
+         fmt::format("the base model misses by {:.3g} times the noise", evidence->misfit_ratio),
+         {}});
   }
   if (evidence->residuals.runs_p_value < 0.01) {
     findings.push_back(
@@ -88,8 +86,7 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                         {}});
   }
   const LawFit& fit = selection.extended;
-  for (const auto& [at, name] :
-       {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
+  for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
     if (fit.p[at] > 1e-9) continue;
     findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
   }
@@ -117,10 +114,6 @@ std::string KindOfData(const Readings& readings) {
   return text;
 }
 
-bool IsCoarse(const Selection& selection, const ValueFindings& values) {
-  return values.grid_step > kCoarseGrid * MedianSigma(selection.noise);
-}
-
 Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
                           const Autocorrelation& autocorrelation) {
   const Workbench& bench = selection.base_bench;
@@ -136,7 +129,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   const int degrees = std::max(bench.count() - FreeCount(bench, selection.base.law), 1);
   evidence.misfit_ratio = std::sqrt(selection.base.sum / degrees);
   evidence.autocorrelation = autocorrelation.value;
-  evidence.grid_step_A = values.grid_step * scale;
+  evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
   for (const Reading& r : readings.points) voltages.push_back(r.voltage * readings.scale.cells);
   evidence.grid_step_V = FindGrid(voltages);

@@ -15,9 +15,6 @@ std::string KindOfData(const Readings& readings);
 Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
                           const Autocorrelation& autocorrelation);
 
-// Whether the grid of the currents is coarse for their noise.
-bool IsCoarse(const Selection& selection, const ValueFindings& values);
-
 // n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
 // plausible. Nothing where n is.
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection);

@@ -84,10 +84,9 @@ std::vector<double> Reported(const Workbench& bench, const Law& law, const std::
   if (readings.traits.single && !readings.traits.only_dark) {
     light = readings.points.front().irradiance;
   }
-  std::vector<double> values = {p[kBasePhotocurrent] * light * scale,
-                                SaturationCurrent(law, readings, p.data()) * scale,
-                                p[kBaseIdeality], p[kBaseResistance] * cells / scale,
-                                cells / (p[kBaseConductance] * scale)};
+  std::vector<double> values = {
+      p[kBasePhotocurrent] * light * scale, SaturationCurrent(law, readings, p.data()) * scale,
+      p[kBaseIdeality], p[kBaseResistance] * cells / scale, cells / (p[kBaseConductance] * scale)};
   if (law.second_diode) {
     values.push_back(p[kBaseSecond] * readings.scale.saturation_2_unit * scale);
     values.push_back(2);
@@ -95,8 +94,8 @@ std::vector<double> Reported(const Workbench& bench, const Law& law, const std::
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const int first = law.Offset(static_cast<int>(e));
     for (int k = 0; k < law.effects[e]->size(); ++k) {
-      values.push_back(p[first + k] * law.effects[e]->parameters[k].ReportedFactor(
-                                          p.data() + first, readings.scale));
+      values.push_back(p[first + k] * law.effects[e]->parameters[k].ReportedFactor(p.data() + first,
+                                                                                   readings.scale));
     }
   }
   return values;

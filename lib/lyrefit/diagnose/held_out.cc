@@ -80,8 +80,8 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.trials = false;
     inner.calibration = selection.calibration;
     inner.draws = std::max(options.draws / 2, 200);
-    const Selection again = SelectCauses(readings, dark, notes, used, values,
-                                         selection.bench.correlation, inner);
+    const Selection again =
+        SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];
     if (!again.base.usable || !again.extended.usable) return;
     result.before = judge.Of(again.base.current);

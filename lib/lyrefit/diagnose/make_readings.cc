@@ -118,7 +118,7 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, const CurveLayout& 
     Reading reading;
     reading.voltage = curve.voltage_V[k] / cells;
     reading.current = curve.current_A[k];
-    reading.irradiance = (monitored ? curve.irradiance_W_m2[k]
+    reading.irradiance = (monitored                ? curve.irradiance_W_m2[k]
                           : curve.irradiance_known ? curve.conditions.irradiance_W_m2
                                                    : 1000.0) /
                          1000;
@@ -126,8 +126,7 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, const CurveLayout& 
     if (!dark && reading.irradiance * 1000 <= kLargestDark_W_m2) reading.irradiance = 1;
     reading.temperature_K = curve.conditions.cell_temperature_K;
     reading.x = (layout.clock[k] - first) / span - 0.5;
-    reading.gap =
-        k + 1 < curve.size() ? 0.5 * (layout.clock[k + 1] - layout.clock[k]) / span : 0;
+    reading.gap = k + 1 < curve.size() ? 0.5 * (layout.clock[k + 1] - layout.clock[k]) / span : 0;
     reading.rate = Rate(curve, layout, static_cast<int>(k), begin, end);
     reading.curve = index;
     reading.segment = segment;
@@ -235,7 +234,7 @@ std::vector<int> FindTurns(const std::vector<double>& voltage) {
         direction = move > 0 ? 1 : -1;
         extreme = k;
       }
-    } else if (direction * move >= 0) {
+    } else if (direction * move > 0) {
       extreme = k;
     } else if (std::fabs(move) > jitter) {
       turns.push_back(static_cast<int>(extreme) + 1);
@@ -254,8 +253,9 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
     const IvCurve& curve = set.curves[c];
     if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
     if (curve.conditions.cells_in_series != set.curves.front().conditions.cells_in_series) {
-      return Fail(curve.name + ": its number of cells differs from the others'; a measurement is of "
-                               "one device");
+      return Fail(curve.name +
+                  ": its number of cells differs from the others'; a measurement is of "
+                  "one device");
     }
     measurement.dark.push_back(DecideDark(curve, &measurement.warnings) ? 1 : 0);
     AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0,
@@ -276,9 +276,8 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
     readings.isc_tempco_per_K = *notes.isc_tempco_A_per_K / readings.scale.current_A;
   }
   DataTraits& traits = readings.traits;
-  readings.reference_temperature_K = traits.temperature_levels > 1
-                                         ? 298.15
-                                         : set.curves.front().conditions.cell_temperature_K;
+  readings.reference_temperature_K =
+      traits.temperature_levels > 1 ? 298.15 : set.curves.front().conditions.cell_temperature_K;
   traits.thermal_voltage = ThermalVoltage(readings.reference_temperature_K);
   readings.pivot_voltage =
       traits.open_circuit > 0 ? traits.open_circuit : std::max(0.9 * traits.highest_voltage, 0.05);

@@ -12,8 +12,8 @@ namespace lyrefit {
 // A measurement laid out reading by reading, and what had to be said about its metadata.
 struct Measurement {
   Readings readings;
-  std::vector<char> dark;               // of each curve
-  std::vector<std::string> warnings;    // metadata that the data contradict, in plain sentences
+  std::vector<char> dark;             // of each curve
+  std::vector<std::string> warnings;  // metadata that the data contradict, in plain sentences
 };
 
 // Errors: no usable curve, two devices (cell counts differ), fewer than 7 readings.

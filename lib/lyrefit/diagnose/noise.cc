@@ -8,8 +8,7 @@ namespace lyrefit {
 namespace {
 
 // Ratios of constant and relative noise that are weighed against each other.
-constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06,
-                              0.12, 0.25, 0.5,  1,    2,    100};
+constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
 constexpr double kSmallestNoise = 1e-7;
 // Squares beyond this many variances count as this many: steps and outliers are not noise.
@@ -127,7 +126,7 @@ double Deviation(const NoiseLaw& law, double current) {
 
 Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, double grid_step) {
+                    const DeviceNotes& notes, const Grids& grids) {
   Noise noise;
   NoiseLaw stated;
   const bool is_stated = notes.current_noise_constant_A && notes.current_noise_relative;
@@ -142,13 +141,28 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
   if (lit.size() < 3) noise.lit = noise.dark;
   if (unlit.size() < 3) noise.dark = noise.lit;
   // A grid leaves no two readings closer than its own rounding noise.
-  const double smallest = std::max(kSmallestNoise, grid_step * 0.25);
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
     const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
-    noise.sigma.push_back(std::max(Deviation(law, r.current), smallest));
+    const double rounding = 0.25 * (dark[r.curve] != 0 ? grids.dark : grids.lit);
+    noise.sigma.push_back(std::max({Deviation(law, r.current), rounding, kSmallestNoise}));
   }
   return noise;
+}
+
+bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,
+              const Grids& grids) {
+  for (const char class_of : {0, 1}) {
+    const double step = class_of != 0 ? grids.dark : grids.lit;
+    std::vector<double> sigma;
+    for (std::size_t k = 0; k < readings.points.size(); ++k) {
+      if (dark[readings.points[k].curve] == class_of) sigma.push_back(noise.sigma[k]);
+    }
+    if (sigma.empty() || !(step > 0)) continue;
+    std::nth_element(sigma.begin(), sigma.begin() + sigma.size() / 2, sigma.end());
+    if (step > kCoarseGrid * sigma[sigma.size() / 2]) return true;
+  }
+  return false;
 }
 
 Autocorrelation EstimateAutocorrelation(const Readings& readings,

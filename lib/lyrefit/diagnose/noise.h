@@ -14,6 +14,12 @@ struct NoiseLaw {
   double relative = 0;
 };
 
+// Steps of the grids on which currents lie, in scales; 0: none.
+struct Grids {
+  double lit = 0;
+  double dark = 0;
+};
+
 struct Noise {
   NoiseLaw lit;
   NoiseLaw dark;
@@ -25,7 +31,12 @@ struct Noise {
 // not empty, is the readings' own stated deviation and does the same.
 Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, double grid_step);
+                    const DeviceNotes& notes, const Grids& grids);
+
+// A grid coarser than this many noise deviations is a finding.
+constexpr double kCoarseGrid = 1.95;
+bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,
+              const Grids& grids);
 
 // Lag-1 correlation of whitened residuals with their smooth part removed, and its standard error.
 struct Autocorrelation {

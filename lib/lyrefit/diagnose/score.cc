@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/diagnose/noise.h"
 
 namespace lyrefit {
 namespace {
@@ -178,7 +177,8 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
                                        : along.colwise().maxCoeff().cwiseMax(0.0).eval();
       }
       for (int d = 0; d < lot; ++d) {
-        largest(first + d, static_cast<int>(c)) = Statistic(best[d], sums[d], degrees, bench.least_variance);
+        largest(first + d, static_cast<int>(c)) =
+            Statistic(best[d], sums[d], degrees, bench.least_variance);
       }
     }
   }
@@ -195,8 +195,9 @@ class NullLaw {
   }
   double Of(double statistic) const {
     if (statistic > nulls_[edge_]) return kTail * TailOf(statistic, degrees_) / edge_tail_;
-    const auto above = std::upper_bound(nulls_.begin(), nulls_.end(), statistic,
-                                        std::greater<double>()) - nulls_.begin();
+    const auto above =
+        std::upper_bound(nulls_.begin(), nulls_.end(), statistic, std::greater<double>()) -
+        nulls_.begin();
     return std::max(kTail, static_cast<double>(above) / static_cast<double>(nulls_.size()));
   }
   // How many independent directions would give such nulls.
@@ -283,8 +284,7 @@ Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
     if (candidate.score.testable) {
       const double best = candidate.score.directions.front().score;
       const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
-      candidate.score.statistic =
-          Statistic(size, sum, prepared.degrees, bench.least_variance);
+      candidate.score.statistic = Statistic(size, sum, prepared.degrees, bench.least_variance);
     }
     prepared.candidates.push_back(std::move(candidate));
   }
@@ -310,7 +310,7 @@ class Refit {
     std::vector<double> residual(count);
     for (int k = 0; k < count; ++k) residual[k] = left[k] * bench_.sigma[k];
     const Noise again = EstimateNoise(readings, question_.dark, residual, bench_.used,
-                                      question_.notes, question_.grid_step);
+                                      question_.notes, question_.grids);
     Eigen::VectorXd weight(count);
     for (int k = 0; k < count; ++k) {
       weight[k] = bench_.used[k] != 0 ? bench_.sigma[k] / again.sigma[k] : 0.0;
@@ -358,7 +358,8 @@ class Refit {
 
 double Calibration::Corrected(double p) const {
   if (nulls.empty()) return p;
-  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows.
+  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows; both
+  // are taken a standard error to the safe side, since so many nulls say no more.
   constexpr double kPart = 0.2;
   const double x = -std::log(std::max(p, 1e-300));
   const std::size_t count = nulls.size();
@@ -366,8 +367,10 @@ double Calibration::Corrected(double p) const {
   if (x > nulls[edge]) {
     double excess = 0;
     for (std::size_t k = edge + 1; k < count; ++k) excess += nulls[k] - nulls[edge];
-    excess /= static_cast<double>(count - edge - 1);
-    return std::min(1.0, std::max(p, kPart * std::exp(-(x - nulls[edge]) / excess)));
+    const double beyond = static_cast<double>(count - edge - 1);
+    excess *= (1 + 1 / std::sqrt(beyond)) / beyond;
+    const double part = kPart + std::sqrt(kPart * (1 - kPart) / static_cast<double>(count));
+    return std::min(1.0, std::max(p, part * std::exp(-(x - nulls[edge]) / excess)));
   }
   const auto above = nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), x);
   return std::max(p, static_cast<double>(above) / static_cast<double>(count));
@@ -375,8 +378,8 @@ double Calibration::Corrected(double p) const {
 
 double CorrectedP(const Score& score, double statistic, int degrees,
                   const Calibration& calibration) {
-  return calibration.Corrected(std::min(
-      1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees)));
+  return calibration.Corrected(
+      std::min(1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees)));
 }
 
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
@@ -402,9 +405,9 @@ std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
   std::vector<Score> scores;
   ListLaw list;
   if (prepared.degrees >= 3) {
-    list = CountTheList(SimulateNulls(bench, prepared.linear, prepared.candidates,
-                                      prepared.degrees, draws, seed),
-                        prepared.degrees, prepared.candidates);
+    list = CountTheList(
+        SimulateNulls(bench, prepared.linear, prepared.candidates, prepared.degrees, draws, seed),
+        prepared.degrees, prepared.candidates);
   }
   std::size_t at = 0;
   for (Candidate& candidate : prepared.candidates) {
@@ -427,9 +430,9 @@ Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
   Calibration calibration;
   const Prepared prepared = PrepareAll(bench, fit, candidates);
   if (prepared.degrees < 3) return calibration;
-  const ListLaw list = CountTheList(SimulateNulls(bench, prepared.linear, prepared.candidates,
-                                                  prepared.degrees, 2 * draws, seed),
-                                    prepared.degrees, prepared.candidates);
+  const ListLaw list = CountTheList(
+      SimulateNulls(bench, prepared.linear, prepared.candidates, prepared.degrees, 2 * draws, seed),
+      prepared.degrees, prepared.candidates);
   if (list.laws.empty()) return calibration;
   const Refit refit(bench, prepared, question);
   RandomStream random(seed, 1);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/noise.h"
 #include "lyrefit/diagnose/workbench.h"
 
 namespace lyrefit {
@@ -12,10 +13,10 @@ namespace lyrefit {
 // One way an effect could show: the direction in which it would move the whitened currents, less
 // what the present law absorbs.
 struct Direction {
-  int probe = 0;       // of the effect's probes
-  double kept = 0;     // part of the signature's norm the law cannot absorb
-  double norm = 0;     // of what is kept, at the probe's strength
-  double score = 0;    // its length along the residual, signed: positive if the effect helps
+  int probe = 0;     // of the effect's probes
+  double kept = 0;   // part of the signature's norm the law cannot absorb
+  double norm = 0;   // of what is kept, at the probe's strength
+  double score = 0;  // its length along the residual, signed: positive if the effect helps
 };
 
 // How an effect scores on the residuals of a law.
@@ -24,13 +25,13 @@ struct Score {
   bool testable = false;
   std::string why_not;
   std::vector<Direction> directions;  // the best first
-  double statistic = 0;    // F(1, dof - 1) of the best direction
-  double p_value = 1;      // all its directions counted, by simulated nulls
-  double corrected_p = 1;  // the whole catalogue counted
-  double charge = 0;       // 2 ln of its effective number of directions
-  double catalogue = 1;    // how many such effects the whole list is worth
-  double kept = 0;         // of its best kept direction
-  int outlier = -1;        // of `outliers`: the reading
+  double statistic = 0;               // F(1, dof - 1) of the best direction
+  double p_value = 1;                 // all its directions counted, by simulated nulls
+  double corrected_p = 1;             // the whole catalogue counted
+  double charge = 0;                  // 2 ln of its effective number of directions
+  double catalogue = 1;               // how many such effects the whole list is worth
+  double kept = 0;                    // of its best kept direction
+  int outlier = -1;                   // of `outliers`: the reading
 };
 
 // What the list's corrected p-value really is worth. Linear nulls know the weights; in truth these
@@ -45,7 +46,7 @@ struct Calibration {
 struct NoiseQuestion {
   const std::vector<char>& dark;
   const DeviceNotes& notes;
-  double grid_step;
+  const Grids& grids;
 };
 
 // Scores every effect of `candidates` on the residuals of `fit`; "unknown_structure" is scored on

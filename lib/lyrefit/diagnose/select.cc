@@ -24,7 +24,8 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
-        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation, 0} {}
+        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation, 0} {
+  }
 
   Selection Run() {
     Law law;
@@ -59,7 +60,7 @@ class Selector {
       for (std::size_t k = 0; k < residual.size(); ++k) {
         residual[k] = fit_.current[k] - readings_.points[k].current;
       }
-      noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grid_step);
+      noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grids);
       bench_.sigma = noise_.sigma;
       WidenByRounding();
       LawFit again = FitLaw(bench_, fit_.law, fit_.p);
@@ -69,10 +70,7 @@ class Selector {
 
   // A grid much coarser than the noise leaves errors that neighbours share.
   void WidenByRounding() {
-    if (!(values_.grid_step > 0)) return;
-    std::vector<double> sorted = noise_.sigma;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    if (values_.grid_step < kCoarseGrid * sorted[sorted.size() / 2]) return;
+    if (!IsCoarse(readings_, dark_, noise_, values_.grids)) return;
     bench_.least_variance = 1;
     for (std::size_t k = 0; k < bench_.sigma.size(); ++k) {
       bench_.sigma[k] = std::hypot(bench_.sigma[k], values_.rounding[k]);
@@ -96,16 +94,18 @@ class Selector {
   void Calibrate() {
     calibration_ = options_.calibration;
     if (!calibration_.nulls.empty() || !options_.calibrate) return;
-    const NoiseQuestion question{dark_, notes_, values_.grid_step};
-    calibration_ = CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5,
-                                   options_.seed);
+    const NoiseQuestion question{dark_, notes_, values_.grids};
+    calibration_ =
+        CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5, options_.seed);
   }
 
   bool InLaw(const Effect* effect) const {
     for (const Effect* other : fit_.law.effects) {
       if (other == effect) return true;
-      if (other->cell && effect->cell && Is(other, "shading") && Is(effect, "mismatch")) return true;
-      if (other->cell && effect->cell && Is(other, "mismatch") && Is(effect, "shading")) return true;
+      if (other->cell && effect->cell && Is(other, "shading") && Is(effect, "mismatch"))
+        return true;
+      if (other->cell && effect->cell && Is(other, "mismatch") && Is(effect, "shading"))
+        return true;
     }
     return false;
   }
@@ -136,9 +136,8 @@ class Selector {
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / std::max(variance, 1e-300);
     }
-    std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
-      return a.Charged() > b.Charged();
-    });
+    std::stable_sort(rivals.begin(), rivals.end(),
+                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
     return rivals;
   }
 
@@ -173,8 +172,7 @@ class Selector {
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (TakeOutlier(scores, rivals)) continue;
       if (rivals.empty() || !Accept(rivals.front())) {
-        selection->unknown = causes_.empty() && outliers_.empty() &&
-                             selection->unknown_p < level_;
+        selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
         return;
       }
       Exchange();
@@ -208,7 +206,10 @@ class Selector {
     const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
     const double gain = (fit_.sum - fit.sum) / std::max(variance, 1e-300);
     const bool beaten = !rivals.empty() && gain - outliers->charge < rivals.front().Charged();
-    if (beaten && !Isolated(outliers->outlier)) return false;
+    // Light that changes for a moment can bend to any single reading.
+    const bool by_moment = !rivals.empty() && (Is(rivals.front().score.effect, "transient") ||
+                                               Is(rivals.front().score.effect, "irr_step"));
+    if (beaten && !(by_moment && Isolated(outliers->outlier))) return false;
     bench_.used[outliers->outlier] = 0;
     outliers_.push_back(outliers->outlier);
     outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
@@ -226,8 +227,7 @@ class Selector {
              kPlausible * bench_.sigma[k];
     };
     for (const int k : outliers_) bench_.used[k] = plausible(k) ? 1 : 0;
-    outliers_.erase(std::remove_if(outliers_.begin(), outliers_.end(), plausible),
-                    outliers_.end());
+    outliers_.erase(std::remove_if(outliers_.begin(), outliers_.end(), plausible), outliers_.end());
     if (outliers_.size() == before) return;
     fit_ = FitLaw(bench_, fit_.law, fit_.p);
     SettleNoise();
@@ -284,12 +284,12 @@ class Selector {
     if (fit_.usable) {
       const std::vector<Rival> rivals =
           FitAll(ScoreEffects(bench_, fit_, Open(), options_.draws / 4 + 100, options_.seed));
-      const auto own = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
-        return r.score.effect == effect;
-      });
-      const double kept = own == rivals.end() ? 0
-                                              : own->Charged() + std::max(0.0, own->fit.sum - present.sum) /
-                                                                     Variance(present);
+      const auto own = std::find_if(rivals.begin(), rivals.end(),
+                                    [&](const Rival& r) { return r.score.effect == effect; });
+      const double kept =
+          own == rivals.end()
+              ? 0
+              : own->Charged() + std::max(0.0, own->fit.sum - present.sum) / Variance(present);
       if (!rivals.empty() && rivals.front().score.effect != effect &&
           rivals.front().Charged() > kept + 1) {
         fit_ = rivals.front().fit;
@@ -311,7 +311,9 @@ class Selector {
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable) continue;
       const double loss = (without.sum - fit_.sum) / std::max(Variance(fit_), 1e-300);
-      if (CorrectedP(causes_[c].score, loss, Degrees(fit_), calibration_) < options_.level * kLaterLevel) continue;
+      if (CorrectedP(causes_[c].score, loss, Degrees(fit_), calibration_) <
+          options_.level * kLaterLevel)
+        continue;
       fit_ = std::move(without);
       causes_.erase(causes_.begin() + c);
       SettleNoise();
@@ -365,14 +367,12 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
       Rival rival{score, FitEffect(bench, without, score), 0};
       if (!rival.fit.usable) continue;
       const bool own = score.effect == selection->causes[c].effect;
-      const double sum =
-          own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
+      const double sum = own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
       rival.statistic = (without.sum - sum) / std::max(variance, 1e-300);
       rivals.push_back(std::move(rival));
     }
-    std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
-      return a.Charged() > b.Charged();
-    });
+    std::stable_sort(rivals.begin(), rivals.end(),
+                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
   }
 }
 

@@ -27,10 +27,10 @@ struct SelectOptions {
 
 // What is read off the values before any fit.
 struct ValueFindings {
-  double grid_step = 0;           // of the currents, in scales; 0: none
-  double clip_level = 0;          // in scales; 0: none
-  std::vector<int> clipped;       // readings
-  std::vector<double> rounding;   // of each reading: standard deviation of what a coarse grid adds
+  Grids grids;
+  double clip_level = 0;         // in scales; 0: none
+  std::vector<int> clipped;      // readings
+  std::vector<double> rounding;  // of each reading: standard deviation of what a coarse grid adds
 };
 
 // An effect fitted in the company of others.
@@ -43,8 +43,8 @@ struct Rival {
 
 struct ChosenCause {
   const Effect* effect = nullptr;
-  double corrected_p = 1;  // when it entered
-  Score score;             // then
+  double corrected_p = 1;     // when it entered
+  Score score;                // then
   std::vector<Rival> rivals;  // every effect in its place, the best first, itself among them
 };
 
@@ -55,11 +55,11 @@ struct Selection {
   std::vector<LawFit> without;      // the extended law without each cause, filled by FindRivals
   std::vector<int> outliers;        // readings left out as wrong
   double outlier_p = 1;
-  std::vector<Rival> trials;        // each effect on the base model
-  double unknown_p = 1;             // corrected, of unknown structure in what `extended` leaves
-  bool unknown = false;             // it is the verdict
-  Workbench bench;                  // with the noise of the extended model
-  Workbench base_bench;             // with the noise of the base model
+  std::vector<Rival> trials;  // each effect on the base model
+  double unknown_p = 1;       // corrected, of unknown structure in what `extended` leaves
+  bool unknown = false;       // it is the verdict
+  Workbench bench;            // with the noise of the extended model
+  Workbench base_bench;       // with the noise of the base model
   Noise noise;
   Calibration calibration;
 };

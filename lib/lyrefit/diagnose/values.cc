@@ -27,21 +27,21 @@ double Sharpen(const std::vector<double>& sorted, double step) {
 }
 
 // Neighbours that show the same value share their rounding error: together they count as one.
-std::vector<double> Rounding(const Readings& readings, double step) {
-  std::vector<double> rounding(readings.points.size(), 0.0);
-  for (std::size_t first = 0; step > 0 && first < rounding.size();) {
+void AddRounding(const Readings& readings, const std::vector<char>& dark, char want_dark,
+                 double step, std::vector<double>* rounding) {
+  const std::vector<Reading>& points = readings.points;
+  for (std::size_t first = 0; step > 0 && first < points.size();) {
     std::size_t last = first;
-    while (last + 1 < rounding.size() &&
-           readings.points[last + 1].segment == readings.points[first].segment &&
-           std::fabs(readings.points[last + 1].current - readings.points[first].current) <
-               0.1 * step) {
+    while (last + 1 < points.size() && points[last + 1].segment == points[first].segment &&
+           std::fabs(points[last + 1].current - points[first].current) < 0.1 * step) {
       ++last;
     }
     const double run = static_cast<double>(last - first + 1);
-    for (std::size_t k = first; k <= last; ++k) rounding[k] = step * std::sqrt(run / 12);
+    for (std::size_t k = first; k <= last; ++k) {
+      if (dark[points[k].curve] == want_dark) (*rounding)[k] = step * std::sqrt(run / 12);
+    }
     first = last + 1;
   }
-  return rounding;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ double FindGrid(const std::vector<double>& values) {
   if (distinct.size() < 3) return 0;
   for (int part = 1; part <= 3; ++part) {
     const double step = smallest / part;
-    if (step < 2e-4 * range) break;
+    if (step < 1e-4 * range) break;
     // From the near values outwards: the step must be sharp before many are counted.
     double sharp = step;
     bool on = true;
@@ -81,14 +81,18 @@ double FindGrid(const std::vector<double>& values) {
 
 ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& dark) {
   ValueFindings findings;
-  std::vector<double> currents;
+  std::vector<double> currents, lit, unlit;
   double largest = 0;
   for (const Reading& r : readings.points) {
     currents.push_back(r.current);
+    (dark[r.curve] != 0 ? unlit : lit).push_back(r.current);
     if (dark[r.curve] == 0) largest = std::max(largest, r.current);
   }
-  findings.grid_step = FindGrid(currents);
-  findings.rounding = Rounding(readings, findings.grid_step);
+  findings.grids.lit = FindGrid(lit);
+  findings.grids.dark = FindGrid(unlit);
+  findings.rounding.assign(currents.size(), 0.0);
+  AddRounding(readings, dark, 0, findings.grids.lit, &findings.rounding);
+  AddRounding(readings, dark, 1, findings.grids.dark, &findings.rounding);
   // Exact repeats of the largest current; on a coarse grid they say nothing.
   std::vector<int> repeats;
   std::vector<double> below;
@@ -104,7 +108,7 @@ ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& da
   int ties = 0;
   for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
   const bool many = repeats.size() >= 4 && static_cast<int>(repeats.size()) > 3 * (ties + 1);
-  if (many && findings.grid_step == 0) {
+  if (many && findings.grids.lit == 0) {
     findings.clip_level = largest;
     findings.clipped = repeats;
   }

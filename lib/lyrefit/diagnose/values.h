@@ -11,9 +11,6 @@ namespace lyrefit {
 // thousandth of their range. Values may be rounded to some digits beyond it.
 double FindGrid(const std::vector<double>& values);
 
-// A grid coarser than this many noise deviations is a finding.
-constexpr double kCoarseGrid = 2.2;
-
 // Clipping and grids, as the values themselves show them.
 ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& dark);
 

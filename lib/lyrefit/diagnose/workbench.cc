@@ -26,8 +26,8 @@ void WhitenRows(const Workbench& bench, Matrix* rows) {
   if (bench.correlation == 0) return;
   const double rho = bench.correlation, scale = 1 / std::sqrt(1 - rho * rho);
   for (int k = count - 1; k > 0; --k) {
-    const bool chained = points[k].segment == points[k - 1].segment && bench.used[k] != 0 &&
-                         bench.used[k - 1] != 0;
+    const bool chained =
+        points[k].segment == points[k - 1].segment && bench.used[k] != 0 && bench.used[k - 1] != 0;
     if (chained) rows->row(k) = scale * (rows->row(k) - rho * rows->row(k - 1));
   }
 }
@@ -67,9 +67,7 @@ std::vector<double> BaseStart(const Readings& readings, double n, double resista
 
 }  // namespace
 
-int Workbench::count() const {
-  return static_cast<int>(std::count(used.begin(), used.end(), 1));
-}
+int Workbench::count() const { return static_cast<int>(std::count(used.begin(), used.end(), 1)); }
 
 Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
   Eigen::VectorXd result = values;

@@ -17,8 +17,9 @@ Effect Breakdown() {
   e.acts = "at the most negative voltages";
   e.confused_with = {"nonohmic_shunt"};
   e.separate_by = "reverse bias closer to breakdown, or another irradiance";
-  e.parameters = {{"a", "breakdown_factor", "S", "conductance of a cell at 0 V", 0, 3, 0, false, 1, 1},
-                  {"Vbr", "breakdown_voltage", "V", "breakdown voltage of a cell", 0.15, 0.97, 0.6}};
+  e.parameters = {
+      {"a", "breakdown_factor", "S", "conductance of a cell at 0 V", 0, 3, 0, false, 1, 1},
+      {"Vbr", "breakdown_voltage", "V", "breakdown voltage of a cell", 0.15, 0.97, 0.6}};
   // Inside: the current at the most negative reading, and that voltage as a part of Vbr.
   e.parameters[0].convert = [](const double* p, const ReadingScale& scale) {
     return std::pow(1 - p[1], 3.4) / scale.reach_V;

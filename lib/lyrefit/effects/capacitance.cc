@@ -10,20 +10,27 @@ Effect Capacitance() {
   e.where = "instrument";
   e.equation = "I = ... - (C0 + tau gd(Vj)) dVj/dt";
   e.reference = "Friesen and Ossenbrink 1997, Solar Energy Materials and Solar Cells 48, 77";
-  e.sentence = "the sweep was too fast: charging the cells adds to the current upwards and takes from it downwards";
+  e.sentence =
+      "the sweep was too fast: charging the cells adds to the current upwards and takes from it "
+      "downwards";
   e.needs = "a sweep up and a sweep down with times";
   e.acts = "between the sweeps up and down, near open circuit if the diffusion part rules";
   e.confused_with = {"timing_skew", "irr_step"};
-  e.separate_by = "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
-  e.parameters = {{"C0", "capacitance", "F", "of the whole device", 0, 0.3, 0, false, 1, 1, -1, -1},
-                  {"tau", "lifetime", "s", "diffusion capacitance over the conductance of the diode", 0, 0.3, 0, false, 1, 0, 0, -1}};
+  e.separate_by =
+      "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
+  e.parameters = {
+      {"C0", "capacitance", "F", "of the whole device", 0, 0.3, 0, false, 1, 1, -1, -1},
+      {"tau", "lifetime", "s", "diffusion capacitance over the conductance of the diode", 0, 0.3, 0,
+       false, 1, 0, 0, -1}};
   e.instrument = [](const auto* p, const Reading& reading, auto* solved) {
     const auto divider = 1.0 + solved->resistance * solved->conductance;
     const auto charge = p[0] + p[1] * solved->diode_conductance;
     solved->current = solved->current - charge * reading.rate / (divider * divider);
   };
   e.why_not = NeedsUpDown;
-  e.probes = [](const DataTraits&) { return std::vector<Probe>{{0.002, 0}, {0, 0.002}, {0.001, 0.001}, {0.004, 0.001}}; };
+  e.probes = [](const DataTraits&) {
+    return std::vector<Probe>{{0.002, 0}, {0, 0.002}, {0.001, 0.001}, {0.004, 0.001}};
+  };
   return e;
 }
 

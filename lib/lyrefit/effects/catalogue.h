@@ -16,8 +16,8 @@ const Effect* FindEffect(const std::string& id);
 
 // What no current-voltage data can tell from the parameters it biases: never named as a cause.
 struct Inseparable {
-  const char* id;          // "lead_resistance"
-  const char* biases;      // "Rs"
+  const char* id;      // "lead_resistance"
+  const char* biases;  // "Rs"
   const char* sentence;
   const char* separate_by;
   bool (*applies)(const DataTraits&);  // whether data of this kind leave it open

@@ -15,7 +15,8 @@ Effect Clip() {
   e.acts = "at the largest currents";
   e.confused_with = {"transient", "collection"};
   e.separate_by = "repeat with a larger current range";
-  e.parameters = {{"Ic", "limit", "A", "largest current that is recorded", 0.05, 1.5, 1.3, false, 1, 1}};
+  e.parameters = {
+      {"Ic", "limit", "A", "largest current that is recorded", 0.05, 1.5, 1.3, false, 1, 1}};
   e.instrument = [](const auto* p, const Reading&, auto* solved) {
     if (p[0] < solved->current) solved->current = p[0];
   };

@@ -21,7 +21,8 @@ Effect Collection() {
     constexpr double kClosest = 0.03;  // beyond it the tangent goes on
     const auto gap = kBuiltIn - voltage;
     if (gap < kClosest) {
-      return -(cell.photocurrent * p[0]) * (1.0 / kClosest + (kClosest - gap) / (kClosest * kClosest));
+      return -(cell.photocurrent * p[0]) *
+             (1.0 / kClosest + (kClosest - gap) / (kClosest * kClosest));
     }
     return -(cell.photocurrent * p[0]) / gap;
   };

@@ -9,10 +9,12 @@ Effect DistributedRs() {
   e.title = "series resistance spread over the cell";
   e.where = "device";
   e.equation = "two half cells, I = (F(Va) + F(Vb)) / 2, Vb = Va + R F(Vb) / 2";
-  e.reference = "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
-                "IEEE Trans. Electron Devices 33, 391";
-  e.sentence = "the current from far parts of the cell passes a resistance of its own: a sheet, a "
-               "broken finger";
+  e.reference =
+      "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
+      "IEEE Trans. Electron Devices 33, 391";
+  e.sentence =
+      "the current from far parts of the cell passes a resistance of its own: a sheet, a "
+      "broken finger";
   e.needs = "little noise near the knee, or several irradiances";
   e.acts = "from the knee to open circuit";
   e.confused_with = {"rs_current", "back_contact", "transient"};

@@ -11,11 +11,13 @@ Effect Drift() {
   e.equation = "Iph -> Iph (1 + d x), x = -1/2 .. 1/2 over the measurement";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
   e.sentence = "the light grew or faded steadily while the curve was taken";
-  e.needs = "a sweep up and down, or points in reverse; on one sweep only an impossible slope shows it";
+  e.needs =
+      "a sweep up and down, or points in reverse; on one sweep only an impossible slope shows it";
   e.acts = "everywhere that light counts, in the order of time";
   e.confused_with = {"temp_drift", "irr_step", "collection"};
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
-  e.parameters = {{"d", "relative_change", "", "change of the light over the measurement", -0.5, 0.5, 0}};
+  e.parameters = {
+      {"d", "relative_change", "", "change of the light over the measurement", -0.5, 0.5, 0}};
   e.sky = [](const auto* p, const Reading& reading, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * reading.x);
   };

@@ -22,9 +22,9 @@ namespace lyrefit {
 // An effect is a named cause that changes one or several of these stages. It owns a stretch of the
 // parameter vector, `p` points to its beginning. Every hook is written once, as a lambda over its
 // number type: plain numbers for the solver, duals for the derivatives.
-using Slope1 = Dual<1>;   // derivative by the junction voltage
-using Narrow = Dual<8>;   // models with up to 8 parameters
-using Wide = Dual<20>;    // up to 20
+using Slope1 = Dual<1>;  // derivative by the junction voltage
+using Narrow = Dual<8>;  // models with up to 8 parameters
+using Wide = Dual<20>;   // up to 20
 
 template <class S>
 struct Sky {
@@ -39,8 +39,8 @@ template <class S>
 struct Cell {
   S irradiance;
   S photocurrent;
-  S saturation;    // of the first diode
-  S inverse_n_vt;  // 1 / (n Vt)
+  S saturation;         // of the first diode
+  S inverse_n_vt;       // 1 / (n Vt)
   bool second = false;  // there is a second diode, with n = 2
   S saturation_2;
   S inverse_2_vt;
@@ -127,7 +127,7 @@ struct EffectParameter {
   const char* doc;
   double lower;
   double upper;
-  double neutral;         // where the effect is not there (of the strength); where to start (others)
+  double neutral;  // where the effect is not there (of the strength); where to start (others)
   bool searched = false;  // settled by trying the probes' values, not by descent: a step's time
   double factor = 1;
   int current = 0;
@@ -143,16 +143,16 @@ struct EffectParameter {
 using Probe = std::vector<double>;
 
 struct Effect {
-  const char* id;        // "nonohmic_shunt"
-  const char* title;     // "non-ohmic shunt"
-  const char* where;     // "device", "sweep", "instrument", "conditions"
+  const char* id;     // "nonohmic_shunt"
+  const char* title;  // "non-ohmic shunt"
+  const char* where;  // "device", "sweep", "instrument", "conditions"
   const char* equation;
   const char* reference;
-  const char* sentence;  // what a technician understands
-  const char* needs;     // data that show it
-  const char* acts;      // where on the curve it shows
-  std::vector<const char*> confused_with;  // ids, most alike first
-  const char* separate_by;                 // the measurement that would tell it from them
+  const char* sentence;                     // what a technician understands
+  const char* needs;                        // data that show it
+  const char* acts;                         // where on the curve it shows
+  std::vector<const char*> confused_with;   // ids, most alike first
+  const char* separate_by;                  // the measurement that would tell it from them
   std::vector<EffectParameter> parameters;  // the first is the strength, unless said
   Hook<SkyStage> sky;
   Hook<CellStage> cell;

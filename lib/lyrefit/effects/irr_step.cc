@@ -14,9 +14,12 @@ Effect IrradianceStep() {
   e.needs = "one sweep; times or a reference cell confirm it";
   e.acts = "from one reading on, in the order of time";
   e.confused_with = {"shading", "transient", "capacitance", "drift"};
-  e.separate_by = "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside the module";
-  e.parameters = {{"s", "relative_step", "", "jump of the light", -0.5, 0.5, 0},
-                  {"x0", "step_time", "", "when, -1/2 .. 1/2 over the measurement", -0.5, 0.5, 0, true}};
+  e.separate_by =
+      "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
+      "the module";
+  e.parameters = {
+      {"s", "relative_step", "", "jump of the light", -0.5, 0.5, 0},
+      {"x0", "step_time", "", "when, -1/2 .. 1/2 over the measurement", -0.5, 0.5, 0, true}};
   e.sky = [](const auto* p, const Reading& reading, auto* sky) {
     if (reading.x > ValueOf(p[1])) sky->irradiance = sky->irradiance * (1.0 + p[0]);
   };

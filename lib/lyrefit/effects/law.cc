@@ -43,18 +43,16 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   Cell<S> cell;
   cell.irradiance = sky.irradiance;
   cell.thermal_voltage = sky.temperature_K * k_eV;
-  cell.photocurrent =
-      sky.irradiance * p[kBasePhotocurrent] *
-      (1.0 + sky.isc_tempco_per_K * (sky.temperature_K - reference_K));
-  cell.saturation = exp(p[kBasePivot] + barrier) * (ratio * ratio * ratio) /
-                    (pivot_exponential - 1.0);
+  cell.photocurrent = sky.irradiance * p[kBasePhotocurrent] *
+                      (1.0 + sky.isc_tempco_per_K * (sky.temperature_K - reference_K));
+  cell.saturation =
+      exp(p[kBasePivot] + barrier) * (ratio * ratio * ratio) / (pivot_exponential - 1.0);
   cell.inverse_n_vt = inverse_vt * inverse_n;
   cell.inverse_2_vt = 0.5 * inverse_vt;
-  cell.saturation_2_unit = bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) *
-                           exp(0.5 * barrier);
+  cell.saturation_2_unit =
+      bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
   cell.second = bench.law.second_diode;
-  cell.saturation_2 =
-      bench.law.second_diode ? p[kBaseSecond] * cell.saturation_2_unit : S(0.0);
+  cell.saturation_2 = bench.law.second_diode ? p[kBaseSecond] * cell.saturation_2_unit : S(0.0);
   // A cell in a string must carry the others' current in reverse, if at a huge voltage.
   constexpr double kSmallestConductance = 1e-8;
   cell.conductance = p[kBaseConductance] + kSmallestConductance;
@@ -104,8 +102,7 @@ Tangent<S> JunctionCurrent(const Bench<S>& bench, const Cell<S>& cell, const Tan
               (exp(Cut(T(voltage * cell.inverse_n_vt))) - 1.0) * T(cell.saturation) -
               voltage * cell.conductance;
   if (cell.second) {
-    current = current -
-              (exp(Cut(T(voltage * cell.inverse_2_vt))) - 1.0) * T(cell.saturation_2);
+    current = current - (exp(Cut(T(voltage * cell.inverse_2_vt))) - 1.0) * T(cell.saturation_2);
   }
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->junction.template For<S>();
@@ -281,10 +278,8 @@ void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
                    const Bench<double>& plain, const Cell<double>& plain_cell, const Root& root,
                    S* current, S* junction) {
   const S drop = SeriesDrop(bench, cell, S(root.current));
-  const double resistance =
-      SeriesDrop(plain, plain_cell, Slope1(root.current, 0)).v[0];  // dD/dI
-  const S missing =
-      CellCurrent(bench, cell, plain, plain_cell, S(root.junction)) - root.current;
+  const double resistance = SeriesDrop(plain, plain_cell, Slope1(root.current, 0)).v[0];  // dD/dI
+  const S missing = CellCurrent(bench, cell, plain, plain_cell, S(root.junction)) - root.current;
   if (!cell.grouped) {
     const S shift = voltage + drop - root.junction;
     *current = root.current + (missing + root.slope * shift) / (1 - root.slope * resistance);
@@ -298,8 +293,8 @@ void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
                     BypassCurrent(dim, S(drop - root.shaded_junction));
   const S shaded = root.shaded_junction - (carried - root.current) / root.shaded_slope - drop;
   const double w = plain_cell.share;
-  const double slope = (1 - w) * (1 / root.slope - resistance) +
-                       w * (root.shaded_by_current - resistance);
+  const double slope =
+      (1 - w) * (1 / root.slope - resistance) + w * (root.shaded_by_current - resistance);
   const S excess = (1.0 - cell.share) * lit + cell.share * shaded - voltage;
   *current = root.current - excess / slope;
   *junction = root.junction + (*current - root.current - missing) / root.slope;
@@ -476,8 +471,7 @@ double SaturationCurrent(const Law&, const Readings& readings, const double* p) 
 }
 
 double Saturation2Unit(const Readings& readings) {
-  return std::exp(-readings.pivot_voltage /
-                  (2 * ThermalVoltage(readings.reference_temperature_K)));
+  return std::exp(-readings.pivot_voltage / (2 * ThermalVoltage(readings.reference_temperature_K)));
 }
 
 }  // namespace lyrefit

@@ -19,8 +19,8 @@ namespace lyrefit {
 // (T / Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
 enum BaseParameter {
   kBasePhotocurrent = 0,  // at g = 1 and Tref
-  kBasePivot = 1,         // ln of the first diode's current at the pivot voltage: unlike ln Is it is
-                          // almost uncorrelated with n
+  kBasePivot = 1,  // ln of the first diode's current at the pivot voltage: unlike ln Is it is
+                   // almost uncorrelated with n
   kBaseIdeality = 2,
   kBaseResistance = 3,
   kBaseConductance = 4,

@@ -11,12 +11,12 @@ namespace lyrefit {
 // Reasons that several effects share. Nothing: the data can show the effect.
 using WhyNot = std::optional<std::string>;
 WhyNot NeedsLight(const DataTraits& traits);
-WhyNot NeedsOneLitCondition(const DataTraits& traits);   // effects during a sweep
-WhyNot NeedsModule(const DataTraits& traits);            // strings of cells, one lit condition
+WhyNot NeedsOneLitCondition(const DataTraits& traits);  // effects during a sweep
+WhyNot NeedsModule(const DataTraits& traits);           // strings of cells, one lit condition
 WhyNot NeedsUpDown(const DataTraits& traits);
-WhyNot NeedsLightLevels(const DataTraits& traits);       // two levels of light, dark counts
-WhyNot NeedsIrradiances(const DataTraits& traits);       // a family over irradiance
-WhyNot NeedsTemperatures(const DataTraits& traits);      // a family over temperature
+WhyNot NeedsLightLevels(const DataTraits& traits);   // two levels of light, dark counts
+WhyNot NeedsIrradiances(const DataTraits& traits);   // a family over irradiance
+WhyNot NeedsTemperatures(const DataTraits& traits);  // a family over temperature
 
 // Probes with one parameter each.
 std::vector<Probe> Strengths(const std::vector<double>& values);

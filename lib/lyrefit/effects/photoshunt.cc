@@ -10,17 +10,20 @@ Effect Photoshunt() {
   e.id = "photoshunt";
   e.title = "shunt that grows with light";
   e.where = "device";
-  e.equation = "Gsh -> Gsh + Gph G / (1000 W/m2), or 1 / Gsh exponential in G between the same ends";
-  e.reference = "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010 (linear); "
-                "Mermoud and Lejeune 2010 (exponential)";
-  e.sentence = "the slope at short circuit grows with the light: the shunt conducts better when lit";
+  e.equation =
+      "Gsh -> Gsh + Gph G / (1000 W/m2), or 1 / Gsh exponential in G between the same ends";
+  e.reference =
+      "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010 (linear); "
+      "Mermoud and Lejeune 2010 (exponential)";
+  e.sentence =
+      "the slope at short circuit grows with the light: the shunt conducts better when lit";
   e.needs = "several irradiances, or a dark curve";
   e.acts = "at short circuit, in proportion to light";
   e.confused_with = {"collection"};
   e.separate_by = "a wide range of irradiance with little noise near the knee";
-  e.parameters = {{"Gph", "photoconductance", "S", "conductance that 1000 W/m2 adds", 0, 3, 0, false,
-                   1, 1, -1},
-                  {"law", "law", "", "0 linear, 1 exponential", 0, 1, 0, true}};
+  e.parameters = {
+      {"Gph", "photoconductance", "S", "conductance that 1000 W/m2 adds", 0, 3, 0, false, 1, 1, -1},
+      {"law", "law", "", "0 linear, 1 exponential", 0, 1, 0, true}};
   e.cell = [](const auto* p, auto* cell) {
     if (ValueOf(p[1]) < 0.5) {
       cell->conductance = cell->conductance + p[0] * cell->irradiance;
@@ -34,7 +37,9 @@ Effect Photoshunt() {
     cell->conductance = 1.0 / (base + (dark - base) * exp(-5.5 * cell->irradiance));
   };
   e.why_not = NeedsLightLevels;
-  e.probes = [](const DataTraits&) { return std::vector<Probe>{{0.02, 0}, {0.3, 0}, {0.02, 1}, {0.3, 1}}; };
+  e.probes = [](const DataTraits&) {
+    return std::vector<Probe>{{0.02, 0}, {0.3, 0}, {0.02, 1}, {0.3, 1}};
+  };
   return e;
 }
 

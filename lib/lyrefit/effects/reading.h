@@ -25,24 +25,24 @@ struct ReadingScale {
   int cells = 1;
   double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
   bool times = false;
-  double span_s = 0;  // duration; 0 where no times were recorded
+  double span_s = 0;             // duration; 0 where no times were recorded
   double saturation_2_unit = 1;  // see Cell
   double reach_V = 1;            // largest |voltage| per cell
 };
 
 // What kind of measurement it is: decides which effects it can show.
 struct DataTraits {
-  int curves = 1;              // with conditions of their own
-  bool single = true;          // one condition only (whatever the number of sweeps)
-  bool reverse = false;        // points well below 0 V
-  bool beyond_voc = false;     // points of negative current at light
-  bool up_down = false;        // both directions under the same conditions
-  bool dark = false;           // a dark curve beside a lit one
-  bool only_dark = false;      // nothing but dark curves
-  int irradiance_levels = 1;   // of lit curves
+  int curves = 1;             // with conditions of their own
+  bool single = true;         // one condition only (whatever the number of sweeps)
+  bool reverse = false;       // points well below 0 V
+  bool beyond_voc = false;    // points of negative current at light
+  bool up_down = false;       // both directions under the same conditions
+  bool dark = false;          // a dark curve beside a lit one
+  bool only_dark = false;     // nothing but dark curves
+  int irradiance_levels = 1;  // of lit curves
   int temperature_levels = 1;
-  bool module = false;         // more than one cell in series
-  int substrings = 0;          // bypass groups; 0: not known
+  bool module = false;  // more than one cell in series
+  int substrings = 0;   // bypass groups; 0: not known
   int cells = 1;
   double lowest_voltage = 0;   // per cell
   double highest_voltage = 0;  // per cell

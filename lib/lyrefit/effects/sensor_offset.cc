@@ -15,7 +15,8 @@ Effect SensorOffset() {
   e.acts = "short-circuit current against irradiance misses the origin";
   e.confused_with = {"current_offset", "voltage_offset", "sensor_nonlin"};
   e.separate_by = "the sensor covered; a dark curve";
-  e.parameters = {{"c", "irradiance_offset", "W/m2", "true minus shown", -0.1, 0.1, 0, false, 1000}};
+  e.parameters = {
+      {"c", "irradiance_offset", "W/m2", "true minus shown", -0.1, 0.1, 0, false, 1000}};
   e.sky = [](const auto* p, const Reading&, auto* sky) {
     sky->irradiance = sky->irradiance + p[0];
   };

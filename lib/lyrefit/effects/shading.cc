@@ -23,8 +23,9 @@ Effect Shading() {
   e.id = "shading";
   e.title = "partial shading";
   e.where = "device";
-  e.equation = "V = (1 - w) Vcell(I; Iph) + w Vcell(I - Ib; (1 - d) Iph) per cell, "
-               "Ib of the bypass diode, which drops Vb at Isc";
+  e.equation =
+      "V = (1 - w) Vcell(I; Iph) + w Vcell(I - Ib; (1 - d) Iph) per cell, "
+      "Ib of the bypass diode, which drops Vb at Isc";
   e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
   e.sentence = "part of the module gets less light, and its bypass diodes conduct";
   e.needs = "a curve of a module; the number of bypass diodes helps";

@@ -10,7 +10,9 @@ Effect TemperatureOrCells() {
   e.where = "conditions";
   e.equation = "n Ns T is one product: n below 1 is impossible";
   e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
-  e.sentence = "no junction has an ideality below 1: the temperature or the number of cells in series is not what was stated";
+  e.sentence =
+      "no junction has an ideality below 1: the temperature or the number of cells in series is "
+      "not what was stated";
   e.needs = "any curve";
   e.acts = "everywhere near open circuit";
   e.confused_with = {"temp_offset"};

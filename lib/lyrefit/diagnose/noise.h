@@ -34,7 +34,7 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const DeviceNotes& notes, const Grids& grids);
 
 // A grid coarser than this many noise deviations is a finding.
-constexpr double kCoarseGrid = 1.95;
+constexpr double kCoarseGrid = 2.1;
 bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,
               const Grids& grids);
 

@@ -239,6 +239,7 @@ TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
       continue;
     }
     for (const double i : current) ASSERT_TRUE(std::isfinite(i)) << "draw " << draw;
+    for (const double slope : jacobian) ASSERT_TRUE(std::isfinite(slope)) << "draw " << draw;
   }
   EXPECT_GT(fine, kDraws / 4);
 }

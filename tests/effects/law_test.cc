@@ -196,6 +196,27 @@ TEST(LawTest, RefusesImpossibleTemperatures) {
   EXPECT_TRUE(Currents(at.law, readings, at.p).empty());
 }
 
+// A module that is said to have one cell: the diode's exponent at the pivot is huge.
+TEST(LawTest, DerivativesAreFiniteAtAnyPivot) {
+  Readings readings = MadeReadings(DataKind::kForward, 1);
+  for (const double pivot : {0.05, 6.0, 40.0, 400.0}) {
+    for (Reading& r : readings.points) r.voltage *= pivot / readings.pivot_voltage;
+    readings.pivot_voltage = pivot;
+    readings.scale.saturation_2_unit = Saturation2Unit(readings);
+    for (const bool second : {false, true}) {
+      for (const double n : {0.2, 1.2, 8.0}) {
+        Law law;
+        law.second_diode = second;
+        std::vector<double> p = OrdinaryCell(second);
+        p[kBaseIdeality] = n;
+        const std::vector<double> jacobian = Jacobian(law, readings, p);
+        ASSERT_FALSE(jacobian.empty()) << pivot << " V, n " << n;
+        for (const double slope : jacobian) EXPECT_TRUE(std::isfinite(slope));
+      }
+    }
+  }
+}
+
 TEST(LawTest, KnowsWhereEachEffectBegins) {
   Law law;
   law.second_diode = true;

@@ -37,9 +37,9 @@ Noisy MakeNoisy(const std::vector<Recipe>& recipes) {
   return made;
 }
 
-Noise Estimate(const Noisy& made, const DeviceNotes& notes = {}, double grid = 0) {
+Noise Estimate(const Noisy& made, const DeviceNotes& notes = {}, const Grids& grids = {}) {
   return EstimateNoise(made.measurement.readings, made.measurement.dark, made.residual, made.used,
-                       notes, grid);
+                       notes, grids);
 }
 
 double Median(std::vector<double> values) {
@@ -97,12 +97,27 @@ TEST(EstimateNoiseTest, NeverFallsBelowWhatAGridLeaves) {
   recipe.noise_A = 1e-6;
   Noisy made = MakeNoisy({recipe});
   const double grid = 0.01;
-  for (const double sigma : Estimate(made, {}, grid).sigma) EXPECT_GE(sigma, 0.25 * grid);
+  for (const double sigma : Estimate(made, {}, {grid, grid}).sigma) EXPECT_GE(sigma, 0.25 * grid);
   const double step = 0.02;  // of noise that is mostly rounding
   RandomStream random(3);
   for (double& r : made.residual) r = step * (random.Uniform() - 0.5);
-  const double found = Median(Estimate(made, {}, step).sigma);
+  const double found = Median(Estimate(made, {}, {step, step}).sigma);
   EXPECT_NEAR(found, step / std::sqrt(12), 0.3 * step / std::sqrt(12));
+}
+
+TEST(IsCoarseTest, WeighsAGridAgainstTheNoise) {
+  Recipe recipe;
+  recipe.points = 100;
+  const Noisy made = MakeNoisy({recipe});
+  const Noise noise = Estimate(made);
+  const double sigma = Median(noise.sigma);
+  const auto coarse = [&](const Grids& grids) {
+    return IsCoarse(made.measurement.readings, made.measurement.dark, noise, grids);
+  };
+  EXPECT_FALSE(coarse({0, 0}));
+  EXPECT_FALSE(coarse({0.5 * sigma, 0}));
+  EXPECT_TRUE(coarse({5 * sigma, 0}));
+  EXPECT_FALSE(coarse({0, 5 * sigma}));  // there is no dark curve
 }
 
 TEST(EstimateNoiseTest, SmoothMisfitIsNoNoise) {

@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 // Measurements as nobody should take them: a verdict, no crash and finite numbers.
 Diagnosis DiagnoseOdd(const CurveSet& set) {
   DiagnoseOptions options;
-  options.draws = 300;
-  options.folds = 4;
+  options.draws = 200;
+  options.folds = 3;
   auto diagnosis = Diagnose(set, options);
   EXPECT_TRUE(diagnosis.has_value()) << diagnosis.error().message;
   if (!diagnosis) return {};
@@ -130,7 +130,7 @@ TEST(OddCurvesTest, CurrentsInTheOtherSign) {
 TEST(OddCurvesTest, WrongNumberOfCells) {
   Recipe recipe;
   recipe.cells = 60;
-  for (const int cells : {1, 6, 20, 200}) {
+  for (const int cells : {1, 20, 200}) {
     IvCurve curve = MadeCurve(recipe);
     curve.conditions.cells_in_series = cells;
     DiagnoseOdd(curve);

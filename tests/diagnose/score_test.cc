@@ -138,12 +138,29 @@ TEST(ScoreTest, CorrectedPFallsWithTheStatistic) {
   score.charge = 3;
   double last = 1;
   for (const double statistic : {0.0, 1.0, 10.0, 30.0, 100.0, 1e6}) {
-    const double p = CorrectedP(score, statistic, 50);
+    const double p = CorrectedP(score, statistic, 50, {});
     EXPECT_LE(p, last);
     EXPECT_GT(p, 0);
     last = p;
   }
   EXPECT_LT(last, 1e-20);
+}
+
+TEST(CalibrationTest, AnEmptyOneChangesNothing) {
+  for (const double p : {1e-12, 0.01, 0.4, 1.0}) EXPECT_EQ(Calibration().Corrected(p), p);
+}
+
+TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
+  Calibration calibration;
+  for (int k = 0; k < 200; ++k) calibration.nulls.push_back(-1.3 * std::log(1 - (k + 0.5) / 200));
+  double last = 0;
+  for (const double p : {1e-30, 1e-12, 1e-6, 1e-3, 0.01, 0.05, 0.2, 0.5, 1.0}) {
+    const double corrected = calibration.Corrected(p);
+    EXPECT_GE(corrected, last);
+    EXPECT_LE(corrected, 1);
+    EXPECT_GE(corrected, 0.99 * p);  // these nulls are more extreme than they should be
+    last = corrected;
+  }
 }
 
 TEST(SignatureTest, IsWhatTheProbeDoes) {

@@ -80,16 +80,30 @@ TEST(LookAtValuesTest, AFlatTopOfACoarseGridIsNoClipping) {
   IvCurve curve = MadeCurve({});
   curve.current_A = Rounded(curve.current_A, 0.1);
   const ValueFindings findings = Look(curve);
-  EXPECT_GT(findings.grid_step, 0);
+  EXPECT_GT(findings.grids.lit, 0);
   EXPECT_EQ(findings.clip_level, 0);
 }
 
 TEST(LookAtValuesTest, CleanCurvesShowNothing) {
   const ValueFindings findings = Look(MadeCurve({}));
-  EXPECT_EQ(findings.grid_step, 0);
+  EXPECT_EQ(findings.grids.lit, 0);
+  EXPECT_EQ(findings.grids.dark, 0);
   EXPECT_EQ(findings.clip_level, 0);
   EXPECT_THAT(findings.clipped, IsEmpty());
   EXPECT_THAT(findings.rounding, Each(0));
+}
+
+// Dark currents are read on a range of their own.
+TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
+  IvCurve lit = MadeCurve({}), dark = MadeDarkCurve();
+  lit.current_A = Rounded(lit.current_A, 0.1);
+  dark.current_A = Rounded(dark.current_A, 0.02);
+  const auto made = MakeReadings(SetOf({lit, dark}));
+  ASSERT_TRUE(made.has_value());
+  const ValueFindings findings = LookAtValues(made->readings, made->dark);
+  const double scale = made->readings.scale.current_A;
+  EXPECT_NEAR(findings.grids.lit * scale, 0.1, 1e-9);
+  EXPECT_NEAR(findings.grids.dark * scale, 0.02, 1e-9);
 }
 
 // A run of equal values has one rounding error between them.
@@ -97,11 +111,11 @@ TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
   IvCurve curve = MadeCurve({});
   curve.current_A = Rounded(curve.current_A, 0.5);
   const ValueFindings findings = Look(curve);
-  ASSERT_GT(findings.grid_step, 0);
+  ASSERT_GT(findings.grids.lit, 0);
   std::size_t run = 1;
   while (curve.current_A[run] == curve.current_A[0]) ++run;
   ASSERT_GT(run, 5U);
-  EXPECT_NEAR(findings.rounding[0], findings.grid_step * std::sqrt(run / 12.0), 1e-12);
+  EXPECT_NEAR(findings.rounding[0], findings.grids.lit * std::sqrt(run / 12.0), 1e-12);
   EXPECT_EQ(findings.rounding[0], findings.rounding[run - 1]);
 }
 

@@ -121,8 +121,8 @@ TEST(DiagnoseVerb, ExplainsEveryEffectOfTheList) {
 TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
   const json j = json::parse(RunApp(kVerb + "--draws 200 --folds 4 --json -").out, nullptr, false);
   ASSERT_TRUE(j.is_object());
-  for (const char* key : {"evidence", "trials", "verdict", "gain", "points", "curves", "seed",
-                          "level", "warnings"}) {
+  for (const char* key :
+       {"evidence", "trials", "verdict", "gain", "points", "curves", "seed", "level", "warnings"}) {
     EXPECT_TRUE(j.contains(key)) << key;
   }
   EXPECT_EQ(j["points"]["voltage_V"].size(), 26U);

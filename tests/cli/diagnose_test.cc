@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "run_app.h"
 
@@ -98,6 +102,60 @@ TEST(DiagnoseVerb, GoesOnBehindAFileThatCannotBeRead) {
   const json j = json::parse(RunApp(files + kQuick + "--json -").out, nullptr, false);
   ASSERT_TRUE(j.is_array());
   EXPECT_EQ(j.size(), 1U);
+}
+
+TEST(DiagnoseVerb, ExplainsEveryEffectOfTheList) {
+  std::istringstream list(RunApp("diagnose --list").out);
+  std::string line, id;
+  int effects = 0;
+  std::getline(list, line);  // the header
+  while (std::getline(list, line) && std::istringstream(line) >> id && id != "lyrefit") {
+    const AppResult result = RunApp("diagnose --explain " + id);
+    EXPECT_EQ(result.exit_code, 0) << id << result.err;
+    EXPECT_THAT(result.out, HasSubstr("(" + id + ")"));
+    ++effects;
+  }
+  EXPECT_GT(effects, 20);
+}
+
+TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
+  const json j = json::parse(RunApp(kVerb + "--draws 200 --folds 4 --json -").out, nullptr, false);
+  ASSERT_TRUE(j.is_object());
+  for (const char* key :
+       {"evidence", "trials", "verdict", "gain", "points", "curves", "seed", "level", "warnings"}) {
+    EXPECT_TRUE(j.contains(key)) << key;
+  }
+  EXPECT_EQ(j["points"]["voltage_V"].size(), 26U);
+  EXPECT_GT(j["trials"].size(), 20U);
+  EXPECT_TRUE(j["verdict"]["causes"].is_array());
+}
+
+// A cell of 8 A whose light jumps up during the sweep.
+std::string CurveWithAStep() {
+  std::string text = "voltage,current\n";
+  for (int k = 0; k < 40; ++k) {
+    const double voltage = 0.0155 * k;
+    const double noise = 0.003 * std::sin(1.7 * k * k + 0.3 * k);
+    const double current = (k < 17 ? 7.8 : 8.0) - 1.2e-8 * std::expm1(voltage / 0.0308);
+    text += std::to_string(voltage) + "," + std::to_string(current + noise) + "\n";
+  }
+  return text;
+}
+
+TEST(DiagnoseVerb, ExtendsTheModelByItsCauses) {
+  const TempFolder folder;
+  std::ofstream(folder.Path("step.csv")) << CurveWithAStep();
+  const std::string verb = "diagnose '" + folder.Path("step.csv") +
+                           "' --temperature-C 25 --effects irr_step --draws 200 --no-held-out ";
+  const json fit = json::parse(RunApp(verb + "--extend -").out, nullptr, false);
+  ASSERT_TRUE(fit.is_object());
+  const std::string parameters = fit["parameters"].dump();
+  for (const char* name : {"photocurrent", "resistance_series", "irr_step_relative_step"}) {
+    EXPECT_THAT(parameters, HasSubstr(name));
+  }
+  const json answers = json::parse(RunApp(verb + "--answers -").out, nullptr, false);
+  ASSERT_TRUE(answers.is_object());
+  EXPECT_THAT(answers["step"].dump(), HasSubstr("irr_step"));
 }
 
 TEST(DiagnoseVerb, RepeatsItself) {

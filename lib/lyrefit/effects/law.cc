@@ -39,14 +39,15 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
   const S barrier = sky.bandgap_eV * (1 / (k_eV * reference_K)) - sky.bandgap_eV * inverse_vt;
   const S inverse_n = 1.0 / p[kBaseIdeality];
-  const S pivot_exponential = exp(inverse_n * (pivot / (k_eV * reference_K)));
+  const S pivot_exponent = inverse_n * (pivot / (k_eV * reference_K));
   Cell<S> cell;
   cell.irradiance = sky.irradiance;
   cell.thermal_voltage = sky.temperature_K * k_eV;
   cell.photocurrent = sky.irradiance * p[kBasePhotocurrent] *
                       (1.0 + sky.isc_tempco_per_K * (sky.temperature_K - reference_K));
-  cell.saturation =
-      exp(p[kBasePivot] + barrier) * (ratio * ratio * ratio) / (pivot_exponential - 1.0);
+  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
+  cell.saturation = exp(p[kBasePivot] + barrier - pivot_exponent) * (ratio * ratio * ratio) /
+                    (1.0 - exp(-pivot_exponent));
   cell.inverse_n_vt = inverse_vt * inverse_n;
   cell.inverse_2_vt = 0.5 * inverse_vt;
   cell.saturation_2_unit =
@@ -409,7 +410,10 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         dual_current = Recorded(bench, reading, dual_cell, dual_current, dual_junction);
       }
       current[k] = dual_current.a;
-      for (int i = 0; i < size; ++i) jacobian[k * size + i] = dual_current.v[i];
+      for (int i = 0; i < size; ++i) {
+        if (!std::isfinite(dual_current.v[i])) return false;
+        jacobian[k * size + i] = dual_current.v[i];
+      }
     }
     if (!std::isfinite(current[k])) return false;
   }

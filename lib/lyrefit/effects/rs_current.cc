@@ -20,8 +20,14 @@ Effect RsCurrent() {
   e.parameters = {{"Rs1", "resistance_per_current", "ohm/A", "change of Rs with current", -0.2, 0.2,
                    0, false, 1, -2, 1}};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
-    (void)cell;
-    return p[0] * current * abs(current);
+    const auto size = abs(current);
+    // No cell's resistance falls below 0: where Rs + 2 Rs1 |I| would, the tangent goes on.
+    if (2.0 * p[0] * size + cell.resistance < 0.0) {
+      const auto most = -0.5 * cell.resistance / p[0];
+      const auto drop = p[0] * most * (2.0 * size - most);
+      return current < 0.0 ? -drop : drop;
+    }
+    return p[0] * current * size;
   };
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) { return Strengths({0.01, -0.005}); };

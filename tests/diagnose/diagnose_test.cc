@@ -1,0 +1,244 @@
+#include "lyrefit/diagnose/diagnose.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "lyrefit/effects/catalogue.h"
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+DiagnoseOptions Quick() {
+  DiagnoseOptions options;
+  options.draws = 400;
+  options.held_out = false;
+  return options;
+}
+
+Diagnosis DiagnoseOrFail(const CurveSet& set, const DiagnoseOptions& options = Quick()) {
+  auto diagnosis = Diagnose(set, options);
+  EXPECT_TRUE(diagnosis.has_value()) << diagnosis.error().message;
+  return diagnosis ? *diagnosis : Diagnosis();
+}
+
+Diagnosis DiagnoseOrFail(const IvCurve& curve, const DiagnoseOptions& options = Quick()) {
+  return DiagnoseOrFail(SetOf({curve}), options);
+}
+
+std::vector<std::string> Ids(const Diagnosis& diagnosis) {
+  std::vector<std::string> ids;
+  for (const Cause& cause : diagnosis.verdict.causes) ids.push_back(cause.id);
+  return ids;
+}
+
+IvCurve CurveWithAStep() {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
+  return curve;
+}
+
+// What every diagnosis holds, whatever it found.
+void ExpectComplete(const Diagnosis& d) {
+  EXPECT_FALSE(d.version.empty() || d.base_sentence.empty() || d.verdict.sentence.empty());
+  EXPECT_FALSE(d.evidence.kind.empty() || d.gain.sentence.empty());
+  EXPECT_GT(d.seconds, 0);
+  EXPECT_EQ(d.trials.size(), Catalogue().size());
+  for (std::size_t k = 0; k < d.trials.size(); ++k) {
+    EXPECT_EQ(d.trials[k].effect, Catalogue()[k]->id);
+    EXPECT_EQ(d.trials[k].tried, d.trials[k].why_not.empty()) << d.trials[k].effect;
+  }
+  int points = 0;
+  for (const DiagnosedCurve& curve : d.curves) points += curve.points;
+  ASSERT_EQ(static_cast<int>(d.points.size()), points);
+  for (const DiagnosedPoint& point : d.points) {
+    EXPECT_TRUE(std::isfinite(point.before_A) && std::isfinite(point.after_A));
+    EXPECT_GT(point.sigma_A, 0);
+  }
+  EXPECT_EQ(d.verdict.found, !d.verdict.causes.empty());
+  for (const Cause& cause : d.verdict.causes) {
+    EXPECT_NE(FindEffect(cause.id), nullptr);
+    EXPECT_FALSE(cause.title.empty() || cause.sentence.empty() || cause.acts.empty());
+    EXPECT_TRUE(cause.evidence == "fit" || cause.evidence == "values");
+    for (const int point : cause.points) EXPECT_LT(point, points);
+    for (const std::string& id : cause.equivalents) EXPECT_NE(FindEffect(id), nullptr);
+  }
+  EXPECT_TRUE(d.extended.usable);
+  EXPECT_GE(d.extended.estimates.size(), 5U);
+  EXPECT_GE(d.gain.shifts.size(), 5U);
+}
+
+TEST(DiagnoseTest, ACleanCurveIsClean) {
+  const Diagnosis d = DiagnoseOrFail(MadeCurve({}));
+  ExpectComplete(d);
+  EXPECT_THAT(Ids(d), IsEmpty());
+  EXPECT_FALSE(d.verdict.unexplained);
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to find"));
+  EXPECT_THAT(d.warnings, IsEmpty());
+  for (const DiagnosedPoint& point : d.points) EXPECT_EQ(point.before_A, point.after_A);
+  EXPECT_NEAR(d.points[30].sigma_A, 0.004, 0.0015);
+  EXPECT_NEAR(d.evidence.misfit_ratio, 1, 0.3);
+}
+
+TEST(DiagnoseTest, ANamedCauseIsDescribed) {
+  DiagnoseOptions options = Quick();
+  options.held_out = true;
+  options.folds = 5;
+  const Diagnosis d = DiagnoseOrFail(CurveWithAStep(), options);
+  ExpectComplete(d);
+  ASSERT_THAT(Ids(d), Contains("irr_step"));
+  const Cause& cause = d.verdict.causes.front();
+  ASSERT_EQ(cause.id, "irr_step");
+  EXPECT_LT(cause.corrected_p, 1e-6);
+  ASSERT_EQ(cause.strength.size(), 2U);
+  EXPECT_NEAR(cause.strength[0].value, 0.015, 0.002);
+  EXPECT_LT(cause.strength[0].low_95, cause.strength[0].value);
+  EXPECT_GT(cause.strength[0].high_95, cause.strength[0].value);
+  EXPECT_FALSE(cause.points.empty());
+  EXPECT_LT(d.gain.rmse_after_A, d.gain.rmse_before_A);
+  EXPECT_LT(d.gain.held_out_after_A, d.gain.held_out_before_A);
+  EXPECT_TRUE(d.gain.gain);
+  EXPECT_GT(d.gain.folds, 2);
+}
+
+TEST(DiagnoseTest, RefusesBadInput) {
+  EXPECT_FALSE(Diagnose(CurveSet()));
+  Recipe few;
+  few.points = 6;
+  EXPECT_FALSE(Diagnose(MadeCurve(few)));
+  IvCurve broken = MadeCurve({});
+  broken.voltage_V[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(Diagnose(broken));
+  DiagnoseOptions options;
+  options.effects = {"drift", "nonsense"};
+  const auto unknown = Diagnose(MadeCurve({}), options);
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, HasSubstr("'nonsense'"));
+  for (const double level : {0.0, 0.7, -1.0, std::nan("")}) {
+    options = {};
+    options.level = level;
+    EXPECT_FALSE(Diagnose(MadeCurve({}), options)) << level;
+  }
+  options = {};
+  options.base = Model::kTripleDiode;
+  EXPECT_FALSE(Diagnose(MadeCurve({}), options));
+}
+
+// Everything but the clock.
+void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
+  EXPECT_EQ(Ids(a), Ids(b));
+  EXPECT_EQ(a.gain.held_out_before_A, b.gain.held_out_before_A);
+  EXPECT_EQ(a.gain.held_out_after_A, b.gain.held_out_after_A);
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t k = 0; k < a.points.size(); ++k) {
+    EXPECT_EQ(a.points[k].after_A, b.points[k].after_A);
+    EXPECT_EQ(a.points[k].sigma_A, b.points[k].sigma_A);
+  }
+  ASSERT_EQ(a.extended.estimates.size(), b.extended.estimates.size());
+  for (std::size_t k = 0; k < a.extended.estimates.size(); ++k) {
+    EXPECT_EQ(a.extended.estimates[k].refined, b.extended.estimates[k].refined);
+  }
+  for (std::size_t k = 0; k < a.trials.size(); ++k) {
+    if (!a.trials[k].tried) continue;
+    EXPECT_EQ(a.trials[k].corrected_p, b.trials[k].corrected_p);
+    const bool both_unknown =
+        std::isnan(a.trials[k].held_out_rmse_A) && std::isnan(b.trials[k].held_out_rmse_A);
+    EXPECT_TRUE(both_unknown || a.trials[k].held_out_rmse_A == b.trials[k].held_out_rmse_A);
+  }
+}
+
+TEST(DiagnoseTest, RepeatsItselfBitForBitOnAnyNumberOfThreads) {
+  DiagnoseOptions options;
+  options.draws = 200;
+  options.folds = 4;
+  options.seed = 11;
+  options.threads = 1;
+  const Diagnosis one = DiagnoseOrFail(CurveWithAStep(), options);
+  options.threads = 2;
+  ExpectSame(one, DiagnoseOrFail(CurveWithAStep(), options));
+}
+
+TEST(DiagnoseTest, ADarkCurveThatIsSaidToBeLitIsTakenAsDark) {
+  IvCurve dark = MadeDarkCurve();
+  dark.conditions.irradiance_W_m2 = 1000;
+  const Diagnosis d = DiagnoseOrFail(dark);
+  ExpectComplete(d);
+  EXPECT_THAT(d.warnings, Contains(HasSubstr("taken as dark")));
+  EXPECT_TRUE(d.curves.front().dark);
+  EXPECT_THAT(Ids(d), IsEmpty());
+}
+
+TEST(DiagnoseTest, ADarkCurveAloneIsEnough) {
+  const Diagnosis d = DiagnoseOrFail(MadeDarkCurve());
+  ExpectComplete(d);
+  EXPECT_THAT(d.evidence.kind, HasSubstr("dark"));
+  EXPECT_GT(d.evidence.noise_dark_A, 0);
+}
+
+TEST(DiagnoseTest, LightAndDarkAreOneMeasurement) {
+  const Diagnosis d = DiagnoseOrFail(SetOf({MadeCurve({}), MadeDarkCurve()}));
+  ExpectComplete(d);
+  EXPECT_EQ(d.curves.size(), 2U);
+  EXPECT_EQ(d.points.back().curve, 1);
+  EXPECT_THAT(Ids(d), IsEmpty());
+}
+
+TEST(DiagnoseTest, ASecondDiodeInTheBaseIsNotACause) {
+  DiagnoseOptions options = Quick();
+  options.base = Model::kDoubleDiode;
+  const Diagnosis d = DiagnoseOrFail(MadeCurve({}), options);
+  ExpectComplete(d);
+  EXPECT_EQ(d.base, "dd");
+  EXPECT_THAT(d.base_sentence, HasSubstr("two diodes"));
+  EXPECT_FALSE(d.trials.front().tried);
+  EXPECT_EQ(d.trials.front().effect, "second_diode");
+}
+
+TEST(DiagnoseTest, OnlyTheEffectsAskedForAreTried) {
+  DiagnoseOptions options = Quick();
+  options.effects = {"drift", "second_diode"};
+  const Diagnosis d = DiagnoseOrFail(CurveWithAStep(), options);
+  for (const Trial& trial : d.trials) {
+    const bool asked = trial.effect == "drift" || trial.effect == "second_diode";
+    EXPECT_TRUE(asked || !trial.tried) << trial.effect;
+  }
+  const std::vector<std::string> ids = Ids(d);
+  EXPECT_THAT(ids, Not(Contains("irr_step")));
+}
+
+TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
+  DiagnoseOptions options = Quick();
+  options.extend = true;
+  const Diagnosis d = DiagnoseOrFail(CurveWithAStep(), options);
+  const FitReport& report = d.extended;
+  ASSERT_EQ(report.estimates.size(), 7U);
+  EXPECT_EQ(report.estimates[5].info.symbol, "irr_step.s");
+  EXPECT_EQ(report.device.parameters.size(), report.estimates.size());
+  EXPECT_EQ(report.residual_A.size(), d.points.size());
+  EXPECT_GT(report.search.evaluations, 0);
+  EXPECT_NEAR(report.rmse.refined.solved_current_A, d.gain.rmse_after_A, 1e-12);
+  EXPECT_LE(report.rmse.refined.solved_current_A, report.rmse.random_baseline.solved_current_A);
+}
+
+TEST(DiagnoseTest, StopsWhenAskedTo) {
+  const Observer observer = [](const Progress&) { return ObserverAction::kStop; };
+  const auto d = Diagnose(MadeCurve({}), {}, observer);
+  ASSERT_TRUE(d.has_value());
+  EXPECT_TRUE(d->interrupted);
+  EXPECT_EQ(d->gain.folds, 0);
+}
+
+}  // namespace
+}  // namespace lyrefit

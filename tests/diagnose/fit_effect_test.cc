@@ -1,0 +1,54 @@
+#include "lyrefit/diagnose/fit_effect.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
+  Recipe recipe;
+  recipe.cells = 60;
+  const MadeBench made = OnTheBench(MadeCurve(recipe));
+  const LawFit base = FitBase(made.bench, Law());
+  const auto candidates = Showable(made.measurement->readings.traits);
+  int fitted = 0;
+  for (const Score& score : ScoreEffects(made.bench, base, candidates, 200, 1)) {
+    if (!score.testable || score.effect->probes == nullptr) continue;
+    // Shares and limits that are tried out have no value at which the effect is not there.
+    const std::string id = score.effect->id;
+    const LawFit fit = FitEffect(made.bench, base, score);
+    ASSERT_TRUE(fit.usable) << id;
+    EXPECT_EQ(fit.law.effects.back(), score.effect);
+    const bool always_there = id == "shading" || id == "clip";
+    EXPECT_TRUE(always_there || fit.sum <= base.sum * (1 + 1e-6)) << id;
+    for (int k = 0; k < fit.law.size(); ++k) {
+      EXPECT_GE(fit.p[k], fit.law.Lower(k)) << id;
+      EXPECT_LE(fit.p[k], fit.law.Upper(k)) << id;
+    }
+    ++fitted;
+  }
+  EXPECT_GT(fitted, 3);
+}
+
+TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
+  IvCurve curve = MadeCurve({});
+  for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
+  const MadeBench made = OnTheBench(curve);
+  const LawFit base = FitBase(made.bench, Law());
+  const std::vector<Score> scores =
+      ScoreEffects(made.bench, base, {FindEffect("transient")}, 200, 1);
+  const LawFit fit = FitEffect(made.bench, base, scores.front());
+  ASSERT_TRUE(fit.usable);
+  EXPECT_LT(fit.sum, 0.5 * base.sum);
+  EXPECT_NEAR(fit.p[6], made.measurement->readings.points[21].x, 0.02);
+  const LawFit without = FitWithout(made.bench, fit, 0);
+  EXPECT_TRUE(without.law.effects.empty());
+  EXPECT_NEAR(without.sum, base.sum, 1e-3 * base.sum);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,89 @@
+#include "lyrefit/diagnose/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+std::set<int> Distinct(const std::vector<int>& folds) { return {folds.begin(), folds.end()}; }
+
+TEST(MakeFoldsTest, SpreadsShortBlocksOverASweep) {
+  const MadeBench made = OnTheBench(MadeCurve({}));  // 60 readings
+  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  ASSERT_EQ(folds.size(), 60U);
+  EXPECT_EQ(Distinct(folds).size(), 10U);
+  for (std::size_t k = 0; k < folds.size(); k += 2) EXPECT_EQ(folds[k], folds[k + 1]);
+  for (int fold = 0; fold < 10; ++fold) {
+    EXPECT_EQ(std::count(folds.begin(), folds.end(), fold), 6);
+  }
+  // No fold holds a whole region: its readings stand in three places.
+  EXPECT_EQ(folds[0], folds[20]);
+  EXPECT_EQ(folds[0], folds[40]);
+}
+
+TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
+  std::vector<IvCurve> curves;
+  for (const double irradiance : {200.0, 400.0, 600.0, 800.0, 1000.0}) {
+    Recipe recipe;
+    recipe.irradiance_W_m2 = irradiance;
+    recipe.points = 12;
+    curves.push_back(MadeCurve(recipe));
+  }
+  const MadeBench made = OnTheBench(SetOf(curves));
+  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  for (std::size_t k = 0; k < folds.size(); ++k) {
+    EXPECT_EQ(folds[k], made.measurement->readings.points[k].curve);
+  }
+  const std::vector<int> three = MakeFolds(made.measurement->readings, 3);
+  EXPECT_EQ(Distinct(three).size(), 3U);
+}
+
+TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
+  Recipe recipe;
+  recipe.points = 7;
+  const MadeBench made = OnTheBench(MadeCurve(recipe));
+  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  EXPECT_EQ(Distinct(folds).size(), 4U);
+  EXPECT_EQ(*std::max_element(folds.begin(), folds.end()), 3);
+}
+
+// Gains of a cause that is there, by the same steps as a diagnosis takes.
+TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
+  const MadeBench made = OnTheBench(curve);
+  const Readings& readings = made.measurement->readings;
+  SelectOptions options;
+  options.draws = 300;
+  options.candidates = {FindEffect("irr_step"), FindEffect("outliers")};
+  ValueFindings values;
+  values.rounding.assign(readings.points.size(), 0.0);
+  const std::vector<char> used(readings.points.size(), 1);
+  const Selection selection =
+      SelectCauses(readings, made.measurement->dark, {}, used, values, 0, options);
+  Gain one, two;
+  std::vector<Trial> trials(1);
+  trials[0].effect = "irr_step";
+  std::vector<Trial> again = trials;
+  MeasureHeldOut(readings, made.measurement->dark, {}, values, options, selection, 10, 1, &one,
+                 &trials);
+  MeasureHeldOut(readings, made.measurement->dark, {}, values, options, selection, 10, 2, &two,
+                 &again);
+  EXPECT_EQ(one.folds, 10);
+  // Not all of it: where the step's own reading is left out, its place is a guess.
+  EXPECT_LT(one.held_out_after_A, 0.7 * one.held_out_before_A);
+  EXPECT_GT(one.held_out_gain_A2, one.held_out_gain_error_A2);
+  EXPECT_GT(one.held_out_gain_error_A2, 0);
+  EXPECT_LT(trials[0].held_out_rmse_A, one.held_out_before_A);
+  EXPECT_EQ(one.held_out_after_A, two.held_out_after_A);
+  EXPECT_EQ(one.held_out_gain_A2, two.held_out_gain_A2);
+  EXPECT_EQ(trials[0].held_out_rmse_A, again[0].held_out_rmse_A);
+}
+
+}  // namespace
+}  // namespace lyrefit

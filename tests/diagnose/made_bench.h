@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/effects/catalogue.h"
+#include "made_curve.h"
+
+namespace lyrefit {
+
+// A measurement on the bench, its noise known. The readings stay where they are when it is moved.
+struct MadeBench {
+  std::unique_ptr<Measurement> measurement;
+  Workbench bench;
+};
+
+inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
+  MadeBench made;
+  made.measurement = std::make_unique<Measurement>(*MakeReadings(set));
+  const Readings& readings = made.measurement->readings;
+  made.bench.readings = &readings;
+  made.bench.sigma.assign(readings.points.size(), sigma_A / readings.scale.current_A);
+  made.bench.used.assign(readings.points.size(), 1);
+  return made;
+}
+
+inline MadeBench OnTheBench(const IvCurve& curve) { return OnTheBench(SetOf({curve})); }
+
+// The effects these data can show that are fitted or scored.
+inline std::vector<const Effect*> Showable(const DataTraits& traits) {
+  std::vector<const Effect*> effects;
+  for (const Effect* effect : Catalogue()) {
+    if (effect->probes != nullptr && !effect->why_not(traits)) effects.push_back(effect);
+  }
+  effects.push_back(FindEffect("outliers"));
+  effects.push_back(FindEffect("unknown_structure"));
+  return effects;
+}
+
+}  // namespace lyrefit

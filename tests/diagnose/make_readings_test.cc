@@ -1,0 +1,195 @@
+#include "lyrefit/diagnose/make_readings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Measurement Make(const CurveSet& set) {
+  auto measurement = MakeReadings(set);
+  EXPECT_TRUE(measurement.has_value());
+  return measurement ? *measurement : Measurement();
+}
+
+TEST(FindTurnsTest, CountsMonotoneStretches) {
+  EXPECT_THAT(FindTurns({0, 1, 2, 3}), ElementsAre(0));
+  EXPECT_THAT(FindTurns({3, 2, 1, 0}), ElementsAre(0));
+  EXPECT_THAT(FindTurns({0, 1, 2, 3, 2, 1, 0}), ElementsAre(0, 4));
+  EXPECT_THAT(FindTurns({0, 2, 4, 2, 0, 2, 4}), ElementsAre(0, 3, 5));
+  EXPECT_THAT(FindTurns({1, 1, 1}), ElementsAre(0));
+}
+
+TEST(FindTurnsTest, IgnoresJitter) {
+  EXPECT_THAT(FindTurns({0, 1, 0.9, 2, 1.9, 3, 4, 3.9, 5}), ElementsAre(0));
+  EXPECT_THAT(FindTurns({0, 2, 1.9, 4, 4.1, 4, 2, 2.1, 0}), ElementsAre(0, 5));
+}
+
+TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
+  Recipe recipe;
+  recipe.cells = 60;
+  recipe.noise_A = 0;
+  const IvCurve curve = MadeCurve(recipe);
+  const Measurement made = Make(SetOf({curve}));
+  const Readings& readings = made.readings;
+  EXPECT_THAT(made.warnings, IsEmpty());
+  EXPECT_EQ(readings.scale.cells, 60);
+  EXPECT_NEAR(readings.scale.current_A, 8, 0.05);
+  ASSERT_EQ(readings.points.size(), curve.size());
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const Reading& r = readings.points[k];
+    EXPECT_DOUBLE_EQ(r.voltage * 60, curve.voltage_V[k]);
+    EXPECT_DOUBLE_EQ(r.current * readings.scale.current_A, curve.current_A[k]);
+    EXPECT_EQ(r.irradiance, 1);
+    EXPECT_EQ(r.temperature_K, 298.15);
+    EXPECT_EQ(r.segment, 0);
+    EXPECT_NEAR(r.rate, 1, 1e-9);  // an even sweep
+  }
+  EXPECT_DOUBLE_EQ(readings.points.front().x, -0.5);
+  EXPECT_DOUBLE_EQ(readings.points.back().x, 0.5);
+  EXPECT_NEAR(readings.scale.rate_V_per_s, 0.665 / 59, 1e-12);
+  EXPECT_FALSE(readings.scale.times);
+  EXPECT_NEAR(readings.pivot_voltage, 0.627, 0.005);  // Voc
+  EXPECT_DOUBLE_EQ(readings.scale.reach_V, 0.645);
+}
+
+TEST(MakeReadingsTest, FindsTheTraitsOfASweep) {
+  const Measurement made = Make(SetOf({MadeCurve({})}));
+  const DataTraits& traits = made.readings.traits;
+  EXPECT_TRUE(traits.single && traits.beyond_voc);
+  EXPECT_FALSE(traits.reverse || traits.up_down || traits.dark || traits.only_dark ||
+               traits.module);
+  EXPECT_EQ(traits.curves, 1);
+  EXPECT_EQ(traits.readings, 60);
+  EXPECT_EQ(traits.step_times.size(), 57U);
+  EXPECT_GT(traits.step_times.front(), made.readings.points[1].x);
+  EXPECT_LT(traits.step_times.front(), made.readings.points[2].x);
+}
+
+TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {
+  Recipe recipe;
+  recipe.and_back = true;
+  recipe.from_V = -5;
+  IvCurve curve = MadeCurve(recipe);
+  curve.notes.bypass_diodes = 3;
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.time_s.push_back(10 + 0.01 * k);
+  const Measurement made = Make(SetOf({curve}));
+  EXPECT_TRUE(made.readings.traits.up_down && made.readings.traits.reverse);
+  EXPECT_EQ(made.readings.traits.substrings, 3);
+  EXPECT_EQ(made.readings.points.front().segment, 0);
+  EXPECT_EQ(made.readings.points.back().segment, 1);
+  EXPECT_GT(made.readings.points[5].rate, 0);
+  EXPECT_LT(made.readings.points[100].rate, 0);
+  EXPECT_TRUE(made.readings.scale.times);
+  EXPECT_NEAR(made.readings.scale.span_s, 1.19, 1e-9);
+}
+
+TEST(MakeReadingsTest, FindsLightAndDark) {
+  const Measurement made = Make(SetOf({MadeCurve({}), MadeDarkCurve()}));
+  const DataTraits& traits = made.readings.traits;
+  EXPECT_THAT(made.warnings, IsEmpty());
+  EXPECT_THAT(made.dark, ElementsAre(0, 1));
+  EXPECT_TRUE(traits.dark);
+  EXPECT_FALSE(traits.single || traits.only_dark || traits.up_down);
+  EXPECT_EQ(traits.irradiance_levels, 1);
+  EXPECT_NEAR(made.readings.scale.current_A, 8, 0.05);
+  EXPECT_EQ(made.readings.points.back().irradiance, 0);
+  EXPECT_TRUE(traits.step_times.empty());
+}
+
+TEST(MakeReadingsTest, FindsTheLevelsOfAFamily) {
+  std::vector<IvCurve> curves;
+  for (const double irradiance : {200.0, 600.0, 1000.0, 1005.0}) {
+    for (const double celsius : {25.0, 26.0, 60.0}) {
+      Recipe recipe;
+      recipe.irradiance_W_m2 = irradiance;
+      recipe.points = 12;
+      curves.push_back(MadeCurve(recipe));
+      curves.back().conditions.cell_temperature_K = celsius + kZeroCelsius_K;
+    }
+  }
+  const Measurement made = Make(SetOf(curves));
+  EXPECT_EQ(made.readings.traits.curves, 12);
+  EXPECT_EQ(made.readings.traits.irradiance_levels, 3);
+  EXPECT_EQ(made.readings.traits.temperature_levels, 2);
+  EXPECT_EQ(made.readings.reference_temperature_K, 298.15);
+}
+
+TEST(MakeReadingsTest, TheDataDecideWhatIsDark) {
+  IvCurve dark = MadeDarkCurve();
+  dark.conditions.irradiance_W_m2 = 1000;
+  const Measurement stated_lit = Make(SetOf({dark}));
+  EXPECT_THAT(stated_lit.dark, ElementsAre(1));
+  EXPECT_THAT(stated_lit.warnings, ElementsAre(HasSubstr("taken as dark")));
+  EXPECT_TRUE(stated_lit.readings.traits.only_dark);
+  EXPECT_EQ(stated_lit.readings.points.front().irradiance, 0);
+  IvCurve lit = MadeCurve({});
+  lit.conditions.irradiance_W_m2 = 0;
+  const Measurement stated_dark = Make(SetOf({lit}));
+  EXPECT_THAT(stated_dark.dark, ElementsAre(0));
+  EXPECT_THAT(stated_dark.warnings, ElementsAre(HasSubstr("taken as lit")));
+  EXPECT_EQ(stated_dark.readings.points.front().irradiance, 1);
+}
+
+TEST(MakeReadingsTest, WarnsOfSweepsThatAreNone) {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.sweep.push_back(k < 30 ? 1 : 2);
+  EXPECT_THAT(Make(SetOf({curve})).warnings, ElementsAre(HasSubstr("several sweeps are stated")));
+}
+
+TEST(MakeReadingsTest, WarnsOfTimesThatDoNotIncrease) {
+  IvCurve curve = MadeCurve({});
+  curve.time_s.assign(curve.size(), 1.0);
+  const Measurement made = Make(SetOf({curve}));
+  EXPECT_THAT(made.warnings, ElementsAre(HasSubstr("the times do not increase")));
+  EXPECT_FALSE(made.readings.scale.times);
+  EXPECT_DOUBLE_EQ(made.readings.points.back().x, 0.5);
+}
+
+TEST(MakeReadingsTest, FollowsAMonitorOfTheLight) {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.irradiance_W_m2.push_back(1000 - 2. * k);
+  const Measurement made = Make(SetOf({curve}));
+  EXPECT_DOUBLE_EQ(made.readings.points[50].irradiance, 0.9);
+  curve.irradiance_W_m2.assign(curve.size(), 1000.0);
+  EXPECT_EQ(Make(SetOf({curve})).readings.points[50].irradiance, 1);
+}
+
+TEST(MakeReadingsTest, TakesWhatTheNotesState) {
+  IvCurve curve = MadeCurve({});
+  curve.notes.bandgap_eV = 1.4;
+  curve.notes.isc_tempco_A_per_K = 0.004;
+  const Readings readings = Make(SetOf({curve})).readings;
+  EXPECT_EQ(readings.bandgap_eV, 1.4);
+  EXPECT_NEAR(readings.isc_tempco_per_K * readings.scale.current_A, 0.004, 1e-15);
+}
+
+TEST(MakeReadingsTest, RefusesWhatIsNoMeasurement) {
+  EXPECT_FALSE(MakeReadings(CurveSet()));
+  Recipe few;
+  few.points = 6;
+  const auto too_few = MakeReadings(SetOf({MadeCurve(few)}));
+  ASSERT_FALSE(too_few);
+  EXPECT_THAT(too_few.error().message, HasSubstr("7 readings or more, there are 6"));
+  Recipe module;
+  module.cells = 60;
+  const auto two_devices = MakeReadings(SetOf({MadeCurve({}), MadeCurve(module)}));
+  ASSERT_FALSE(two_devices);
+  EXPECT_THAT(two_devices.error().message, HasSubstr("number of cells differs"));
+  IvCurve broken = MadeCurve({});
+  broken.current_A[7] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(MakeReadings(SetOf({broken})));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/diagnose/diagnose.h"
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+// Measurements as nobody should take them: a verdict, no crash and finite numbers.
+Diagnosis DiagnoseOdd(const CurveSet& set) {
+  DiagnoseOptions options;
+  options.draws = 200;
+  options.folds = 3;
+  auto diagnosis = Diagnose(set, options);
+  EXPECT_TRUE(diagnosis.has_value()) << diagnosis.error().message;
+  if (!diagnosis) return {};
+  EXPECT_FALSE(diagnosis->verdict.sentence.empty());
+  for (const DiagnosedPoint& point : diagnosis->points) {
+    EXPECT_TRUE(std::isfinite(point.before_A) && std::isfinite(point.after_A));
+  }
+  for (const Cause& cause : diagnosis->verdict.causes) {
+    EXPECT_GE(cause.corrected_p, 0);
+    EXPECT_LE(cause.corrected_p, 1);
+    for (const CauseParameter& parameter : cause.strength) {
+      EXPECT_TRUE(std::isfinite(parameter.value)) << cause.id << " " << parameter.symbol;
+    }
+  }
+  return *diagnosis;
+}
+
+Diagnosis DiagnoseOdd(const IvCurve& curve) { return DiagnoseOdd(SetOf({curve})); }
+
+// The readings of a curve in another order.
+IvCurve Reordered(const IvCurve& curve, const std::vector<int>& order) {
+  IvCurve result = curve;
+  result.voltage_V.clear();
+  result.current_A.clear();
+  for (const int k : order) {
+    result.voltage_V.push_back(curve.voltage_V[k]);
+    result.current_A.push_back(curve.current_A[k]);
+  }
+  return result;
+}
+
+TEST(OddCurvesTest, WithoutNoise) {
+  for (const int cells : {1, 60}) {
+    Recipe recipe;
+    recipe.noise_A = 0;
+    recipe.cells = cells;
+    const Diagnosis d = DiagnoseOdd(MadeCurve(recipe));
+    EXPECT_THAT(d.warnings, Contains(HasSubstr("almost no noise")));
+  }
+}
+
+TEST(OddCurvesTest, Unsorted) {
+  const IvCurve curve = MadeCurve({});
+  std::vector<int> order(curve.size());
+  std::iota(order.begin(), order.end(), 0);
+  RandomStream random(4);
+  for (std::size_t k = order.size() - 1; k > 0; --k) {
+    std::swap(order[k], order[random.Index(static_cast<std::uint32_t>(k + 1))]);
+  }
+  DiagnoseOdd(Reordered(curve, order));
+}
+
+TEST(OddCurvesTest, BackwardsIsTheSameVerdict) {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
+  std::vector<int> order(curve.size());
+  std::iota(order.rbegin(), order.rend(), 0);
+  const Diagnosis forward = DiagnoseOdd(curve), backward = DiagnoseOdd(Reordered(curve, order));
+  ASSERT_EQ(forward.verdict.causes.size(), backward.verdict.causes.size());
+  EXPECT_EQ(forward.verdict.causes.front().id, backward.verdict.causes.front().id);
+  EXPECT_NEAR(forward.gain.rmse_after_A, backward.gain.rmse_after_A,
+              0.02 * forward.gain.rmse_after_A);
+}
+
+TEST(OddCurvesTest, EveryReadingTwice) {
+  const IvCurve curve = MadeCurve({});
+  std::vector<int> order;
+  for (int k = 0; k < static_cast<int>(curve.size()); ++k) order.insert(order.end(), 2, k);
+  DiagnoseOdd(Reordered(curve, order));
+}
+
+TEST(OddCurvesTest, SevenReadings) {
+  Recipe recipe;
+  recipe.points = 7;
+  DiagnoseOdd(MadeCurve(recipe));
+}
+
+TEST(OddCurvesTest, NothingButShortCircuit) {
+  Recipe recipe;
+  recipe.to_V = 0.1;
+  DiagnoseOdd(MadeCurve(recipe));
+}
+
+TEST(OddCurvesTest, ConstantCurrent) {
+  IvCurve curve = MadeCurve({});
+  for (double& i : curve.current_A) i = 5;
+  DiagnoseOdd(curve);
+}
+
+TEST(OddCurvesTest, NoCurrentAtAll) {
+  IvCurve curve = MadeCurve({});
+  for (double& i : curve.current_A) i = 0;
+  DiagnoseOdd(curve);
+}
+
+TEST(OddCurvesTest, NothingButNoise) {
+  IvCurve curve = MadeCurve({});
+  RandomStream random(9);
+  for (double& i : curve.current_A) i = random.Normal();
+  DiagnoseOdd(curve);
+}
+
+TEST(OddCurvesTest, CurrentsInTheOtherSign) {
+  IvCurve curve = MadeCurve({});
+  for (double& i : curve.current_A) i = -i;
+  DiagnoseOdd(curve);
+}
+
+TEST(OddCurvesTest, WrongNumberOfCells) {
+  Recipe recipe;
+  recipe.cells = 60;
+  for (const int cells : {1, 20, 200}) {
+    IvCurve curve = MadeCurve(recipe);
+    curve.conditions.cells_in_series = cells;
+    DiagnoseOdd(curve);
+  }
+}
+
+TEST(OddCurvesTest, MicroampereAndKiloampere) {
+  for (const double factor : {1e-7, 1e3}) {
+    IvCurve curve = MadeCurve({});
+    for (double& i : curve.current_A) i *= factor;
+    const Diagnosis d = DiagnoseOdd(curve);
+    EXPECT_FALSE(d.verdict.found);
+  }
+}
+
+TEST(OddCurvesTest, TheSameCurveManyTimes) {
+  std::vector<IvCurve> curves(4, MadeCurve({}));
+  DiagnoseOdd(SetOf(curves));
+}
+
+TEST(OddCurvesTest, ManyDarkCurves) {
+  DiagnoseOdd(SetOf({MadeDarkCurve(1), MadeDarkCurve(2), MadeDarkCurve(3)}));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,159 @@
+#include "lyrefit/diagnose/select.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lyrefit/diagnose/values.h"
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+struct Selected {
+  MadeBench made;
+  SelectOptions options;
+  ValueFindings values;
+  Selection selection;
+
+  std::vector<std::string> Ids() const {
+    std::vector<std::string> ids;
+    for (const ChosenCause& cause : selection.causes) ids.push_back(cause.effect->id);
+    return ids;
+  }
+};
+
+Selected SelectFor(const IvCurve& curve, SelectOptions options = {}) {
+  Selected selected;
+  selected.made = OnTheBench(curve);
+  const Measurement& measurement = *selected.made.measurement;
+  options.draws = 600;
+  if (options.candidates.empty()) options.candidates = Showable(measurement.readings.traits);
+  selected.options = options;
+  selected.values = LookAtValues(measurement.readings, measurement.dark);
+  const std::vector<char> used(measurement.readings.points.size(), 1);
+  selected.selection =
+      SelectCauses(measurement.readings, measurement.dark, {}, used, selected.values, 0, options);
+  return selected;
+}
+
+IvCurve CurveWithAStep() {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
+  return curve;
+}
+
+TEST(SelectCausesTest, FindsNothingInNoise) {
+  int found = 0;
+  for (int seed = 1; seed <= 10; ++seed) {
+    Recipe recipe;
+    recipe.seed = seed;
+    const Selected selected = SelectFor(MadeCurve(recipe));
+    const Selection& selection = selected.selection;
+    ASSERT_TRUE(selection.base.usable);
+    found += !selection.causes.empty() || !selection.outliers.empty() || selection.unknown;
+    if (!selection.causes.empty()) continue;
+    EXPECT_TRUE(selection.extended.law.effects.empty());
+    EXPECT_GT(selection.unknown_p, 0);
+  }
+  EXPECT_LE(found, 2);  // half is expected at the level of 0.05
+}
+
+TEST(SelectCausesTest, FindsAStepOfTheLight) {
+  const Selected selected = SelectFor(CurveWithAStep());
+  const Selection& selection = selected.selection;
+  EXPECT_THAT(selected.Ids(), ElementsAre("irr_step"));
+  ASSERT_EQ(selection.extended.p.size(), 7U);
+  EXPECT_NEAR(selection.extended.p[5], 0.015, 0.002);
+  const Readings& readings = selected.made.measurement->readings;
+  EXPECT_GT(selection.extended.p[6], readings.points[25].x);
+  EXPECT_LT(selection.extended.p[6], readings.points[26].x);
+  EXPECT_LT(selection.extended.sum, selection.base.sum);
+  EXPECT_LT(selection.causes.front().corrected_p, 1e-6);
+}
+
+TEST(SelectCausesTest, CausesStandInTheOrderOfTheLaw) {
+  IvCurve curve = CurveWithAStep();
+  for (double& i : curve.current_A) i = std::min(i, 7.98);
+  const Selected selected = SelectFor(curve);
+  const auto& effects = selected.selection.extended.law.effects;
+  ASSERT_EQ(selected.selection.causes.size(), effects.size());
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    EXPECT_EQ(selected.selection.causes[k].effect, effects[k]);
+  }
+  EXPECT_THAT(selected.Ids(), Contains("clip"));
+}
+
+TEST(SelectCausesTest, LeavesAWrongReadingOut) {
+  IvCurve curve = MadeCurve({});
+  curve.current_A[17] -= 0.09;
+  const Selection selection = SelectFor(curve).selection;
+  EXPECT_THAT(selection.outliers, ElementsAre(17));
+  EXPECT_THAT(selection.causes, IsEmpty());
+  EXPECT_EQ(selection.bench.used[17], 0);
+  EXPECT_LT(selection.outlier_p, 1e-4);
+}
+
+// The limit is read off the values; clipped readings are not fitted.
+TEST(SelectCausesTest, TakesClippingFromTheValues) {
+  IvCurve curve = MadeCurve({});
+  for (double& i : curve.current_A) i = std::min(i, 7.9);
+  const Selected selected = SelectFor(curve);
+  EXPECT_THAT(selected.Ids(), ElementsAre("clip"));
+  EXPECT_NEAR(
+      selected.selection.extended.p[5] * selected.made.measurement->readings.scale.current_A, 7.9,
+      1e-9);
+  for (const int k : selected.values.clipped) EXPECT_EQ(selected.selection.bench.used[k], 0);
+}
+
+TEST(SelectCausesTest, TriesEveryCandidateOnTheBaseModel) {
+  const Selected selected = SelectFor(CurveWithAStep());
+  for (const Effect* effect : selected.options.candidates) {
+    const auto of = [&](const Rival& rival) { return rival.score.effect == effect; };
+    const auto& trials = selected.selection.trials;
+    EXPECT_EQ(std::count_if(trials.begin(), trials.end(), of), 1) << effect->id;
+  }
+}
+
+TEST(SelectCausesTest, OnlyCandidatesAreNamed) {
+  SelectOptions options;
+  options.candidates = {FindEffect("drift"), FindEffect("transient")};
+  for (const std::string& id : SelectFor(CurveWithAStep(), options).Ids()) {
+    EXPECT_TRUE(id == "drift" || id == "transient") << id;
+  }
+}
+
+TEST(SelectCausesTest, NamesNoMoreThanAsked) {
+  IvCurve curve = CurveWithAStep();
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    curve.current_A[k] += 0.15 * std::sin(0.6 * k);  // nothing in the catalogue does this
+  }
+  SelectOptions options;
+  options.largest_causes = 2;
+  EXPECT_LE(SelectFor(curve, options).selection.causes.size(), 2U);
+}
+
+TEST(FindRivalsTest, ListsWhoCouldStandInACausesPlace) {
+  Selected selected = SelectFor(CurveWithAStep());
+  selected.selection.bench.readings = &selected.made.measurement->readings;
+  FindRivals(selected.options, &selected.selection);
+  ASSERT_EQ(selected.selection.without.size(), selected.selection.causes.size());
+  const auto& rivals = selected.selection.causes.front().rivals;
+  ASSERT_FALSE(rivals.empty());
+  EXPECT_STREQ(rivals.front().score.effect->id, "irr_step");
+  for (std::size_t k = 1; k < rivals.size(); ++k) {
+    EXPECT_GE(rivals[k - 1].Charged(), rivals[k].Charged());
+  }
+  EXPECT_NEAR(selected.selection.without.front().sum, selected.selection.base.sum,
+              0.5 * selected.selection.base.sum);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,123 @@
+#include "lyrefit/diagnose/values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/diagnose/make_readings.h"
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<double> Rounded(std::vector<double> values, double step, double digit = 0) {
+  for (double& value : values) {
+    value = step * std::round(value / step);
+    if (digit > 0) value = digit * std::round(value / digit);
+  }
+  return values;
+}
+
+ValueFindings Look(const IvCurve& curve) {
+  const auto made = MakeReadings(SetOf({curve}));
+  EXPECT_TRUE(made.has_value());
+  return LookAtValues(made->readings, made->dark);
+}
+
+TEST(FindGridTest, FindsTheStep) {
+  const std::vector<double> current = MadeCurve({}).current_A;
+  for (const double step : {0.4, 0.05, 0.02}) {
+    EXPECT_NEAR(FindGrid(Rounded(current, step)), step, 1e-9) << step;
+  }
+}
+
+// Files show a few digits of what an instrument rounded.
+TEST(FindGridTest, FindsTheStepBehindDigits) {
+  const std::vector<double> current = MadeCurve({}).current_A;
+  for (const double step : {1.0 / 7, 10.0 / 256}) {
+    EXPECT_NEAR(FindGrid(Rounded(current, step, 1e-4)), step, 2e-6) << step;
+  }
+}
+
+TEST(FindGridTest, SeesNoneInFineValues) {
+  EXPECT_EQ(FindGrid(MadeCurve({}).current_A), 0);
+  EXPECT_EQ(FindGrid(Rounded(MadeCurve({}).current_A, 1e-4)), 0);
+}
+
+TEST(FindGridTest, SeesNoneInFewOrEqualValues) {
+  EXPECT_EQ(FindGrid({}), 0);
+  EXPECT_EQ(FindGrid({1, 2, 3, 4, 5}), 0);
+  EXPECT_EQ(FindGrid(std::vector<double>(30, 2.5)), 0);
+  EXPECT_EQ(FindGrid({0, 0, 0, 0, 0, 1, 1, 1, 1, 1}), 0);
+}
+
+TEST(LookAtValuesTest, FindsClippedReadings) {
+  IvCurve curve = MadeCurve({});
+  int clipped = 0;
+  for (double& i : curve.current_A) {
+    clipped += i > 7.95;
+    i = std::min(i, 7.95);
+  }
+  const ValueFindings findings = Look(curve);
+  EXPECT_NEAR(findings.clip_level, 1, 1e-12);  // the largest current is the scale
+  EXPECT_EQ(static_cast<int>(findings.clipped.size()), clipped);
+  EXPECT_EQ(findings.clipped.front(), 0);
+}
+
+TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
+  IvCurve curve = MadeCurve({});
+  for (const int k : {0, 1, 2}) curve.current_A[k] = 8.1;
+  EXPECT_EQ(Look(curve).clip_level, 0);
+  EXPECT_THAT(Look(curve).clipped, IsEmpty());
+}
+
+TEST(LookAtValuesTest, AFlatTopOfACoarseGridIsNoClipping) {
+  IvCurve curve = MadeCurve({});
+  curve.current_A = Rounded(curve.current_A, 0.1);
+  const ValueFindings findings = Look(curve);
+  EXPECT_GT(findings.grids.lit, 0);
+  EXPECT_EQ(findings.clip_level, 0);
+}
+
+TEST(LookAtValuesTest, CleanCurvesShowNothing) {
+  const ValueFindings findings = Look(MadeCurve({}));
+  EXPECT_EQ(findings.grids.lit, 0);
+  EXPECT_EQ(findings.grids.dark, 0);
+  EXPECT_EQ(findings.clip_level, 0);
+  EXPECT_THAT(findings.clipped, IsEmpty());
+  EXPECT_THAT(findings.rounding, Each(0));
+}
+
+// Dark currents are read on a range of their own.
+TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
+  IvCurve lit = MadeCurve({}), dark = MadeDarkCurve();
+  lit.current_A = Rounded(lit.current_A, 0.1);
+  dark.current_A = Rounded(dark.current_A, 0.02);
+  const auto made = MakeReadings(SetOf({lit, dark}));
+  ASSERT_TRUE(made.has_value());
+  const ValueFindings findings = LookAtValues(made->readings, made->dark);
+  const double scale = made->readings.scale.current_A;
+  EXPECT_NEAR(findings.grids.lit * scale, 0.1, 1e-9);
+  EXPECT_NEAR(findings.grids.dark * scale, 0.02, 1e-9);
+}
+
+// A run of equal values has one rounding error between them.
+TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
+  IvCurve curve = MadeCurve({});
+  curve.current_A = Rounded(curve.current_A, 0.5);
+  const ValueFindings findings = Look(curve);
+  ASSERT_GT(findings.grids.lit, 0);
+  std::size_t run = 1;
+  while (curve.current_A[run] == curve.current_A[0]) ++run;
+  ASSERT_GT(run, 5U);
+  EXPECT_NEAR(findings.rounding[0], findings.grids.lit * std::sqrt(run / 12.0), 1e-12);
+  EXPECT_EQ(findings.rounding[0], findings.rounding[run - 1]);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,153 @@
+#include "lyrefit/diagnose/workbench.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(WhitenTest, DividesByTheNoiseAndDropsWhatIsLeftOut) {
+  MadeBench made = OnTheBench(MadeCurve({}));
+  made.bench.used[4] = 0;
+  const double sigma = made.bench.sigma.front();
+  const Eigen::VectorXd white =
+      Whiten(made.bench, Eigen::VectorXd::Constant(made.bench.used.size(), 2));
+  EXPECT_DOUBLE_EQ(white[0], 2 / sigma);
+  EXPECT_EQ(white[4], 0);
+  EXPECT_EQ(made.bench.count(), 59);
+}
+
+// Noise of a first-order process becomes white, chain by chain.
+TEST(WhitenTest, TakesTheCorrelationOut) {
+  Recipe recipe;
+  recipe.points = 1000;
+  recipe.and_back = true;
+  MadeBench made = OnTheBench(MadeCurve(recipe));
+  constexpr double kRho = 0.7;
+  made.bench.correlation = kRho;
+  const double sigma = made.bench.sigma.front();
+  RandomStream random(3);
+  Eigen::VectorXd noise(2000);
+  double last = random.Normal();
+  for (int k = 0; k < 2000; ++k) {
+    last = k == 1000 ? random.Normal() : kRho * last + std::sqrt(1 - kRho * kRho) * random.Normal();
+    noise[k] = sigma * last;
+  }
+  const Eigen::VectorXd white = Whiten(made.bench, noise);
+  EXPECT_NEAR(white.squaredNorm() / 2000, 1, 0.12);
+  EXPECT_NEAR(white.head(1999).dot(white.tail(1999)) / 2000, 0, 0.07);
+}
+
+TEST(FitBaseTest, FindsTheDevice) {
+  for (const int cells : {1, 60}) {
+    Recipe recipe;
+    recipe.cells = cells;
+    recipe.noise_A = 0;
+    const MadeBench made = OnTheBench(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.bench, Law());
+    ASSERT_TRUE(fit.usable);
+    const double scale = made.measurement->readings.scale.current_A;
+    EXPECT_NEAR(fit.p[kBasePhotocurrent] * scale, 8, 1e-4);
+    EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 1e-3);
+    EXPECT_NEAR(fit.p[kBaseResistance] / scale, 0.004, 1e-5);
+    EXPECT_NEAR(fit.p[kBaseConductance] * scale, 1 / 20., 1e-3);
+    EXPECT_LT(fit.sum, 1e-3);
+  }
+}
+
+TEST(FitBaseTest, SumIsThatOfNoise) {
+  double sum = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    Recipe recipe;
+    recipe.seed = seed;
+    const MadeBench made = OnTheBench(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.bench, Law());
+    double by_hand = 0;
+    for (std::size_t k = 0; k < fit.current.size(); ++k) {
+      by_hand += std::pow(
+          (fit.current[k] - made.measurement->readings.points[k].current) / made.bench.sigma[k], 2);
+    }
+    EXPECT_NEAR(fit.sum, by_hand, 1e-6 * by_hand);
+    sum += fit.sum / 55 / 20;  // 60 readings, 5 parameters
+  }
+  EXPECT_NEAR(sum, 1, 0.15);
+}
+
+TEST(FitLawTest, HoldsWhatIsSearched) {
+  const MadeBench made = OnTheBench(MadeCurve({}));
+  Law law;
+  law.effects = {FindEffect("irr_step")};
+  std::vector<double> start = FitBase(made.bench, Law()).p;
+  start.insert(start.end(), {0.0, 0.123});
+  const LawFit fit = FitLaw(made.bench, law, start);
+  EXPECT_EQ(fit.p.back(), 0.123);
+  EXPECT_EQ(FreeCount(made.bench, law), 6);
+}
+
+TEST(FitLawTest, DarkCurvesHaveNoPhotocurrent) {
+  const MadeBench made = OnTheBench(MadeDarkCurve());
+  EXPECT_EQ(FreeCount(made.bench, Law()), 4);
+  const LawFit fit = FitBase(made.bench, Law());
+  ASSERT_TRUE(fit.usable);
+  EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 0.02);
+}
+
+TEST(LinearizeTest, IsTheFitsTangent) {
+  const MadeBench made = OnTheBench(MadeCurve({}));
+  const LawFit fit = FitBase(made.bench, Law());
+  const Linearized linear = Linearize(made.bench, fit);
+  ASSERT_EQ(linear.free.size(), 5U);
+  EXPECT_NEAR(linear.residual.squaredNorm(), fit.sum, 1e-9 * fit.sum);
+  EXPECT_LT((linear.basis.transpose() * linear.basis - Eigen::MatrixXd::Identity(5, 5)).norm(),
+            1e-10);
+  // At an optimum nothing along the parameters is left.
+  EXPECT_LT((linear.basis.transpose() * linear.residual).norm(), 1e-3 * std::sqrt(fit.sum));
+  const Eigen::MatrixXd rest =
+      linear.jacobian - linear.basis * (linear.basis.transpose() * linear.jacobian);
+  EXPECT_LT(rest.norm(), 1e-9 * linear.jacobian.norm());
+}
+
+TEST(LinearizeTest, ParametersPressedAgainstABoundAreNotFree) {
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] += 0.3 * curve.voltage_V[k];
+  const MadeBench made = OnTheBench(curve);  // rises: 1/Rsh would be negative
+  const LawFit fit = FitBase(made.bench, Law());
+  const Linearized linear = Linearize(made.bench, fit);
+  EXPECT_LT(fit.p[kBaseConductance], 1e-6);
+  EXPECT_EQ(std::count(linear.free.begin(), linear.free.end(), kBaseConductance), 0);
+  EXPECT_EQ(StandardErrors(linear, 5)[kBaseConductance], 0);
+}
+
+// Standard errors are the spread of fits over seeds.
+TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
+  constexpr int kSeeds = 120;
+  std::vector<double> sum(5, 0.0), square(5, 0.0), stated(5, 0.0);
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Recipe recipe;
+    recipe.seed = seed;
+    recipe.points = 120;
+    const MadeBench made = OnTheBench(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.bench, Law());
+    const double scale = made.measurement->readings.scale.current_A;
+    const std::vector<double> errors = StandardErrors(Linearize(made.bench, fit), 5);
+    const double to_A[] = {scale, 1, 1, 1 / scale, scale};
+    for (int k = 0; k < 5; ++k) {
+      if (k == kBasePivot) continue;  // its place moves with the curve
+      const double value = fit.p[k] * to_A[k];
+      sum[k] += value / kSeeds;
+      square[k] += value * value / kSeeds;
+      stated[k] += errors[k] * to_A[k] / kSeeds;
+    }
+  }
+  for (const int k : {kBasePhotocurrent, kBaseIdeality, kBaseResistance, kBaseConductance}) {
+    const double spread = std::sqrt(square[k] - sum[k] * sum[k]);
+    EXPECT_NEAR(stated[k] / spread, 1, 0.25) << k;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

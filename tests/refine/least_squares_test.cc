@@ -1,0 +1,115 @@
+#include "lyrefit/refine/least_squares.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+LeastSquaresProblem Unbounded(int parameters, int residuals) {
+  LeastSquaresProblem problem;
+  problem.residuals = residuals;
+  problem.lower.assign(parameters, -kInfinity);
+  problem.upper.assign(parameters, kInfinity);
+  return problem;
+}
+
+// Rosenbrock's valley: optimum at (1, 1).
+LeastSquaresProblem Valley() {
+  LeastSquaresProblem problem = Unbounded(2, 2);
+  problem.evaluate = [](const double* p, double* r, double* jacobian) {
+    r[0] = 10 * (p[1] - p[0] * p[0]);
+    r[1] = 1 - p[0];
+    if (jacobian != nullptr) {
+      const double rows[] = {-20 * p[0], 10, -1, 0};
+      for (int k = 0; k < 4; ++k) jacobian[k] = rows[k];
+    }
+    return true;
+  };
+  return problem;
+}
+
+TEST(LeastSquaresTest, FindsTheOptimum) {
+  const LeastSquaresEnd end = SolveLeastSquares(Valley(), {-1.2, 1});
+  EXPECT_TRUE(end.usable);
+  EXPECT_TRUE(end.converged);
+  EXPECT_GT(end.iterations, 1);
+  EXPECT_NEAR(end.p[0], 1, 1e-6);
+  EXPECT_NEAR(end.p[1], 1, 1e-6);
+  EXPECT_LT(end.sum_of_squares, 1e-12);
+}
+
+TEST(LeastSquaresTest, StopsAtBounds) {
+  LeastSquaresProblem problem = Valley();
+  problem.upper = {0.5, kInfinity};
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1});
+  EXPECT_DOUBLE_EQ(end.p[0], 0.5);
+  // Ceres cuts its steps at the bound and creeps along it: near the optimum, not at it.
+  EXPECT_NEAR(end.p[1], 0.25, 5e-3);
+  EXPECT_NEAR(end.sum_of_squares, 0.25, 2e-3);
+}
+
+TEST(LeastSquaresTest, MovesAStartInsideTheBounds) {
+  LeastSquaresProblem problem = Valley();
+  problem.lower = {-2, -2};
+  problem.upper = {2, 2};
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {50, -50});
+  EXPECT_TRUE(end.usable);
+  EXPECT_NEAR(end.p[0], 1, 1e-5);
+}
+
+TEST(LeastSquaresTest, HeldParametersStay) {
+  LeastSquaresProblem problem = Valley();
+  problem.held = {1, 0};
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {0.3, 7});
+  EXPECT_EQ(end.p[0], 0.3);
+  EXPECT_NEAR(end.p[1], 0.09, 1e-6);
+  EXPECT_NEAR(end.sum_of_squares, 0.49, 1e-9);
+}
+
+TEST(LeastSquaresTest, WithAllHeldOnlyMeasures) {
+  LeastSquaresProblem problem = Valley();
+  problem.held = {1, 1};
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {0, 1});
+  EXPECT_TRUE(end.usable);
+  EXPECT_TRUE(end.converged);
+  EXPECT_EQ(end.p, (std::vector<double>{0, 1}));
+  EXPECT_DOUBLE_EQ(end.sum_of_squares, 101);
+}
+
+TEST(LeastSquaresTest, AnUnusableStartIsSaidToBe) {
+  LeastSquaresProblem problem = Valley();
+  problem.evaluate = [](const double*, double*, double*) { return false; };
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1});
+  EXPECT_FALSE(end.usable);
+  EXPECT_EQ(end.p, (std::vector<double>{-1.2, 1}));
+}
+
+// Where the model ends on the way down, steps are shortened.
+TEST(LeastSquaresTest, StepsBackFromWhereTheModelEnds) {
+  LeastSquaresProblem problem = Unbounded(1, 1);
+  problem.evaluate = [](const double* p, double* r, double* jacobian) {
+    if (!(p[0] > 0)) return false;
+    r[0] = std::log(p[0]) + 3;
+    if (jacobian != nullptr) jacobian[0] = 1 / p[0];
+    return true;
+  };
+  const LeastSquaresEnd end = SolveLeastSquares(problem, {5});
+  EXPECT_TRUE(end.usable);
+  EXPECT_NEAR(end.p[0], std::exp(-3), 1e-6);
+}
+
+TEST(LeastSquaresTest, NeverEndsAboveItsStart) {
+  LeastSquaresOptions options;
+  options.max_iterations = 1;
+  const LeastSquaresEnd end = SolveLeastSquares(Valley(), {-1.2, 1}, options);
+  EXPECT_LE(end.sum_of_squares, 24.2 + 1e-9);
+  EXPECT_FALSE(end.converged);
+}
+
+}  // namespace
+}  // namespace lyrefit

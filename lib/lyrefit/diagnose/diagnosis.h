@@ -45,6 +45,7 @@ struct Evidence {
   std::string kind;             // "one sweep from 0 V to beyond Voc", in words
   double noise_constant_A = 0;  // standard deviation, constant part (lit curves)
   double noise_relative = 0;    // part of |current|
+  double noise_voltage_V = 0;   // of the voltage readings, where the data insist on it
   double noise_dark_A = 0;      // constant part of dark curves; 0 without
   double misfit_ratio = 0;  // base residual's standard deviation / noise's from second differences
   double autocorrelation = 0;  // lag 1, of the noise (smooth misfit removed)

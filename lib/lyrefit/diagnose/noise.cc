@@ -10,7 +10,6 @@ namespace {
 // Ratios of constant and relative noise that are weighed against each other.
 constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
-constexpr double kSmallestNoise = 1e-7;
 // Squares beyond this many variances count as this many: steps and outliers are not noise.
 constexpr double kLargestSquare = 6.63;
 constexpr double kCutMean = 0.967;  // mean of a squared normal number cut there
@@ -21,6 +20,7 @@ struct Difference {
   double square;
   double constant;  // by how much constant noise enters
   double relative;  // by how much noise in proportion to the current does
+  double steep;     // by how much noise of the voltage does
 };
 
 std::vector<Difference> Differences(const Readings& readings, const std::vector<char>& dark,
@@ -44,7 +44,9 @@ std::vector<Difference> Differences(const Readings& readings, const std::vector<
     if (!(part > 0.05 && part < 0.95)) part = 0.5;
     const double weight[] = {1 - part, -1, part};
     const int at[] = {a, b, c};
-    Difference difference{0, 0, 0};
+    Difference difference{0, 0, 0, 0};
+    const double slope =
+        vc != va ? (readings.points[c].current - readings.points[a].current) / (vc - va) : 0;
     double value = 0;
     for (int i = 0; i < 3; ++i) {
       const double current = readings.points[at[i]].current;
@@ -52,6 +54,7 @@ std::vector<Difference> Differences(const Readings& readings, const std::vector<
       difference.constant += weight[i] * weight[i];
       difference.relative += weight[i] * weight[i] * current * current;
     }
+    difference.steep = difference.constant * slope * slope;
     difference.square = value * value;
     differences.push_back(difference);
   }
@@ -103,23 +106,65 @@ NoiseLaw Weigh(const std::vector<Difference>& differences) {
     constant2 += weight * scale[k] * kRatios[k] * kRatios[k];
     relative2 += weight * scale[k];
   }
-  return {std::sqrt(constant2 / sum), std::sqrt(relative2 / sum)};
+  return {std::sqrt(constant2 / sum), std::sqrt(relative2 / sum), 0};
+}
+
+double LogLikelihood(const std::vector<Difference>& differences, const NoiseLaw& law) {
+  const double constant2 = law.constant * law.constant, relative2 = law.relative * law.relative,
+               voltage2 = law.voltage * law.voltage;
+  double sum = 0;
+  for (const Difference& d : differences) {
+    const double variance = constant2 * d.constant + relative2 * d.relative + voltage2 * d.steep;
+    sum -= 0.5 * (std::log(variance) + std::min(d.square / variance, kLargestSquare));
+  }
+  return kEvidence * sum;
+}
+
+// Adds noise of the voltage where that explains the differences far better.
+NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& law) {
+  constexpr double kInsist = 4;  // gain in ln likelihood that is believed
+  double steepest = 0;
+  for (const Difference& d : differences) {
+    steepest = std::max(steepest, std::sqrt(d.steep / std::max(d.constant, 1e-12)));
+  }
+  if (!(steepest > 0) || !(law.constant > 0)) return law;
+  NoiseLaw best = law;
+  double likelihood = LogLikelihood(differences, law) + kInsist;
+  for (const double part : {1.0, 0.6, 0.35, 0.2, 0.1}) {
+    for (const double times : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+      const NoiseLaw tried{law.constant * part, law.relative * part,
+                           times * law.constant / steepest};
+      const double value = LogLikelihood(differences, tried);
+      if (value <= likelihood) continue;
+      likelihood = value;
+      best = tried;
+    }
+  }
+  return best;
 }
 
 NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated) {
-  if (differences.size() < 3) return {kSmallestNoise, 0};
+  if (differences.size() < 3) return {kSmallestNoise, 0, 0};
   if (stated != nullptr) {
     const double relative = std::max(stated->relative, 1e-12);
     const double ratio2 = std::pow(stated->constant / relative, 2);
     const double scale = CutScale(differences, ratio2);
-    return {std::sqrt(scale * ratio2), std::sqrt(scale)};
+    return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
   }
-  return Weigh(differences);
+  return AddVoltage(differences, Weigh(differences));
 }
 
-double Deviation(const NoiseLaw& law, double current) {
-  const double relative = law.relative * current;
-  return std::sqrt(law.constant * law.constant + relative * relative);
+double Deviation(const NoiseLaw& law, double current, double slope) {
+  return std::hypot(law.constant, law.relative * current, law.voltage * slope);
+}
+
+// dI/dV at a reading, from its neighbours of the same stretch.
+double SlopeAt(const std::vector<Reading>& points, std::size_t k) {
+  const std::size_t last = points.size() - 1;
+  const std::size_t a = k > 0 && points[k - 1].segment == points[k].segment ? k - 1 : k;
+  const std::size_t b = k < last && points[k + 1].segment == points[k].segment ? k + 1 : k;
+  const double dv = points[b].voltage - points[a].voltage;
+  return std::fabs(dv) > 1e-6 ? (points[b].current - points[a].current) / dv : 0;
 }
 
 }  // namespace
@@ -145,7 +190,7 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
     const Reading& r = readings.points[k];
     const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
     const double rounding = 0.25 * (dark[r.curve] != 0 ? grids.dark : grids.lit);
-    noise.sigma.push_back(std::max({Deviation(law, r.current), rounding, kSmallestNoise}));
+    noise.sigma.push_back(std::max({Deviation(law, r.current, SlopeAt(readings.points, k)), rounding, kSmallestNoise}));
   }
   return noise;
 }

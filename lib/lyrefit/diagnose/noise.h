@@ -7,11 +7,13 @@
 
 namespace lyrefit {
 
-// Noise of the readings, in current scales: sd^2 = constant^2 + (relative I)^2, of lit and of dark
-// curves apart.
+// Noise of the readings, in current scales: sd^2 = constant^2 + (relative I)^2 + (voltage dI/dV)^2,
+// of lit and of dark curves apart. Noise of the voltage (per cell) is believed only where the data
+// insist.
 struct NoiseLaw {
   double constant = 0;
   double relative = 0;
+  double voltage = 0;
 };
 
 // Steps of the grids on which currents lie, in scales; 0: none.
@@ -19,6 +21,9 @@ struct Grids {
   double lit = 0;
   double dark = 0;
 };
+
+// No reading is believed to be better than this.
+constexpr double kSmallestNoise = 1e-7;
 
 struct Noise {
   NoiseLaw lit;

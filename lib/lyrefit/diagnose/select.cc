@@ -63,6 +63,9 @@ class Selector {
       noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grids);
       bench_.sigma = noise_.sigma;
       WidenByRounding();
+      const bool exact = *std::max_element(noise_.sigma.begin(), noise_.sigma.end()) <
+                         10 * kSmallestNoise;  // computed readings: what is left is arithmetic
+      if (exact) bench_.least_variance = 1;
       LawFit again = FitLaw(bench_, fit_.law, fit_.p);
       if (again.usable) fit_ = std::move(again);
     }

@@ -16,7 +16,7 @@ Effect Transient() {
   e.confused_with = {"shading", "back_contact", "rs_current", "nonohmic_shunt"};
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.parameters = {{"a", "relative_depth", "", "how much light was missing", -0.8, 0.8, 0},
-                  {"c", "centre", "", "when, -1/2 .. 1/2 over the measurement", -0.5, 0.5, 0},
+                  {"c", "centre", "", "when, -1/2 .. 1/2 over the measurement", -0.45, 0.45, 0},
                   {"w", "width", "", "how long, part of the measurement", 0.01, 0.12, 0.05}};
   e.sky = [](const auto* p, const Reading& reading, auto* sky) {
     const auto z = (reading.x - p[1]) / p[2];
@@ -27,7 +27,7 @@ Effect Transient() {
     std::vector<Probe> probes;
     for (const double width : {0.0125, 0.025, 0.05, 0.1}) {
       if (width * traits.readings < 1) continue;  // a dip of one reading is an outlier
-      for (double centre = -0.5; centre <= 0.5; centre += width) {
+      for (double centre = -0.45; centre <= 0.45; centre += width) {
         probes.push_back({0.01, centre, width});
       }
     }

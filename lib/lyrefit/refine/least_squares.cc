@@ -60,6 +60,32 @@ ceres::Solver::Options SolverOptions(const LeastSquaresOptions& options) {
   return solver;
 }
 
+// A bounded solve stops a little short where a bound is active: what is pressed against one is held
+// there and the rest solved once more.
+LeastSquaresEnd SolveWithinBounds(const LeastSquaresProblem& problem, LeastSquaresEnd end,
+                                  const LeastSquaresOptions& options) {
+  LeastSquaresProblem rest = problem;
+  rest.held.assign(problem.lower.size(), 0);
+  std::vector<double> start = end.p;
+  bool pressed = false, moving = false;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    const bool held = !problem.held.empty() && problem.held[k] != 0;
+    const double near = 1e-4 * std::min(problem.upper[k] - problem.lower[k], 1.0);
+    const bool low = start[k] - problem.lower[k] < near, high = problem.upper[k] - start[k] < near;
+    if (!held && (low || high)) {
+      start[k] = low ? problem.lower[k] : problem.upper[k];
+      pressed = true;
+    }
+    rest.held[k] = held || low || high ? 1 : 0;
+    moving = moving || rest.held[k] == 0;
+  }
+  if (!pressed || !moving) return end;
+  LeastSquaresEnd again = SolveLeastSquares(rest, start, options);
+  if (!again.usable || again.sum_of_squares >= end.sum_of_squares) return end;
+  again.iterations += end.iterations;
+  return again;
+}
+
 }  // namespace
 
 LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
@@ -100,7 +126,7 @@ LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
     end.sum_of_squares = 2 * summary.final_cost;
     for (std::size_t k = 0; k < moving.size(); ++k) end.p[moving[k]] = x[k];
   }
-  return end;
+  return SolveWithinBounds(problem, std::move(end), options);
 }
 
 }  // namespace lyrefit

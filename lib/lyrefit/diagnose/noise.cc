@@ -61,12 +61,21 @@ std::vector<Difference> Differences(const Readings& readings, const std::vector<
   return differences;
 }
 
-// Scale (squared) of noise with the given shape, large squares cut.
-double CutScale(const std::vector<Difference>& differences, double ratio2) {
-  std::vector<double> squares;
-  for (const Difference& d : differences) {
-    squares.push_back(d.square / (ratio2 * d.constant + d.relative));
+// Noise of unit size: its three parts, squared.
+struct Shape {
+  double constant = 0;
+  double relative = 1;
+  double voltage = 0;
+
+  double Variance(const Difference& d) const {
+    return constant * d.constant + relative * d.relative + voltage * d.steep;
   }
+};
+
+// Scale (squared) of noise with the given shape, large squares cut.
+double CutScale(const std::vector<Difference>& differences, const Shape& shape) {
+  std::vector<double> squares;
+  for (const Difference& d : differences) squares.push_back(d.square / shape.Variance(d));
   std::vector<double> sorted = squares;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   double scale = sorted[sorted.size() / 2] / 0.455;
@@ -81,10 +90,11 @@ double CutScale(const std::vector<Difference>& differences, double ratio2) {
   return scale;
 }
 
-double LogLikelihood(const std::vector<Difference>& differences, double ratio2, double scale) {
+double LogLikelihood(const std::vector<Difference>& differences, const Shape& shape,
+                     double scale) {
   double sum = 0;
   for (const Difference& d : differences) {
-    const double variance = scale * (ratio2 * d.constant + d.relative);
+    const double variance = scale * shape.Variance(d);
     sum -= 0.5 * (std::log(variance) + std::min(d.square / variance, kLargestSquare));
   }
   return kEvidence * sum;
@@ -94,9 +104,9 @@ double LogLikelihood(const std::vector<Difference>& differences, double ratio2, 
 NoiseLaw Weigh(const std::vector<Difference>& differences) {
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
-    const double ratio2 = kRatios[k] * kRatios[k];
-    scale[k] = std::max(CutScale(differences, ratio2), 1e-30);
-    likelihood[k] = LogLikelihood(differences, ratio2, scale[k]);
+    const Shape shape{kRatios[k] * kRatios[k], 1, 0};
+    scale[k] = std::max(CutScale(differences, shape), 1e-30);
+    likelihood[k] = LogLikelihood(differences, shape, scale[k]);
     best = std::max(best, likelihood[k]);
   }
   double constant2 = 0, relative2 = 0, sum = 0;
@@ -109,38 +119,28 @@ NoiseLaw Weigh(const std::vector<Difference>& differences) {
   return {std::sqrt(constant2 / sum), std::sqrt(relative2 / sum), 0};
 }
 
-double LogLikelihood(const std::vector<Difference>& differences, const NoiseLaw& law) {
-  const double constant2 = law.constant * law.constant, relative2 = law.relative * law.relative,
-               voltage2 = law.voltage * law.voltage;
-  double sum = 0;
-  for (const Difference& d : differences) {
-    const double variance = constant2 * d.constant + relative2 * d.relative + voltage2 * d.steep;
-    sum -= 0.5 * (std::log(variance) + std::min(d.square / variance, kLargestSquare));
-  }
-  return kEvidence * sum;
-}
-
 // Adds noise of the voltage where that explains the differences far better.
 NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& law) {
-  constexpr double kInsist = 4;  // gain in ln likelihood that is believed
+  constexpr double kInsist = 5;  // gain in ln likelihood that is believed
   double steepest = 0;
   for (const Difference& d : differences) {
     steepest = std::max(steepest, std::sqrt(d.steep / std::max(d.constant, 1e-12)));
   }
-  if (!(steepest > 0) || !(law.constant > 0)) return law;
-  NoiseLaw best = law;
-  double likelihood = LogLikelihood(differences, law) + kInsist;
-  for (const double part : {1.0, 0.6, 0.35, 0.2, 0.1}) {
-    for (const double times : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
-      const NoiseLaw tried{law.constant * part, law.relative * part,
-                           times * law.constant / steepest};
-      const double value = LogLikelihood(differences, tried);
-      if (value <= likelihood) continue;
-      likelihood = value;
-      best = tried;
-    }
+  const Shape plain{law.constant * law.constant, law.relative * law.relative, 0};
+  if (!(steepest > 0) || !(plain.constant > 0)) return law;
+  double best = LogLikelihood(differences, plain, CutScale(differences, plain)) + kInsist;
+  NoiseLaw found = law;
+  for (const double times : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+    Shape shape = plain;
+    shape.voltage = std::pow(times / steepest, 2) * plain.constant;
+    const double scale = std::max(CutScale(differences, shape), 1e-30);
+    const double likelihood = LogLikelihood(differences, shape, scale);
+    if (likelihood <= best) continue;
+    best = likelihood;
+    found = {law.constant * std::sqrt(scale), law.relative * std::sqrt(scale),
+             std::sqrt(scale * shape.voltage)};
   }
-  return best;
+  return found;
 }
 
 NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated) {
@@ -148,7 +148,7 @@ NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* st
   if (stated != nullptr) {
     const double relative = std::max(stated->relative, 1e-12);
     const double ratio2 = std::pow(stated->constant / relative, 2);
-    const double scale = CutScale(differences, ratio2);
+    const double scale = CutScale(differences, {ratio2, 1, 0});
     return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
   }
   return AddVoltage(differences, Weigh(differences));

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargestExponent = 200;
+constexpr double kFar_V = 50;
 constexpr double kNear_V = 2;  // a former root farther from a plain guess is no start
 
 struct Bound {
@@ -250,9 +251,9 @@ void SolveShaded(const Bench<double>& bench, const Cell<double>& shaded, double 
 }
 
 Root SolveGrouped(const Bench<double>& bench, const Cell<double>& cell, double voltage,
-                  double start) {
+                  double start, double shaded_start) {
   Root root;
-  root.shaded_junction = start;
+  root.shaded_junction = shaded_start;
   const double w = cell.share;
   const Cell<double> dim = UnderLight(cell, cell.light);
   const auto excess = [&](double vj) {
@@ -384,6 +385,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const std::size_t count = readings.points.size();
   const bool fresh = workspace->junction.size() != count;
   if (fresh) workspace->junction.assign(count, 0.0);
+  if (fresh) workspace->shaded.assign(count, kInfinity);
   for (std::size_t k = 0; k < count; ++k) {
     const Reading& reading = readings.points[k];
     Sky<double> sky;
@@ -392,9 +394,12 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     double& start = workspace->junction[k];
     const double guess = sky.voltage + reading.current * cell.resistance;
     if (fresh || !(std::fabs(start - guess) < kNear_V)) start = guess;
-    const Root root = cell.grouped ? SolveGrouped(plain, cell, sky.voltage, start)
+    double& shaded_start = workspace->shaded[k];
+    if (!(std::fabs(shaded_start) < kFar_V)) shaded_start = start;
+    const Root root = cell.grouped ? SolveGrouped(plain, cell, sky.voltage, start, shaded_start)
                                    : SolveUniform(plain, cell, sky.voltage, start);
     start = root.junction;
+    if (cell.grouped) shaded_start = root.shaded_junction;
     current[k] = root.current;
     if constexpr (std::is_same_v<S, double>) {
       if (instrument) {

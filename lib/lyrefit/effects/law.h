@@ -43,6 +43,7 @@ struct Law {
 // Junction voltages of the last evaluation, from which the next starts.
 struct LawWorkspace {
   std::vector<double> junction;
+  std::vector<double> shaded;  // of the shaded group
 };
 
 // Recorded current of every reading. `jacobian`, where given, receives its derivatives by all

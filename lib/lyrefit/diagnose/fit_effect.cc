@@ -51,6 +51,21 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
   return p;
 }
 
+// Whether the last effect of a fit ended as what it is meant to be.
+bool IsItself(const Effect& effect, const LawFit& fit) {
+  const std::size_t first = fit.p.size() - effect.parameters.size();
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    const double slack = 1e-3 * (parameter.upper - parameter.lower);
+    const double value = fit.p[first + k];
+    if (!parameter.inside) continue;
+    const bool shortest = std::string(parameter.name) == "width" && value < parameter.lower + slack;
+    if (shortest) continue;
+    if (value < parameter.lower + slack || value > parameter.upper - slack) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) {
@@ -64,7 +79,8 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) 
     std::vector<double> start = fit.p;
     for (const double value : Scaled(effect, probe, direction)) start.push_back(value);
     LawFit end = FitLaw(bench, law, start);
-    if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
+    if (!end.usable || !IsItself(effect, end)) continue;
+    if (!best.usable || end.sum < best.sum) best = std::move(end);
   }
   return best;
 }

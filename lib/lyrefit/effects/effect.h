@@ -135,6 +135,8 @@ struct EffectParameter {
   int rate = 0;
   // What the value is multiplied by besides, given all of the effect's parameters.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
+  // A fit that ends at a bound of this parameter is not this effect but bends to another.
+  bool inside = false;
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };

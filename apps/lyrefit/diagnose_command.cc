@@ -43,6 +43,8 @@ DiagnoseCommand::DiagnoseCommand(CLI::App* app)
     : command_(app->add_subcommand("diagnose",
                                    "Say what a diode model gets wrong in a measurement, and why")) {
   command_->add_option("CURVE", files_, "files or folders, a measurement each");
+  command_->add_flag("--together", together_,
+                     "all files are one measurement: lit and dark, up and down, a family");
   AddConditionFlags(command_, &conditions_);
   AddDiagnosisFlags();
   AddCatalogueFlags();
@@ -101,7 +103,7 @@ void DiagnoseCommand::AddCatalogueFlags() {
 
 Expected<void> DiagnoseCommand::CheckFlags() {
   if (files_.empty()) return Fail("CURVE is required: a file or folder to diagnose");
-  if (files_.size() > 1 && !(output_.plot_file.empty() && extend_file_.empty())) {
+  if (Several() && !(output_.plot_file.empty() && extend_file_.empty())) {
     return Fail("--plot and --extend are for one CURVE");
   }
   options_.held_out = !no_held_out_;
@@ -138,8 +140,10 @@ Expected<void> DiagnoseCommand::CheckTargets() const {
   return CheckReportFlags(output_);
 }
 
-Expected<Diagnosis> DiagnoseCommand::DiagnoseFile(const std::string& file) const {
-  Expected<CurveSet> set = ReadMeasurement(file);
+Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(
+    const std::vector<std::string>& files) const {
+  const std::string& file = files.front();
+  Expected<CurveSet> set = files.size() > 1 ? ReadMeasurement(files) : ReadMeasurement(file);
   if (!set) return tl::unexpected(set.error());
   if (conditions_.irradiance_W_m2 && set->curves.size() > 1) {
     return Fail(fmt::format("--irradiance-Wm2 is for one curve, this measurement has {}",
@@ -158,7 +162,7 @@ Expected<Diagnosis> DiagnoseCommand::DiagnoseFile(const std::string& file) const
 Expected<void> DiagnoseCommand::WriteText(const std::vector<Diagnosis>& diagnoses) const {
   std::string text;
   for (const Diagnosis& diagnosis : diagnoses) {
-    const bool brief = output_.brief || files_.size() > 1;
+    const bool brief = output_.brief || Several();
     text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis);
   }
   return WriteOutput("-", text);
@@ -169,7 +173,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
   if (diagnoses.empty()) return {};
   const Diagnosis& first = diagnoses.front();
   if (!output_.json_file.empty()) {
-    const std::string json = files_.size() > 1 ? DiagnosisJson(diagnoses) : DiagnosisJson(first);
+    const std::string json = Several() ? DiagnosisJson(diagnoses) : DiagnosisJson(first);
     if (auto written = WriteOutput(output_.json_file, json); !written) return written;
   }
   if (!extend_file_.empty()) {
@@ -199,14 +203,19 @@ int DiagnoseCommand::Run() {
   std::vector<std::string> names;
   std::vector<Diagnosis> diagnoses;
   int exit_code = kExitFine;
+  std::vector<std::vector<std::string>> measurements;
+  if (together_) measurements = {files_};
   for (const std::string& file : files_) {
-    Expected<Diagnosis> diagnosis = DiagnoseFile(file);
+    if (!together_) measurements.push_back({file});
+  }
+  for (const std::vector<std::string>& files : measurements) {
+    Expected<Diagnosis> diagnosis = DiagnoseFiles(files);
     if (!diagnosis) {
       exit_code = Refuse(diagnosis.error());
       continue;
     }
     if (!diagnosis->extended.usable && exit_code == kExitFine) exit_code = kExitNotUsable;
-    names.push_back(Stem(file));
+    names.push_back(Stem(files.front()));
     diagnoses.push_back(std::move(*diagnosis));
     if (diagnoses.back().interrupted) break;
   }

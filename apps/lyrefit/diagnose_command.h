@@ -22,7 +22,8 @@ class DiagnoseCommand {
   Expected<void> CheckFlags();
   Expected<void> CheckTargets() const;
   Expected<void> CheckNames() const;
-  Expected<Diagnosis> DiagnoseFile(const std::string& file) const;
+  bool Several() const { return files_.size() > 1 && !together_; }  // measurements
+  Expected<Diagnosis> DiagnoseFiles(const std::vector<std::string>& files) const;
   Expected<void> Write(const std::vector<std::string>& names,
                        const std::vector<Diagnosis>& diagnoses) const;
   Expected<void> WriteText(const std::vector<Diagnosis>& diagnoses) const;
@@ -33,6 +34,7 @@ class DiagnoseCommand {
   ConditionFlags conditions_;
   std::string effects_;
   bool no_held_out_ = false;
+  bool together_ = false;
   std::string extend_file_;
   std::string answers_file_;
   std::string explain_;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/extended_report.h"
@@ -123,7 +122,7 @@ Cause UnknownCause(const Selection& selection) {
 }
 
 std::string VerdictSentence(const Verdict& verdict) {
-  if (verdict.unexplained) {
+  if (verdict.unexplained && verdict.causes.front().id == "unknown_structure") {
     return "Something is there that noise does not explain, and none of the known causes fits.";
   }
   if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
@@ -133,11 +132,23 @@ std::string VerdictSentence(const Verdict& verdict) {
     text += verdict.causes[c].title;
     if (!verdict.causes[c].equivalents.empty()) text += " (or what looks like it)";
   }
+  if (verdict.unexplained) {
+    text += "; but structure remains that these do not explain: take the names as the nearest the "
+            "catalogue has";
+  }
   return text + ".";
 }
 
+// Whether what the causes leave is certainly not noise.
+bool Remains(const Selection& selection, double whiteness_after) {
+  constexpr double kCertain = 1e-3;
+  return selection.unknown_p < kCertain || whiteness_after < kCertain ||
+         selection.bench.correlation > 0.5;
+}
+
 Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options) {
+               const ValueFindings& values, const DiagnoseOptions& options,
+               double whiteness_after) {
   const Readings& readings = measurement.readings;
   Verdict verdict;
   verdict.causes = DescribeCauses(selection, values);
@@ -159,6 +170,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
     verdict.causes.push_back(UnknownCause(selection));
   }
   verdict.found = !verdict.causes.empty();
+  if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {
     if (!open.applies(readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
@@ -262,7 +274,8 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
                    options.threads, &diagnosis.gain, &diagnosis.trials);
   }
   diagnosis.evidence = DescribeEvidence(selection, values, correlation);
-  diagnosis.verdict = Decide(*measurement, selection, values, options);
+  diagnosis.verdict = Decide(*measurement, selection, values, options,
+                             diagnosis.evidence.whiteness_after_p_value);
   DescribeGain(selection, &diagnosis.gain);
   DescribePoints(set, *measurement, selection, &diagnosis);
   AddWarnings(selection, *measurement, &diagnosis);
@@ -287,17 +300,6 @@ Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& option
   set.source = curve.source;
   set.curves = {curve};
   return Diagnose(set, options, observer);
-}
-
-Expected<CurveSet> ReadMeasurement(const std::string& path) {
-  if (HoldsCurveSet(path)) return ReadCurveSet(path);
-  auto curve = ReadCurve(path);
-  if (!curve) return tl::unexpected(curve.error());
-  CurveSet set;
-  set.name = curve->name;
-  set.source = curve->source;
-  set.curves = {std::move(*curve)};
-  return set;
 }
 
 }  // namespace lyrefit

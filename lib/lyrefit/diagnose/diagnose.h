@@ -51,4 +51,8 @@ Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& option
 // together, sweeps under other conditions (a dark one among them) become curves of the set.
 Expected<CurveSet> ReadMeasurement(const std::string& path);
 
+// Several files as one measurement: a lit and a dark curve, a family; sweeps up and down under one
+// condition become one curve in the order given.
+Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths);
+
 }  // namespace lyrefit

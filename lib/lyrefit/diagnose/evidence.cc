@@ -47,6 +47,23 @@ double Whiteness(const Workbench& bench, const LawFit& fit) {
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(kLags), statistic));
 }
 
+// A photocurrent that no string of cells gives at 1000 W/m2: the irradiance is not what was stated.
+void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
+  constexpr double kMost_A = 25;
+  const double light = readings.points.front().irradiance;
+  if (!readings.traits.single || readings.traits.only_dark || !(light > 0)) return;
+  const double full = readings.scale.current_A / light;
+  if (full < kMost_A || readings.scale.strings > 1) return;
+  evidence->findings.push_back(
+      {"irradiance",
+       fmt::format("at the stated {:.4g} W/m2 the short-circuit current would be {:.3g} A at 1000 "
+                   "W/m2, more than any string of cells gives; {:.2g} to {:.2g} W/m2 would give 6 "
+                   "to 12 A",
+                   1000 * light, full, 1000 * readings.scale.current_A / 12,
+                   1000 * readings.scale.current_A / 6),
+       {}});
+}
+
 void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
   std::vector<Finding>& findings = evidence->findings;
   if (evidence->clipped_points > 0) {
@@ -85,6 +102,7 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                                     selection.bench.correlation),
                         {}});
   }
+  AddIrradianceFinding(*selection.bench.readings, evidence);
   const LawFit& fit = selection.extended;
   for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
     if (fit.p[at] > 1e-9) continue;
@@ -143,6 +161,36 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   return evidence;
 }
 
+namespace {
+
+Cause BareCause(const char* evidence, double p) {
+  const Effect& effect = *FindEffect("temperature_or_cells");
+  Cause cause;
+  cause.id = effect.id;
+  cause.title = effect.title;
+  cause.acts = effect.acts;
+  cause.evidence = evidence;
+  cause.corrected_p = p;
+  cause.separate_by = {effect.separate_by};
+  return cause;
+}
+
+// The stated number of cells would need more voltage of each than a junction gives.
+Cause WrongCells(const Selection& selection) {
+  const DataTraits& traits = selection.bench.readings->traits;
+  const double cells = traits.cells * selection.extended.p[kBaseIdeality];
+  Cause cause = BareCause("values", 0);
+  cause.strength = {{"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
+  cause.sentence = fmt::format(
+      "{} stated cells would each give {:.3g} V, more than a junction can; {:.0f} to {:.0f} cells "
+      "make n plausible (1 to 1.5)",
+      traits.stated_cells, traits.open_circuit * traits.cells / traits.stated_cells,
+      std::ceil(cells / 1.5), std::floor(cells));
+  return cause;
+}
+
+}  // namespace
+
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   // No junction has n below 1; a little slack for a temperature that is a few kelvin off. Above 3
   // the number of cells is rather wrong than the junction.
@@ -150,6 +198,8 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   const LawFit& fit = selection.extended;
   const Workbench& bench = selection.bench;
   const Readings& readings = *bench.readings;
+  const DataTraits& traits = readings.traits;
+  if (traits.cells_known && traits.stated_cells != traits.cells) return {WrongCells(selection)};
   const double n = fit.p[kBaseIdeality];
   if (n >= kSmallest && n <= kLargest) return {};
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
@@ -159,14 +209,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
   const double p = boost::math::cdf(boost::math::complement(boost::math::normal(), distance));
   if (!(p < kSure)) return {};
-  const Effect& effect = *FindEffect("temperature_or_cells");
-  Cause cause;
-  cause.id = effect.id;
-  cause.title = effect.title;
-  cause.acts = effect.acts;
-  cause.evidence = "fit";
-  cause.corrected_p = p;
-  cause.separate_by = {effect.separate_by};
+  Cause cause = BareCause("fit", p);
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
@@ -178,7 +221,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   cause.sentence = fmt::format(
       "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
       "or {:.0f} to {:.0f} cells",
-      effect.sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
+      FindEffect(cause.id)->sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
       kelvin / 1.5 - 273.15, kelvin - 273.15, std::ceil(cells / 1.5), std::floor(cells));
   return {cause};
 }

@@ -5,6 +5,9 @@
 #include <set>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/effects/law.h"
 
 namespace lyrefit {
@@ -91,17 +94,16 @@ CurveLayout LayOut(const IvCurve& curve, std::vector<std::string>* warnings) {
 }
 
 // dV/dt of a cell, central inside a monotone stretch.
-double Rate(const IvCurve& curve, const CurveLayout& layout, int k, int first, int last) {
+double Rate(const IvCurve& curve, const CurveLayout& layout, int cells, int k, int first,
+            int last) {
   const int before = std::max(k - 1, first), after = std::min(k + 1, last);
   const double span = layout.clock[after] - layout.clock[before];
   if (!(span > 0)) return 0;
-  return (curve.voltage_V[after] - curve.voltage_V[before]) / curve.conditions.cells_in_series /
-         span;
+  return (curve.voltage_V[after] - curve.voltage_V[before]) / cells / span;
 }
 
-void AppendCurve(const IvCurve& curve, int index, bool dark, const CurveLayout& layout,
+void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const CurveLayout& layout,
                  Readings* readings) {
-  const int cells = curve.conditions.cells_in_series;
   const bool monitored = !dark && curve.irradiance_known && Varies(curve.irradiance_W_m2, 0.005);
   const double first = layout.clock.front();
   const double span = std::max(layout.clock.back() - first, 1e-300);
@@ -127,7 +129,7 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, const CurveLayout& 
     reading.temperature_K = curve.conditions.cell_temperature_K;
     reading.x = (layout.clock[k] - first) / span - 0.5;
     reading.gap = k + 1 < curve.size() ? 0.5 * (layout.clock[k + 1] - layout.clock[k]) / span : 0;
-    reading.rate = Rate(curve, layout, static_cast<int>(k), begin, end);
+    reading.rate = Rate(curve, layout, cells, static_cast<int>(k), begin, end);
     reading.curve = index;
     reading.segment = segment;
     readings->points.push_back(reading);
@@ -179,7 +181,6 @@ void SetScales(const std::vector<char>& dark, Readings* readings) {
 
 void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* readings) {
   DataTraits& traits = readings->traits;
-  const IvCurve& first = set.curves.front();
   std::vector<double> lit_irradiance, temperature;
   traits.readings = static_cast<int>(readings->points.size());
   traits.lowest_voltage = traits.highest_voltage = readings->points.front().voltage;
@@ -199,9 +200,9 @@ void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* re
   traits.temperature_levels = Levels(temperature, 2);
   traits.single = one_curve;
   traits.reverse = traits.lowest_voltage < -0.1;
-  traits.cells = first.conditions.cells_in_series;
+  traits.cells = readings->scale.cells;
   traits.module = traits.cells > 1;
-  traits.substrings = first.notes.bypass_diodes.value_or(0);
+  traits.substrings = set.curves.front().notes.bypass_diodes.value_or(0);
   for (int c = 0; c < traits.curves; ++c) {
     if (dark[c] == 0) {
       traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
@@ -217,6 +218,29 @@ void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* re
   for (std::size_t k = 1; k + 2 < points.size(); ++k) {
     traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
   }
+}
+
+// The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
+// number would need it, or nobody stated one, the open-circuit voltage says how many there are.
+int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>* warnings) {
+  constexpr double kMost_V = 1.6, kUsual_V = 0.62;
+  const IvCurve& first = set.curves.front();
+  traits->stated_cells = first.conditions.cells_in_series;
+  traits->cells_known = std::find(first.assumptions.begin(), first.assumptions.end(),
+                                  kCellsAssumed) == first.assumptions.end();
+  double voc = 0;
+  for (const IvCurve& curve : set.curves) {
+    const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
+    if (points.open_circuit_voltage_V > voc) voc = points.open_circuit_voltage_V;
+  }
+  if (!(voc / traits->stated_cells > kMost_V)) return traits->stated_cells;
+  const int cells = std::max(1, static_cast<int>(std::lround(voc / kUsual_V)));
+  warnings->push_back("Voc of " + NumberText(voc) + " V over " +
+                      std::to_string(traits->stated_cells) +
+                      (traits->cells_known ? " stated" : " assumed") +
+                      " cells is more than a junction gives; reckoned with " +
+                      std::to_string(cells) + " cells, which n absorbs");
+  return cells;
 }
 
 }  // namespace
@@ -249,6 +273,7 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
   if (set.curves.empty()) return Fail("there is no curve to diagnose");
   Measurement measurement;
   Readings& readings = measurement.readings;
+  readings.scale.cells = CountCells(set, &readings.traits, &measurement.warnings);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     const IvCurve& curve = set.curves[c];
     if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
@@ -259,15 +284,15 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
     }
     measurement.dark.push_back(DecideDark(curve, &measurement.warnings) ? 1 : 0);
     AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0,
-                LayOut(curve, &measurement.warnings), &readings);
+                readings.scale.cells, LayOut(curve, &measurement.warnings), &readings);
   }
   if (readings.points.size() < 7) {
     return Fail("a diagnosis needs 7 readings or more, there are " +
                 std::to_string(readings.points.size()));
   }
   SetScales(measurement.dark, &readings);
-  readings.scale.cells = set.curves.front().conditions.cells_in_series;
   FindTraits(set, measurement.dark, &readings);
+  readings.scale.strings = set.curves.front().conditions.strings_in_parallel;
   const DeviceNotes& notes = set.curves.front().notes;
   readings.bandgap_eV = notes.bandgap_eV.value_or(1.121);
   if (notes.isc_tempco_per_K) {

@@ -23,6 +23,7 @@ struct Reading {
 struct ReadingScale {
   double current_A = 1;
   int cells = 1;
+  int strings = 1;  // in parallel
   double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
   bool times = false;
   double span_s = 0;             // duration; 0 where no times were recorded
@@ -43,7 +44,9 @@ struct DataTraits {
   int temperature_levels = 1;
   bool module = false;  // more than one cell in series
   int substrings = 0;   // bypass groups; 0: not known
-  int cells = 1;
+  int cells = 1;               // as reckoned with
+  int stated_cells = 1;        // as stated, or assumed by a reader
+  bool cells_known = true;     // stated by somebody
   double lowest_voltage = 0;   // per cell
   double highest_voltage = 0;  // per cell
   double open_circuit = 0;     // per cell, estimate of Voc; 0 where there is none

@@ -14,6 +14,9 @@ std::string NoiseText(const Evidence& evidence) {
   std::string text = fmt::format("{} A and {} % of the current (one standard deviation)",
                                  Significant(evidence.noise_constant_A, 3),
                                  Significant(100 * evidence.noise_relative, 3));
+  if (evidence.noise_voltage_V > 0) {
+    text += fmt::format("; of the voltage {} V", Significant(evidence.noise_voltage_V, 3));
+  }
   if (evidence.noise_dark_A > 0) {
     text += fmt::format("; in the dark {} A", Significant(evidence.noise_dark_A, 3));
   }

@@ -15,6 +15,7 @@ Json EvidenceJson(const Evidence& evidence) {
           {"noise",
            {{"constant_A", Number(evidence.noise_constant_A)},
             {"relative", Number(evidence.noise_relative)},
+            {"voltage_V", Number(evidence.noise_voltage_V)},
             {"dark_A", Number(evidence.noise_dark_A)}}},
           {"misfit_ratio", Number(evidence.misfit_ratio)},
           {"autocorrelation", Number(evidence.autocorrelation)},
@@ -90,6 +91,7 @@ Json VerdictJson(const Verdict& verdict) {
                       {"separate_by", cause.separate_by}});
   }
   return {{"found", verdict.found},
+          {"unexplained", verdict.unexplained},
           {"sentence", verdict.sentence},
           {"causes", std::move(causes)},
           {"cannot_be_excluded", std::move(others)}};
@@ -167,6 +169,7 @@ Json ToJson(const Diagnosis& diagnosis) {
   json["evidence"] = EvidenceJson(diagnosis.evidence);
   json["trials"] = std::move(trials);
   json["non_default_options"] = OptionsJson(diagnosis.non_default_options);
+  json["assumptions"] = diagnosis.assumptions;
   json["warnings"] = diagnosis.warnings;
   json["interrupted"] = diagnosis.interrupted;
   json["usable"] = diagnosis.extended.usable;

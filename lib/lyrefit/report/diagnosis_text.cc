@@ -77,7 +77,7 @@ std::string DiagnosisText(const Diagnosis& diagnosis) {
         DiagnosisGainSection(diagnosis), DiagnosisShiftSection(diagnosis),
         DiagnosisEvidenceSection(diagnosis), DiagnosisTrialSection(diagnosis),
         DiagnosisUntriedSection(diagnosis), DiagnosisLimitSection(diagnosis), RunSection(diagnosis),
-        List("Warnings", diagnosis.warnings)}) {
+        List("Assumed", diagnosis.assumptions), List("Warnings", diagnosis.warnings)}) {
     if (!section.empty()) text += "\n" + section;
   }
   return text;

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/diagnose/diagnose.h"
+
+namespace lyrefit {
+namespace {
+
+bool UnderOneSky(const IvCurve& a, const IvCurve& b) {
+  const double light = std::max(a.conditions.irradiance_W_m2, b.conditions.irradiance_W_m2);
+  return a.conditions.cells_in_series == b.conditions.cells_in_series &&
+         std::fabs(a.conditions.irradiance_W_m2 - b.conditions.irradiance_W_m2) <= 0.02 * light &&
+         std::fabs(a.conditions.cell_temperature_K - b.conditions.cell_temperature_K) <= 1;
+}
+
+// Rising voltage counts +1, falling -1.
+int Direction(const IvCurve& curve) {
+  return curve.voltage_V.back() > curve.voltage_V.front() ? 1 : -1;
+}
+
+// Whether the curves are sweeps of one state of one device in both directions.
+bool AreSweeps(const std::vector<IvCurve>& curves) {
+  bool up = false, down = false;
+  for (const IvCurve& curve : curves) {
+    if (!UnderOneSky(curve, curves.front())) return false;
+    (Direction(curve) > 0 ? up : down) = true;
+  }
+  return up && down;
+}
+
+// Sweeps one after the other, as one curve.
+IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
+  IvCurve joined = curves.front();
+  joined.sweep.assign(joined.size(), 0);
+  joined.sigma_A.clear();
+  joined.time_s.clear();
+  joined.irradiance_W_m2.clear();
+  joined.temperature_C.clear();
+  for (std::size_t c = 1; c < curves.size(); ++c) {
+    const IvCurve& next = curves[c];
+    joined.voltage_V.insert(joined.voltage_V.end(), next.voltage_V.begin(), next.voltage_V.end());
+    joined.current_A.insert(joined.current_A.end(), next.current_A.begin(), next.current_A.end());
+    joined.sweep.insert(joined.sweep.end(), next.size(), static_cast<int>(c));
+    joined.name += " + " + next.name;
+  }
+  joined.assumptions.push_back(
+      "the sweeps follow each other in the order of the files, reading by reading at one pace");
+  return joined;
+}
+
+}  // namespace
+
+Expected<CurveSet> ReadMeasurement(const std::string& path) {
+  if (HoldsCurveSet(path)) return ReadCurveSet(path);
+  auto curve = ReadCurve(path);
+  if (!curve) return tl::unexpected(curve.error());
+  CurveSet set;
+  set.name = curve->name;
+  set.source = curve->source;
+  set.curves = {std::move(*curve)};
+  return set;
+}
+
+Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths) {
+  CurveSet all;
+  for (const std::string& path : paths) {
+    auto set = ReadMeasurement(path);
+    if (!set) return set;
+    all.name += (all.name.empty() ? "" : " + ") + set->name;
+    all.source += (all.source.empty() ? "" : ", ") + set->source;
+    for (IvCurve& curve : set->curves) all.curves.push_back(std::move(curve));
+    for (RejectedCurve& bad : set->rejected) all.rejected.push_back(std::move(bad));
+  }
+  if (all.curves.size() > 1 && AreSweeps(all.curves)) all.curves = {JoinSweeps(all.curves)};
+  return all;
+}
+
+}  // namespace lyrefit

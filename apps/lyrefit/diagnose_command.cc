@@ -140,8 +140,7 @@ Expected<void> DiagnoseCommand::CheckTargets() const {
   return CheckReportFlags(output_);
 }
 
-Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(
-    const std::vector<std::string>& files) const {
+Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string>& files) const {
   const std::string& file = files.front();
   Expected<CurveSet> set = files.size() > 1 ? ReadMeasurement(files) : ReadMeasurement(file);
   if (!set) return tl::unexpected(set.error());

@@ -43,7 +43,8 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
 Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes& notes,
                                const ValueFindings& values, const SelectOptions& options,
                                Selection* selection) {
-  constexpr double kNotable = 0.08, kSure = 1;
+  // More than the largest is rather structure that no cause took away than noise.
+  constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
   *selection = SelectCauses(readings, measurement.dark, notes, used, values, 0, options);
@@ -59,7 +60,7 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes
   if (!coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
     *selection = SelectCauses(readings, measurement.dark, notes, used, values,
-                              std::min(correlation.value, 0.95), options);
+                              std::min(correlation.value, kLargest), options);
   }
   return correlation;
 }
@@ -108,7 +109,7 @@ Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
   return cause;
 }
 
-Cause UnknownCause(const Selection& selection) {
+Cause UnknownCause(const Selection& selection, double whiteness_after) {
   const Effect& effect = *FindEffect("unknown_structure");
   Cause cause;
   cause.id = effect.id;
@@ -116,7 +117,7 @@ Cause UnknownCause(const Selection& selection) {
   cause.sentence = effect.sentence;
   cause.acts = effect.acts;
   cause.evidence = "fit";
-  cause.corrected_p = selection.unknown_p;
+  cause.corrected_p = std::min(selection.unknown_p, whiteness_after);
   cause.separate_by = {effect.separate_by};
   return cause;
 }
@@ -133,8 +134,9 @@ std::string VerdictSentence(const Verdict& verdict) {
     if (!verdict.causes[c].equivalents.empty()) text += " (or what looks like it)";
   }
   if (verdict.unexplained) {
-    text += "; but structure remains that these do not explain: take the names as the nearest the "
-            "catalogue has";
+    text +=
+        "; but structure remains that these do not explain: take the names as the nearest the "
+        "catalogue has";
   }
   return text + ".";
 }
@@ -143,7 +145,7 @@ std::string VerdictSentence(const Verdict& verdict) {
 bool Remains(const Selection& selection, double whiteness_after) {
   constexpr double kCertain = 1e-3;
   return selection.unknown_p < kCertain || whiteness_after < kCertain ||
-         selection.bench.correlation > 0.5;
+         selection.bench.correlation >= 0.5;
 }
 
 Verdict Decide(const Measurement& measurement, const Selection& selection,
@@ -165,9 +167,11 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
-  if (selection.unknown && verdict.causes.empty()) {
+  constexpr double kNeverNoise = 1e-6;
+  const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
+  if (unknown && verdict.causes.empty()) {
     verdict.unexplained = true;
-    verdict.causes.push_back(UnknownCause(selection));
+    verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
   if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
@@ -274,8 +278,8 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
                    options.threads, &diagnosis.gain, &diagnosis.trials);
   }
   diagnosis.evidence = DescribeEvidence(selection, values, correlation);
-  diagnosis.verdict = Decide(*measurement, selection, values, options,
-                             diagnosis.evidence.whiteness_after_p_value);
+  diagnosis.verdict =
+      Decide(*measurement, selection, values, options, diagnosis.evidence.whiteness_after_p_value);
   DescribeGain(selection, &diagnosis.gain);
   DescribePoints(set, *measurement, selection, &diagnosis);
   AddWarnings(selection, *measurement, &diagnosis);

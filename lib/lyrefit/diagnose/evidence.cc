@@ -221,8 +221,9 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   cause.sentence = fmt::format(
       "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
       "or {:.0f} to {:.0f} cells",
-      FindEffect(cause.id)->sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
-      kelvin / 1.5 - 273.15, kelvin - 273.15, std::ceil(cells / 1.5), std::floor(cells));
+      FindEffect(cause.id)->sentence, n, readings.scale.cells,
+      readings.reference_temperature_K - 273.15, kelvin / 1.5 - 273.15, kelvin - 273.15,
+      std::ceil(cells / 1.5), std::floor(cells));
   return {cause};
 }
 

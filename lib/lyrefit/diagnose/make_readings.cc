@@ -283,8 +283,8 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
                   "one device");
     }
     measurement.dark.push_back(DecideDark(curve, &measurement.warnings) ? 1 : 0);
-    AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0,
-                readings.scale.cells, LayOut(curve, &measurement.warnings), &readings);
+    AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0, readings.scale.cells,
+                LayOut(curve, &measurement.warnings), &readings);
   }
   if (readings.points.size() < 7) {
     return Fail("a diagnosis needs 7 readings or more, there are " +

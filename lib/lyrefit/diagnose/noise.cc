@@ -90,8 +90,7 @@ double CutScale(const std::vector<Difference>& differences, const Shape& shape) 
   return scale;
 }
 
-double LogLikelihood(const std::vector<Difference>& differences, const Shape& shape,
-                     double scale) {
+double LogLikelihood(const std::vector<Difference>& differences, const Shape& shape, double scale) {
   double sum = 0;
   for (const Difference& d : differences) {
     const double variance = scale * shape.Variance(d);
@@ -120,15 +119,18 @@ NoiseLaw Weigh(const std::vector<Difference>& differences) {
 }
 
 // Adds noise of the voltage where that explains the differences far better.
-NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& law) {
-  constexpr double kInsist = 5;  // gain in ln likelihood that is believed
+NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& law,
+                    VoltageNoise voltage) {
+  if (voltage == VoltageNoise::kNever) return law;
+  // Gain in ln likelihood that is believed.
+  const double insist = voltage == VoltageNoise::kAlways ? -1e300 : 5;
   double steepest = 0;
   for (const Difference& d : differences) {
     steepest = std::max(steepest, std::sqrt(d.steep / std::max(d.constant, 1e-12)));
   }
   const Shape plain{law.constant * law.constant, law.relative * law.relative, 0};
   if (!(steepest > 0) || !(plain.constant > 0)) return law;
-  double best = LogLikelihood(differences, plain, CutScale(differences, plain)) + kInsist;
+  double best = LogLikelihood(differences, plain, CutScale(differences, plain)) + insist;
   NoiseLaw found = law;
   for (const double times : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
     Shape shape = plain;
@@ -143,7 +145,8 @@ NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& 
   return found;
 }
 
-NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated) {
+NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated,
+                  VoltageNoise voltage) {
   if (differences.size() < 3) return {kSmallestNoise, 0, 0};
   if (stated != nullptr) {
     const double relative = std::max(stated->relative, 1e-12);
@@ -151,7 +154,7 @@ NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* st
     const double scale = CutScale(differences, {ratio2, 1, 0});
     return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
   }
-  return AddVoltage(differences, Weigh(differences));
+  return AddVoltage(differences, Weigh(differences), voltage);
 }
 
 double Deviation(const NoiseLaw& law, double current, double slope) {
@@ -171,7 +174,7 @@ double SlopeAt(const std::vector<Reading>& points, std::size_t k) {
 
 Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, const Grids& grids) {
+                    const DeviceNotes& notes, const Grids& grids, VoltageNoise voltage) {
   Noise noise;
   NoiseLaw stated;
   const bool is_stated = notes.current_noise_constant_A && notes.current_noise_relative;
@@ -181,8 +184,8 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
   }
   const auto lit = Differences(readings, dark, false, residual, used);
   const auto unlit = Differences(readings, dark, true, residual, used);
-  if (lit.size() >= 3) noise.lit = Estimate(lit, is_stated ? &stated : nullptr);
-  if (unlit.size() >= 3) noise.dark = Estimate(unlit, nullptr);
+  if (lit.size() >= 3) noise.lit = Estimate(lit, is_stated ? &stated : nullptr, voltage);
+  if (unlit.size() >= 3) noise.dark = Estimate(unlit, nullptr, voltage);
   if (lit.size() < 3) noise.lit = noise.dark;
   if (unlit.size() < 3) noise.dark = noise.lit;
   // A grid leaves no two readings closer than its own rounding noise.
@@ -190,7 +193,8 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
     const Reading& r = readings.points[k];
     const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
     const double rounding = 0.25 * (dark[r.curve] != 0 ? grids.dark : grids.lit);
-    noise.sigma.push_back(std::max({Deviation(law, r.current, SlopeAt(readings.points, k)), rounding, kSmallestNoise}));
+    noise.sigma.push_back(std::max(
+        {Deviation(law, r.current, SlopeAt(readings.points, k)), rounding, kSmallestNoise}));
   }
   return noise;
 }

@@ -25,6 +25,9 @@ struct Grids {
 // No reading is believed to be better than this.
 constexpr double kSmallestNoise = 1e-7;
 
+// Whether noise of the voltage is one of the parts: for nulls it is what the data had.
+enum class VoltageNoise { kIfInsisted, kAlways, kNever };
+
 struct Noise {
   NoiseLaw lit;
   NoiseLaw dark;
@@ -36,7 +39,8 @@ struct Noise {
 // not empty, is the readings' own stated deviation and does the same.
 Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, const Grids& grids);
+                    const DeviceNotes& notes, const Grids& grids,
+                    VoltageNoise voltage = VoltageNoise::kIfInsisted);
 
 // A grid coarser than this many noise deviations is a finding.
 constexpr double kCoarseGrid = 2.1;

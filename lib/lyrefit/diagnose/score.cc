@@ -310,7 +310,7 @@ class Refit {
     std::vector<double> residual(count);
     for (int k = 0; k < count; ++k) residual[k] = left[k] * bench_.sigma[k];
     const Noise again = EstimateNoise(readings, question_.dark, residual, bench_.used,
-                                      question_.notes, question_.grids);
+                                      question_.notes, question_.grids, question_.voltage);
     Eigen::VectorXd weight(count);
     for (int k = 0; k < count; ++k) {
       weight[k] = bench_.used[k] != 0 ? bench_.sigma[k] / again.sigma[k] : 0.0;

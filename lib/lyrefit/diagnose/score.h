@@ -47,6 +47,7 @@ struct NoiseQuestion {
   const std::vector<char>& dark;
   const DeviceNotes& notes;
   const Grids& grids;
+  VoltageNoise voltage;
 };
 
 // Scores every effect of `candidates` on the residuals of `fit`; "unknown_structure" is scored on

@@ -97,7 +97,9 @@ class Selector {
   void Calibrate() {
     calibration_ = options_.calibration;
     if (!calibration_.nulls.empty() || !options_.calibrate) return;
-    const NoiseQuestion question{dark_, notes_, values_.grids};
+    const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
+    const NoiseQuestion question{dark_, notes_, values_.grids,
+                                 voltage ? VoltageNoise::kAlways : VoltageNoise::kNever};
     calibration_ =
         CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5, options_.seed);
   }

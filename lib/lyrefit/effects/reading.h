@@ -23,7 +23,7 @@ struct Reading {
 struct ReadingScale {
   double current_A = 1;
   int cells = 1;
-  int strings = 1;  // in parallel
+  int strings = 1;          // in parallel
   double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
   bool times = false;
   double span_s = 0;             // duration; 0 where no times were recorded
@@ -42,8 +42,8 @@ struct DataTraits {
   bool only_dark = false;     // nothing but dark curves
   int irradiance_levels = 1;  // of lit curves
   int temperature_levels = 1;
-  bool module = false;  // more than one cell in series
-  int substrings = 0;   // bypass groups; 0: not known
+  bool module = false;         // more than one cell in series
+  int substrings = 0;          // bypass groups; 0: not known
   int cells = 1;               // as reckoned with
   int stated_cells = 1;        // as stated, or assumed by a reader
   bool cells_known = true;     // stated by somebody

@@ -9,5 +9,6 @@ void RegisterSolverBenchmarks();
 void RegisterSearchBenchmarks();
 void RegisterFitBenchmarks();
 void RegisterFamilyBenchmarks();
+void RegisterDiagnoseBenchmarks();
 
 }  // namespace lyrefit::bench

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   lyrefit::bench::RegisterSearchBenchmarks();
   lyrefit::bench::RegisterFitBenchmarks();
   lyrefit::bench::RegisterFamilyBenchmarks();
+  lyrefit::bench::RegisterDiagnoseBenchmarks();
   lyrefit::bench::ClaimReporter reporter;
   if (benchmark::RunSpecifiedBenchmarks(&reporter) > 0) {
     reporter.PrintClaims(for_programs ? std::cerr : std::cout);

@@ -101,7 +101,7 @@ TEST(Silence, IsKeptWhereNothingIsHidden) {
   for (const Kind kind : KindsCalled("all")) {
     for (int i = 0; i < 8; ++i) {
       const Case made = MakeNull(kind, static_cast<NoiseType>(i % (kNoiseTypes - 1)), 100 + i);
-      const Answer answer = Ask(made.measurement, i, kLevel, 1);
+      const Answer answer = Ask(made.measurement, i, kLevel, 1, made.second_diode);
       ASSERT_EQ(answer.error, "");
       ++cases;
       if (Counted(made, answer).empty()) continue;

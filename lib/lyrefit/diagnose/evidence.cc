@@ -64,6 +64,21 @@ void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
        {}});
 }
 
+// n below 1 is a hint at a wrong temperature or number of cells long before it is a proof.
+void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
+  const Readings& readings = *selection.bench.readings;
+  const double n = std::min(selection.base.p[kBaseIdeality], selection.extended.p[kBaseIdeality]);
+  if (n > 1) return;
+  const double kelvin = readings.reference_temperature_K * n;
+  evidence->findings.push_back(
+      {"n_below_1",
+       fmt::format("n = {:.3f} is below 1: at {} cells, n between 1 and 1.5 needs {:.0f} to {:.0f} "
+                   "C, not the {:.1f} C stated; check the temperature and the number of cells",
+                   n, readings.scale.cells, kelvin / 1.5 - 273.15, kelvin - 273.15,
+                   readings.reference_temperature_K - 273.15),
+       {}});
+}
+
 void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
   std::vector<Finding>& findings = evidence->findings;
   if (evidence->clipped_points > 0) {
@@ -103,6 +118,7 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                         {}});
   }
   AddIrradianceFinding(*selection.bench.readings, evidence);
+  AddIdealityFinding(selection, evidence);
   const LawFit& fit = selection.extended;
   for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
     if (fit.p[at] > 1e-9) continue;

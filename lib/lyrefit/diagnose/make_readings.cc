@@ -273,10 +273,12 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
   if (set.curves.empty()) return Fail("there is no curve to diagnose");
   Measurement measurement;
   Readings& readings = measurement.readings;
+  for (const IvCurve& curve : set.curves) {
+    if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
+  }
   readings.scale.cells = CountCells(set, &readings.traits, &measurement.warnings);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     const IvCurve& curve = set.curves[c];
-    if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
     if (curve.conditions.cells_in_series != set.curves.front().conditions.cells_in_series) {
       return Fail(curve.name +
                   ": its number of cells differs from the others'; a measurement is of "

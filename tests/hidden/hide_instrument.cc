@@ -113,7 +113,7 @@ const std::vector<Hide>& InstrumentHides() {
        VoltageOffset,
        VoltageTwins,
        [](const Scene& s) {
-         return Size{"V", s.effects.voltage_offset * s.device.cells};
+         return Size{"V", -s.effects.voltage_offset * s.device.cells};  // what is added
        }},
       {"temperature_or_cells", {kFwd, kRev, kUpDown}, 0.5, 0.86, WrongCellsOrTemperature},
   };

@@ -135,7 +135,7 @@ const std::vector<Hide>& SweepHides() {
        TimingSkew,
        SkewTwins,
        [](const Scene& s) {
-         return Size{"s", s.effects.skew_s};
+         return Size{"s", -s.effects.skew_s};  // after the current
        }},
   };
   return hides;

@@ -74,10 +74,15 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) 
   Law law = fit.law;
   law.effects.push_back(&effect);
   LawFit best;
+  std::vector<std::vector<double>> starts;
   for (const Direction& direction : ChooseStarts(effect, probes, score)) {
-    const Probe& probe = probes[direction.probe];
+    starts.push_back(Scaled(effect, probes[direction.probe], direction));
+  }
+  // A strength that does not act in proportion is better met as it was tried.
+  starts.push_back(probes[score.directions.front().probe]);
+  for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
-    for (const double value : Scaled(effect, probe, direction)) start.push_back(value);
+    start.insert(start.end(), own.begin(), own.end());
     LawFit end = FitLaw(bench, law, start);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best.usable || end.sum < best.sum) best = std::move(end);

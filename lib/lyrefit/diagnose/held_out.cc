@@ -58,6 +58,7 @@ std::vector<int> MakeFolds(const Readings& readings, int folds) {
   const int count = static_cast<int>(readings.points.size());
   const bool by_curve = readings.traits.curves > 2;
   const int length = std::max(2, count / (3 * folds));
+  of.reserve(readings.points.size());
   for (int k = 0; k < count; ++k) {
     of.push_back((by_curve ? readings.points[k].curve : k / length) % folds);
   }

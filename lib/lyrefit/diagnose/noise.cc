@@ -75,6 +75,7 @@ struct Shape {
 // Scale (squared) of noise with the given shape, large squares cut.
 double CutScale(const std::vector<Difference>& differences, const Shape& shape) {
   std::vector<double> squares;
+  squares.reserve(differences.size());
   for (const Difference& d : differences) squares.push_back(d.square / shape.Variance(d));
   std::vector<double> sorted = squares;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());

@@ -138,6 +138,7 @@ Candidate Prepare(const Workbench& bench, const LawFit& fit, const Linearized& l
     candidate.directions.col(static_cast<int>(k)) = kept[distinct[k]];
   }
   std::vector<Direction> sorted;
+  sorted.reserve(order.size());
   for (const int k : order) sorted.push_back(candidate.score.directions[k]);
   candidate.score.directions = sorted;
   return candidate;

@@ -41,6 +41,7 @@ WhyNot NeedsTemperatures(const DataTraits& traits) {
 
 std::vector<Probe> Strengths(const std::vector<double>& values) {
   std::vector<Probe> probes;
+  probes.reserve(values.size());
   for (const double value : values) probes.push_back({value});
   return probes;
 }

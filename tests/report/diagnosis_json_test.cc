@@ -21,11 +21,28 @@ Set Keys(const json& j) {
 
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
-  EXPECT_EQ(Keys(j),
-            (Set{"lyrefit_version", "name", "source", "base", "base_sentence", "objective", "seed",
-                 "level", "verdict", "gain", "evidence", "trials", "non_default_options",
-                 "assumptions", "warnings", "interrupted", "usable", "seconds", "curves", "points"}));
-  EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "cannot_be_excluded"}));
+  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
+                          "name",
+                          "source",
+                          "base",
+                          "base_sentence",
+                          "objective",
+                          "seed",
+                          "level",
+                          "verdict",
+                          "gain",
+                          "evidence",
+                          "trials",
+                          "non_default_options",
+                          "assumptions",
+                          "warnings",
+                          "interrupted",
+                          "usable",
+                          "seconds",
+                          "curves",
+                          "points"}));
+  EXPECT_EQ(Keys(j["verdict"]),
+            (Set{"found", "unexplained", "sentence", "causes", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
             (Set{"id", "title", "sentence", "equivalents", "separate_by", "strength", "interval",
                  "units", "at_bound", "corrected_p", "evidence", "acts", "points"}));

@@ -51,6 +51,11 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
   return p;
 }
 
+// Every start comes this far; the best of them near enough to its end to be ranked. What is chosen
+// is fitted again with the noise it leaves.
+const LeastSquaresOptions kBriefly = {6, 1e-4};
+const LeastSquaresOptions kForRanking = {20, 1e-6};
+
 // Whether the last effect of a fit ended as what it is meant to be.
 bool IsItself(const Effect& effect, const LawFit& fit) {
   const std::size_t first = fit.p.size() - effect.parameters.size();
@@ -83,11 +88,13 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) 
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
-    LawFit end = FitLaw(bench, law, start);
-    if (!end.usable || !IsItself(effect, end)) continue;
-    if (!best.usable || end.sum < best.sum) best = std::move(end);
+    LawFit end = FitLaw(bench, law, start, kBriefly);
+    if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
-  return best;
+  if (!best.usable) return best;
+  LawFit end = FitLaw(bench, law, best.p, kForRanking);
+  if (!end.usable || !IsItself(effect, end)) return {};
+  return end;
 }
 
 LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index) {

@@ -14,6 +14,18 @@ namespace {
 
 bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
 
+// An effect whose linear score is less than this part of the best will not come near it when
+// fitted.
+constexpr double kHopeless = 0.1;
+
+double Best(const std::vector<Score>& scores) {
+  double best = 0;
+  for (const Score& score : scores) {
+    if (score.testable) best = std::max(best, score.statistic);
+  }
+  return best;
+}
+
 class Selector {
  public:
   Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
@@ -127,10 +139,13 @@ class Selector {
     return std::max(fit.sum / Degrees(fit), bench_.least_variance);
   }
 
-  std::vector<Rival> FitAll(const std::vector<Score>& scores) const {
+  // Fits the effects that stand a chance, or all.
+  std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false) const {
     std::vector<Rival> rivals;
+    const double hopeless = all ? 0 : kHopeless * Best(scores);
     for (const Score& score : scores) {
-      const bool fits = score.testable && score.effect->probes != nullptr &&
+      const bool fits = score.testable && score.statistic >= hopeless &&
+                        score.effect->probes != nullptr &&
                         fit_.law.size() + score.effect->size() <= 20;
       if (!fits) continue;
       Rival rival{score, FitEffect(bench_, fit_, score), 0};
@@ -167,7 +182,7 @@ class Selector {
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
       std::vector<Rival> rivals;
       if (step == 0 && options_.trials) {
-        selection->trials = rivals = FitAll(scores);
+        selection->trials = rivals = FitAll(scores, true);
         AddUntried(scores, &selection->trials);
       }
       const bool later = !causes_.empty() || !outliers_.empty();
@@ -366,9 +381,12 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const int degrees = std::max(bench.count() - FreeCount(bench, extended.law), 1);
     const double variance = std::max(extended.sum / degrees, bench.least_variance);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
-    for (const Score& score :
-         ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed)) {
+    const std::vector<Score> scores =
+        ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed);
+    const double hopeless = kHopeless * Best(scores);
+    for (const Score& score : scores) {
       if (!score.testable || without.law.size() + score.effect->size() > 20) continue;
+      if (score.statistic < hopeless && score.effect != selection->causes[c].effect) continue;
       Rival rival{score, FitEffect(bench, without, score), 0};
       if (!rival.fit.usable) continue;
       const bool own = score.effect == selection->causes[c].effect;

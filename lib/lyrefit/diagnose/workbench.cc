@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/refine/least_squares.h"
-
 namespace lyrefit {
 namespace {
 
@@ -75,12 +73,13 @@ Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
   return result;
 }
 
-LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start) {
+LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
+              const LeastSquaresOptions& options) {
   LawFit fit;
   fit.law = law;
   LawWorkspace workspace;
   const LeastSquaresProblem problem = MakeProblem(bench, law, &workspace, &fit.current);
-  const LeastSquaresEnd end = SolveLeastSquares(problem, start);
+  const LeastSquaresEnd end = SolveLeastSquares(problem, start, options);
   fit.p = end.p;
   fit.sum = end.sum_of_squares;
   fit.usable = end.usable && EvaluateLaw(law, *bench.readings, fit.p.data(), &workspace,

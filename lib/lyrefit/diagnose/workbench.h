@@ -5,6 +5,7 @@
 
 #include "lyrefit/effects/law.h"
 #include "lyrefit/effects/reading.h"
+#include "lyrefit/refine/least_squares.h"
 
 namespace lyrefit {
 
@@ -34,7 +35,8 @@ struct LawFit {
 };
 
 // Least squares in all parameters of `law` that are not `searched`, from `start`.
-LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start);
+LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
+              const LeastSquaresOptions& options = {});
 
 // The base model from several starts.
 LawFit FitBase(const Workbench& bench, const Law& law);

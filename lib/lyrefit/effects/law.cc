@@ -127,18 +127,20 @@ double RisingRoot(F f, double start) {
     (y.a < 0 ? low : high) = x;
     const bool bracketed = std::isfinite(low) && std::isfinite(high);
     double next = x - y.a / y.v[0];
+    // After a Newton step this short the next would be below rounding.
+    bool last = std::fabs(next - x) < 1e-8 * (1 + std::fabs(x));
     if (next > x + rise) {
       next = x + rise;
       rise *= 2;
     }
     if (bracketed && (!(next > low && next < high) || iteration > kPatience)) {
       next = 0.5 * (low + high);
+      last = std::fabs(next - x) < 1e-13 * (1 + std::fabs(x));
     } else if (!std::isfinite(next) || next == x) {
       return x;
     }
-    const double step = std::fabs(next - x);
     x = next;
-    if (step < 1e-13 * (1 + std::fabs(x))) break;
+    if (last) break;
   }
   return x;
 }

@@ -1,11 +1,11 @@
 #include "lyrefit/diagnose/score.h"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <cstring>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/diagnose/null_law.h"
 
 namespace lyrefit {
 namespace {
@@ -14,19 +14,12 @@ namespace {
 constexpr double kDetectable = 4.7;
 // Directions of one effect that are more alike than this count as one.
 constexpr double kAlike = 0.97;
-constexpr double kTail = 0.02;  // below it p-values follow the F distribution's tail
 
 struct Candidate {
   Score score;
   bool two_sided = false;
   Eigen::MatrixXd directions;  // unit columns; none for outliers
 };
-
-double TailOf(double statistic, int degrees) {
-  const boost::math::fisher_f f(1, std::max(degrees, 1));
-  if (!(statistic > 0)) return 1;
-  return std::max(boost::math::cdf(boost::math::complement(f, statistic)), 1e-300);
-}
 
 bool IsTwoSided(const Effect& effect) {
   if (effect.parameters.empty()) return true;
@@ -186,45 +179,6 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
   return largest;
 }
 
-// p-value of a statistic given the sorted (falling) statistics of the nulls.
-class NullLaw {
- public:
-  NullLaw(Eigen::VectorXd nulls, int degrees) : nulls_(std::move(nulls)), degrees_(degrees) {
-    std::sort(nulls_.begin(), nulls_.end(), std::greater<double>());
-    edge_ = static_cast<int>(kTail * static_cast<double>(nulls_.size()));
-    edge_tail_ = TailOf(nulls_[edge_], degrees_);
-  }
-  double Of(double statistic) const {
-    if (statistic > nulls_[edge_]) return kTail * TailOf(statistic, degrees_) / edge_tail_;
-    const auto above =
-        std::upper_bound(nulls_.begin(), nulls_.end(), statistic, std::greater<double>()) -
-        nulls_.begin();
-    return std::max(kTail, static_cast<double>(above) / static_cast<double>(nulls_.size()));
-  }
-  // How many independent directions would give such nulls.
-  double Directions() const { return std::max(kTail / edge_tail_, 0.5); }
-
- private:
-  Eigen::VectorXd nulls_;
-  int degrees_;
-  int edge_;
-  double edge_tail_;
-};
-
-// The whole list under its nulls.
-struct ListLaw {
-  std::vector<NullLaw> laws;  // of the testable candidates, in order
-  Eigen::VectorXd smallest;   // rising: the smallest p-value of each null
-  int edge = 0;
-
-  double Catalogue() const { return std::max(1.0, kTail / smallest[edge]); }
-  double Corrected(double p) const {
-    if (p < smallest[edge]) return std::max(p, kTail * p / smallest[edge]);
-    const auto below = std::upper_bound(smallest.begin(), smallest.end(), p) - smallest.begin();
-    return std::max(p, static_cast<double>(below) / static_cast<double>(smallest.size()));
-  }
-};
-
 ListLaw CountTheList(const Eigen::MatrixXd& nulls, int degrees,
                      const std::vector<Candidate>& candidates) {
   const int draws = static_cast<int>(nulls.rows());
@@ -356,32 +310,6 @@ class Refit {
 };
 
 }  // namespace
-
-double Calibration::Corrected(double p) const {
-  if (nulls.empty()) return p;
-  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows; both
-  // are taken a standard error to the safe side, since so many nulls say no more.
-  constexpr double kPart = 0.2;
-  const double x = -std::log(std::max(p, 1e-300));
-  const std::size_t count = nulls.size();
-  const std::size_t edge = count - static_cast<std::size_t>(kPart * static_cast<double>(count)) - 1;
-  if (x > nulls[edge]) {
-    double excess = 0;
-    for (std::size_t k = edge + 1; k < count; ++k) excess += nulls[k] - nulls[edge];
-    const double beyond = static_cast<double>(count - edge - 1);
-    excess *= (1 + 1 / std::sqrt(beyond)) / beyond;
-    const double part = kPart + std::sqrt(kPart * (1 - kPart) / static_cast<double>(count));
-    return std::min(1.0, std::max(p, part * std::exp(-(x - nulls[edge]) / excess)));
-  }
-  const auto above = nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), x);
-  return std::max(p, static_cast<double>(above) / static_cast<double>(count));
-}
-
-double CorrectedP(const Score& score, double statistic, int degrees,
-                  const Calibration& calibration) {
-  return calibration.Corrected(
-      std::min(1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees)));
-}
 
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
                           const Probe& probe) {

@@ -66,6 +66,9 @@ Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
 double CorrectedP(const Score& score, double statistic, int degrees,
                   const Calibration& calibration);
 
+// An effect whose linear score is below this will not come near the best when fitted.
+double HopelessStatistic(const std::vector<Score>& scores);
+
 // What an effect's probe does to the fitted currents, whitened.
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
                           const Probe& probe);

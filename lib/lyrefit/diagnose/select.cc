@@ -14,18 +14,6 @@ namespace {
 
 bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
 
-// An effect whose linear score is less than this part of the best will not come near it when
-// fitted.
-constexpr double kHopeless = 0.1;
-
-double Best(const std::vector<Score>& scores) {
-  double best = 0;
-  for (const Score& score : scores) {
-    if (score.testable) best = std::max(best, score.statistic);
-  }
-  return best;
-}
-
 class Selector {
  public:
   Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
@@ -142,7 +130,7 @@ class Selector {
   // Fits the effects that stand a chance, or all.
   std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false) const {
     std::vector<Rival> rivals;
-    const double hopeless = all ? 0 : kHopeless * Best(scores);
+    const double hopeless = all ? 0 : HopelessStatistic(scores);
     for (const Score& score : scores) {
       const bool fits = score.testable && score.statistic >= hopeless &&
                         score.effect->probes != nullptr &&
@@ -362,41 +350,6 @@ Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
                        const ValueFindings& values, double correlation,
                        const SelectOptions& options) {
   return Selector(readings, dark, notes, used, values, correlation, options).Run();
-}
-
-void FindRivals(const SelectOptions& options, Selection* selection) {
-  for (std::size_t c = 0; c < selection->causes.size(); ++c) {
-    const Workbench& bench = selection->bench;
-    selection->without.push_back(FitWithout(bench, selection->extended, static_cast<int>(c)));
-    const LawFit& without = selection->without.back();
-    if (!without.usable) continue;
-    std::vector<const Effect*> open;
-    for (const Effect* effect : options.candidates) {
-      const auto& in = selection->extended.law.effects;
-      const bool other = std::find(in.begin(), in.end(), effect) != in.end() &&
-                         effect != selection->causes[c].effect;
-      if (!other && effect->probes != nullptr) open.push_back(effect);
-    }
-    const LawFit& extended = selection->extended;
-    const int degrees = std::max(bench.count() - FreeCount(bench, extended.law), 1);
-    const double variance = std::max(extended.sum / degrees, bench.least_variance);
-    std::vector<Rival>& rivals = selection->causes[c].rivals;
-    const std::vector<Score> scores =
-        ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed);
-    const double hopeless = kHopeless * Best(scores);
-    for (const Score& score : scores) {
-      if (!score.testable || without.law.size() + score.effect->size() > 20) continue;
-      if (score.statistic < hopeless && score.effect != selection->causes[c].effect) continue;
-      Rival rival{score, FitEffect(bench, without, score), 0};
-      if (!rival.fit.usable) continue;
-      const bool own = score.effect == selection->causes[c].effect;
-      const double sum = own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
-      rival.statistic = (without.sum - sum) / std::max(variance, 1e-300);
-      rivals.push_back(std::move(rival));
-    }
-    std::stable_sort(rivals.begin(), rivals.end(),
-                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
-  }
 }
 
 }  // namespace lyrefit

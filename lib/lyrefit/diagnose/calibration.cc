@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/diagnose/null_law.h"
+#include "lyrefit/diagnose/score.h"
+
+namespace lyrefit {
+
+double Calibration::Corrected(double p) const {
+  if (nulls.empty()) return p;
+  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows; both
+  // are taken a standard error to the safe side, since so many nulls say no more.
+  constexpr double kPart = 0.2;
+  const double x = -std::log(std::max(p, 1e-300));
+  const std::size_t count = nulls.size();
+  const std::size_t edge = count - static_cast<std::size_t>(kPart * static_cast<double>(count)) - 1;
+  if (x > nulls[edge]) {
+    double excess = 0;
+    for (std::size_t k = edge + 1; k < count; ++k) excess += nulls[k] - nulls[edge];
+    const double beyond = static_cast<double>(count - edge - 1);
+    excess *= (1 + 1 / std::sqrt(beyond)) / beyond;
+    const double part = kPart + std::sqrt(kPart * (1 - kPart) / static_cast<double>(count));
+    return std::min(1.0, std::max(p, part * std::exp(-(x - nulls[edge]) / excess)));
+  }
+  const auto above = nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), x);
+  return std::max(p, static_cast<double>(above) / static_cast<double>(count));
+}
+
+double CorrectedP(const Score& score, double statistic, int degrees,
+                  const Calibration& calibration) {
+  return calibration.Corrected(
+      std::min(1.0, score.catalogue * std::exp(0.5 * score.charge) * TailOf(statistic, degrees)));
+}
+
+double HopelessStatistic(const std::vector<Score>& scores) {
+  constexpr double kPart = 0.1;
+  double best = 0;
+  for (const Score& score : scores) {
+    if (score.testable) best = std::max(best, score.statistic);
+  }
+  return kPart * best;
+}
+
+}  // namespace lyrefit

@@ -53,7 +53,8 @@ Expected<std::string> ExplainEffect(const std::string& id) {
       Field("where", fmt::format("{}; {}", effect.where, effect.acts)) +
       Field("data needed", effect.needs) + Field("confused with", ConfusedText(effect)) +
       Field("to tell", effect.separate_by);
-  if (effect.by_values) text += Field("found", "by looking at the values, not by a fit");
+  if (effect.probes == nullptr)
+    text += Field("found", "by looking at values and residuals, not by a fit of its own");
   if (effect.parameters.empty()) return text;
   TextTable table("lll");
   table.Add({"parameter", "bounds", "meaning (unit in reports)"});

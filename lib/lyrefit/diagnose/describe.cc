@@ -62,17 +62,6 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
   return text;
 }
 
-Cause ValueCause(const char* id, double p) {
-  const Effect& effect = *FindEffect(id);
-  Cause cause;
-  cause.id = id;
-  cause.title = effect.title;
-  cause.acts = effect.acts;
-  cause.evidence = "values";
-  cause.corrected_p = p;
-  return cause;
-}
-
 // Maximum power of the device by itself: the law's device terms at the brightest lit curve's
 // conditions, without what the sweep and the instruments did.
 double DevicePower(const Workbench& bench, const LawFit& fit) {
@@ -116,6 +105,18 @@ double DevicePower(const Workbench& bench, const LawFit& fit) {
 }
 
 }  // namespace
+
+Cause MakeCause(const char* id, const char* evidence, double corrected_p) {
+  const Effect& effect = *FindEffect(id);
+  Cause cause;
+  cause.id = effect.id;
+  cause.title = effect.title;
+  cause.sentence = effect.sentence;
+  cause.acts = effect.acts;
+  cause.evidence = evidence;
+  cause.corrected_p = corrected_p;
+  return cause;
+}
 
 double RmseOf(const Workbench& bench, const std::vector<double>& current) {
   double sum = 0;
@@ -214,9 +215,9 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
   for (std::size_t c = 0; c < selection.causes.size(); ++c) {
     const ChosenCause& chosen = selection.causes[c];
     const Effect& effect = *chosen.effect;
-    Cause cause = ValueCause(effect.id, chosen.corrected_p);
+    Cause cause = MakeCause(effect.id, "fit", chosen.corrected_p);
     const bool by_values = std::strcmp(effect.id, "clip") == 0 && values.clip_level > 0;
-    cause.evidence = by_values ? "values" : "fit";
+    if (by_values) cause.evidence = "values";
     cause.strength = DescribeParameters(bench, selection.extended, static_cast<int>(c));
     double own = 0;
     for (const Rival& rival : chosen.rivals) {
@@ -235,8 +236,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     causes.push_back(std::move(cause));
   }
   if (!selection.outliers.empty()) {
-    Cause cause = ValueCause("outliers", selection.outlier_p);
-    cause.evidence = "fit";
+    Cause cause = MakeCause("outliers", "fit", selection.outlier_p);
     cause.points = selection.outliers;
     std::sort(cause.points.begin(), cause.points.end());
     cause.sentence = std::string(FindEffect("outliers")->sentence) + "; " +

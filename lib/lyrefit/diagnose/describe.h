@@ -16,6 +16,9 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
                                   const std::vector<const Effect*>& candidates);
 
+// A cause of the catalogue, still without size and place. `evidence`: "fit" or "values".
+Cause MakeCause(const char* id, const char* evidence, double corrected_p);
+
 // The causes found, what cannot be told from them and where they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values);
 

@@ -95,30 +95,18 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
 }
 
 Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
-  const Effect& effect = *FindEffect("quantisation");
-  Cause cause;
-  cause.id = effect.id;
-  cause.title = effect.title;
-  cause.acts = effect.acts;
-  cause.evidence = "values";
-  cause.corrected_p = 0;
+  Cause cause = MakeCause("quantisation", "values", 0);
   const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
   const double step = finest * readings.scale.current_A;
   cause.strength = {{"q", "resolution", "A", step, step, step, false}};
-  cause.sentence = std::string(effect.sentence) + "; " + StrengthText(cause.strength.front());
+  cause.sentence += "; " + StrengthText(cause.strength.front());
   return cause;
 }
 
 Cause UnknownCause(const Selection& selection, double whiteness_after) {
-  const Effect& effect = *FindEffect("unknown_structure");
-  Cause cause;
-  cause.id = effect.id;
-  cause.title = effect.title;
-  cause.sentence = effect.sentence;
-  cause.acts = effect.acts;
-  cause.evidence = "fit";
-  cause.corrected_p = std::min(selection.unknown_p, whiteness_after);
-  cause.separate_by = {effect.separate_by};
+  Cause cause =
+      MakeCause("unknown_structure", "fit", std::min(selection.unknown_p, whiteness_after));
+  cause.separate_by = {FindEffect(cause.id)->separate_by};
   return cause;
 }
 
@@ -259,10 +247,9 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
   diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
   diagnosis.base = ToText(options.base);
   diagnosis.base_sentence =
-      "one diode and five parameters for all readings, photocurrent in proportion to light, Rsh "
-      "that does not know the light";
-  if (select.second_diode)
-    diagnosis.base_sentence = "two diodes (n2 = 2), else " + diagnosis.base_sentence.substr(14);
+      std::string(select.second_diode ? "two diodes (n2 = 2) and six" : "one diode and five") +
+      " parameters for all readings, photocurrent in proportion to light, Rsh that does not know "
+      "the light";
   diagnosis.seed = options.seed;
   diagnosis.level = options.level;
   diagnosis.cells_in_series = readings.scale.cells;

@@ -7,6 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
@@ -179,15 +180,9 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
 
 namespace {
 
-Cause BareCause(const char* evidence, double p) {
-  const Effect& effect = *FindEffect("temperature_or_cells");
-  Cause cause;
-  cause.id = effect.id;
-  cause.title = effect.title;
-  cause.acts = effect.acts;
-  cause.evidence = evidence;
-  cause.corrected_p = p;
-  cause.separate_by = {effect.separate_by};
+Cause Metadata(const char* evidence, double p) {
+  Cause cause = MakeCause("temperature_or_cells", evidence, p);
+  cause.separate_by = {FindEffect(cause.id)->separate_by};
   return cause;
 }
 
@@ -195,7 +190,7 @@ Cause BareCause(const char* evidence, double p) {
 Cause WrongCells(const Selection& selection) {
   const DataTraits& traits = selection.bench.readings->traits;
   const double cells = traits.cells * selection.extended.p[kBaseIdeality];
-  Cause cause = BareCause("values", 0);
+  Cause cause = Metadata("values", 0);
   cause.strength = {{"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
   cause.sentence = fmt::format(
       "{} stated cells would each give {:.3g} V, more than a junction can; {:.0f} to {:.0f} cells "
@@ -225,7 +220,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
   const double p = boost::math::cdf(boost::math::complement(boost::math::normal(), distance));
   if (!(p < kSure)) return {};
-  Cause cause = BareCause("fit", p);
+  Cause cause = Metadata("fit", p);
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
@@ -237,9 +232,8 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   cause.sentence = fmt::format(
       "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
       "or {:.0f} to {:.0f} cells",
-      FindEffect(cause.id)->sentence, n, readings.scale.cells,
-      readings.reference_temperature_K - 273.15, kelvin / 1.5 - 273.15, kelvin - 273.15,
-      std::ceil(cells / 1.5), std::floor(cells));
+      cause.sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
+      kelvin / 1.5 - 273.15, kelvin - 273.15, std::ceil(cells / 1.5), std::floor(cells));
   return {cause};
 }
 

@@ -15,9 +15,11 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     std::vector<const Effect*> open;
     for (const Effect* effect : options.candidates) {
       const auto& in = selection->extended.law.effects;
-      const bool other = std::find(in.begin(), in.end(), effect) != in.end() &&
-                         effect != selection->causes[c].effect;
-      if (!other && effect->probes != nullptr) open.push_back(effect);
+      const bool taken = std::any_of(in.begin(), in.end(), [&](const Effect* other) {
+        if (other == selection->causes[c].effect) return false;
+        return other == effect || Exclude(*other, *effect);
+      });
+      if (!taken && effect->probes != nullptr) open.push_back(effect);
     }
     const LawFit& extended = selection->extended;
     const int degrees = std::max(bench.count() - FreeCount(bench, extended.law), 1);

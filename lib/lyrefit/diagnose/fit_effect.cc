@@ -63,10 +63,8 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
     const EffectParameter& parameter = effect.parameters[k];
     const double slack = 1e-3 * (parameter.upper - parameter.lower);
     const double value = fit.p[first + k];
-    if (!parameter.inside) continue;
-    const bool shortest = std::string(parameter.name) == "width" && value < parameter.lower + slack;
-    if (shortest) continue;
-    if (value < parameter.lower + slack || value > parameter.upper - slack) return false;
+    if (parameter.above_lower && value < parameter.lower + slack) return false;
+    if (parameter.below_upper && value > parameter.upper - slack) return false;
   }
   return true;
 }

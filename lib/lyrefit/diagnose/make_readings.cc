@@ -128,7 +128,6 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
     if (!dark && reading.irradiance * 1000 <= kLargestDark_W_m2) reading.irradiance = 1;
     reading.temperature_K = curve.conditions.cell_temperature_K;
     reading.x = (layout.clock[k] - first) / span - 0.5;
-    reading.gap = k + 1 < curve.size() ? 0.5 * (layout.clock[k + 1] - layout.clock[k]) / span : 0;
     reading.rate = Rate(curve, layout, cells, static_cast<int>(k), begin, end);
     reading.curve = index;
     reading.segment = segment;

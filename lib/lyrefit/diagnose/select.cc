@@ -96,7 +96,7 @@ class Selector {
 
   void Calibrate() {
     calibration_ = options_.calibration;
-    if (!calibration_.nulls.empty() || !options_.calibrate) return;
+    if (!calibration_.nulls.empty()) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
     const NoiseQuestion question{dark_, notes_, values_.grids,
                                  voltage ? VoltageNoise::kAlways : VoltageNoise::kNever};
@@ -104,13 +104,10 @@ class Selector {
         CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5, options_.seed);
   }
 
-  bool InLaw(const Effect* effect) const {
+  // Whether an effect is there already, or something it cannot stand beside.
+  bool IsTaken(const Effect* effect) const {
     for (const Effect* other : fit_.law.effects) {
-      if (other == effect) return true;
-      if (other->cell && effect->cell && Is(other, "shading") && Is(effect, "mismatch"))
-        return true;
-      if (other->cell && effect->cell && Is(other, "mismatch") && Is(effect, "shading"))
-        return true;
+      if (other == effect || Exclude(*other, *effect)) return true;
     }
     return false;
   }
@@ -118,7 +115,7 @@ class Selector {
   std::vector<const Effect*> Open() const {
     std::vector<const Effect*> open;
     for (const Effect* effect : options_.candidates) {
-      if (!InLaw(effect)) open.push_back(effect);
+      if (!IsTaken(effect)) open.push_back(effect);
     }
     return open;
   }

@@ -16,8 +16,7 @@ constexpr double kLaterLevel = 0.2;
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
-  Calibration calibration;  // of the list's p-values; found where it is empty and asked for
-  bool calibrate = true;
+  Calibration calibration;  // of the list's p-values; found where it is empty
   int largest_causes = 4;
   std::uint64_t seed = 1;
   bool second_diode = false;  // in the base

@@ -135,8 +135,9 @@ struct EffectParameter {
   int rate = 0;
   // What the value is multiplied by besides, given all of the effect's parameters.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
-  // A fit that ends at a bound of this parameter is not this effect but bends to another.
-  bool inside = false;
+  // A fit that ends at such a bound is not this effect but bends to another.
+  bool below_upper = false;
+  bool above_lower = false;
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };
@@ -164,10 +165,14 @@ struct Effect {
   // Why data of this kind cannot show the effect; nothing where they can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
-  // Found by looking at the values, not by a fit (clip, quantisation, outliers have both or none).
-  bool by_values = false;
+
+  // Splits the cells of a string into two groups: only one effect of a law can.
+  bool groups = false;
 
   int size() const { return static_cast<int>(parameters.size()); }
 };
+
+// Whether two different effects cannot stand in one law.
+inline bool Exclude(const Effect& a, const Effect& b) { return a.groups && b.groups; }
 
 }  // namespace lyrefit

@@ -23,6 +23,7 @@ Effect Mismatch() {
     cell->light = 1.0 - p[0];
     cell->share = p[1];
   };
+  e.groups = true;
   e.why_not = NeedsModule;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

@@ -15,7 +15,6 @@ Effect Outliers() {
   e.acts = "at single readings";
   e.confused_with = {"transient"};
   e.separate_by = "repeat the sweep";
-  e.by_values = false;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;
 }

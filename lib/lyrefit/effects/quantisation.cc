@@ -15,7 +15,6 @@ Effect Quantisation() {
   e.acts = "everywhere: values lie on a grid";
   e.confused_with = {};
   e.separate_by = "a smaller range or a finer instrument";
-  e.by_values = true;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;
 }

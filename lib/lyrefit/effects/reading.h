@@ -16,7 +16,6 @@ struct Reading {
   double rate = 0;           // dV/dt in parts of the measurement's rate scale, signed
   int curve = 0;             // position in the set
   int segment = 0;           // monotone stretches of voltage, counted through the whole set
-  double gap = 0;            // half the distance in x to the next reading of the same curve
 };
 
 // What the numbers of a measurement are scaled by.
@@ -25,8 +24,8 @@ struct ReadingScale {
   int cells = 1;
   int strings = 1;          // in parallel
   double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
+  double span_s = 0;        // duration; 0 where no times were recorded
   bool times = false;
-  double span_s = 0;             // duration; 0 where no times were recorded
   double saturation_2_unit = 1;  // see Cell
   double reach_V = 1;            // largest |voltage| per cell
 };

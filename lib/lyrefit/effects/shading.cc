@@ -43,6 +43,7 @@ Effect Shading() {
     cell->bypassed = true;
     cell->bypass = p[2];
   };
+  e.groups = true;
   e.why_not = NeedsModule;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

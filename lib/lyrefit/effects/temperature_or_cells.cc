@@ -17,7 +17,6 @@ Effect TemperatureOrCells() {
   e.acts = "everywhere near open circuit";
   e.confused_with = {"temp_offset"};
   e.separate_by = "count the cells; a thermometer on the cell";
-  e.by_values = false;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;
 }

@@ -15,7 +15,6 @@ Effect UnknownStructure() {
   e.acts = "see the residuals";
   e.confused_with = {};
   e.separate_by = "repeat the measurement, up and down, and compare the residuals";
-  e.by_values = false;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;
 }

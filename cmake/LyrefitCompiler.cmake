@@ -8,3 +8,12 @@ if(LYREFIT_SANITIZE)
   # matrices over, do not.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+
+# A compiler cache where there is one, shared by all checkouts: paths inside the project count as relative.
+find_program(LYREFIT_CCACHE ccache)
+mark_as_advanced(LYREFIT_CCACHE)
+if(LYREFIT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}"
+      CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      ${LYREFIT_CCACHE})
+endif()

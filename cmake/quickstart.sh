@@ -3,11 +3,28 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-InstallPackages build
 cd -- "$LYREFIT_ROOT"
+app=build/apps/lyrefit/lyrefit
+cat << EOF
+This will
+  1. install the Debian packages that are missing (root is asked for only then; a minute or two the first time),
+  2. build the library and the command in $LYREFIT_ROOT/build (some two minutes on two cores),
+  3. fit data/rtc_france and draw it into build/rtc_france.svg (a second).
+Nothing outside that folder is touched but the packages.
+EOF
+InstallPackages build
 Configure build
 Build build --target lyrefit_app
 
-Say "build/apps/lyrefit/lyrefit fit data/rtc_france --plot build/rtc_france.svg"
-build/apps/lyrefit/lyrefit fit data/rtc_france --plot build/rtc_france.svg
-printf '\nThe picture is %s\n' "$LYREFIT_ROOT/build/rtc_france.svg"
+Say "$app fit data/rtc_france --plot build/rtc_france.svg"
+"$app" fit data/rtc_france --plot build/rtc_france.svg
+cat << EOF
+
+The picture is $LYREFIT_ROOT/build/rtc_france.svg; all of it took $((SECONDS / 60)) min $((SECONDS % 60)) s.
+To call the command as lyrefit in this shell:
+
+    export PATH="$LYREFIT_ROOT/build/apps/lyrefit:\$PATH"
+
+or, for everybody on this machine:  sudo cmake --install build
+Then, on your own tracer's file:    lyrefit fit module.csv --cells 60 --temperature-C 47
+EOF

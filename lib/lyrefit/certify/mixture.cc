@@ -11,11 +11,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMostRounds = 40;      // of adding an atom and sliding
-constexpr int kMostSlides = 30;      // Newton steps between two such rounds
-constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be one in truth
-constexpr double kSameAtom = 1e-9;   // atoms closer than this in u Vs are one
-constexpr double kRounding = 1e-16;  // relative
+constexpr int kMostRounds = 40;             // of adding an atom and sliding
+constexpr int kMostSlides = 30;             // Newton steps between two such rounds
+constexpr double kNeighbours = 0.5;         // atoms closer than this in u Vs may be one in truth
+constexpr double kSameAtom = 1e-9;          // atoms closer than this in u Vs are one
+constexpr double kMixtureRounding = 1e-16;  // relative
 
 // A mixture on the way: the scaled unknowns and the residual measured - modelled.
 struct State {
@@ -69,8 +69,8 @@ class Solver {
 
   // What a correlation may be without opening the duality gap, or without rising above rounding.
   double AllowedExcess(double y_norm, double tolerance, double price_A) const {
-    if (y_norm <= 10 * kRounding * data_.current_A.norm()) return y_norm;  // an exact fit
-    return std::max(0.25 * tolerance * y_norm * y_norm / price_A, kRounding * y_norm);
+    if (y_norm <= 10 * kMixtureRounding * data_.current_A.norm()) return y_norm;  // an exact fit
+    return std::max(0.25 * tolerance * y_norm * y_norm / price_A, kMixtureRounding * y_norm);
   }
 
   const Window* WindowOf(double u) const {

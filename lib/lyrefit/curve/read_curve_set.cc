@@ -54,8 +54,8 @@ std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
 }
 
 // `path` is the table, `source` what the caller named: the table or its folder.
-Expected<CurveSet> ReadFromTable(const std::string& path, const std::string& source,
-                                 const ReadOptions& options) {
+Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,
+                                    const ReadOptions& options) {
   const fs::path file(path);
   const bool in_folder = file.filename() == kCurvesName;
   const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
@@ -159,10 +159,10 @@ Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& opti
         fmt::format("a set is read whole, but curve {} alone was asked for", *options.curve), path);
   }
   if (!IsFolder(path)) {
-    return IsJson(path) ? ReadFromJson(path, options) : ReadFromTable(path, path, options);
+    return IsJson(path) ? ReadFromJson(path, options) : ReadSetFromTable(path, path, options);
   }
   const fs::path curves = fs::path(path) / kCurvesName;
-  if (IsFile(curves)) return ReadFromTable(curves.lexically_normal().string(), path, options);
+  if (IsFile(curves)) return ReadSetFromTable(curves.lexically_normal().string(), path, options);
   if (IsFile(fs::path(path) / "curve.csv")) {
     return Fail("expected several curves, found a folder of one (it holds curve.csv)", path);
   }

@@ -36,6 +36,7 @@ struct EnumTable<ShuntLaw> {
 
 constexpr double kReferenceIrradiance_W_m2 = 1000;
 constexpr double kReferenceTemperature_K = 298.15;
+constexpr double kReferenceTemperature_C = 25;
 
 struct TranslationSpec {
   TranslationLaw law = TranslationLaw::kDeSoto;

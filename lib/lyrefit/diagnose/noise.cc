@@ -146,8 +146,8 @@ NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& 
   return found;
 }
 
-NoiseLaw Estimate(const std::vector<Difference>& differences, const NoiseLaw* stated,
-                  VoltageNoise voltage) {
+NoiseLaw EstimateLaw(const std::vector<Difference>& differences, const NoiseLaw* stated,
+                     VoltageNoise voltage) {
   if (differences.size() < 3) return {kSmallestNoise, 0, 0};
   if (stated != nullptr) {
     const double relative = std::max(stated->relative, 1e-12);
@@ -185,8 +185,8 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
   }
   const auto lit = Differences(readings, dark, false, residual, used);
   const auto unlit = Differences(readings, dark, true, residual, used);
-  if (lit.size() >= 3) noise.lit = Estimate(lit, is_stated ? &stated : nullptr, voltage);
-  if (unlit.size() >= 3) noise.dark = Estimate(unlit, nullptr, voltage);
+  if (lit.size() >= 3) noise.lit = EstimateLaw(lit, is_stated ? &stated : nullptr, voltage);
+  if (unlit.size() >= 3) noise.dark = EstimateLaw(unlit, nullptr, voltage);
   if (lit.size() < 3) noise.lit = noise.dark;
   if (unlit.size() < 3) noise.dark = noise.lit;
   // A grid leaves no two readings closer than its own rounding noise.

@@ -15,7 +15,7 @@ bool UnderOneSky(const IvCurve& a, const IvCurve& b) {
 }
 
 // Rising voltage counts +1, falling -1.
-int Direction(const IvCurve& curve) {
+int SweepDirection(const IvCurve& curve) {
   return curve.voltage_V.back() > curve.voltage_V.front() ? 1 : -1;
 }
 
@@ -24,7 +24,7 @@ bool AreSweeps(const std::vector<IvCurve>& curves) {
   bool up = false, down = false;
   for (const IvCurve& curve : curves) {
     if (!UnderOneSky(curve, curves.front())) return false;
-    (Direction(curve) > 0 ? up : down) = true;
+    (SweepDirection(curve) > 0 ? up : down) = true;
   }
   return up && down;
 }

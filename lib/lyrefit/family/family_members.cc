@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSameIrradiance = 0.02;  // relative difference of Isc under one irradiance
+constexpr double kSameLight = 0.02;  // relative difference of Isc under one irradiance
 
 double Isc(const IvCurve& curve) {
   const double isc = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
@@ -88,7 +88,7 @@ void GuessIrradiances(std::vector<FamilyMember>* members, std::vector<std::strin
   for (FamilyMember& member : *members) {
     if (member.role == CurveRole::kLeftOut || member.irradiance_known) continue;
     const double ratio = member.short_circuit_current_A / one_sun;
-    const bool same = none && ratio > 1 - kSameIrradiance;
+    const bool same = none && ratio > 1 - kSameLight;
     member.joint.irradiance_W_m2 = kReferenceIrradiance_W_m2 * (same ? 1 : ratio);
     if (!same) member.joint.irradiance_sd = kInfinity;
   }

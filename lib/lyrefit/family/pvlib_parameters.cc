@@ -10,8 +10,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kReferenceTemperature_C = kReferenceTemperature_K - kZeroCelsius_K;
-
 // k of the fit over k of pvlib: a voltage n Ns k T / q or an energy Eg / k restated in pvlib's k.
 double ConstantRatio(const Translation& translation) {
   return ThermalVoltage(1.0, translation.spec.constants) / ThermalVoltage(1.0);

@@ -19,7 +19,6 @@ using nlohmann::json;
 
 constexpr std::uintmax_t kLargestFile = 1U << 20;
 constexpr int kMostCells = 100000;
-constexpr double kReferenceTemperature_C = kReferenceTemperature_K - kZeroCelsius_K;
 
 // One keyword of pvlib: which values make sense and what stands for a missing one.
 struct Keyword {

@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-enum class Side { kFree, kLower, kUpper };
+enum class Held { kFree, kLower, kUpper };
 
 // The unknowns that are off their bounds.
 struct FreeSet {
@@ -35,7 +35,7 @@ SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb, const Sma
 // Goes from x towards the free solution; at the first bound on the way, stops there and clamps.
 // True if the whole way was free.
 bool StepTowards(const SmallVector& target, const FreeSet& free, const SmallVector& lower,
-                 const SmallVector& upper, SmallVector* x, Side* side) {
+                 const SmallVector& upper, SmallVector* x, Held* side) {
   double reach = 1;
   int first = -1;
   for (int a = 0; a < free.count; ++a) {
@@ -53,7 +53,7 @@ bool StepTowards(const SmallVector& target, const FreeSet& free, const SmallVect
     if (i != first) continue;
     const bool down = target[a] < lower[i];
     (*x)[i] = down ? lower[i] : upper[i];
-    side[i] = down ? Side::kLower : Side::kUpper;
+    side[i] = down ? Held::kLower : Held::kUpper;
   }
   return first < 0;
 }
@@ -64,27 +64,27 @@ SmallVector SolveBoundedLinear(const SmallMatrix& gram, const SmallVector& atb,
                                const SmallVector& lower, const SmallVector& upper) {
   const int count = static_cast<int>(atb.size());
   SmallVector x = lower;
-  Side side[kMostLinear];
-  std::fill(side, side + count, Side::kLower);
+  Held side[kMostLinear];
+  std::fill(side, side + count, Held::kLower);
   for (int round = 0; round < 10 * count; ++round) {
     const SmallVector pull = atb - gram * x;
     int best = -1;
     double strongest = 1e-12;
     for (int i = 0; i < count; ++i) {
-      if (side[i] == Side::kFree || !(lower[i] < upper[i])) continue;
+      if (side[i] == Held::kFree || !(lower[i] < upper[i])) continue;
       const double scale = std::sqrt(gram(i, i));
       const double inward =
-          (side[i] == Side::kLower ? pull[i] : -pull[i]) / (scale > 0 ? scale : 1);
+          (side[i] == Held::kLower ? pull[i] : -pull[i]) / (scale > 0 ? scale : 1);
       if (inward <= strongest) continue;
       strongest = inward;
       best = i;
     }
     if (best < 0) break;
-    side[best] = Side::kFree;
+    side[best] = Held::kFree;
     for (int inner = 0; inner <= count; ++inner) {
       FreeSet free;
       for (int i = 0; i < count; ++i) {
-        if (side[i] == Side::kFree) free.Add(i);
+        if (side[i] == Held::kFree) free.Add(i);
       }
       if (free.count == 0) break;
       const SmallVector target = SolveFree(gram, atb, x, free);

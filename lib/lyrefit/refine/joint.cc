@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kFlat = 1e-9;  // cosine below which a held parameter does not want back
+constexpr double kFlatJoint = 1e-9;  // cosine below which a held parameter does not want back
 
 class JointPolish {
  public:
@@ -233,7 +233,7 @@ class JointPolish {
     const JointLinear now = LinearizeJointly(problem_, at_, held);
     const std::vector<double> cosines = FreeCosines(now, held);
     int best = -1;
-    double largest = kFlat;
+    double largest = kFlatJoint;
     for (std::size_t k = 0; k < cosines.size(); ++k) {
       const int i = now.parameter[k];
       if (!held_[i] || refused_[i] || std::fabs(cosines[k]) <= largest) continue;

@@ -8,12 +8,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMaxRefits = 20;
-constexpr double kCloseEnough = 0.005;  // of t
+constexpr int kMaxJointRefits = 20;
+constexpr double kCloseEnoughJoint = 0.005;  // of t
 
-class Side {
+class JointSide {
  public:
-  Side(const JointProblem& problem, const JointEnd& best, const JointProfileQuery& query)
+  JointSide(const JointProblem& problem, const JointEnd& best, const JointProfileQuery& query)
       : problem_(problem), best_(best), query_(query), warm_(best.point) {}
 
   JointProfileSide Find() {
@@ -28,9 +28,9 @@ class Side {
     double far = bound;
     double x = FirstGuess(start, far);
     warm_ = best_.point;
-    while (side_.refits < kMaxRefits) {
+    while (side_.refits < kMaxJointRefits) {
       const double rise = Rise(x);
-      if (std::fabs(rise - query_.t) < kCloseEnough * query_.t) break;
+      if (std::fabs(rise - query_.t) < kCloseEnoughJoint * query_.t) break;
       (rise > query_.t ? far : near) = x;
       const double proposal = start + (x - start) * query_.t / std::max(rise, 0.1 * query_.t);
       const bool inside = std::min(near, far) < proposal && proposal < std::max(near, far);
@@ -111,7 +111,7 @@ class Side {
 
 JointProfileSide FindJointProfileSide(const JointProblem& problem, const JointEnd& best,
                                       const JointProfileQuery& query) {
-  return Side(problem, best, query).Find();
+  return JointSide(problem, best, query).Find();
 }
 
 }  // namespace lyrefit

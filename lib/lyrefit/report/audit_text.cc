@@ -11,15 +11,15 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kDigits = 7;
-constexpr std::size_t kLongestName = 17;  // in a table; the remarks below it have all of it
+constexpr int kAuditDigits = 7;
+constexpr std::size_t kLongestAlgorithm = 17;  // in a table; the remarks below it have all of it
 
 std::string Rows(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "row" : "rows");
 }
 
 // "Table 10, rtc_france: 33 C, 1 cell in series"
-std::string Title(const AuditFinding& finding) {
+std::string AuditTitle(const AuditFinding& finding) {
   const AuditReading& stated = finding.stated;
   const std::string& source = finding.row.source;
   return fmt::format("{}{}{}: {:g} C, {} {} in series", source, source.empty() ? "" : ", ",
@@ -39,8 +39,8 @@ std::string Name(const AuditFinding& finding) {
 
 std::string ShortName(const AuditFinding& finding) {
   std::string name = Name(finding);
-  if (name.size() <= kLongestName) return name;
-  std::size_t end = kLongestName - 2;
+  if (name.size() <= kLongestAlgorithm) return name;
+  std::size_t end = kLongestAlgorithm - 2;
   while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
   return name.substr(0, end) + "..";
 }
@@ -65,7 +65,7 @@ std::string Remark(const AuditFinding& finding) {
 }
 
 // One table, from `begin` to `end`.
-std::string Section(const AuditReport& report, std::size_t begin, std::size_t end) {
+std::string CurveRows(const AuditReport& report, std::size_t begin, std::size_t end) {
   TextTable table("llrrrl");
   table.Add({"row", "model", "claimed", Head(report, Objective::kMeasuredCurrent),
              Head(report, Objective::kSolvedCurrent), "verdict"});
@@ -73,11 +73,12 @@ std::string Section(const AuditReport& report, std::size_t begin, std::size_t en
   for (std::size_t i = begin; i < end; ++i) {
     const AuditFinding& finding = report.findings[i];
     table.Add({ShortName(finding), ToText(finding.row.model), finding.row.rmse.text,
-               Scientific(finding.stated.rmse.measured_current_A, kDigits),
-               Scientific(finding.stated.rmse.solved_current_A, kDigits), ToText(finding.verdict)});
+               Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
+               Scientific(finding.stated.rmse.solved_current_A, kAuditDigits),
+               ToText(finding.verdict)});
     remarks += Remark(finding);
   }
-  return Title(report.findings[begin]) + "\n" + table.Text() + remarks;
+  return AuditTitle(report.findings[begin]) + "\n" + table.Text() + remarks;
 }
 
 std::string Legend(const AuditReport& report) {
@@ -140,8 +141,8 @@ std::string AuditText(const AuditReport& report) {
   const std::vector<AuditFinding>& findings = report.findings;
   for (std::size_t begin = 0; begin < findings.size();) {
     std::size_t end = begin + 1;
-    while (end < findings.size() && Title(findings[end]) == Title(findings[begin])) ++end;
-    text += "\n" + Section(report, begin, end);
+    while (end < findings.size() && AuditTitle(findings[end]) == AuditTitle(findings[begin])) ++end;
+    text += "\n" + CurveRows(report, begin, end);
     begin = end;
   }
   const std::string bad = BadRows(report);
@@ -157,8 +158,8 @@ std::string BriefAudit(const AuditReport& report) {
         "solved-current: {}\n",
         finding.row.source, finding.row.source.empty() ? "" : ", ", Name(finding),
         ToText(finding.row.model), finding.stated.curve, finding.row.rmse.text,
-        Scientific(finding.stated.rmse.measured_current_A, kDigits),
-        Scientific(finding.stated.rmse.solved_current_A, kDigits), ToText(finding.verdict));
+        Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
+        Scientific(finding.stated.rmse.solved_current_A, kAuditDigits), ToText(finding.verdict));
   }
   for (const Error& error : report.bad_rows) text += error.ToString() + "\n";
   return text + Summary(report);

@@ -10,13 +10,13 @@
 namespace lyrefit {
 namespace {
 
-struct Level {
+struct DrawnLevel {
   const char* title;
   Spread ContenderResult::*stage;
   int Spread::*hits;
 };
 
-constexpr std::array<Level, 4> kLevels = {
+constexpr std::array<DrawnLevel, 4> kDrawnLevels = {
     {{"search alone", &ContenderResult::searched, &Spread::within_1e6},
      {"one plain solve", &ContenderResult::plain_polished, &Spread::within_1e9},
      {"best bird's polish", &ContenderResult::own_polished, &Spread::within_1e9},
@@ -34,7 +34,7 @@ std::vector<std::string> Algorithms(const ProblemResult& problem) {
 
 // Lines that would lie on each other are drawn one above the other.
 std::string Panel(const ProblemResult& problem, const std::vector<std::string>& algorithms,
-                  const Level& level, const std::string& terminal) {
+                  const DrawnLevel& level, const std::string& terminal) {
   std::string data, plot;
   double least = 1e300, most = 0;
   const int count = static_cast<int>(algorithms.size());
@@ -67,7 +67,7 @@ std::string Panel(const ProblemResult& problem, const std::vector<std::string>& 
 
 std::string BudgetScript(const Comparison& comparison, const std::string& terminal) {
   const std::vector<std::string> algorithms = Algorithms(comparison.problems[0]);
-  const int levels = static_cast<int>(kLevels.size());
+  const int levels = static_cast<int>(kDrawnLevels.size());
   const PanelPage page(
       static_cast<int>(comparison.problems.size()) * levels, levels,
       fmt::format("Share of {} runs that hit: within 1e-6 of the reference (search "
@@ -78,7 +78,7 @@ std::string BudgetScript(const Comparison& comparison, const std::string& termin
   std::string script = page.Begin(terminal);
   int panel = 0;
   for (const ProblemResult& problem : comparison.problems) {
-    for (const Level& level : kLevels) {
+    for (const DrawnLevel& level : kDrawnLevels) {
       const std::string title =
           fmt::format("{} {}: {}", problem.curve_name, models[static_cast<int>(problem.model) - 1],
                       level.title);

@@ -32,21 +32,21 @@ constexpr Level kLevels[] = {
 };
 
 // The contenders of one algorithm, by rising budget.
-struct Row {
+struct SearchRow {
   std::string algorithm;
   std::vector<const ContenderResult*> cells;
 };
 
-std::vector<Row> RowsOf(const ProblemResult& problem) {
-  std::vector<Row> rows;
+std::vector<SearchRow> RowsOf(const ProblemResult& problem) {
+  std::vector<SearchRow> rows;
   for (const ContenderResult& contender : problem.contenders) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const SearchRow& other) {
       return other.algorithm == contender.algorithm;
     });
     if (row == rows.end()) row = rows.insert(rows.end(), {contender.algorithm, {}});
     row->cells.push_back(&contender);
   }
-  for (Row& row : rows) {
+  for (SearchRow& row : rows) {
     std::stable_sort(row.cells.begin(), row.cells.end(), [](const auto* a, const auto* b) {
       return a->search.max_evaluations < b->search.max_evaluations;
     });
@@ -59,7 +59,7 @@ bool HitsAll(const ContenderResult& cell, const Level& level) {
 }
 
 // The smallest budget from which on every run hits; none if even the largest leaves some out.
-std::optional<std::int64_t> EnoughFor(const Row& row, const Level& level) {
+std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) {
   std::optional<std::int64_t> enough;
   for (auto cell = row.cells.rbegin(); cell != row.cells.rend(); ++cell) {
     if (!HitsAll(**cell, level)) break;
@@ -68,14 +68,14 @@ std::optional<std::int64_t> EnoughFor(const Row& row, const Level& level) {
   return enough;
 }
 
-std::string HitTable(const std::vector<Row>& rows, const Level& level) {
+std::string HitTable(const std::vector<SearchRow>& rows, const Level& level) {
   TextTable table("l" + std::string(rows[0].cells.size(), 'r'));
   std::vector<std::string> head = {"algorithm"};
   for (const ContenderResult* cell : rows[0].cells) {
     head.push_back(std::to_string(cell->search.max_evaluations));
   }
   table.Add(head);
-  for (const Row& row : rows) {
+  for (const SearchRow& row : rows) {
     std::vector<std::string> line = {row.algorithm};
     for (const ContenderResult* cell : row.cells) {
       line.push_back(std::to_string((cell->*level.stage).*level.hits));
@@ -85,12 +85,12 @@ std::string HitTable(const std::vector<Row>& rows, const Level& level) {
   return table.Text();
 }
 
-std::string EnoughTable(const std::vector<Row>& rows) {
+std::string EnoughTable(const std::vector<SearchRow>& rows) {
   TextTable table("lrrrr");
   std::vector<std::string> head = {"algorithm"};
   for (const Level& level : kLevels) head.emplace_back(level.column);
   table.Add(head);
-  for (const Row& row : rows) {
+  for (const SearchRow& row : rows) {
     std::vector<std::string> line = {row.algorithm};
     for (const Level& level : kLevels) {
       const auto enough = EnoughFor(row, level);
@@ -102,10 +102,10 @@ std::string EnoughTable(const std::vector<Row>& rows) {
 }
 
 // "mlo and de from 1000, lo from 10000; not random"
-std::string WhoFromWhere(const std::vector<Row>& rows, const Level& level) {
+std::string WhoFromWhere(const std::vector<SearchRow>& rows, const Level& level) {
   std::vector<std::pair<std::int64_t, std::string>> groups;
   std::string never;
-  for (const Row& row : rows) {
+  for (const SearchRow& row : rows) {
     const auto enough = EnoughFor(row, level);
     if (!enough) {
       never += (never.empty() ? "" : ", ") + row.algorithm;
@@ -133,11 +133,11 @@ std::string WhoFromWhere(const std::vector<Row>& rows, const Level& level) {
 }
 
 // Whether points drawn at random do as well as the best search, with all starts.
-std::string RandomVerdict(const std::vector<Row>& rows) {
+std::string RandomVerdict(const std::vector<SearchRow>& rows) {
   const Level& hybrid = kLevels[3];
   std::optional<std::int64_t> random, best;
   bool has_random = false, has_other = false;
-  for (const Row& row : rows) {
+  for (const SearchRow& row : rows) {
     const auto enough = EnoughFor(row, hybrid);
     const bool is_random = row.algorithm == ToText(Algorithm::kRandom);
     (is_random ? has_random : has_other) = true;
@@ -155,8 +155,8 @@ std::string RandomVerdict(const std::vector<Row>& rows) {
                      *best);
 }
 
-std::string ProblemText(const Comparison& comparison, const ProblemResult& problem) {
-  const std::vector<Row> rows = RowsOf(problem);
+std::string BudgetOf(const Comparison& comparison, const ProblemResult& problem) {
+  const std::vector<SearchRow> rows = RowsOf(problem);
   const std::string objective = ToText(comparison.options.objective);
   std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
   for (const Level& level : kLevels) {
@@ -185,7 +185,7 @@ std::string BudgetText(const Comparison& comparison) {
                 "100; the polish comes on top");
   text += Field("hit", "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference");
   text += Field("time", Duration(comparison.seconds));
-  for (const ProblemResult& problem : comparison.problems) text += ProblemText(comparison, problem);
+  for (const ProblemResult& problem : comparison.problems) text += BudgetOf(comparison, problem);
   return text;
 }
 

@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kRmseDigits = 10;
-constexpr int kValueDigits = 6;
+constexpr int kProvedDigits = 10;
+constexpr int kRangeDigits = 6;
 
 // Whether larger Rs than those gone through were asked for.
 bool OpenRange(const Certificate& certificate) {
@@ -52,7 +52,7 @@ bool Exact(const Floor& floor) { return floor.gap == 0 && floor.lower_bound_A ==
 std::string FloorSection(const Certificate& certificate) {
   const Floor& floor = certificate.floor;
   std::string text = "Floor: the lowest RMSE of any number of diodes\n";
-  text += Field("reached", Scientific(floor.rmse_A, kRmseDigits) + " A");
+  text += Field("reached", Scientific(floor.rmse_A, kProvedDigits) + " A");
   text += Field("proved", Exact(floor)
                               ? "nothing can be lower: this is rounding"
                               : fmt::format("nothing lies below {} A: a relative gap of {}",
@@ -60,9 +60,9 @@ std::string FloorSection(const Certificate& certificate) {
   const double shunt = floor.conductance_shunt_S;
   text +=
       Field("reached by", fmt::format("Iph {} A, Rs {} ohm, Rsh {} ohm, and{}",
-                                      Significant(floor.photocurrent_A, kValueDigits),
-                                      Significant(floor.resistance_series_ohm, kValueDigits),
-                                      shunt > 0 ? Significant(1 / shunt, kValueDigits) : "infinite",
+                                      Significant(floor.photocurrent_A, kRangeDigits),
+                                      Significant(floor.resistance_series_ohm, kRangeDigits),
+                                      shunt > 0 ? Significant(1 / shunt, kRangeDigits) : "infinite",
                                       floor.diodes.empty() ? " no diode" : ""));
   if (floor.diodes.empty()) return text;
   TextTable table("rrrr");
@@ -71,8 +71,8 @@ std::string FloorSection(const Certificate& certificate) {
   for (std::size_t d = 0; d < floor.diodes.size(); ++d) {
     const FloorDiode& diode = floor.diodes[d];
     table.Add({std::to_string(d + 1), Significant(diode.n, 8),
-               Significant(diode.saturation_current_A, kValueDigits),
-               Significant(diode.current_A, kValueDigits)});
+               Significant(diode.saturation_current_A, kRangeDigits),
+               Significant(diode.current_A, kRangeDigits)});
   }
   return text + table.Text();
 }
@@ -107,7 +107,7 @@ std::string ModelSection(const Certificate& certificate) {
              "problems"});
   for (const ModelCertificate& model : certificate.models) {
     const bool attains = model.above_floor <= kCertifiedGap;
-    table.Add({ToText(model.model), Scientific(model.rmse_A, kRmseDigits),
+    table.Add({ToText(model.model), Scientific(model.rmse_A, kProvedDigits),
                BoundText(model.lower_bound_A), GapText(model.gap),
                attains ? "attains it" : Significant(100 * model.above_floor, 3) + " %",
                model.certified ? "yes" : "NO",
@@ -120,7 +120,7 @@ std::string ModelSection(const Certificate& certificate) {
     for (int i = 0; i < device.size(); ++i) {
       const ParameterInfo& info = device.parameters[i];
       values += fmt::format("{}{} {}{}", i == 0 ? "" : ", ", info.symbol,
-                            Significant(model.parameters[i], kValueDigits),
+                            Significant(model.parameters[i], kRangeDigits),
                             info.unit.empty() ? "" : " " + info.unit);
     }
     text += Field(ToText(model.model), values);
@@ -168,12 +168,12 @@ std::string CertificateText(const Certificate& certificate) {
 std::string BriefCertificate(const Certificate& certificate) {
   std::string text =
       fmt::format("{}: floor {} A measured-current (gap {}, {}, n in [{:g}, {:g}])",
-                  certificate.curve.name, Scientific(certificate.floor.rmse_A, kRmseDigits),
+                  certificate.curve.name, Scientific(certificate.floor.rmse_A, kProvedDigits),
                   GapText(certificate.floor.gap), Plural(certificate.floor.diodes.size(), "diode"),
                   certificate.options.n_lower, certificate.options.n_upper);
   for (const ModelCertificate& model : certificate.models) {
     text += fmt::format(", {} {} A (gap {}{})", ToText(model.model),
-                        Scientific(model.rmse_A, kRmseDigits), GapText(model.gap),
+                        Scientific(model.rmse_A, kProvedDigits), GapText(model.gap),
                         model.certified ? "" : ", NOT CERTIFIED");
   }
   if (certificate.interrupted) text += ", INTERRUPTED";

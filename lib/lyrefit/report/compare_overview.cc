@@ -8,9 +8,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kDigits = 4;  // what fits a terminal; the tables of each curve have more
+constexpr int kOverviewDigits = 4;  // what fits a terminal; the tables of each curve have more
 
-constexpr std::size_t kLongName = 18;  // no room beside it for the largest polished figure
+constexpr std::size_t kLongContender = 18;  // no room beside it for the largest polished figure
 
 bool ManyCurves(const Comparison& comparison) {
   const auto& problems = comparison.problems;
@@ -21,18 +21,21 @@ bool ManyCurves(const Comparison& comparison) {
 
 bool LongNames(const ProblemResult& problem) {
   return std::any_of(problem.contenders.begin(), problem.contenders.end(),
-                     [](const auto& contender) { return contender.name.size() >= kLongName; });
+                     [](const auto& contender) { return contender.name.size() >= kLongContender; });
 }
 
-std::vector<std::string> Row(const ContenderResult& contender, bool polish, bool brief) {
+std::vector<std::string> OverviewRow(const ContenderResult& contender, bool polish, bool brief) {
   const Spread& s = contender.searched;
-  std::vector<std::string> row = {"  " + contender.name,       Scientific(s.min, kDigits),
-                                  Scientific(s.mean, kDigits), Scientific(s.median, kDigits),
-                                  Scientific(s.max, kDigits),  Scientific(s.std, 2)};
+  std::vector<std::string> row = {"  " + contender.name,
+                                  Scientific(s.min, kOverviewDigits),
+                                  Scientific(s.mean, kOverviewDigits),
+                                  Scientific(s.median, kOverviewDigits),
+                                  Scientific(s.max, kOverviewDigits),
+                                  Scientific(s.std, 2)};
   if (polish) {
     const Spread& p = contender.polished;
-    row.push_back(Scientific(p.min, kDigits));
-    if (!brief) row.push_back(Scientific(p.max, kDigits));
+    row.push_back(Scientific(p.min, kOverviewDigits));
+    if (!brief) row.push_back(Scientific(p.max, kOverviewDigits));
     row.push_back(std::to_string(p.within_1e9));
   }
   return row;
@@ -59,7 +62,7 @@ std::string OverviewSection(const Comparison& comparison) {
   for (const ProblemResult& problem : comparison.problems) {
     for (std::size_t c = 0; c < problem.contenders.size(); ++c) {
       titles.push_back(c == 0 ? Wrap("  ", ProblemTitle(problem)) : "");
-      table.Add(Row(problem.contenders[c], polish, brief));
+      table.Add(OverviewRow(problem.contenders[c], polish, brief));
     }
   }
   const std::string rows = table.Text();

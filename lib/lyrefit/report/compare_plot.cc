@@ -6,9 +6,9 @@
 namespace lyrefit {
 namespace {
 
-using Script = std::string (*)(const Comparison& comparison, const std::string& terminal);
+using ScriptWriter = std::string (*)(const Comparison& comparison, const std::string& terminal);
 
-Expected<void> Draw(Script script, const Comparison& comparison, const std::string& path) {
+Expected<void> Draw(ScriptWriter script, const Comparison& comparison, const std::string& path) {
   if (comparison.problems.empty()) return Fail("no problem was completed: nothing to draw", path);
   return DrawScript([&](const std::string& terminal) { return script(comparison, terminal); },
                     path);

@@ -10,11 +10,11 @@
 namespace lyrefit {
 namespace {
 
-std::string Percent(double share, int digits = 1) {
+std::string PercentText(double share, int digits = 1) {
   return std::isnan(share) ? "-" : fmt::format("{:.{}f} %", 100 * share, digits);
 }
 
-std::string Verdict(const ParameterCoverage& p, bool any_fit) {
+std::string Promise(const ParameterCoverage& p, bool any_fit) {
   constexpr double kPromised = 0.95;
   if (p.counted == 0) return p.fitted == 0 && any_fit ? "held" : "-";
   if (p.high_95 < kPromised) return "too narrow";
@@ -28,11 +28,12 @@ std::string ParameterTable(const CoverageReport& report) {
   for (const ParameterCoverage& p : report.parameters) {
     const bool any = p.counted > 0;
     const std::string width =
-        p.offset ? Significant(p.median_half_width, 2) : Percent(p.median_half_width, 2);
+        p.offset ? Significant(p.median_half_width, 2) : PercentText(p.median_half_width, 2);
     const double lost = p.fitted > 0 ? static_cast<double>(p.not_identifiable) / p.fitted : NAN;
-    table.Add({p.info.symbol, Percent(p.coverage),
-               any ? Percent(p.low_95) + " .. " + Percent(p.high_95) : "-",
-               std::to_string(p.counted), any ? width : "-", Percent(lost), Verdict(p, any_fit)});
+    table.Add({p.info.symbol, PercentText(p.coverage),
+               any ? PercentText(p.low_95) + " .. " + PercentText(p.high_95) : "-",
+               std::to_string(p.counted), any ? width : "-", PercentText(lost),
+               Promise(p, any_fit)});
   }
   return table.Text();
 }

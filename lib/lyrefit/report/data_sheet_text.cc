@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kDigits = 6;
+constexpr int kDataSheetDigits = 6;
 
 std::string Rounding(const DataSheetFit& fit, const std::string& name) {
   for (const DataSheetRange& range : fit.ranges) {
@@ -27,7 +27,7 @@ std::string ParameterSection(const DataSheetFit& fit) {
     const ParameterInfo& info = fit.translation.parameters[i];
     const double value = fit.shared[i];
     table.Add({LabelWithUnit(info), info.name,
-               std::isinf(value) ? "infinite" : Significant(value, kDigits),
+               std::isinf(value) ? "infinite" : Significant(value, kDataSheetDigits),
                Rounding(fit, info.name)});
   }
   std::string text = "Parameters at 1000 W/m2 and 25 C\n" + table.Text();
@@ -43,7 +43,8 @@ std::string CheckSection(const DataSheetFit& fit) {
   table.Add({"", "printed", "given", "difference", "unit"});
   for (const DataSheetCheck& check : fit.checks) {
     const double percent = 100 * (check.given / check.asked - 1);
-    table.Add({check.name, Significant(check.asked, kDigits), Significant(check.given, kDigits),
+    table.Add({check.name, Significant(check.asked, kDataSheetDigits),
+               Significant(check.given, kDataSheetDigits),
                std::isfinite(percent) ? fmt::format("{:+.4f} %", percent) : "-", check.unit});
   }
   return "What the sheet prints and what the device gives\n" + table.Text() +

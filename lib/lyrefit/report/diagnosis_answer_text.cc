@@ -10,8 +10,8 @@ namespace lyrefit {
 namespace {
 
 constexpr int kSizeDigits = 3;
-constexpr int kValueDigits = 5;
-constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
+constexpr int kCauseDigits = 5;
+constexpr double kLargestShiftPercent = 1000;  // beyond it a relative difference says nothing
 
 std::string WithUnit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
@@ -38,12 +38,6 @@ std::string CertaintyText(const Cause& cause, double level) {
   return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);
 }
 
-std::string Joined(const std::vector<std::string>& texts) {
-  std::string joined;
-  for (const std::string& text : texts) joined += (joined.empty() ? "" : "; ") + text;
-  return joined;
-}
-
 std::string CauseText(const Diagnosis& diagnosis, const Cause& cause) {
   std::string text = Wrap("  ", FullSentence(cause.sentence));
   for (std::size_t i = 0; i < cause.strength.size(); ++i) {
@@ -54,15 +48,17 @@ std::string CauseText(const Diagnosis& diagnosis, const Cause& cause) {
   std::vector<std::string> others;
   for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
   if (!others.empty())
-    text += Field("or else", Joined(others) + ": these data cannot tell them apart");
-  if (!cause.separate_by.empty()) text += Field("to tell", Joined(cause.separate_by));
+    text += Field("or else", fmt::format("{}", fmt::join(others, "; ")) +
+                                 ": these data cannot tell them apart");
+  if (!cause.separate_by.empty())
+    text += Field("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")));
   return text;
 }
 
 // How far the base model's value is from that of the extended one.
 std::string OffBy(const ParameterShift& shift) {
   const double percent = 100 * (shift.before / shift.after - 1);
-  return std::abs(percent) < kLargestPercent ? fmt::format("{:+.2f} %", percent) : "-";
+  return std::abs(percent) < kLargestShiftPercent ? fmt::format("{:+.2f} %", percent) : "-";
 }
 
 }  // namespace
@@ -122,7 +118,7 @@ std::string DiagnosisShiftSection(const Diagnosis& diagnosis) {
   table.Add({"", "base model", "with causes", "std err", "base model is off by"});
   for (const ParameterShift& shift : diagnosis.gain.shifts) {
     table.Add({LabelWithUnit({shift.symbol, shift.name, shift.unit, ""}),
-               Significant(shift.before, kValueDigits), Significant(shift.after, kValueDigits),
+               Significant(shift.before, kCauseDigits), Significant(shift.after, kCauseDigits),
                Significant(shift.standard_error, 2), OffBy(shift)});
   }
   return "What a fit that ignores the causes gets wrong\n" + table.Text();

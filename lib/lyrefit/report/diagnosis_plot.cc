@@ -15,8 +15,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kManyPoints = 150;  // of a group; from here on small symbols
-constexpr double kBand = 2;               // standard deviations
+constexpr std::size_t kManyOfAGroup = 150;  // of a group; from here on small symbols
+constexpr double kBand = 2;                 // standard deviations
 // Of causes: none of them the colour of a line.
 constexpr std::array<const char*, 4> kMarks = {"#F0B400", "#E05080", "#40C0A0", "#9070E0"};
 
@@ -205,7 +205,7 @@ std::string MarkLabels(const DiagnosisData& data) {
 }
 
 double SymbolSize(const Group& group, double size) {
-  return group.points > kManyPoints ? 0.4 * size : 0.8 * size;
+  return group.points > kManyOfAGroup ? 0.4 * size : 0.8 * size;
 }
 
 // The same in all panels, so that points stand above each other.

@@ -12,7 +12,7 @@ namespace lyrefit {
 namespace {
 
 // "200 to 1000", "25"
-std::string Spread(double low, double high) {
+std::string NoiseSpread(double low, double high) {
   return high > low ? fmt::format("{:.5g} to {:.5g}", low, high) : fmt::format("{:.5g}", low);
 }
 
@@ -29,8 +29,8 @@ std::string ConditionsText(const Diagnosis& diagnosis) {
   const auto [cold, hot] = std::minmax_element(curves.begin(), curves.end(), by_temperature);
   const auto dark = static_cast<std::size_t>(std::count_if(
       curves.begin(), curves.end(), [](const DiagnosedCurve& curve) { return curve.dark; }));
-  return fmt::format("{} W/m2, {} C{}", Spread(dim->irradiance_W_m2, bright->irradiance_W_m2),
-                     Spread(cold->temperature_C, hot->temperature_C),
+  return fmt::format("{} W/m2, {} C{}", NoiseSpread(dim->irradiance_W_m2, bright->irradiance_W_m2),
+                     NoiseSpread(cold->temperature_C, hot->temperature_C),
                      dark > 0 ? "; " + Plural(dark, "dark curve") : "");
 }
 

@@ -9,9 +9,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kSearchedDigits = 4;
-constexpr int kValueDigits = 6;
-constexpr int kRmseDigits = 7;
+constexpr int kFamilySearchedDigits = 4;
+constexpr int kFamilyValueDigits = 6;
+constexpr int kFamilyRmseDigits = 7;
 
 bool Known(const Interval& interval) { return !std::isnan(interval.value); }
 
@@ -48,8 +48,9 @@ std::string FamilyParameterSection(const FamilyReport& report) {
   TextTable table("llrrll");
   table.Add({"parameter", "name", "searched", "refined", "95 % interval"});
   for (const Estimate& e : report.estimates) {
-    table.Add({LabelWithUnit(e.info), e.info.name, Significant(e.searched, kSearchedDigits),
-               Significant(e.refined, kValueDigits), Range(e.low_95, e.high_95), EstimateMarks(e)});
+    table.Add({LabelWithUnit(e.info), e.info.name, Significant(e.searched, kFamilySearchedDigits),
+               Significant(e.refined, kFamilyValueDigits), Range(e.low_95, e.high_95),
+               EstimateMarks(e)});
   }
   std::string text = "Shared parameters at 1000 W/m2 and 25 C\n" + table.Text();
   text += UnidentifiableNotes(report.estimates);
@@ -73,14 +74,14 @@ std::string FamilyReferenceSection(const FamilyReport& report) {
   if (OneByOne(report)) return "";
   const KeyPoints& k = report.reference;
   std::string text = "The model at 1000 W/m2 and 25 C\n";
-  text +=
-      Field("key points",
-            fmt::format("Isc {} A, Voc {} V, Imp {} A, Vmp {} V, Pmp {} W, fill factor {}",
-                        Significant(k.short_circuit_current_A, kValueDigits),
-                        Significant(k.open_circuit_voltage_V, kValueDigits),
-                        Significant(k.max_power_current_A, kValueDigits),
-                        Significant(k.max_power_voltage_V, kValueDigits),
-                        Significant(k.max_power_W, kValueDigits), Significant(k.fill_factor, 4)));
+  text += Field(
+      "key points",
+      fmt::format("Isc {} A, Voc {} V, Imp {} A, Vmp {} V, Pmp {} W, fill factor {}",
+                  Significant(k.short_circuit_current_A, kFamilyValueDigits),
+                  Significant(k.open_circuit_voltage_V, kFamilyValueDigits),
+                  Significant(k.max_power_current_A, kFamilyValueDigits),
+                  Significant(k.max_power_voltage_V, kFamilyValueDigits),
+                  Significant(k.max_power_W, kFamilyValueDigits), Significant(k.fill_factor, 4)));
   for (const Coefficient& c : report.coefficients) {
     text += Field(c.name, WithRange(c.value, c.unit));
   }
@@ -94,8 +95,8 @@ std::string FamilyRmseSection(const FamilyReport& report) {
   };
   TextTable table("lrrl");
   const auto add = [&](const char* name, const RmsePair& rmse, const std::string& over) {
-    table.Add({name, Scientific(rmse.measured_current_A, kRmseDigits),
-               Scientific(rmse.solved_current_A, kRmseDigits), over});
+    table.Add({name, Scientific(rmse.measured_current_A, kFamilyRmseDigits),
+               Scientific(rmse.solved_current_A, kFamilyRmseDigits), over});
   };
   std::size_t fitted = 0;
   for (const FamilyCurve& curve : report.curves) fitted += curve.role == CurveRole::kFitted;

@@ -16,13 +16,6 @@ std::string BothLabelled(const RmsePair& rmse) {
                      Scientific(rmse.measured_current_A, 4), Scientific(rmse.solved_current_A, 4));
 }
 
-// "a, b, c" as one flag takes them.
-std::string Joined(const std::vector<std::string>& ids) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : ",") + id;
-  return text;
-}
-
 // The first of many sentences, and how many there are beyond them.
 std::string ShortList(const std::string& title, std::vector<std::string> sentences) {
   const std::size_t all = sentences.size();
@@ -85,7 +78,7 @@ std::string FamilyOddSection(const FamilyReport& report) {
       text += Wrap("  ", "Parameters without " + std::string(them) + ": " + values);
     ids = without.ids;
   }
-  return text + Wrap("  ", fmt::format("To fit without: --leave-out {}", Joined(ids)));
+  return text + Wrap("  ", fmt::format("To fit without: --leave-out {}", fmt::join(ids, ",")));
 }
 
 std::string FamilyOutSection(const FamilyReport& report) {

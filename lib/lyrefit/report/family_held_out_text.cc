@@ -9,24 +9,26 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kDigits = 4;
-constexpr std::size_t kLongestName = 24;  // of a file
-constexpr std::size_t kLongestId = 16;
+constexpr int kHeldOutDigits = 4;
+constexpr std::size_t kLongestFile = 24;  // of a file
+constexpr std::size_t kLongestHeldOutId = 16;
 
 std::string Shortened(const std::string& name, std::size_t longest) {
   return name.size() <= longest ? name : name.substr(0, longest - 2) + "..";
 }
 
-std::string Percent(double rmse_A, double isc_A) {
+std::string PercentOfIsc(double rmse_A, double isc_A) {
   const double percent = 100 * rmse_A / isc_A;
   return std::isfinite(percent) ? fmt::format("{:.3f}", percent) : "-";
 }
 
 void AddRow(const std::string& name, const std::string& law, const HeldOut& test, double isc_A,
             TextTable* table) {
-  table->Add({Shortened(name, kLongestName), law, Scientific(test.median_rmse_A, kDigits),
-              Percent(test.median_rmse_A, isc_A), Scientific(test.rmse.solved_current_A, kDigits),
-              Scientific(test.largest_rmse_A, kDigits), Shortened(test.largest_id, kLongestId)});
+  table->Add({Shortened(name, kLongestFile), law, Scientific(test.median_rmse_A, kHeldOutDigits),
+              PercentOfIsc(test.median_rmse_A, isc_A),
+              Scientific(test.rmse.solved_current_A, kHeldOutDigits),
+              Scientific(test.largest_rmse_A, kHeldOutDigits),
+              Shortened(test.largest_id, kLongestHeldOutId)});
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ std::string FamilyHeldOutSection(const FamilyReport& report) {
     AddRow(other.name, other.law, other.result, isc, &table);
   }
   if (!std::isnan(joint.median_free_rmse_A)) {
-    table.Add({"each curve on its own", "", Scientific(joint.median_free_rmse_A, kDigits),
-               Percent(joint.median_free_rmse_A, isc), "-", "-", ""});
+    table.Add({"each curve on its own", "", Scientific(joint.median_free_rmse_A, kHeldOutDigits),
+               PercentOfIsc(joint.median_free_rmse_A, isc), "-", "-", ""});
   }
   std::string note =
       "RMSE: solved-current; median: of the curves; %: that median as a part of the Isc that the "

@@ -16,7 +16,7 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kMostDrawn = 12;
-constexpr int kModelPoints = 200;
+constexpr int kFamilyModelPoints = 200;
 constexpr int kColourBar = 60;  // room for it under the panels, in pixels
 
 using CurveOf = std::map<std::string, const IvCurve*>;
@@ -101,9 +101,9 @@ void AddCurve(const FamilyReport& report, const FamilyCurve& curve, const IvCurv
     data->highest_A = std::max(data->highest_A, points.current_A[i]);
   }
   const auto [low, high] = std::minmax_element(points.voltage_V.begin(), points.voltage_V.end());
-  std::vector<double> voltage_V(kModelPoints);
-  for (int i = 0; i < kModelPoints; ++i) {
-    voltage_V[i] = *low + (*high - *low) * i / (kModelPoints - 1);
+  std::vector<double> voltage_V(kFamilyModelPoints);
+  for (int i = 0; i < kFamilyModelPoints; ++i) {
+    voltage_V[i] = *low + (*high - *low) * i / (kFamilyModelPoints - 1);
   }
   const std::vector<double> current_A = ModelCurrents(report, curve, voltage_V);
   for (std::size_t i = 0; i < current_A.size(); ++i) {

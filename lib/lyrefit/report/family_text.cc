@@ -25,7 +25,7 @@ std::string Counts(const FamilyReport& report) {
 }
 
 // "irradiance 98 to 1006 W/m2, cell temperature 15 to 65 C"
-std::string Spread(const FamilyReport& report) {
+std::string RangeText(const FamilyReport& report) {
   if (report.curves.empty()) return "";
   const auto by_irradiance = [](const FamilyCurve& a, const FamilyCurve& b) {
     return a.irradiance_W_m2 < b.irradiance_W_m2;
@@ -60,7 +60,7 @@ std::string Header(const FamilyReport& report) {
   text += Field("set", fmt::format("{}, {}{}", report.name, Plural(report.curves.size(), "curve"),
                                    report.source.empty() ? "" : " (" + report.source + ")"));
   text += Field("curves", Counts(report));
-  text += Field("conditions", fmt::format("{}; {} in series", Spread(report),
+  text += Field("conditions", fmt::format("{}; {} in series", RangeText(report),
                                           Plural(report.cells_in_series, "cell")));
   if (!OneByOne(report)) text += Field("law", Law(report));
   text += Field("objective", fmt::format("{}; constants {}; seed {}", ToText(report.objective),

@@ -15,7 +15,7 @@ namespace {
 
 using Remarks = std::map<std::string, std::string>;
 
-std::string Remark(const Remarks& remarks, const std::string& table) {
+std::string RemarkText(const Remarks& remarks, const std::string& table) {
   const auto found = remarks.find(table);
   return found == remarks.end() ? "" : Paragraph(found->second);
 }
@@ -24,7 +24,7 @@ std::string Picture(const std::string& caption, const std::string& file) {
   return fmt::format("![{}]({})\n\n", caption, file);
 }
 
-std::string Verdict(const CheckedValue& value) {
+std::string CheckText(const CheckedValue& value) {
   const std::string text = ToText(value.check);
   return value.check == Check::kNotReproduced ? "**" + text + "**" : text;
 }
@@ -44,20 +44,20 @@ std::string ValueTable(const PaperStudy& study, const std::string& table) {
     text.Add({value.published.curve + ", " + ToText(value.published.model),
               value.published.algorithm, value.published.quantity, value.published.text,
               Scientific(value.ours, 6),
-              Scientific(value.low, 4) + " .. " + Scientific(value.high, 4), Verdict(value)});
+              Scientific(value.low, 4) + " .. " + Scientific(value.high, 4), CheckText(value)});
   }
   if (count == 0) return "";
   return text.Text() + Paragraph(fmt::format("{} of {} figures reproduced.", reproduced, count));
 }
 
-std::string Section(const PaperStudy& study, const Remarks& remarks, const std::string& table,
-                    const std::string& title) {
-  return fmt::format("## {}: {}\n\n", table, title) + Remark(remarks, table) +
+std::string TableSection(const PaperStudy& study, const Remarks& remarks, const std::string& table,
+                         const std::string& title) {
+  return fmt::format("## {}: {}\n\n", table, title) + RemarkText(remarks, table) +
          ValueTable(study, table);
 }
 
 // Tables 17 and 18 as the paper lays them out: paper / ours.
-std::string Grid(const PaperStudy& study, const std::string& table) {
+std::string RateGrid(const PaperStudy& study, const std::string& table) {
   MarkdownTable text("lrrrrr");
   std::vector<std::string> head = {"paper / ours"}, row;
   std::string row_name;
@@ -84,12 +84,12 @@ std::string Grid(const PaperStudy& study, const std::string& table) {
 
 std::string GridSection(const PaperStudy& study, const Remarks& remarks) {
   std::string text = "## Tables 17 and 18: sensitivity to Pm and gamma\n\n";
-  text += Remark(remarks, "Table 17");
+  text += RemarkText(remarks, "Table 17");
   text +=
       "Mean of the searched RMSE (Table 17; ours in bold where the paper's figure lies in the "
       "range of a batch):\n\n";
-  text += Grid(study, "Table 17");
-  text += "Standard deviation (Table 18):\n\n" + Grid(study, "Table 18");
+  text += RateGrid(study, "Table 17");
+  text += "Standard deviation (Table 18):\n\n" + RateGrid(study, "Table 18");
   int count = 0, reproduced = 0;
   for (const CheckedValue& value : study.values) {
     if (value.published.table != "Table 17" && value.published.table != "Table 18") continue;
@@ -139,7 +139,7 @@ std::string MachineSection(const PaperStudy& study, const Remarks& remarks) {
     return PublishedValue{};
   };
   std::string text = "## Table 9: budget, time and memory, MSX-60, three diodes\n\n";
-  text += Remark(remarks, "Table 9");
+  text += RemarkText(remarks, "Table 9");
   MarkdownTable table("lrrrrrr");
   table.Add(
       {"algorithm", "evaluations, paper", "ours", "seconds, paper", "ours", "MB, paper", "ours"});
@@ -154,13 +154,13 @@ std::string MachineSection(const PaperStudy& study, const Remarks& remarks) {
 
 std::string AuditSection(const PaperStudy& study, const Remarks& remarks) {
   std::string text = "## Printed parameters: Tables 3, 5, 7, 10 and 11\n\n";
-  text += Remark(remarks, "rows");
+  text += RemarkText(remarks, "rows");
   return text + "```text\n" + AuditText(study.audit) + "```\n\n";
 }
 
 std::string RankSectionOf(const PaperStudy& study, const Remarks& remarks) {
   std::string text = "## Tables 13 to 15: who ranks first, and what the polish leaves of it\n\n";
-  text += Remark(remarks, "Table 13") + RankedTable(study);
+  text += RemarkText(remarks, "Table 13") + RankedTable(study);
   for (const ProblemResult& problem : study.ranked.problems) {
     text += "```text\n" + RankSection(problem) + "\n" + PolishVerdict(problem) + "```\n\n";
   }
@@ -311,28 +311,29 @@ std::string RankedTable(const PaperStudy& study) {
 std::string PaperPage(const PaperStudy& study, const Remarks& remarks) {
   std::string text = Introduction(study) + Overview(study);
   text += AuditSection(study, remarks);
-  text += Section(study, remarks, "Table 3", "MSX-60, one diode");
-  text += Section(study, remarks, "Table 5", "MSX-60, two diodes");
-  text += Section(study, remarks, "Table 7", "MSX-60, three diodes");
+  text += TableSection(study, remarks, "Table 3", "MSX-60, one diode");
+  text += TableSection(study, remarks, "Table 5", "MSX-60, two diodes");
+  text += TableSection(study, remarks, "Table 7", "MSX-60, three diodes");
   text += Picture("Figs. 5, 9, 13: every run on MSX-60", "msx60.svg");
   text += Picture("Figs. 6, 10, 14: convergence on MSX-60", "msx60-convergence.svg");
   text += MachineSection(study, remarks);
-  text += Section(study, remarks, "Table 10", "RTC France, one diode");
-  text += Section(study, remarks, "Table 11", "RTC France, two diodes");
-  text += Section(study, remarks, "Table 12", "RTC France, three diodes");
+  text += TableSection(study, remarks, "Table 10", "RTC France, one diode");
+  text += TableSection(study, remarks, "Table 11", "RTC France, two diodes");
+  text += TableSection(study, remarks, "Table 12", "RTC France, three diodes");
   text += Picture("Fig. 24: convergence on RTC France", "rtc_france-convergence.svg");
   text += RankSectionOf(study, remarks);
-  text += Section(study, remarks, "Table 16", "ablation, RTC France, three diodes");
+  text += TableSection(study, remarks, "Table 16", "ablation, RTC France, three diodes");
   text += GridSection(study, remarks);
-  text += Section(study, remarks, "Table 19", "Shell S75, irradiances at 25 C");
+  text += TableSection(study, remarks, "Table 19", "Shell S75, irradiances at 25 C");
   text += S75Values(study, "Table 19");
-  text += Section(study, remarks, "Table 20", "Shell S75, temperatures at 1000 W/m2");
+  text += TableSection(study, remarks, "Table 20", "Shell S75, temperatures at 1000 W/m2");
   text += S75Values(study, "Table 20");
-  text += S75Table(study) + Remark(remarks, "field");
+  text += S75Table(study) + RemarkText(remarks, "field");
   text += "## What no paper of the kind prints\n\n### Success against budget\n\n";
-  text += Remark(remarks, "budget") + BudgetTable(study);
+  text += RemarkText(remarks, "budget") + BudgetTable(study);
   text += Picture("Runs that reach the optimum against evaluations", "budget.svg");
-  text += "### How low the RMSE can go\n\n" + Remark(remarks, "certified") + CertifiedTable(study);
+  text +=
+      "### How low the RMSE can go\n\n" + RemarkText(remarks, "certified") + CertifiedTable(study);
   return text;
 }
 

@@ -47,7 +47,7 @@ std::string Grid(const ProblemResult& problem, const CellText& cell) {
 }
 
 // The cell with the lowest mean, and how little the polish cares.
-std::string Verdict(const ProblemResult& problem) {
+std::string RateVerdict(const ProblemResult& problem) {
   const auto best = std::min_element(
       problem.contenders.begin(), problem.contenders.end(),
       [](const auto& a, const auto& b) { return a.searched.mean < b.searched.mean; });
@@ -68,7 +68,7 @@ std::string Verdict(const ProblemResult& problem) {
                     hits, runs, Scientific(problem.reference.rmse_A, 10));
 }
 
-std::string ProblemText(const Comparison& comparison, const ProblemResult& problem) {
+std::string SensitivityOf(const Comparison& comparison, const ProblemResult& problem) {
   const std::string objective = ToText(comparison.options.objective);
   const int runs = comparison.options.runs;
   const auto figure = [](double Spread::*field, int digits) {
@@ -89,7 +89,7 @@ std::string ProblemText(const Comparison& comparison, const ProblemResult& probl
     text += Grid(problem,
                  [](const ContenderResult& c) { return std::to_string(c.polished.within_1e9); });
   }
-  return text + "\n" + Wrap("  ", Verdict(problem));
+  return text + "\n" + Wrap("  ", RateVerdict(problem));
 }
 
 }  // namespace
@@ -104,7 +104,8 @@ std::string SensitivityText(const Comparison& comparison) {
                 "J. Ind. Manag. Optim. 22(1), 642-690: its Table 17 is captioned minimum and holds "
                 "means; Table 18 holds standard deviations. Pm = 0 with gamma = 0 is LO.");
   text += Field("time", Duration(comparison.seconds));
-  for (const ProblemResult& problem : comparison.problems) text += ProblemText(comparison, problem);
+  for (const ProblemResult& problem : comparison.problems)
+    text += SensitivityOf(comparison, problem);
   return text;
 }
 

@@ -8,8 +8,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kColdest_C = -20;
-constexpr int kHottest_C = 120;
+constexpr int kColdestTried_C = -20;
+constexpr int kHottestTried_C = 120;
 // Round temperatures in kelvin that publications take.
 constexpr double kRoundKelvin[] = {298, 300};
 // A temperature in degrees Celsius plus 273 instead of 273.15.
@@ -85,7 +85,7 @@ void SaturationCurrents(const AuditSubject& subject, const ReadingPlan& plan, Al
 void Temperatures(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
   const double said_K = plan.conditions.cell_temperature_K;
   std::vector<double> kelvins;
-  for (int celsius = kColdest_C; celsius <= kHottest_C; ++celsius) {
+  for (int celsius = kColdestTried_C; celsius <= kHottestTried_C; ++celsius) {
     kelvins.push_back(celsius + kZeroCelsius_K);
   }
   kelvins.insert(kelvins.end(), std::begin(kRoundKelvin), std::end(kRoundKelvin));

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/reference.h"
@@ -20,10 +21,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kWatchPeriod(100);  // between calls from inside a run
-
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // One curve with one model, while its runs are under way.
 struct Problem {

@@ -8,17 +8,15 @@
 #include <optional>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/study/coverage_sets.h"
+#include "lyrefit/study/median.h"
 
 namespace lyrefit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 FamilyOptions FitOptionsOf(const CoverageOptions& options) {
   FamilyOptions family = options.family;
@@ -87,13 +85,6 @@ CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
   return set;
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t index,
                         const std::vector<CoverageSet>& sets) {
   ParameterCoverage count;
@@ -117,7 +108,7 @@ ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t inde
     count.low_95 = share.low_95;
     count.high_95 = share.high_95;
   }
-  count.median_half_width = Median(std::move(widths));
+  count.median_half_width = MedianOf(std::move(widths));
   return count;
 }
 

@@ -21,7 +21,7 @@ constexpr std::pair<double, double> kGrid[] = {
 constexpr int kGridSize = static_cast<int>(std::size(kGrid));
 constexpr int kSpanning = 5;
 constexpr int kFewestCurves = 5;
-constexpr int kMostCurves = 30;
+constexpr int kMostSetCurves = 30;
 
 double Between(double low, double high, RandomStream* random) {
   return low + (high - low) * random->Uniform();
@@ -172,7 +172,7 @@ Expected<SimulatedSet> SimulateSet(const CoverageOptions& options, int index) {
   const int count =
       options.curves > 0
           ? options.curves
-          : kFewestCurves + static_cast<int>(random.Index(kMostCurves - kFewestCurves + 1));
+          : kFewestCurves + static_cast<int>(random.Index(kMostSetCurves - kFewestCurves + 1));
   made.set.name = fmt::format("set {}", index);
   for (const auto& at : DrawConditions(count, &random)) {
     Expected<IvCurve> curve = SimulateCurve(made, options, at, noise_A, &random);

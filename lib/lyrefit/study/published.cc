@@ -12,9 +12,9 @@
 namespace lyrefit {
 namespace {
 
-const std::vector<std::string> kColumns = {"table",    "curve", "model", "algorithm",
-                                           "quantity", "value", "note"};
-enum Column { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kNote };
+const std::vector<std::string> kPublishedColumns = {"table",    "curve", "model", "algorithm",
+                                                    "quantity", "value", "note"};
+enum PublishedColumn { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kNote };
 
 // One statistic of a batch of searched figures.
 double Statistic(const std::vector<double>& values, const std::string& quantity) {
@@ -75,7 +75,8 @@ const ContenderResult* Find(const Comparison& comparison, const PublishedValue& 
 
 Expected<std::vector<PublishedValue>> ReadPublished(const std::string& path) {
   NamedTable table;
-  if (auto opened = table.Open(path, kColumns); !opened) return tl::unexpected(opened.error());
+  if (auto opened = table.Open(path, kPublishedColumns); !opened)
+    return tl::unexpected(opened.error());
   std::vector<PublishedValue> values;
   while (true) {
     const auto more = table.Next();

@@ -16,8 +16,8 @@ namespace lyrefit {
 namespace {
 
 constexpr double kLargestNumber = 1e9;
-constexpr double kColdest_C = -100;
-constexpr double kHottest_C = 150;
+constexpr double kColdestRow_C = -100;
+constexpr double kHottestRow_C = 150;
 constexpr int kMostCells = 10000;
 
 // What a number must satisfy beyond being finite.
@@ -93,9 +93,9 @@ class RowReader {
     if (const std::string text = Text(temperature); !text.empty()) {
       row_.temperature_C = ParseNumber(text);
       if (!row_.temperature_C ||
-          !(*row_.temperature_C >= kColdest_C && *row_.temperature_C <= kHottest_C)) {
+          !(*row_.temperature_C >= kColdestRow_C && *row_.temperature_C <= kHottestRow_C)) {
         Refuse(temperature, fmt::format("expected degrees Celsius from {} to {}, found {}",
-                                        kColdest_C, kHottest_C, Quoted(text)));
+                                        kColdestRow_C, kHottestRow_C, Quoted(text)));
       }
     }
     const int cells = FieldOf("cells");

@@ -6,18 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/study/median.h"
+
 namespace lyrefit {
 namespace {
 
 constexpr double kEqual = 1e-9;  // relative: two polished answers are the same
 constexpr double kClose = 1e-6;
-
-double MedianOf(std::vector<double>* values) {
-  std::sort(values->begin(), values->end());
-  const std::size_t half = values->size() / 2;
-  if (values->size() % 2 == 1) return (*values)[half];
-  return 0.5 * ((*values)[half - 1] + (*values)[half]);
-}
 
 double Mean(const std::vector<double>& values) {
   double sum = 0;
@@ -85,7 +80,7 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
       while (at[r] + 1 < gains.size() && gains[at[r] + 1].evaluations <= mark) ++at[r];
       best[r] = gains[at[r]].best;
     }
-    course.push_back({mark, MedianOf(&best)});
+    course.push_back({mark, MedianOf(best)});
   }
   return course;
 }
@@ -107,7 +102,7 @@ Spread SpreadOf(std::vector<double> values, double reference) {
   Spread spread;
   const auto unknown = [](double value) { return std::isnan(value); };
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
-  spread.median = MedianOf(&values);
+  spread.median = MedianOf(values);
   spread.min = values.front();
   spread.max = values.back();
   // Rounding must not carry the mean of equal values out of their range.

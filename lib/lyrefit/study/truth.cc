@@ -7,16 +7,17 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/study/median.h"
 #include "lyrefit/study/named_table.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kParameters = 5;
-constexpr int kMostCells = 10000;
+constexpr int kMostTrueCells = 10000;
 
 // Columns in the order of a single-diode device, then the others.
-const std::vector<std::string> kColumns = {
+const std::vector<std::string> kTruthColumns = {
     "photocurrent",     "saturation_current", "n",    "resistance_series",
     "resistance_shunt", "cells_in_series",    "Index"};
 constexpr int kCells = kParameters;
@@ -35,8 +36,8 @@ Expected<TruthRow> ReadRow(const NamedTable& table) {
     row.values.push_back(*value);
   }
   const std::optional<double> cells = ParseNumber(table[kCells]);
-  if (!cells || !(*cells >= 1 && *cells <= kMostCells) || *cells != std::floor(*cells)) {
-    return table.Refuse(kCells, fmt::format("a whole number from 1 to {}", kMostCells));
+  if (!cells || !(*cells >= 1 && *cells <= kMostTrueCells) || *cells != std::floor(*cells)) {
+    return table.Refuse(kCells, fmt::format("a whole number from 1 to {}", kMostTrueCells));
   }
   row.cells_in_series = static_cast<int>(*cells);
   return row;
@@ -55,12 +56,6 @@ struct Pair {
   const FamilyCurve* curve;
   const TruthRow* row;
 };
-
-double Median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 void CountInterval(const Pair& pair, int index, TruthParameter* result) {
   const std::vector<Estimate>& estimates = pair.curve->free_estimates;
@@ -107,7 +102,7 @@ TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pai
     errors.push_back(error);
     CountInterval(pair, index, &result);
   }
-  result.median = Median(std::move(errors));
+  result.median = MedianOf(std::move(errors));
   if (one_truth) SumUpOneTruth(pairs, index, &result);
   return result;
 }
@@ -116,7 +111,7 @@ TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pai
 
 Expected<std::vector<TruthRow>> ReadTruth(const std::string& path) {
   NamedTable table;
-  if (auto opened = table.Open(path, kColumns); !opened) return tl::unexpected(opened.error());
+  if (auto opened = table.Open(path, kTruthColumns); !opened) return tl::unexpected(opened.error());
   std::vector<TruthRow> rows;
   while (true) {
     const auto more = table.Next();

@@ -13,12 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// The sanitizers look for broken code, not for missed optima, and take twenty times as long.
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kSeeds = 2;
-#else
 constexpr int kSeeds = 50;
-#endif
 
 struct Row {
   std::string data_set;

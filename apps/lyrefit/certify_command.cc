@@ -25,19 +25,18 @@ bool AllCertified(const Certificate& certificate) {
 
 }  // namespace
 
-CertifyCommand::CertifyCommand(CLI::App* app)
-    : command_(app->add_subcommand("certify",
-                                   "Prove how low the measured-current RMSE of a curve can go")) {
-  AddCurveFlags(command_, &curve_);
-  command_
-      ->add_option("--models", models_,
-                   "models to certify beside the floor (default " + models_ + ")")
-      ->type_name("LIST")
-      ->group("Proof");
-  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Proof");
-  AddTableFlags(command_, kCertifyOptionTable, "Proof", &options_);
-  AddReportFlags(command_, "certificate", "dual certificate", &output_);
-  command_->footer(kCertifyFooter);
+CertifyCommand::CertifyCommand(CommandLine* line)
+    : verb_(line->AddVerb("certify", "Prove how low the measured-current RMSE of a curve can go")) {
+  AddCurveFlags(verb_, &curve_);
+  verb_
+      ->AddOption("--models", &models_,
+                  "models to certify beside the floor (default " + models_ + ")")
+      .Type("LIST")
+      .Group("Proof");
+  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Proof");
+  AddTableFlags(verb_, kCertifyOptionTable, "Proof", &options_);
+  AddReportFlags(verb_, "certificate", "dual certificate", &output_);
+  verb_->Footer(kCertifyFooter);
 }
 
 Expected<void> CertifyCommand::Write(const Certificate& certificate) const {

@@ -39,66 +39,66 @@ std::string Stem(const std::string& file) {
 
 }  // namespace
 
-DiagnoseCommand::DiagnoseCommand(CLI::App* app)
-    : command_(app->add_subcommand("diagnose",
-                                   "Say what a diode model gets wrong in a measurement, and why")) {
-  command_->add_option("CURVE", files_, "files or folders, a measurement each");
-  command_->add_flag("--together", together_,
-                     "all files are one measurement: lit and dark, up and down, a family");
-  AddConditionFlags(command_, &conditions_);
+DiagnoseCommand::DiagnoseCommand(CommandLine* line)
+    : verb_(line->AddVerb("diagnose",
+                          "Say what a diode model gets wrong in a measurement, and why")) {
+  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each");
+  verb_->AddSwitch("--together", &together_,
+                   "all files are one measurement: lit and dark, up and down, a family");
+  AddConditionFlags(verb_, &conditions_);
   AddDiagnosisFlags();
   AddCatalogueFlags();
-  AddReportFlags(command_, "diagnosis", "diagnosis", &output_);
-  command_
-      ->add_option("--extend", extend_file_,
-                   "the model with its causes, fitted, as the JSON of fit; - for standard output, "
-                   "alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_
-      ->add_option("--answers", answers_file_,
-                   "the bare answers by file as JSON, each cause with what it could be too; - for "
-                   "standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kDiagnoseFooter);
+  AddReportFlags(verb_, "diagnosis", "diagnosis", &output_);
+  verb_
+      ->AddOption("--extend", &extend_file_,
+                  "the model with its causes, fitted, as the JSON of fit; - for standard output, "
+                  "alone")
+      .Type("FILE")
+      .Group("Output");
+  verb_
+      ->AddOption("--answers", &answers_file_,
+                  "the bare answers by file as JSON, each cause with what it could be too; - for "
+                  "standard output, alone")
+      .Type("FILE")
+      .Group("Output");
+  verb_->Footer(kDiagnoseFooter);
 }
 
 void DiagnoseCommand::AddDiagnosisFlags() {
-  const auto parse_base = [this](const std::string& text) {
+  const auto parse_base = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     if (!model || *model == Model::kTripleDiode) {
-      throw CLI::ValidationError("--base", "expected sd or dd, found '" + text + "'");
+      return Fail("expected sd or dd, found '" + text + "'");
     }
     options_.base = *model;
+    return {};
   };
-  command_
-      ->add_option_function<std::string>("--base", parse_base,
-                                         "the model that is diagnosed: sd, or dd with n2 = 2 "
-                                         "(default sd)")
-      ->type_name("NAME")
-      ->group("Diagnosis");
-  command_->add_option("--effects", effects_, "those to try (default: all that the data can show)")
-      ->type_name("ID[,ID]")
-      ->group("Diagnosis");
-  AddTableFlags(command_, kDiagnoseOptionRows, "Diagnosis", &options_);
-  command_
-      ->add_flag("--no-held-out", no_held_out_,
-                 "do not measure the gain on readings that were not fitted")
-      ->group("Diagnosis");
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Diagnosis");
+  verb_
+      ->AddReader("--base", parse_base,
+                  "the model that is diagnosed: sd, or dd with n2 = 2 (default sd)")
+      .Type("NAME")
+      .Group("Diagnosis");
+  verb_->AddOption("--effects", &effects_, "those to try (default: all that the data can show)")
+      .Type("ID[,ID]")
+      .Group("Diagnosis");
+  AddTableFlags(verb_, kDiagnoseOptionRows, "Diagnosis", &options_);
+  verb_
+      ->AddSwitch("--no-held-out", &no_held_out_,
+                  "do not measure the gain on readings that were not fitted")
+      .Group("Diagnosis");
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Diagnosis");
 }
 
 void DiagnoseCommand::AddCatalogueFlags() {
-  command_->add_flag("--list", list_, "list the effects that are known")->group("Catalogue");
-  command_->add_option("--explain", explain_, "say all about one effect")
-      ->type_name("EFFECT")
-      ->group("Catalogue");
+  verb_->AddSwitch("--list", &list_, "list the effects that are known").Group("Catalogue");
+  verb_->AddOption("--explain", &explain_, "say all about one effect")
+      .Type("EFFECT")
+      .Group("Catalogue");
 }
 
 Expected<void> DiagnoseCommand::CheckFlags() {

@@ -25,79 +25,77 @@ constexpr char kFitFooter[] =
 
 }  // namespace
 
-FitCommand::FitCommand(CLI::App* app)
-    : command_(app->add_subcommand("fit", "Fit diode-model parameters to a measured I-V curve")) {
-  AddCurveFlags(command_, &curve_);
+FitCommand::FitCommand(CommandLine* line)
+    : verb_(line->AddVerb("fit", "Fit diode-model parameters to a measured I-V curve")) {
+  AddCurveFlags(verb_, &curve_);
   AddModelFlags();
   AddSearchFlags();
   AddPolishFlags();
-  AddFamilyFlags(command_, &family_);
-  AddReportFlags(command_, "report", "fit", &output_);
-  command_->footer(kFitFooter);
+  AddFamilyFlags(verb_, &family_);
+  AddReportFlags(verb_, "report", "fit", &output_);
+  verb_->Footer(kFitFooter);
 }
 
 void FitCommand::AddModelFlags() {
-  const auto parse_model = [this](const std::string& text) {
+  const auto parse_model = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     auto_model_ = text == "auto";
     if (!model && !auto_model_) {
-      throw CLI::ValidationError(
-          "--model", "expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
+      return Fail("expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
     }
     options_.model = model.value_or(Model::kSingleDiode);
+    return {};
   };
-  command_
-      ->add_option_function<std::string>(
-          "--model", parse_model,
-          "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
-      ->type_name("NAME")
-      ->group("Model");
-  AddEnumFlag(command_, "--objective", "which residual is squared", &options_.objective)
-      ->group("Model");
-  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Model");
-  AddBoundsFlags(command_, "Model", &bounds_);
-  AddListFlag(command_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
-      ->type_name("P=VALUE")
-      ->group("Model");
+  verb_
+      ->AddReader("--model", parse_model,
+                  "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
+      .Type("NAME")
+      .Group("Model");
+  AddEnumFlag(verb_, "--objective", "which residual is squared", &options_.objective)
+      .Group("Model");
+  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Model");
+  AddBoundsFlags(verb_, "Model", &bounds_);
+  AddListFlag(verb_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
+      .Type("P=VALUE")
+      .Group("Model");
 }
 
 void FitCommand::AddSearchFlags() {
-  AddEnumFlag(command_, "--algorithm", "how to search", &options_.search.algorithm)
-      ->group("Search");
-  AddTableFlags(command_, kSearchOptionTable, "Search", &options_.search);
+  AddEnumFlag(verb_, "--algorithm", "how to search", &options_.search.algorithm).Group("Search");
+  AddTableFlags(verb_, kSearchOptionTable, "Search", &options_.search);
 }
 
 void FitCommand::AddPolishFlags() {
-  command_->add_flag("--no-polish", no_polish_, "answer with the search's best bird")
-      ->group("Polish");
-  command_
-      ->add_flag("--floor", options_.floor,
-                 "also prove how low the measured-current RMSE can go within the bounds")
-      ->group("Polish");
-  AddEnumFlag(command_, "--loss", "of the polish", &options_.loss)->group("Polish");
-  command_
-      ->add_option("--loss-scale", options_.loss_scale,
-                   "noise units beyond which a robust loss bends (default " +
-                       NumberText(options_.loss_scale) + ")")
-      ->type_name("NUMBER")
-      ->group("Polish");
-  AddEnumFlag(command_, "--intervals", "95 % intervals", &options_.intervals)->group("Polish");
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Polish");
+  verb_->AddSwitch("--no-polish", &no_polish_, "answer with the search's best bird")
+      .Group("Polish");
+  verb_
+      ->AddSwitch("--floor", &options_.floor,
+                  "also prove how low the measured-current RMSE can go within the bounds")
+      .Group("Polish");
+  AddEnumFlag(verb_, "--loss", "of the polish", &options_.loss).Group("Polish");
+  verb_
+      ->AddOption("--loss-scale", &options_.loss_scale,
+                  "noise units beyond which a robust loss bends (default " +
+                      NumberText(options_.loss_scale) + ")")
+      .Type("NUMBER")
+      .Group("Polish");
+  AddEnumFlag(verb_, "--intervals", "95 % intervals", &options_.intervals).Group("Polish");
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Polish");
   std::string kernels;
   for (const Kernel& kernel : AvailableKernels()) {
     kernels += std::string(kernels.empty() ? "" : ", ") + kernel.name;
   }
-  command_
-      ->add_option("--kernel", kernel_,
-                   "instruction set of the heavy loops; never changes a result: " + kernels +
-                       " (default: the fastest)")
-      ->type_name("NAME")
-      ->group("Polish");
+  verb_
+      ->AddOption("--kernel", &kernel_,
+                  "instruction set of the heavy loops; never changes a result: " + kernels +
+                      " (default: the fastest)")
+      .Type("NAME")
+      .Group("Polish");
 }
 
 Expected<void> FitCommand::SetBounds() {
@@ -147,13 +145,13 @@ int FitCommand::RunFamilyFit() {
   }
   if (auto fixed = SetFixed(); !fixed) return Refuse(fixed.error());
   const Expected<FamilyOptions> options =
-      FamilyOptionsFromFlags(*command_, family_, options_, bounds_.ranges);
+      FamilyOptionsFromFlags(*verb_, family_, options_, bounds_.ranges);
   if (!options) return Refuse(options.error());
   return RunFamily(curve_, family_, *options, output_);
 }
 
 int FitCommand::Run() {
-  if (auto checked = CheckFamilyFlags(*command_, family_); !checked) {
+  if (auto checked = CheckFamilyFlags(*verb_, family_); !checked) {
     return Refuse(checked.error());
   }
   if (family_.family) return RunFamilyFit();

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bounds_flag.h"
+#include "command_line.h"
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/fit/fit.h"
@@ -15,8 +15,8 @@ namespace lyrefit {
 // `lyrefit fit`: reads a curve or a set of curves, fits it, writes the report.
 class FitCommand {
  public:
-  explicit FitCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit FitCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
@@ -29,7 +29,7 @@ class FitCommand {
   Expected<void> SetKernel();
   Expected<void> Write(const FitReport& report) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   FitOptions options_;
   CurveFlags curve_;
   bool auto_model_ = false;

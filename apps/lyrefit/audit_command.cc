@@ -28,7 +28,7 @@ constexpr char kAuditFooter[] =
 AuditCommand::AuditCommand(CommandLine* line)
     : verb_(line->AddVerb("audit",
                           "Check published parameter rows: does the claimed RMSE come out?")) {
-  verb_->AddOption("ROWS", &rows_file_, "table of published rows, see below").Required();
+  verb_->AddOption("ROWS", &rows_file_, "table of published rows, see below").Required().Reads();
   AddListFlag(verb_, "--curves", "a folder to look for the devices' curves in; may be repeated",
               &options_.curve_folders)
       .Type("DIR");
@@ -39,20 +39,15 @@ AuditCommand::AuditCommand(CommandLine* line)
       .Type("NAME");
   AddEnumFlag(verb_, "--objective", "which RMSE the claims are of", &options_.objective);
   verb_->AddOption("--json", &json_file_, "the audit as JSON; - for standard output, alone")
-      .Type("FILE");
+      .Writes();
   verb_->AddOption("--csv", &csv_file_, "the findings as a table; - for standard output, alone")
-      .Type("FILE");
+      .Writes();
   verb_->AddSwitch("--brief", &brief_, "one line a row instead of the whole report");
   verb_->Footer(kAuditFooter);
 }
 
 int AuditCommand::Run() {
-  for (const std::string& target : {json_file_, csv_file_}) {
-    if (auto writable = CheckWritable(target); !writable) return Refuse(writable.error());
-  }
-  if (json_file_ == "-" && csv_file_ == "-") {
-    return Refuse({"--json and --csv cannot both go to standard output", {}});
-  }
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<AuditReport> report = Audit(rows_file_, options_);
   if (!report) return Refuse(report.error());
   if (!json_file_.empty()) {
@@ -65,7 +60,7 @@ int AuditCommand::Run() {
       return Refuse(written.error());
     }
   }
-  if (json_file_ != "-" && csv_file_ != "-") {
+  if (!verb_->StandardOutputTaken()) {
     auto written = WriteOutput("-", brief_ ? BriefAudit(*report) : AuditText(*report));
     if (!written) return Refuse(written.error());
   }

@@ -56,7 +56,8 @@ void AddBoundsFlags(Verb* verb, const std::string& group, BoundsFlags* flags) {
           "physical (derived from the curve), wide, paper or literature (published with the "
           "curve), or a JSON file (default physical)")
       .Type("NAME|FILE")
-      .Group(group);
+      .Group(group)
+      .Reads();
   AddListFlag(verb, "--bound", "range of one parameter, Rs=0:0.5; once for each", &flags->ranges)
       .Type("P=LOWER:UPPER")
       .Group(group);

@@ -55,8 +55,7 @@ BudgetCommand::BudgetCommand(CommandLine* line)
                 &flags_);
   verb_
       ->AddOption("--plot", &plot_file_, "success rate over evaluations as a picture, .svg or .png")
-      .Type("FILE")
-      .Group("Output");
+      .Draws();
   verb_->Footer(kBudgetFooter);
 }
 
@@ -80,7 +79,7 @@ Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
 int BudgetCommand::Run() {
   const auto contenders = Contenders();
   if (!contenders) return Refuse(contenders.error());
-  return RunStudy(flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
+  return RunStudy(*verb_, flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
 }
 
 }  // namespace lyrefit

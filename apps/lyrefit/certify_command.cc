@@ -48,7 +48,7 @@ Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotCertificate(certificate, output_.plot_file); !drawn) return drawn;
   }
-  if (!output_.text()) return {};
+  if (!TextWanted(*verb_, output_)) return {};
   return WriteOutput("-",
                      output_.brief ? BriefCertificate(certificate) : CertificateText(certificate));
 }
@@ -57,7 +57,7 @@ int CertifyCommand::Run() {
   const auto models = ParseModels(models_);
   if (!models) return Refuse(models.error());
   options_.models = *models;
-  if (auto checked = CheckReportFlags(output_); !checked) return Refuse(checked.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(curve.error());
   const InterruptGuard guard;

@@ -1,6 +1,7 @@
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <deque>
 #include <sstream>
 
@@ -9,6 +10,8 @@
 
 namespace lyrefit {
 namespace {
+
+constexpr char kOutput[] = "Output";  // the heading of the files in --help
 
 // What CLI11 found wrong, in our words where its own say little.
 Error CommandLineError(const CLI::ParseError& error) {
@@ -27,11 +30,18 @@ Error CommandLineError(const CLI::ParseError& error) {
 
 struct Flag::Impl {
   CLI::Option* option;
+  FlagTarget target;  // none: a null pointer
+  bool reads = false;
+  bool curves = false;
+  bool writes = false;
+  bool draws = false;
 };
 
 struct Verb::Impl {
   CLI::App* app;
   std::deque<Flag::Impl> flags;  // addresses stay
+  std::vector<OutputFile> more_outputs;
+  bool force = false;
 };
 
 struct CommandLine::Impl {
@@ -65,6 +75,26 @@ Flag& Flag::OneEach() {
   return *this;
 }
 
+Flag& Flag::Reads() {
+  impl_->reads = true;
+  return *this;
+}
+
+Flag& Flag::ReadsCurves() {
+  impl_->curves = true;
+  return Reads();
+}
+
+Flag& Flag::Writes() {
+  impl_->writes = true;
+  return Type("FILE").Group(kOutput);
+}
+
+Flag& Flag::Draws() {
+  impl_->draws = true;
+  return Writes();
+}
+
 Flag& Flag::Between(int least, int most) {
   impl_->option->check(CLI::Range(least, most).description(""));
   return *this;
@@ -89,14 +119,15 @@ Flag& Flag::Within(double lower, double upper) {
 Verb::Verb(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Verb::~Verb() = default;
 
-Flag Verb::Declare(void* option) {
-  impl_->flags.push_back({static_cast<CLI::Option*>(option)});
+Flag Verb::Declare(void* option, FlagTarget target) {
+  impl_->flags.push_back({static_cast<CLI::Option*>(option), target});
   return Flag(&impl_->flags.back());
 }
 
 Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
-  return std::visit([&](auto* value) { return Declare(impl_->app->add_option(name, *value, doc)); },
-                    target);
+  return std::visit(
+      [&](auto* value) { return Declare(impl_->app->add_option(name, *value, doc), value); },
+      target);
 }
 
 Flag Verb::AddReader(const std::string& name, FlagReader read, const std::string& doc) {
@@ -104,14 +135,54 @@ Flag Verb::AddReader(const std::string& name, FlagReader read, const std::string
     const Expected<void> done = read(text);
     if (!done) throw CLI::ValidationError(name, done.error().message);
   };
-  return Declare(impl_->app->add_option_function<std::string>(name, parse, doc));
+  return Declare(impl_->app->add_option_function<std::string>(name, parse, doc), {});
 }
 
 Flag Verb::AddSwitch(const std::string& name, bool* target, const std::string& doc) {
-  return Declare(impl_->app->add_flag(name, *target, doc));
+  return Declare(impl_->app->add_flag(name, *target, doc), {});
 }
 
 void Verb::Footer(const std::string& text) { impl_->app->footer(text); }
+
+void Verb::AlsoWrites(const std::string& flag, const std::string& path) {
+  impl_->more_outputs.push_back({flag, path});
+}
+
+FilePlan Verb::Files() const {
+  FilePlan plan;
+  plan.force = impl_->force;
+  for (const Flag::Impl& flag : impl_->flags) {
+    if (flag.writes) {
+      const std::string& path = *std::get<std::string*>(flag.target);
+      plan.outputs.push_back({flag.option->get_name(), path, flag.draws});
+    }
+    if (!flag.reads) continue;
+    if (const auto* path = std::get_if<std::string*>(&flag.target)) {
+      plan.inputs.push_back({**path, flag.curves});
+    }
+    if (const auto* paths = std::get_if<std::vector<std::string>*>(&flag.target)) {
+      for (const std::string& path : **paths) plan.inputs.push_back({path, flag.curves});
+    }
+  }
+  plan.outputs.insert(plan.outputs.end(), impl_->more_outputs.begin(), impl_->more_outputs.end());
+  return plan;
+}
+
+Expected<void> Verb::CheckFiles() const { return CheckFilePlan(Files()); }
+
+bool Verb::StandardOutputTaken() const {
+  const FilePlan plan = Files();
+  return std::any_of(plan.outputs.begin(), plan.outputs.end(),
+                     [](const OutputFile& output) { return output.path == "-"; });
+}
+
+bool Verb::Forced() const { return impl_->force; }
+
+void Verb::AddForce() {
+  const auto writes = [](const Flag::Impl& flag) { return flag.writes; };
+  if (std::none_of(impl_->flags.begin(), impl_->flags.end(), writes)) return;
+  impl_->app->add_flag("--force", impl_->force, "replace even what this run reads")->group(kOutput);
+}
 
 bool Verb::Given(const std::string& name) const { return impl_->app->count(name) > 0; }
 
@@ -136,6 +207,7 @@ Verb* CommandLine::AddVerb(const std::string& name, const std::string& doc) {
 }
 
 Expected<std::string> CommandLine::Parse(int argc, char** argv) {
+  for (const std::unique_ptr<Verb>& verb : impl_->verbs) verb->AddForce();
   try {
     impl_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

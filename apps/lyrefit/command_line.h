@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "file_plan.h"
 #include "lyrefit/base/error.h"
 
 namespace lyrefit {
@@ -31,6 +32,13 @@ class Flag {
   Flag& Required();
   Flag& Excludes(const std::string& other);  // a flag declared before
   Flag& OneEach();                           // a list gets one value each time the flag is given
+  // Its value is a file that the run reads, or a list of them; or one or more measurements, which
+  // are read with what lies beside them.
+  Flag& Reads();
+  Flag& ReadsCurves();
+  // Its value is a file that the run writes: a table, a report, a picture.
+  Flag& Writes();
+  Flag& Draws();
   // Values allowed, both ends included.
   Flag& Between(int least, int most);
   Flag& Between(double least, double most);
@@ -61,11 +69,25 @@ class Verb {
   Flag AddSwitch(const std::string& name, bool* target, const std::string& doc);
   void Footer(const std::string& text);  // below the flags in --help
 
+  // A file that is written too, because of that flag, though no flag names it.
+  void AlsoWrites(const std::string& flag, const std::string& path);
+
+  // Whether the files of this run can be written and nothing that is read would be lost; to be
+  // asked before the work. --force, which every verb that writes has, allows to replace inputs.
+  Expected<void> CheckFiles() const;
+  // Whether some output goes to standard output, where no text may follow.
+  bool StandardOutputTaken() const;
+  bool Forced() const;
+
   bool Given(const std::string& name) const;  // on the line, whatever its value
   bool Chosen() const;
 
  private:
-  Flag Declare(void* option);
+  Flag Declare(void* option, FlagTarget target);
+
+  friend class CommandLine;
+  FilePlan Files() const;
+  void AddForce();  // last in --help
 
   std::unique_ptr<Impl> impl_;
 };

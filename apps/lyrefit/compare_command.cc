@@ -39,7 +39,7 @@ CompareCommand::CompareCommand(CommandLine* line)
       .Group("Runs");
   AddPolishLevelFlags(verb_, &flags_);
   const auto picture = [this](const char* flag, std::string* target, const char* doc) {
-    verb_->AddOption(flag, target, doc).Type("FILE").Group("Output");
+    verb_->AddOption(flag, target, doc).Draws();
   };
   picture("--plot", &plot_file_, "box plots of all runs as a picture, .svg or .png");
   picture("--convergence-plot", &convergence_file_,
@@ -50,7 +50,7 @@ CompareCommand::CompareCommand(CommandLine* line)
 int CompareCommand::Run() {
   const auto contenders = ParseContenders(flags_);
   if (!contenders) return Refuse(contenders.error());
-  return RunStudy(flags_, *contenders, CompareText,
+  return RunStudy(*verb_, flags_, *contenders, CompareText,
                   {{plot_file_, PlotBoxes}, {convergence_file_, PlotConvergence}});
 }
 

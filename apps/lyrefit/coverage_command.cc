@@ -56,8 +56,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
                   "fit one common error of the irradiances")
       .Group("Fit");
   verb_->AddOption("--json", &json_file_, "everything as JSON; - for standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb_->Footer(kCoverageFooter);
 }
 
@@ -67,7 +66,7 @@ int CoverageCommand::Run() {
     if (!assignment) return Refuse(assignment.error());
     options_.module[assignment->first] = assignment->second;
   }
-  if (auto writable = CheckWritable(json_file_); !writable) return Refuse(writable.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
   const auto report = Coverage(options_, FitFamily, TerminalObserver());
   ClearProgressLine();
@@ -76,7 +75,7 @@ int CoverageCommand::Run() {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
   }
-  if (json_file_ != "-") {
+  if (!verb_->StandardOutputTaken()) {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }

@@ -87,9 +87,12 @@ DataSheetCommand::DataSheetCommand(CommandLine* line)
   };
   add_text("--name", &name_, "of the module, for pvlib (default module)", "TEXT");
   add_text("--technology", &technology_, "of the module, for pvlib: Mono-c-Si", "TEXT");
-  add_text("--json", &json_file_, "the answer as JSON; - for standard output, alone", "FILE");
-  add_text("--pvlib", &pvlib_file_,
-           "the parameters as pvlib takes them, JSON; - for standard output, alone", "FILE");
+  verb_->AddOption("--json", &json_file_, "the answer as JSON; - for standard output, alone")
+      .Writes();
+  verb_
+      ->AddOption("--pvlib", &pvlib_file_,
+                  "the parameters as pvlib takes them, JSON; - for standard output, alone")
+      .Writes();
   verb_->AddSwitch("--quiet", &quiet_, "no text").Group("Output");
   verb_->Footer(kDataSheetFooter);
 }
@@ -126,14 +129,6 @@ Expected<DataSheet> DataSheetCommand::Sheet() const {
   return sheet;
 }
 
-Expected<void> DataSheetCommand::CheckTargets() const {
-  if (json_file_ == "-" && pvlib_file_ == "-") {
-    return Fail("only one of --json and --pvlib can have standard output");
-  }
-  if (auto writable = CheckWritable(json_file_); !writable) return writable;
-  return CheckWritable(pvlib_file_);
-}
-
 Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
   if (!json_file_.empty()) {
     if (auto written = WriteOutput(json_file_, DataSheetJson(fit)); !written) return written;
@@ -145,12 +140,12 @@ Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
     const std::string json = PvlibJson(name_, fit.translation.spec.law, *keywords, row);
     if (auto written = WriteOutput(pvlib_file_, json); !written) return written;
   }
-  if (quiet_ || json_file_ == "-" || pvlib_file_ == "-") return {};
+  if (quiet_ || verb_->StandardOutputTaken()) return {};
   return WriteOutput("-", DataSheetText(fit));
 }
 
 int DataSheetCommand::Run() {
-  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<DataSheet> sheet = Sheet();
   if (!sheet) return Refuse(sheet.error());
   const Expected<DataSheetFit> fit = FitDataSheet(*sheet, constants_);

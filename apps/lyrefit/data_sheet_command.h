@@ -16,7 +16,6 @@ class DataSheetCommand {
 
  private:
   Expected<DataSheet> Sheet() const;
-  Expected<void> CheckTargets() const;
   Expected<void> Write(const DataSheetFit& fit) const;
 
   Verb* verb_;

@@ -42,7 +42,7 @@ std::string Stem(const std::string& file) {
 DiagnoseCommand::DiagnoseCommand(CommandLine* line)
     : verb_(line->AddVerb("diagnose",
                           "Say what a diode model gets wrong in a measurement, and why")) {
-  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each");
+  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each").ReadsCurves();
   verb_->AddSwitch("--together", &together_,
                    "all files are one measurement: lit and dark, up and down, a family");
   AddConditionFlags(verb_, &conditions_);
@@ -53,14 +53,12 @@ DiagnoseCommand::DiagnoseCommand(CommandLine* line)
       ->AddOption("--extend", &extend_file_,
                   "the model with its causes, fitted, as the JSON of fit; - for standard output, "
                   "alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb_
       ->AddOption("--answers", &answers_file_,
                   "the bare answers by file as JSON, each cause with what it could be too; - for "
                   "standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb_->Footer(kDiagnoseFooter);
 }
 
@@ -115,7 +113,7 @@ Expected<void> DiagnoseCommand::CheckFlags() {
   }
   if (auto checked = CheckEffects("--effects", options_.effects); !checked) return checked;
   if (auto checked = CheckNames(); !checked) return checked;
-  return CheckTargets();
+  return verb_->CheckFiles();
 }
 
 // Answers are told apart by their names.
@@ -128,16 +126,6 @@ Expected<void> DiagnoseCommand::CheckNames() const {
     }
   }
   return {};
-}
-
-Expected<void> DiagnoseCommand::CheckTargets() const {
-  if ((output_.json_file == "-") + (extend_file_ == "-") + (answers_file_ == "-") > 1) {
-    return Fail("only one of --json, --extend and --answers can have standard output");
-  }
-  for (const std::string& file : {extend_file_, answers_file_}) {
-    if (auto writable = CheckWritable(file); !writable) return writable;
-  }
-  return CheckReportFlags(output_);
 }
 
 Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string>& files) const {
@@ -186,8 +174,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotDiagnosis(first, output_.plot_file); !drawn) return drawn;
   }
-  const bool piped = extend_file_ == "-" || answers_file_ == "-";
-  return output_.text() && !piped ? WriteText(diagnoses) : Expected<void>();
+  return TextWanted(*verb_, output_) ? WriteText(diagnoses) : Expected<void>();
 }
 
 int DiagnoseCommand::Run() {

@@ -20,7 +20,6 @@ class DiagnoseCommand {
   void AddDiagnosisFlags();
   void AddCatalogueFlags();
   Expected<void> CheckFlags();
-  Expected<void> CheckTargets() const;
   Expected<void> CheckNames() const;
   bool Several() const { return files_.size() > 1 && !together_; }  // measurements
   Expected<Diagnosis> DiagnoseFiles(const std::vector<std::string>& files) const;

@@ -57,6 +57,7 @@ void AddCurveChoiceFlags(Verb* verb, FamilyFlags* flags) {
               "in datasheet, or pvlib's own as JSON; once for each",
               &flags->against_files)
       .Type("FILE")
+      .Reads()
       .Group(kGroup);
   verb->AddSwitch("--no-free-fits", &flags->no_free_fits,
                   "do not also fit every curve on its own, the floor of the joint fit")
@@ -91,15 +92,13 @@ void AddFamilyFlags(Verb* verb, FamilyFlags* flags) {
   verb->AddOption("--truth", &flags->truth_file,
                   "parameters the curves were made from, as the ivcurves contest states them: "
                   "prints the errors")
+      .Group(kGroup)
       .Type("FILE")
-      .Group(kGroup);
-  verb->AddOption("--csv", &flags->csv_file, "the parameters of each curve as a table")
-      .Type("FILE")
-      .Group("Output");
+      .Reads();
+  verb->AddOption("--csv", &flags->csv_file, "the parameters of each curve as a table").Writes();
   verb->AddOption("--pvlib", &flags->pvlib_file,
                   "the shared parameters as pvlib takes them, JSON; - for standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
 }
 
 }  // namespace lyrefit

@@ -134,7 +134,7 @@ Expected<void> FitCommand::Write(const FitReport& report) const {
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotFit(report, output_.plot_file); !drawn) return drawn;
   }
-  if (!output_.text()) return {};
+  if (!TextWanted(*verb_, output_)) return {};
   return WriteOutput("-", output_.brief ? BriefReport(report) : FullReport(report));
 }
 
@@ -147,7 +147,7 @@ int FitCommand::RunFamilyFit() {
   const Expected<FamilyOptions> options =
       FamilyOptionsFromFlags(*verb_, family_, options_, bounds_.ranges);
   if (!options) return Refuse(options.error());
-  return RunFamily(curve_, family_, *options, output_);
+  return RunFamily(*verb_, curve_, family_, *options, output_);
 }
 
 int FitCommand::Run() {
@@ -156,7 +156,7 @@ int FitCommand::Run() {
   }
   if (family_.family) return RunFamilyFit();
   options_.polish = !no_polish_;
-  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckReportFlags(output_)}) {
+  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), verb_->CheckFiles()}) {
     if (!checked) return Refuse(checked.error());
   }
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);

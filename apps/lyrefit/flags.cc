@@ -153,7 +153,8 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
 
 void AddCurveFlags(Verb* verb, CurveFlags* flags) {
   verb->AddOption("CURVE", &flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
-      .Required();
+      .Required()
+      .ReadsCurves();
   verb->AddOption("--curve", &flags->index, "which curve of a file that holds several")
       .Type("INDEX")
       .Group("Conditions");
@@ -175,20 +176,15 @@ void AddReportFlags(Verb* verb, const std::string& what, const std::string& pict
                     ReportFlags* flags) {
   verb->AddOption("--json", &flags->json_file,
                   "the " + what + " as JSON; - for standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
-      .Type("FILE")
-      .Group("Output");
+      .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");
   verb->AddSwitch("--quiet", &flags->quiet, "no text report").Group("Output");
 }
 
-Expected<void> CheckReportFlags(const ReportFlags& flags) {
-  if (auto writable = CheckWritable(flags.json_file); !writable) return writable;
-  if (flags.plot_file.empty()) return {};
-  if (auto drawable = CheckPlot(flags.plot_file); !drawable) return drawable;
-  return CheckWritable(flags.plot_file);
+bool TextWanted(const Verb& verb, const ReportFlags& flags) {
+  return !flags.quiet && !verb.StandardOutputTaken();
 }
 
 }  // namespace lyrefit

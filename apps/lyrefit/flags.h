@@ -119,13 +119,12 @@ struct ReportFlags {
   std::string plot_file;
   bool brief = false;
   bool quiet = false;
-  bool text() const { return !quiet && json_file != "-"; }
 };
 
 // `what` names the report in the help, `picture` the plot.
 void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags);
-// Whether both files can be written; to be asked before the work.
-Expected<void> CheckReportFlags(const ReportFlags& flags);
+// Whether the text report is to be printed.
+bool TextWanted(const Verb& verb, const ReportFlags& flags);
 
 }  // namespace lyrefit

@@ -60,7 +60,7 @@ Expected<void> Update(const PaperStudy& study, const std::string& page) {
 ReproduceCommand::ReproduceCommand(CommandLine* line)
     : verb_(line->AddVerb("reproduce",
                           "Do the published tables over again and write the page of results")) {
-  verb_->AddOption("FOLDER", &folder_, "published.csv, rows.csv, remarks.csv").Required();
+  verb_->AddOption("FOLDER", &folder_, "published.csv, rows.csv, remarks.csv").Required().Reads();
   AddTableFlags(verb_, kPaperStudyOptionTable, "Runs", &options_);
   verb_
       ->AddOption("--threads", &options_.threads,
@@ -117,11 +117,13 @@ int ReproduceCommand::Run() {
   if (auto peers = AddPeers(); !peers) return Refuse(peers.error());
   const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
   if (!remarks) return Refuse(remarks.error());
+  verb_->AlsoWrites("--out", (fs::path(output_) / "README.md").string());
   for (const Picture& picture : kPictures) {
     const std::string path = (fs::path(output_) / picture.file).string();
     if (auto drawable = CheckPlot(path); !drawable) return Refuse(drawable.error());
-    if (auto writable = CheckWritable(path); !writable) return Refuse(writable.error());
+    verb_->AlsoWrites("--out", path);
   }
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
   const auto study = ReproducePaper(folder_, options_, TerminalObserver());
   ClearProgressLine();

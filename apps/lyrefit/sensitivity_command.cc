@@ -41,7 +41,7 @@ int SensitivityCommand::Run() {
   if (!rates) return Refuse(rates.error());
   const auto coefficients = ParseNumbers("--distance-coefficients", distance_coefficients_);
   if (!coefficients) return Refuse(coefficients.error());
-  return RunStudy(flags_, SensitivityContenders(*rates, *coefficients, flags_.search),
+  return RunStudy(*verb_, flags_, SensitivityContenders(*rates, *coefficients, flags_.search),
                   SensitivityText, {});
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "output.h"
 
@@ -25,12 +26,14 @@ std::string SidecarOf(const std::string& table) {
   return std::filesystem::path(table).replace_extension(".json").string();
 }
 
-Expected<void> CheckTargets(const std::string& table) {
-  if (table != "-" && table == SidecarOf(table)) {
-    return Fail("--out: expected a table that ends in .csv, found .json", table);
-  }
-  if (auto writable = CheckWritable(table); !writable) return writable;
-  return CheckWritable(SidecarOf(table));
+// Whether the table and its sidecar are to the byte what this verb writes of such a curve.
+bool IsOwnWork(const std::string& table) {
+  const Expected<IvCurve> curve = ReadCurve(table);
+  if (!curve) return false;
+  const std::uintmax_t largest = ReadOptions().largest_file_bytes;
+  const Expected<std::string> csv = ReadTextFile(table, largest);
+  const Expected<std::string> json = ReadTextFile(SidecarOf(table), largest);
+  return csv && json && *csv == CurveToCsv(*curve) && *json == CurveSidecarJson(*curve);
 }
 
 }  // namespace
@@ -42,8 +45,9 @@ SimulateCommand::SimulateCommand(CommandLine* line)
       .Type("P=VALUE")
       .Group("Device");
   verb_->AddOption("--from", &from_file_, "parameters and conditions of a JSON fit report")
+      .Group("Device")
       .Type("FILE")
-      .Group("Device");
+      .Reads();
   AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
   AddConditionFlags(verb_, &conditions_);
   verb_->AddOption("--voltages", &voltages_, "even steps in volt, both ends included")
@@ -69,9 +73,27 @@ SimulateCommand::SimulateCommand(CommandLine* line)
       .Type("S")
       .Group("Noise");
   verb_->AddOption("--out", &out_file_, "where to write; - for standard output (default -)")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb_->Footer(kSimulateFooter);
+}
+
+Expected<void> SimulateCommand::CheckTargets() const {
+  if (out_file_ == "-") return verb_->CheckFiles();
+  const std::string sidecar = SidecarOf(out_file_);
+  if (out_file_ == sidecar) {
+    return Fail("--out: expected a table that ends in .csv, found .json", out_file_);
+  }
+  verb_->AlsoWrites("--out", sidecar);
+  if (auto checked = verb_->CheckFiles(); !checked || verb_->Forced()) return checked;
+  for (const std::string& file : {out_file_, sidecar}) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error) || IsOwnWork(out_file_)) continue;
+    return Fail(
+        "--out: the file is there and holds something else than a simulated curve: name "
+        "another file, or say --force to replace it",
+        file);
+  }
+  return {};
 }
 
 Expected<SimulateOptions> SimulateCommand::Options() const {
@@ -107,7 +129,7 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
 int SimulateCommand::Run() {
   const Expected<SimulateOptions> options = Options();
   if (!options) return Refuse(options.error());
-  if (auto checked = CheckTargets(out_file_); !checked) return Refuse(checked.error());
+  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
   const Expected<IvCurve> curve = Simulate(*options);
   if (!curve) return Refuse(curve.error());
   if (auto written = WriteOutput(out_file_, CurveToCsv(*curve)); !written) {

@@ -18,6 +18,7 @@ class SimulateCommand {
 
  private:
   Expected<SimulateOptions> Options() const;
+  Expected<void> CheckTargets() const;
 
   Verb* verb_;
   SimulateOptions flags_;

@@ -10,7 +10,9 @@
 namespace lyrefit {
 
 void AddStudyFlags(Verb* verb, StudyFlags* flags) {
-  verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders").Required();
+  verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders")
+      .Required()
+      .ReadsCurves();
   AddConditionFlags(verb, &flags->conditions);
   verb->AddOption("--at", &flags->at,
                   "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as "
@@ -41,11 +43,9 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
       .Type("N")
       .Group("Runs");
   verb->AddOption("--json", &flags->json_file, "everything as JSON; - for standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
   verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")
-      .Type("FILE")
-      .Group("Output");
+      .Writes();
 }
 
 void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {

@@ -63,7 +63,7 @@ struct StudyPicture {
 };
 
 // Reads the curves, compares, writes what is wanted; returns the exit code.
-int RunStudy(const StudyFlags& flags, const std::vector<Contender>& contenders,
+int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Contender>& contenders,
              const std::function<std::string(const Comparison&)>& text,
              const std::vector<StudyPicture>& pictures);
 

@@ -71,6 +71,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/family_json.h
   report/family_plot.h
   report/family_text.h
+  report/fits_table.h
   report/json_report.h
   report/plot.h
   report/pvlib_json.h

@@ -164,7 +164,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
     if (auto written = WriteOutput(output_.json_file, json); !written) return written;
   }
   if (!extend_file_.empty()) {
-    auto written = WriteOutput(extend_file_, JsonReport(first.extended));
+    auto written = WriteOutput(extend_file_, JsonReport(first.extended, output_.points()));
     if (!written) return written;
   }
   if (!answers_file_.empty()) {

@@ -95,7 +95,8 @@ void AddFamilyFlags(Verb* verb, FamilyFlags* flags) {
       .Group(kGroup)
       .Type("FILE")
       .Reads();
-  verb->AddOption("--csv", &flags->csv_file, "the parameters of each curve as a table").Writes();
+  verb->AddOption("--csv", &flags->csv_file, "the parameters of each curve as a table, a row each")
+      .Writes();
   verb->AddOption("--pvlib", &flags->pvlib_file,
                   "the shared parameters as pvlib takes them, JSON; - for standard output, alone")
       .Writes();

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWorstAccuracy_percent = 50;
 
 // Of a set, but not of what its curves share.
-constexpr const char* kSetOnly[] = {"--leave-out", "--csv", "--truth"};
+constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
 // Flags that a joint fit does not have.
 constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss",
                                      "--loss-scale", "--kernel",        "--curve",

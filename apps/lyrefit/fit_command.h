@@ -9,6 +9,7 @@
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/report/fits_table.h"
 
 namespace lyrefit {
 
@@ -24,14 +25,18 @@ class FitCommand {
   void AddSearchFlags();
   void AddPolishFlags();
   int RunFamilyFit();
-  Expected<void> SetBounds();
   Expected<void> SetFixed();
   Expected<void> SetKernel();
-  Expected<void> Write(const FitReport& report) const;
+  int RunOne();
+  int RunMany();
+  Expected<void> CheckMany() const;
+  Expected<FitReport> FitFile(const std::string& file, int threads, const Observer& observer) const;
+  Expected<void> Write(const std::vector<FittedFile>& fits) const;
 
   Verb* verb_;
   FitOptions options_;
-  CurveFlags curve_;
+  std::vector<std::string> files_;
+  CurveFlags curve_;  // of one file, or of each
   bool auto_model_ = false;
   bool no_polish_ = false;
   BoundsFlags bounds_;

@@ -155,6 +155,10 @@ void AddCurveFlags(Verb* verb, CurveFlags* flags) {
   verb->AddOption("CURVE", &flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
       .Required()
       .ReadsCurves();
+  AddReadingFlags(verb, flags);
+}
+
+void AddReadingFlags(Verb* verb, CurveFlags* flags) {
   verb->AddOption("--curve", &flags->index, "which curve of a file that holds several")
       .Type("INDEX")
       .Group("Conditions");
@@ -177,6 +181,10 @@ void AddReportFlags(Verb* verb, const std::string& what, const std::string& pict
   verb->AddOption("--json", &flags->json_file,
                   "the " + what + " as JSON; - for standard output, alone")
       .Writes();
+  verb->AddSwitch("--full-json", &flags->full_json,
+                  fmt::format("repeat every reading of curves of more than {} in JSON files",
+                              kMostJsonPoints))
+      .Group("Output");
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");

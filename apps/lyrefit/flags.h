@@ -13,6 +13,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/report/json_report.h"
 
 namespace lyrefit {
 
@@ -111,6 +112,8 @@ struct CurveFlags {
 };
 
 void AddCurveFlags(Verb* verb, CurveFlags* flags);
+// The same without the file.
+void AddReadingFlags(Verb* verb, CurveFlags* flags);
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
 // What a verb on one curve writes.
@@ -119,6 +122,8 @@ struct ReportFlags {
   std::string plot_file;
   bool brief = false;
   bool quiet = false;
+  bool full_json = false;
+  JsonPoints points() const { return full_json ? JsonPoints::kAll : JsonPoints::kThinned; }
 };
 
 // `what` names the report in the help, `picture` the plot.

@@ -19,6 +19,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/random.h
   base/version.h
   certify/certify.h
+  curve/curve_files.h
   curve/curve_set.h
   curve/iv_curve.h
   curve/key_points.h
@@ -70,6 +71,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/family_json.h
   report/family_plot.h
   report/family_text.h
+  report/fits_table.h
   report/json_report.h
   report/plot.h
   report/pvlib_json.h

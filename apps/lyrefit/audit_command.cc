@@ -25,41 +25,29 @@ constexpr char kAuditFooter[] =
 
 }  // namespace
 
-AuditCommand::AuditCommand(CLI::App* app)
-    : command_(app->add_subcommand(
-          "audit", "Check published parameter rows: does the claimed RMSE come out?")) {
-  command_->add_option("ROWS", rows_file_, "table of published rows, see below")->required();
-  AddListFlag(command_, "--curves", "a folder to look for the devices' curves in; may be repeated",
+AuditCommand::AuditCommand(CommandLine* line)
+    : verb_(line->AddVerb("audit",
+                          "Check published parameter rows: does the claimed RMSE come out?")) {
+  verb_->AddOption("ROWS", &rows_file_, "table of published rows, see below").Required().Reads();
+  AddListFlag(verb_, "--curves", "a folder to look for the devices' curves in; may be repeated",
               &options_.curve_folders)
-      ->type_name("DIR");
-  const auto parse_constants = [this](const std::string& text) {
-    options_.constants = FromText<ConstantSet>(text);
-    if (!options_.constants) {
-      throw CLI::ValidationError(
-          "--constants", "expected one of " + AllTexts<ConstantSet>() + ", found '" + text + "'");
-    }
-  };
-  command_
-      ->add_option_function<std::string>("--constants", parse_constants,
-                                         "values of k and q of rows that do not say: " +
-                                             AllTexts<ConstantSet>() + " (default: any)")
-      ->type_name("NAME");
-  AddEnumFlag(command_, "--objective", "which RMSE the claims are of", &options_.objective);
-  command_->add_option("--json", json_file_, "the audit as JSON; - for standard output, alone")
-      ->type_name("FILE");
-  command_->add_option("--csv", csv_file_, "the findings as a table; - for standard output, alone")
-      ->type_name("FILE");
-  command_->add_flag("--brief", brief_, "one line a row instead of the whole report");
-  command_->footer(kAuditFooter);
+      .Type("DIR");
+  verb_
+      ->AddReader("--constants", EnumReader<ConstantSet>(&options_.constants),
+                  "values of k and q of rows that do not say: " + AllTexts<ConstantSet>() +
+                      " (default: any)")
+      .Type("NAME");
+  AddEnumFlag(verb_, "--objective", "which RMSE the claims are of", &options_.objective);
+  verb_->AddOption("--json", &json_file_, "the audit as JSON; - for standard output, alone")
+      .Writes();
+  verb_->AddOption("--csv", &csv_file_, "the findings as a table; - for standard output, alone")
+      .Writes();
+  verb_->AddSwitch("--brief", &brief_, "one line a row instead of the whole report");
+  verb_->Footer(kAuditFooter);
 }
 
 int AuditCommand::Run() {
-  for (const std::string& target : {json_file_, csv_file_}) {
-    if (auto writable = CheckWritable(target); !writable) return Refuse(writable.error());
-  }
-  if (json_file_ == "-" && csv_file_ == "-") {
-    return Refuse({"--json and --csv cannot both go to standard output", {}});
-  }
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<AuditReport> report = Audit(rows_file_, options_);
   if (!report) return Refuse(report.error());
   if (!json_file_.empty()) {
@@ -72,7 +60,7 @@ int AuditCommand::Run() {
       return Refuse(written.error());
     }
   }
-  if (json_file_ != "-" && csv_file_ != "-") {
+  if (!verb_->StandardOutputTaken()) {
     auto written = WriteOutput("-", brief_ ? BriefAudit(*report) : AuditText(*report));
     if (!written) return Refuse(written.error());
   }

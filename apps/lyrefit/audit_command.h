@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.h"
 #include "lyrefit/study/audit.h"
 
 namespace lyrefit {
@@ -10,12 +10,12 @@ namespace lyrefit {
 // `lyrefit audit`: checks published parameter rows against the curves they are said to fit.
 class AuditCommand {
  public:
-  explicit AuditCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit AuditCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
-  CLI::App* command_;
+  Verb* verb_;
   AuditOptions options_;
   std::string rows_file_;
   std::string json_file_;

@@ -50,16 +50,17 @@ Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& cur
 
 }  // namespace
 
-void AddBoundsFlags(CLI::App* app, const std::string& group, BoundsFlags* flags) {
-  app->add_option(
-         "--bounds", flags->name,
-         "physical (derived from the curve), wide, paper or literature (published with the "
-         "curve), or a JSON file (default physical)")
-      ->type_name("NAME|FILE")
-      ->group(group);
-  AddListFlag(app, "--bound", "range of one parameter, Rs=0:0.5; once for each", &flags->ranges)
-      ->type_name("P=LOWER:UPPER")
-      ->group(group);
+void AddBoundsFlags(Verb* verb, const std::string& group, BoundsFlags* flags) {
+  verb->AddOption(
+          "--bounds", &flags->name,
+          "physical (derived from the curve), wide, paper or literature (published with the "
+          "curve), or a JSON file (default physical)")
+      .Type("NAME|FILE")
+      .Group(group)
+      .Reads();
+  AddListFlag(verb, "--bound", "range of one parameter, Rs=0:0.5; once for each", &flags->ranges)
+      .Type("P=LOWER:UPPER")
+      .Group(group);
 }
 
 Expected<BoundsSpec> BoundsFromFlags(const BoundsFlags& flags, const std::string& curve_file) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "lyrefit/fit/bounds.h"
 
 namespace lyrefit {
@@ -14,7 +14,7 @@ struct BoundsFlags {
   std::vector<std::string> ranges;  // "Rs=0:0.5"
 };
 
-void AddBoundsFlags(CLI::App* app, const std::string& group, BoundsFlags* flags);
+void AddBoundsFlags(Verb* verb, const std::string& group, BoundsFlags* flags);
 
 // The bounds for the curve in `curve_file`; those published for a data set lie beside its curve.
 Expected<BoundsSpec> BoundsFromFlags(const BoundsFlags& flags, const std::string& curve_file);

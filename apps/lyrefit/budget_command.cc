@@ -37,27 +37,26 @@ Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
 
 }  // namespace
 
-BudgetCommand::BudgetCommand(CLI::App* app)
-    : command_(app->add_subcommand("budget",
-                                   "Evaluations each algorithm needs, by how far it is polished")) {
+BudgetCommand::BudgetCommand(CommandLine* line)
+    : verb_(
+          line->AddVerb("budget", "Evaluations each algorithm needs, by how far it is polished")) {
   flags_.options.plain_polish = true;
   flags_.options.rankings = false;
-  AddStudyFlags(command_, &flags_);
-  AddAlgorithmsFlag(command_, &flags_);
-  command_
-      ->add_option(
-          "--budgets", budgets_,
+  AddStudyFlags(verb_, &flags_);
+  AddAlgorithmsFlag(verb_, &flags_);
+  verb_
+      ->AddOption(
+          "--budgets", &budgets_,
           "list of evaluations; the population is about their root (default " + budgets_ + ")")
-      ->type_name("LIST")
-      ->group("Search");
-  AddSearchRows(command_,
+      .Type("LIST")
+      .Group("Search");
+  AddSearchRows(verb_,
                 {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
                 &flags_);
-  command_
-      ->add_option("--plot", plot_file_, "success rate over evaluations as a picture, .svg or .png")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kBudgetFooter);
+  verb_
+      ->AddOption("--plot", &plot_file_, "success rate over evaluations as a picture, .svg or .png")
+      .Draws();
+  verb_->Footer(kBudgetFooter);
 }
 
 Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
@@ -80,7 +79,7 @@ Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
 int BudgetCommand::Run() {
   const auto contenders = Contenders();
   if (!contenders) return Refuse(contenders.error());
-  return RunStudy(flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
+  return RunStudy(*verb_, flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
 }
 
 }  // namespace lyrefit

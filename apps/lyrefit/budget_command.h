@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.h"
 #include "study_flags.h"
 
 namespace lyrefit {
@@ -11,14 +11,14 @@ namespace lyrefit {
 // is polished.
 class BudgetCommand {
  public:
-  explicit BudgetCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit BudgetCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   Expected<std::vector<Contender>> Contenders() const;
 
-  CLI::App* command_;
+  Verb* verb_;
   StudyFlags flags_;
   std::string budgets_ = "10,30,100,300,1000,3000,10000,30000,100000";
   std::string plot_file_;

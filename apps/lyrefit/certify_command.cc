@@ -25,19 +25,18 @@ bool AllCertified(const Certificate& certificate) {
 
 }  // namespace
 
-CertifyCommand::CertifyCommand(CLI::App* app)
-    : command_(app->add_subcommand("certify",
-                                   "Prove how low the measured-current RMSE of a curve can go")) {
-  AddCurveFlags(command_, &curve_);
-  command_
-      ->add_option("--models", models_,
-                   "models to certify beside the floor (default " + models_ + ")")
-      ->type_name("LIST")
-      ->group("Proof");
-  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Proof");
-  AddTableFlags(command_, kCertifyOptionTable, "Proof", &options_);
-  AddReportFlags(command_, "certificate", "dual certificate", &output_);
-  command_->footer(kCertifyFooter);
+CertifyCommand::CertifyCommand(CommandLine* line)
+    : verb_(line->AddVerb("certify", "Prove how low the measured-current RMSE of a curve can go")) {
+  AddCurveFlags(verb_, &curve_);
+  verb_
+      ->AddOption("--models", &models_,
+                  "models to certify beside the floor (default " + models_ + ")")
+      .Type("LIST")
+      .Group("Proof");
+  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Proof");
+  AddTableFlags(verb_, kCertifyOptionTable, "Proof", &options_);
+  AddReportFlags(verb_, "certificate", "dual certificate", &output_);
+  verb_->Footer(kCertifyFooter);
 }
 
 Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
@@ -49,7 +48,7 @@ Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotCertificate(certificate, output_.plot_file); !drawn) return drawn;
   }
-  if (!output_.text()) return {};
+  if (!TextWanted(*verb_, output_)) return {};
   return WriteOutput("-",
                      output_.brief ? BriefCertificate(certificate) : CertificateText(certificate));
 }
@@ -58,7 +57,7 @@ int CertifyCommand::Run() {
   const auto models = ParseModels(models_);
   if (!models) return Refuse(models.error());
   options_.models = *models;
-  if (auto checked = CheckReportFlags(output_); !checked) return Refuse(checked.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(curve.error());
   const InterruptGuard guard;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.h"
 #include "flags.h"
 #include "lyrefit/certify/certify.h"
 
@@ -11,14 +11,14 @@ namespace lyrefit {
 // `lyrefit certify`: proves how low the measured-current RMSE of a curve can go.
 class CertifyCommand {
  public:
-  explicit CertifyCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit CertifyCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   Expected<void> Write(const Certificate& certificate) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   CertifyOptions options_;
   CurveFlags curve_;
   std::string models_ = "sd,dd,td";

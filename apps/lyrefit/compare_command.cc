@@ -20,37 +20,37 @@ constexpr char kCompareFooter[] =
 
 }  // namespace
 
-CompareCommand::CompareCommand(CLI::App* app)
-    : command_(app->add_subcommand(
-          "compare", "Compare search algorithms, pure and polished, over many runs")) {
+CompareCommand::CompareCommand(CommandLine* line)
+    : verb_(line->AddVerb("compare",
+                          "Compare search algorithms, pure and polished, over many runs")) {
   flags_.search.population = 100;
   flags_.search.iterations = 1000;
-  AddStudyFlags(command_, &flags_);
-  AddAlgorithmsFlag(command_, &flags_);
-  AddSearchRows(command_,
+  AddStudyFlags(verb_, &flags_);
+  AddAlgorithmsFlag(verb_, &flags_);
+  AddSearchRows(verb_,
                 {"population", "iterations", "memory-rate", "distance-coefficient", "de-scale",
                  "de-crossover", "max-evaluations", "elites"},
                 &flags_);
-  command_
-      ->add_option("--target-gap", flags_.options.target_gap,
-                   "relative distance from the reference that counts as reached (default " +
-                       NumberText(flags_.options.target_gap) + ")")
-      ->type_name("NUMBER")
-      ->group("Runs");
-  AddPolishLevelFlags(command_, &flags_);
+  verb_
+      ->AddOption("--target-gap", &flags_.options.target_gap,
+                  "relative distance from the reference that counts as reached (default " +
+                      NumberText(flags_.options.target_gap) + ")")
+      .Type("NUMBER")
+      .Group("Runs");
+  AddPolishLevelFlags(verb_, &flags_);
   const auto picture = [this](const char* flag, std::string* target, const char* doc) {
-    command_->add_option(flag, *target, doc)->type_name("FILE")->group("Output");
+    verb_->AddOption(flag, target, doc).Draws();
   };
   picture("--plot", &plot_file_, "box plots of all runs as a picture, .svg or .png");
   picture("--convergence-plot", &convergence_file_,
           "the median course of the searches as a picture, .svg or .png");
-  command_->footer(kCompareFooter);
+  verb_->Footer(kCompareFooter);
 }
 
 int CompareCommand::Run() {
   const auto contenders = ParseContenders(flags_);
   if (!contenders) return Refuse(contenders.error());
-  return RunStudy(flags_, *contenders, CompareText,
+  return RunStudy(*verb_, flags_, *contenders, CompareText,
                   {{plot_file_, PlotBoxes}, {convergence_file_, PlotConvergence}});
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.h"
 #include "study_flags.h"
 
 namespace lyrefit {
@@ -10,12 +10,12 @@ namespace lyrefit {
 // `lyrefit compare`: algorithms against each other, pure and polished, on the same budget.
 class CompareCommand {
  public:
-  explicit CompareCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit CompareCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
-  CLI::App* command_;
+  Verb* verb_;
   StudyFlags flags_;
   std::string plot_file_;
   std::string convergence_file_;

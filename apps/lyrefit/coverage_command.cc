@@ -22,43 +22,42 @@ constexpr char kCoverageFooter[] =
 
 }  // namespace
 
-CoverageCommand::CoverageCommand(CLI::App* app)
-    : command_(app->add_subcommand(
-          "coverage", "Count how often the 95 % intervals of joint fits hold the truth")) {
-  AddEnumFlag(command_, "--law", "how parameters follow irradiance and temperature",
+CoverageCommand::CoverageCommand(CommandLine* line)
+    : verb_(line->AddVerb("coverage",
+                          "Count how often the 95 % intervals of joint fits hold the truth")) {
+  AddEnumFlag(verb_, "--law", "how parameters follow irradiance and temperature",
               &options_.family.law)
-      ->group("Device");
-  AddEnumFlag(command_, "--model", "number of diodes; td cannot be fitted jointly",
+      .Group("Device");
+  AddEnumFlag(verb_, "--model", "number of diodes; td cannot be fitted jointly",
               &options_.family.model)
-      ->group("Device");
-  AddListFlag(command_, "--set",
+      .Group("Device");
+  AddListFlag(verb_, "--set",
               "value of a shared parameter, Iph=8; once for each; default: "
               "a module drawn for every set",
               &set_list_)
-      ->type_name("P=VALUE")
-      ->group("Device");
-  command_->add_option("--cells", options_.cells_in_series, "cells in series, with --set (72)")
-      ->type_name("N")
-      ->group("Device");
-  AddTableFlags(command_, kCoverageOptionTable, "Sets", &options_);
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result but the seconds (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Sets");
-  command_
-      ->add_flag("--temperature-offset", options_.family.temperature_offset,
-                 "fit one common error of the temperatures")
-      ->group("Fit");
-  command_
-      ->add_flag("--irradiance-offset", options_.family.irradiance_offset,
-                 "fit one common error of the irradiances")
-      ->group("Fit");
-  command_->add_option("--json", json_file_, "everything as JSON; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kCoverageFooter);
+      .Type("P=VALUE")
+      .Group("Device");
+  verb_->AddOption("--cells", &options_.cells_in_series, "cells in series, with --set (72)")
+      .Type("N")
+      .Group("Device");
+  AddTableFlags(verb_, kCoverageOptionTable, "Sets", &options_);
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result but the seconds (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Sets");
+  verb_
+      ->AddSwitch("--temperature-offset", &options_.family.temperature_offset,
+                  "fit one common error of the temperatures")
+      .Group("Fit");
+  verb_
+      ->AddSwitch("--irradiance-offset", &options_.family.irradiance_offset,
+                  "fit one common error of the irradiances")
+      .Group("Fit");
+  verb_->AddOption("--json", &json_file_, "everything as JSON; - for standard output, alone")
+      .Writes();
+  verb_->Footer(kCoverageFooter);
 }
 
 int CoverageCommand::Run() {
@@ -67,7 +66,7 @@ int CoverageCommand::Run() {
     if (!assignment) return Refuse(assignment.error());
     options_.module[assignment->first] = assignment->second;
   }
-  if (auto writable = CheckWritable(json_file_); !writable) return Refuse(writable.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
   const auto report = Coverage(options_, FitFamily, TerminalObserver());
   ClearProgressLine();
@@ -76,7 +75,7 @@ int CoverageCommand::Run() {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
   }
-  if (json_file_ != "-") {
+  if (!verb_->StandardOutputTaken()) {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }

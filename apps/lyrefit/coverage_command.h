@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "lyrefit/study/coverage.h"
 
 namespace lyrefit {
@@ -11,12 +11,12 @@ namespace lyrefit {
 // `lyrefit coverage`: how often the intervals of joint fits hold parameters that are known.
 class CoverageCommand {
  public:
-  explicit CoverageCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit CoverageCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
-  CLI::App* command_;
+  Verb* verb_;
   CoverageOptions options_;
   std::vector<std::string> set_list_;
   std::string json_file_;

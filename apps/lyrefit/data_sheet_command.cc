@@ -59,40 +59,42 @@ Expected<Printed> ParsePrinted(const char* flag, const std::string& text, double
 
 }  // namespace
 
-DataSheetCommand::DataSheetCommand(CLI::App* app)
-    : command_(app->add_subcommand("datasheet",
-                                   "Find a module's parameters from what its data "
-                                   "sheet prints, without any curve")) {
+DataSheetCommand::DataSheetCommand(CommandLine* line)
+    : verb_(line->AddVerb("datasheet",
+                          "Find a module's parameters from what its data "
+                          "sheet prints, without any curve")) {
   const auto add = [this](const char* flag, std::string* target, const char* doc) {
-    return command_->add_option(flag, *target, doc)->type_name("NUMBER")->group("Data sheet");
+    return verb_->AddOption(flag, target, doc).Type("NUMBER").Group("Data sheet");
   };
-  add("--isc", &isc_, "short-circuit current in A")->required();
-  add("--voc", &voc_, "open-circuit voltage in V")->required();
-  add("--imp", &imp_, "current at the maximum power in A")->required();
-  add("--vmp", &vmp_, "voltage at the maximum power in V")->required();
-  add("--alpha", &alpha_, "temperature coefficient of Isc in A/K, or in percent: 0.05%")
-      ->required();
-  add("--beta", &beta_, "temperature coefficient of Voc in V/K, or in percent: -0.3%")->required();
+  add("--isc", &isc_, "short-circuit current in A").Required();
+  add("--voc", &voc_, "open-circuit voltage in V").Required();
+  add("--imp", &imp_, "current at the maximum power in A").Required();
+  add("--vmp", &vmp_, "voltage at the maximum power in V").Required();
+  add("--alpha", &alpha_, "temperature coefficient of Isc in A/K, or in percent: 0.05%").Required();
+  add("--beta", &beta_, "temperature coefficient of Voc in V/K, or in percent: -0.3%").Required();
   add("--gamma", &gamma_, "temperature coefficient of Pmp in percent per kelvin, only compared");
-  command_->add_option("--cells", cells_, "cells in series")
-      ->required()
-      ->check(CLI::Range(1, 100000).description(""))
-      ->type_name("N")
-      ->group("Data sheet");
-  command_->add_flag("--exact", exact_, "the values are not rounded to the digits given")
-      ->group("Data sheet");
-  AddEnumFlag(command_, "--constants", "values of k and q", &constants_)->group("Data sheet");
+  verb_->AddOption("--cells", &cells_, "cells in series")
+      .Required()
+      .Between(1, 100000)
+      .Type("N")
+      .Group("Data sheet");
+  verb_->AddSwitch("--exact", &exact_, "the values are not rounded to the digits given")
+      .Group("Data sheet");
+  AddEnumFlag(verb_, "--constants", "values of k and q", &constants_).Group("Data sheet");
   const auto add_text = [this](const char* flag, std::string* target, const char* doc,
                                const char* type) {
-    command_->add_option(flag, *target, doc)->type_name(type)->group("Output");
+    verb_->AddOption(flag, target, doc).Type(type).Group("Output");
   };
   add_text("--name", &name_, "of the module, for pvlib (default module)", "TEXT");
   add_text("--technology", &technology_, "of the module, for pvlib: Mono-c-Si", "TEXT");
-  add_text("--json", &json_file_, "the answer as JSON; - for standard output, alone", "FILE");
-  add_text("--pvlib", &pvlib_file_,
-           "the parameters as pvlib takes them, JSON; - for standard output, alone", "FILE");
-  command_->add_flag("--quiet", quiet_, "no text")->group("Output");
-  command_->footer(kDataSheetFooter);
+  verb_->AddOption("--json", &json_file_, "the answer as JSON; - for standard output, alone")
+      .Writes();
+  verb_
+      ->AddOption("--pvlib", &pvlib_file_,
+                  "the parameters as pvlib takes them, JSON; - for standard output, alone")
+      .Writes();
+  verb_->AddSwitch("--quiet", &quiet_, "no text").Group("Output");
+  verb_->Footer(kDataSheetFooter);
 }
 
 Expected<DataSheet> DataSheetCommand::Sheet() const {
@@ -127,14 +129,6 @@ Expected<DataSheet> DataSheetCommand::Sheet() const {
   return sheet;
 }
 
-Expected<void> DataSheetCommand::CheckTargets() const {
-  if (json_file_ == "-" && pvlib_file_ == "-") {
-    return Fail("only one of --json and --pvlib can have standard output");
-  }
-  if (auto writable = CheckWritable(json_file_); !writable) return writable;
-  return CheckWritable(pvlib_file_);
-}
-
 Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
   if (!json_file_.empty()) {
     if (auto written = WriteOutput(json_file_, DataSheetJson(fit)); !written) return written;
@@ -146,12 +140,12 @@ Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
     const std::string json = PvlibJson(name_, fit.translation.spec.law, *keywords, row);
     if (auto written = WriteOutput(pvlib_file_, json); !written) return written;
   }
-  if (quiet_ || json_file_ == "-" || pvlib_file_ == "-") return {};
+  if (quiet_ || verb_->StandardOutputTaken()) return {};
   return WriteOutput("-", DataSheetText(fit));
 }
 
 int DataSheetCommand::Run() {
-  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<DataSheet> sheet = Sheet();
   if (!sheet) return Refuse(sheet.error());
   const Expected<DataSheetFit> fit = FitDataSheet(*sheet, constants_);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.h"
 #include "lyrefit/family/data_sheet.h"
 
 namespace lyrefit {
@@ -10,16 +10,15 @@ namespace lyrefit {
 // `lyrefit datasheet`: the five parameters of a module from what its data sheet prints.
 class DataSheetCommand {
  public:
-  explicit DataSheetCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit DataSheetCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   Expected<DataSheet> Sheet() const;
-  Expected<void> CheckTargets() const;
   Expected<void> Write(const DataSheetFit& fit) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   // As printed: the digits say how far each value is rounded.
   std::string isc_;
   std::string voc_;

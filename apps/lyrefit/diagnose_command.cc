@@ -39,66 +39,64 @@ std::string Stem(const std::string& file) {
 
 }  // namespace
 
-DiagnoseCommand::DiagnoseCommand(CLI::App* app)
-    : command_(app->add_subcommand("diagnose",
-                                   "Say what a diode model gets wrong in a measurement, and why")) {
-  command_->add_option("CURVE", files_, "files or folders, a measurement each");
-  command_->add_flag("--together", together_,
-                     "all files are one measurement: lit and dark, up and down, a family");
-  AddConditionFlags(command_, &conditions_);
+DiagnoseCommand::DiagnoseCommand(CommandLine* line)
+    : verb_(line->AddVerb("diagnose",
+                          "Say what a diode model gets wrong in a measurement, and why")) {
+  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each").ReadsCurves();
+  verb_->AddSwitch("--together", &together_,
+                   "all files are one measurement: lit and dark, up and down, a family");
+  AddConditionFlags(verb_, &conditions_);
   AddDiagnosisFlags();
   AddCatalogueFlags();
-  AddReportFlags(command_, "diagnosis", "diagnosis", &output_);
-  command_
-      ->add_option("--extend", extend_file_,
-                   "the model with its causes, fitted, as the JSON of fit; - for standard output, "
-                   "alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_
-      ->add_option("--answers", answers_file_,
-                   "the bare answers by file as JSON, each cause with what it could be too; - for "
-                   "standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kDiagnoseFooter);
+  AddReportFlags(verb_, "diagnosis", "diagnosis", &output_);
+  verb_
+      ->AddOption("--extend", &extend_file_,
+                  "the model with its causes, fitted, as the JSON of fit; - for standard output, "
+                  "alone")
+      .Writes();
+  verb_
+      ->AddOption("--answers", &answers_file_,
+                  "the bare answers by file as JSON, each cause with what it could be too; - for "
+                  "standard output, alone")
+      .Writes();
+  verb_->Footer(kDiagnoseFooter);
 }
 
 void DiagnoseCommand::AddDiagnosisFlags() {
-  const auto parse_base = [this](const std::string& text) {
+  const auto parse_base = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     if (!model || *model == Model::kTripleDiode) {
-      throw CLI::ValidationError("--base", "expected sd or dd, found '" + text + "'");
+      return Fail("expected sd or dd, found '" + text + "'");
     }
     options_.base = *model;
+    return {};
   };
-  command_
-      ->add_option_function<std::string>("--base", parse_base,
-                                         "the model that is diagnosed: sd, or dd with n2 = 2 "
-                                         "(default sd)")
-      ->type_name("NAME")
-      ->group("Diagnosis");
-  command_->add_option("--effects", effects_, "those to try (default: all that the data can show)")
-      ->type_name("ID[,ID]")
-      ->group("Diagnosis");
-  AddTableFlags(command_, kDiagnoseOptionRows, "Diagnosis", &options_);
-  command_
-      ->add_flag("--no-held-out", no_held_out_,
-                 "do not measure the gain on readings that were not fitted")
-      ->group("Diagnosis");
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Diagnosis");
+  verb_
+      ->AddReader("--base", parse_base,
+                  "the model that is diagnosed: sd, or dd with n2 = 2 (default sd)")
+      .Type("NAME")
+      .Group("Diagnosis");
+  verb_->AddOption("--effects", &effects_, "those to try (default: all that the data can show)")
+      .Type("ID[,ID]")
+      .Group("Diagnosis");
+  AddTableFlags(verb_, kDiagnoseOptionRows, "Diagnosis", &options_);
+  verb_
+      ->AddSwitch("--no-held-out", &no_held_out_,
+                  "do not measure the gain on readings that were not fitted")
+      .Group("Diagnosis");
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Diagnosis");
 }
 
 void DiagnoseCommand::AddCatalogueFlags() {
-  command_->add_flag("--list", list_, "list the effects that are known")->group("Catalogue");
-  command_->add_option("--explain", explain_, "say all about one effect")
-      ->type_name("EFFECT")
-      ->group("Catalogue");
+  verb_->AddSwitch("--list", &list_, "list the effects that are known").Group("Catalogue");
+  verb_->AddOption("--explain", &explain_, "say all about one effect")
+      .Type("EFFECT")
+      .Group("Catalogue");
 }
 
 Expected<void> DiagnoseCommand::CheckFlags() {
@@ -115,7 +113,7 @@ Expected<void> DiagnoseCommand::CheckFlags() {
   }
   if (auto checked = CheckEffects("--effects", options_.effects); !checked) return checked;
   if (auto checked = CheckNames(); !checked) return checked;
-  return CheckTargets();
+  return verb_->CheckFiles();
 }
 
 // Answers are told apart by their names.
@@ -128,16 +126,6 @@ Expected<void> DiagnoseCommand::CheckNames() const {
     }
   }
   return {};
-}
-
-Expected<void> DiagnoseCommand::CheckTargets() const {
-  if ((output_.json_file == "-") + (extend_file_ == "-") + (answers_file_ == "-") > 1) {
-    return Fail("only one of --json, --extend and --answers can have standard output");
-  }
-  for (const std::string& file : {extend_file_, answers_file_}) {
-    if (auto writable = CheckWritable(file); !writable) return writable;
-  }
-  return CheckReportFlags(output_);
 }
 
 Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string>& files) const {
@@ -176,7 +164,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
     if (auto written = WriteOutput(output_.json_file, json); !written) return written;
   }
   if (!extend_file_.empty()) {
-    auto written = WriteOutput(extend_file_, JsonReport(first.extended));
+    auto written = WriteOutput(extend_file_, JsonReport(first.extended, output_.points()));
     if (!written) return written;
   }
   if (!answers_file_.empty()) {
@@ -186,8 +174,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotDiagnosis(first, output_.plot_file); !drawn) return drawn;
   }
-  const bool piped = extend_file_ == "-" || answers_file_ == "-";
-  return output_.text() && !piped ? WriteText(diagnoses) : Expected<void>();
+  return TextWanted(*verb_, output_) ? WriteText(diagnoses) : Expected<void>();
 }
 
 int DiagnoseCommand::Run() {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "flags.h"
 #include "lyrefit/diagnose/diagnose.h"
 
@@ -12,15 +12,14 @@ namespace lyrefit {
 // `lyrefit diagnose`: says what the base model gets wrong in a measurement, and why.
 class DiagnoseCommand {
  public:
-  explicit DiagnoseCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit DiagnoseCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   void AddDiagnosisFlags();
   void AddCatalogueFlags();
   Expected<void> CheckFlags();
-  Expected<void> CheckTargets() const;
   Expected<void> CheckNames() const;
   bool Several() const { return files_.size() > 1 && !together_; }  // measurements
   Expected<Diagnosis> DiagnoseFiles(const std::vector<std::string>& files) const;
@@ -28,7 +27,7 @@ class DiagnoseCommand {
                        const std::vector<Diagnosis>& diagnoses) const;
   Expected<void> WriteText(const std::vector<Diagnosis>& diagnoses) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   DiagnoseOptions options_;
   std::vector<std::string> files_;
   ConditionFlags conditions_;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 
@@ -39,14 +39,14 @@ struct FamilyFlags {
   std::string truth_file;
 };
 
-void AddFamilyFlags(CLI::App* verb, FamilyFlags* flags);
+void AddFamilyFlags(Verb* verb, FamilyFlags* flags);
 
 // Whether the flags given to the verb go together: those of one curve with those of a set.
-Expected<void> CheckFamilyFlags(const CLI::App& verb, const FamilyFlags& flags);
+Expected<void> CheckFamilyFlags(const Verb& verb, const FamilyFlags& flags);
 
 // The options of the joint fit: family flags, and those that the verb has for one curve as well.
 // `ranges` are those of --bound.
-Expected<FamilyOptions> FamilyOptionsFromFlags(const CLI::App& verb, const FamilyFlags& flags,
+Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFlags& flags,
                                                const FitOptions& fit,
                                                const std::vector<std::string>& ranges);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWorstAccuracy_percent = 50;
 
 // Of a set, but not of what its curves share.
-constexpr const char* kSetOnly[] = {"--leave-out", "--csv", "--truth"};
+constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
 // Flags that a joint fit does not have.
 constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss",
                                      "--loss-scale", "--kernel",        "--curve",
@@ -37,9 +37,9 @@ constexpr const char* kChosenByAuto[] = {"--model", "--shunt", "--recombination"
 
 // Refuses the first of `names` that was given, in a sentence about it.
 template <class Names>
-Expected<void> RefuseGiven(const CLI::App& verb, const Names& names, const std::string& sentence) {
+Expected<void> RefuseGiven(const Verb& verb, const Names& names, const std::string& sentence) {
   for (const char* const name : names) {
-    if (verb.count(name) > 0) return Fail(fmt::format("{} {}", name, sentence));
+    if (verb.Given(name)) return Fail(fmt::format("{} {}", name, sentence));
   }
   return {};
 }
@@ -89,7 +89,7 @@ Expected<void> CheckLaw(const FamilyFlags& flags, const FamilyOptions& options) 
 
 }  // namespace
 
-Expected<void> CheckFamilyFlags(const CLI::App& verb, const FamilyFlags& flags) {
+Expected<void> CheckFamilyFlags(const Verb& verb, const FamilyFlags& flags) {
   if (!flags.family) {
     const std::string need =
         "is about a set of curves: it needs --family desoto, pvsyst, free or auto";
@@ -110,12 +110,12 @@ Expected<void> CheckFamilyFlags(const CLI::App& verb, const FamilyFlags& flags) 
   return {};
 }
 
-Expected<FamilyOptions> FamilyOptionsFromFlags(const CLI::App& verb, const FamilyFlags& flags,
+Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFlags& flags,
                                                const FitOptions& fit,
                                                const std::vector<std::string>& ranges) {
   FamilyOptions options = flags.options;
   const bool joint = flags.family != Family::kFree;
-  if (joint && verb.count("--intervals") > 0 && fit.intervals == Intervals::kProfile) {
+  if (joint && verb.Given("--intervals") && fit.intervals == Intervals::kProfile) {
     return Fail("--intervals: a joint fit has symmetric intervals or none, not profile");
   }
   options.law = flags.family == Family::kPvsyst ? TranslationLaw::kPvsyst : TranslationLaw::kDeSoto;
@@ -128,8 +128,8 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const CLI::App& verb, const Famil
   options.free_fits = !flags.no_free_fits;
   options.search = fit.search;
   const SearchOptions usual = FamilyOptions::FamilySearch();
-  if (joint && verb.count("--population") == 0) options.search.population = usual.population;
-  if (joint && verb.count("--iterations") == 0) options.search.iterations = usual.iterations;
+  if (joint && !verb.Given("--population")) options.search.population = usual.population;
+  if (joint && !verb.Given("--iterations")) options.search.iterations = usual.iterations;
   for (const std::string& text : ranges) {
     const auto range = ParseRange("--bound", text);
     if (!range) return tl::unexpected(range.error());

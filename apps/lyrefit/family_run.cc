@@ -56,16 +56,11 @@ Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOp
   return FitFamily(set, options, TerminalObserver());
 }
 
-Expected<void> CheckTargets(const FamilyFlags& flags, const ReportFlags& output) {
-  const int piped = (output.json_file == "-") + (flags.csv_file == "-") + (flags.pvlib_file == "-");
-  if (piped > 1) return Fail("only one of --json, --csv and --pvlib can have standard output");
-  if (piped > 0 && !flags.truth_file.empty()) {
+Expected<void> CheckFiles(const Verb& verb, const FamilyFlags& flags) {
+  if (!flags.truth_file.empty() && verb.StandardOutputTaken()) {
     return Fail("--truth prints to standard output, which is taken: name files for the others");
   }
-  for (const std::string& file : {flags.csv_file, flags.pvlib_file}) {
-    if (auto writable = CheckWritable(file); !writable) return writable;
-  }
-  return CheckReportFlags(output);
+  return verb.CheckFiles();
 }
 
 Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
@@ -79,7 +74,7 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
 }
 
 // What pvlib cannot take is known last: all else is written by then.
-Expected<void> Write(const FamilyReport& report, const CurveSet& set,
+Expected<void> Write(const Verb& verb, const FamilyReport& report, const CurveSet& set,
                      const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
                      const ReportFlags& output) {
   if (!output.json_file.empty()) {
@@ -91,7 +86,7 @@ Expected<void> Write(const FamilyReport& report, const CurveSet& set,
   if (!output.plot_file.empty()) {
     if (auto drawn = PlotFamily(report, set, output.plot_file); !drawn) return drawn;
   }
-  if (output.text() && flags.csv_file != "-" && flags.pvlib_file != "-") {
+  if (TextWanted(verb, output)) {
     const std::string text = output.brief ? BriefFamily(report) : FamilyText(report);
     if (auto written = WriteOutput("-", text); !written) return written;
   }
@@ -104,9 +99,9 @@ Expected<void> Write(const FamilyReport& report, const CurveSet& set,
 
 }  // namespace
 
-int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyOptions& options,
-              const ReportFlags& output) {
-  if (auto checked = CheckTargets(flags, output); !checked) return Refuse(checked.error());
+int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& flags,
+              const FamilyOptions& options, const ReportFlags& output) {
+  if (auto checked = CheckFiles(verb, flags); !checked) return Refuse(checked.error());
   const Expected<CurveSet> set = ReadFlaggedSet(flagged);
   if (!set) return Refuse(set.error());
   std::optional<std::vector<TruthRow>> truth;
@@ -119,7 +114,7 @@ int RunFamily(const CurveFlags& flagged, const FamilyFlags& flags, const FamilyO
   const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
   ClearProgressLine();
   if (!report) return Refuse(report.error());
-  if (auto written = Write(*report, *set, truth, flags, output); !written)
+  if (auto written = Write(verb, *report, *set, truth, flags, output); !written)
     return Refuse(written.error());
   return report->usable ? kExitFine : kExitNotUsable;
 }

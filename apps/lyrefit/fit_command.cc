@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "family_run.h"
+#include "fit_files.h"
 #include "interrupt.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
@@ -17,94 +18,93 @@ constexpr char kFitFooter[] =
     "  lyrefit fit data/rtc_france --model sd\n"
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
     "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
+    "  lyrefit fit roof/*.csv --cells 60 --temperature-C 45 --csv table.csv\n"
     "  lyrefit fit folder_of_curves --family desoto --pvlib module.json --plot module.svg\n"
     "  lyrefit fit sweeps.csv --family auto --irradiance-accuracy 2% --leave-out 17,18\n"
     "  lyrefit fit sweeps.csv --family auto --fit-curves 30 --against module.json\n"
     "\n"
-    "Exit codes: 0 fine, 1 bad input or options, 2 the fit is not usable.";
+    "Exit codes: 0 fine; 1 bad input or options, of several files some could not be fitted; 2 a "
+    "fit\n"
+    "is not usable.";
 
 }  // namespace
 
-FitCommand::FitCommand(CLI::App* app)
-    : command_(app->add_subcommand("fit", "Fit diode-model parameters to a measured I-V curve")) {
-  AddCurveFlags(command_, &curve_);
+FitCommand::FitCommand(CommandLine* line)
+    : verb_(line->AddVerb("fit", "Fit diode-model parameters to a measured I-V curve")) {
+  verb_
+      ->AddOption("CURVE", &files_,
+                  "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder; several: a line each")
+      .Required()
+      .ReadsCurves();
+  AddReadingFlags(verb_, &curve_);
   AddModelFlags();
   AddSearchFlags();
   AddPolishFlags();
-  AddFamilyFlags(command_, &family_);
-  AddReportFlags(command_, "report", "fit", &output_);
-  command_->footer(kFitFooter);
+  AddFamilyFlags(verb_, &family_);
+  AddReportFlags(verb_, "report", "fit", &output_);
+  verb_->Footer(kFitFooter);
 }
 
 void FitCommand::AddModelFlags() {
-  const auto parse_model = [this](const std::string& text) {
+  const auto parse_model = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     auto_model_ = text == "auto";
     if (!model && !auto_model_) {
-      throw CLI::ValidationError(
-          "--model", "expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
+      return Fail("expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
     }
     options_.model = model.value_or(Model::kSingleDiode);
+    return {};
   };
-  command_
-      ->add_option_function<std::string>(
-          "--model", parse_model,
-          "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
-      ->type_name("NAME")
-      ->group("Model");
-  AddEnumFlag(command_, "--objective", "which residual is squared", &options_.objective)
-      ->group("Model");
-  AddEnumFlag(command_, "--constants", "values of k and q", &options_.constants)->group("Model");
-  AddBoundsFlags(command_, "Model", &bounds_);
-  AddListFlag(command_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
-      ->type_name("P=VALUE")
-      ->group("Model");
+  verb_
+      ->AddReader("--model", parse_model,
+                  "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
+      .Type("NAME")
+      .Group("Model");
+  AddEnumFlag(verb_, "--objective", "which residual is squared", &options_.objective)
+      .Group("Model");
+  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Model");
+  AddBoundsFlags(verb_, "Model", &bounds_);
+  AddListFlag(verb_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
+      .Type("P=VALUE")
+      .Group("Model");
 }
 
 void FitCommand::AddSearchFlags() {
-  AddEnumFlag(command_, "--algorithm", "how to search", &options_.search.algorithm)
-      ->group("Search");
-  AddTableFlags(command_, kSearchOptionTable, "Search", &options_.search);
+  AddEnumFlag(verb_, "--algorithm", "how to search", &options_.search.algorithm).Group("Search");
+  AddTableFlags(verb_, kSearchOptionTable, "Search", &options_.search);
 }
 
 void FitCommand::AddPolishFlags() {
-  command_->add_flag("--no-polish", no_polish_, "answer with the search's best bird")
-      ->group("Polish");
-  command_
-      ->add_flag("--floor", options_.floor,
-                 "also prove how low the measured-current RMSE can go within the bounds")
-      ->group("Polish");
-  AddEnumFlag(command_, "--loss", "of the polish", &options_.loss)->group("Polish");
-  command_
-      ->add_option("--loss-scale", options_.loss_scale,
-                   "noise units beyond which a robust loss bends (default " +
-                       NumberText(options_.loss_scale) + ")")
-      ->type_name("NUMBER")
-      ->group("Polish");
-  AddEnumFlag(command_, "--intervals", "95 % intervals", &options_.intervals)->group("Polish");
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Polish");
+  verb_->AddSwitch("--no-polish", &no_polish_, "answer with the search's best bird")
+      .Group("Polish");
+  verb_
+      ->AddSwitch("--floor", &options_.floor,
+                  "also prove how low the measured-current RMSE can go within the bounds")
+      .Group("Polish");
+  AddEnumFlag(verb_, "--loss", "of the polish", &options_.loss).Group("Polish");
+  verb_
+      ->AddOption("--loss-scale", &options_.loss_scale,
+                  "noise units beyond which a robust loss bends (default " +
+                      NumberText(options_.loss_scale) + ")")
+      .Type("NUMBER")
+      .Group("Polish");
+  AddEnumFlag(verb_, "--intervals", "95 % intervals", &options_.intervals).Group("Polish");
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Polish");
   std::string kernels;
   for (const Kernel& kernel : AvailableKernels()) {
     kernels += std::string(kernels.empty() ? "" : ", ") + kernel.name;
   }
-  command_
-      ->add_option("--kernel", kernel_,
-                   "instruction set of the heavy loops; never changes a result: " + kernels +
-                       " (default: the fastest)")
-      ->type_name("NAME")
-      ->group("Polish");
-}
-
-Expected<void> FitCommand::SetBounds() {
-  Expected<BoundsSpec> spec = BoundsFromFlags(bounds_, curve_.file);
-  if (!spec) return tl::unexpected(spec.error());
-  options_.bounds = std::move(*spec);
-  return {};
+  verb_
+      ->AddOption("--kernel", &kernel_,
+                  "instruction set of the heavy loops; never changes a result: " + kernels +
+                      " (default: the fastest)")
+      .Type("NAME")
+      .Group("Polish");
 }
 
 Expected<void> FitCommand::SetFixed() {
@@ -129,15 +129,40 @@ Expected<void> FitCommand::SetKernel() {
   return Fail(fmt::format("--kernel: this processor runs {}, not '{}'", names, kernel_));
 }
 
-Expected<void> FitCommand::Write(const FitReport& report) const {
+Expected<FitReport> FitCommand::FitFile(const std::string& file, int threads,
+                                        const Observer& observer) const {
+  FitOptions options = options_;
+  options.threads = threads;
+  Expected<BoundsSpec> bounds = BoundsFromFlags(bounds_, file);
+  if (!bounds) return tl::unexpected(bounds.error());
+  options.bounds = std::move(*bounds);
+  CurveFlags flags = curve_;
+  flags.file = file;
+  const Expected<IvCurve> curve = ReadFlaggedCurve(flags);
+  if (!curve) return tl::unexpected(WhyNotOneCurve(flags, curve.error()));
+  return auto_model_ ? FitAuto(*curve, options, observer) : Fit(*curve, options, observer);
+}
+
+Expected<void> FitCommand::Write(const std::vector<FittedFile>& fits) const {
+  const bool one = files_.size() == 1;
   if (!output_.json_file.empty()) {
-    if (auto written = WriteOutput(output_.json_file, JsonReport(report)); !written) return written;
+    const std::string json =
+        one ? JsonReport(*fits.front().report, output_.points()) : FitsJson(fits, output_.points());
+    if (auto written = WriteOutput(output_.json_file, json); !written) return written;
+  }
+  if (!family_.csv_file.empty()) {
+    if (auto written = WriteOutput(family_.csv_file, FitsCsv(fits)); !written) return written;
   }
   if (!output_.plot_file.empty()) {
-    if (auto drawn = PlotFit(report, output_.plot_file); !drawn) return drawn;
+    if (auto drawn = PlotFit(*fits.front().report, output_.plot_file); !drawn) return drawn;
   }
-  if (!output_.text()) return {};
-  return WriteOutput("-", output_.brief ? BriefReport(report) : FullReport(report));
+  if (!TextWanted(*verb_, output_)) return {};
+  std::string text;
+  for (const FittedFile& fit : fits) {
+    if (!fit.report) continue;
+    text += one && !output_.brief ? FullReport(*fit.report) : BriefReport(*fit.report);
+  }
+  return WriteOutput("-", text);
 }
 
 int FitCommand::RunFamilyFit() {
@@ -145,31 +170,68 @@ int FitCommand::RunFamilyFit() {
     return Refuse(
         {"--model auto is for one curve: --family auto chooses among laws and diodes", {}});
   }
+  if (files_.size() > 1) {
+    return Refuse({"--family takes one set of curves: put the files into a folder", {}});
+  }
+  curve_.file = files_.front();
   if (auto fixed = SetFixed(); !fixed) return Refuse(fixed.error());
   const Expected<FamilyOptions> options =
-      FamilyOptionsFromFlags(*command_, family_, options_, bounds_.ranges);
+      FamilyOptionsFromFlags(*verb_, family_, options_, bounds_.ranges);
   if (!options) return Refuse(options.error());
-  return RunFamily(curve_, family_, *options, output_);
+  return RunFamily(*verb_, curve_, family_, *options, output_);
+}
+
+int FitCommand::RunOne() {
+  const InterruptGuard guard;
+  Expected<FitReport> report = FitFile(files_.front(), options_.threads, TerminalObserver());
+  ClearProgressLine();
+  if (!report) return Refuse(report.error());
+  const bool usable = report->usable;
+  if (auto written = Write({{files_.front(), std::move(report)}}); !written) {
+    return Refuse(written.error());
+  }
+  return usable ? kExitFine : kExitNotUsable;
+}
+
+Expected<void> FitCommand::CheckMany() const {
+  for (const char* flag : {"--plot", "--curve"}) {
+    if (verb_->Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
+  }
+  return {};
+}
+
+// A file that cannot be fitted keeps no other from it.
+int FitCommand::RunMany() {
+  if (auto checked = CheckMany(); !checked) return Refuse(checked.error());
+  const InterruptGuard guard;
+  const std::vector<FittedFile> fits =
+      FitFiles(files_, options_.threads, TerminalObserver(),
+               [this](const std::string& file, const Observer& observer) {
+                 return FitFile(file, 1, observer);
+               });
+  ClearProgressLine();
+  int exit_code = kExitFine;
+  for (const FittedFile& fit : fits) {
+    if (!fit.report) {
+      exit_code = Refuse(fit.report.error());
+    } else if (!fit.report->usable && exit_code == kExitFine) {
+      exit_code = kExitNotUsable;
+    }
+  }
+  if (auto written = Write(fits); !written) return Refuse(written.error());
+  return exit_code;
 }
 
 int FitCommand::Run() {
-  if (auto checked = CheckFamilyFlags(*command_, family_); !checked) {
+  if (auto checked = CheckFamilyFlags(*verb_, family_); !checked) {
     return Refuse(checked.error());
   }
   if (family_.family) return RunFamilyFit();
   options_.polish = !no_polish_;
-  for (const auto& checked : {SetBounds(), SetFixed(), SetKernel(), CheckReportFlags(output_)}) {
+  for (const auto& checked : {SetFixed(), SetKernel(), verb_->CheckFiles()}) {
     if (!checked) return Refuse(checked.error());
   }
-  const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
-  if (!curve) return Refuse(WhyNotOneCurve(curve_, curve.error()));
-  const InterruptGuard guard;
-  const Expected<FitReport> report = auto_model_ ? FitAuto(*curve, options_, TerminalObserver())
-                                                 : Fit(*curve, options_, TerminalObserver());
-  ClearProgressLine();
-  if (!report) return Refuse(report.error());
-  if (auto written = Write(*report); !written) return Refuse(written.error());
-  return report->usable ? kExitFine : kExitNotUsable;
+  return files_.size() == 1 ? RunOne() : RunMany();
 }
 
 }  // namespace lyrefit

@@ -1,22 +1,23 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bounds_flag.h"
+#include "command_line.h"
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/report/fits_table.h"
 
 namespace lyrefit {
 
 // `lyrefit fit`: reads a curve or a set of curves, fits it, writes the report.
 class FitCommand {
  public:
-  explicit FitCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit FitCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
@@ -24,14 +25,18 @@ class FitCommand {
   void AddSearchFlags();
   void AddPolishFlags();
   int RunFamilyFit();
-  Expected<void> SetBounds();
   Expected<void> SetFixed();
   Expected<void> SetKernel();
-  Expected<void> Write(const FitReport& report) const;
+  int RunOne();
+  int RunMany();
+  Expected<void> CheckMany() const;
+  Expected<FitReport> FitFile(const std::string& file, int threads, const Observer& observer) const;
+  Expected<void> Write(const std::vector<FittedFile>& fits) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   FitOptions options_;
-  CurveFlags curve_;
+  std::vector<std::string> files_;
+  CurveFlags curve_;  // of one file, or of each
   bool auto_model_ = false;
   bool no_polish_ = false;
   BoundsFlags bounds_;

@@ -70,9 +70,9 @@ void ForgetAssumptions(const char* about, std::vector<std::string>* sentences) {
 
 }  // namespace
 
-CLI::Option* AddListFlag(CLI::App* app, const std::string& flag, const std::string& doc,
-                         std::vector<std::string>* target) {
-  return app->add_option(flag, *target, doc)->allow_extra_args(false)->type_name("TEXT ...");
+Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
+                 std::vector<std::string>* target) {
+  return verb->AddOption(flag, target, doc).OneEach().Type("TEXT ...");
 }
 
 Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std::string& flag,
@@ -113,14 +113,14 @@ Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::str
   return steps;
 }
 
-void AddConditionFlags(CLI::App* app, ConditionFlags* flags) {
-  app->add_option("--cells", flags->cells, "cells in series")->type_name("N")->group("Conditions");
-  app->add_option("--temperature-C", flags->temperature_C, "cell temperature in degrees Celsius")
-      ->type_name("T")
-      ->group("Conditions");
-  app->add_option("--irradiance-Wm2", flags->irradiance_W_m2, "irradiance in W/m2")
-      ->type_name("G")
-      ->group("Conditions");
+void AddConditionFlags(Verb* verb, ConditionFlags* flags) {
+  verb->AddOption("--cells", &flags->cells, "cells in series").Type("N").Group("Conditions");
+  verb->AddOption("--temperature-C", &flags->temperature_C, "cell temperature in degrees Celsius")
+      .Type("T")
+      .Group("Conditions");
+  verb->AddOption("--irradiance-Wm2", &flags->irradiance_W_m2, "irradiance in W/m2")
+      .Type("G")
+      .Group("Conditions");
 }
 
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) {
@@ -151,13 +151,18 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
   return {};
 }
 
-void AddCurveFlags(CLI::App* app, CurveFlags* flags) {
-  app->add_option("CURVE", flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
-      ->required();
-  app->add_option("--curve", flags->index, "which curve of a file that holds several")
-      ->type_name("INDEX")
-      ->group("Conditions");
-  AddConditionFlags(app, &flags->conditions);
+void AddCurveFlags(Verb* verb, CurveFlags* flags) {
+  verb->AddOption("CURVE", &flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
+      .Required()
+      .ReadsCurves();
+  AddReadingFlags(verb, flags);
+}
+
+void AddReadingFlags(Verb* verb, CurveFlags* flags) {
+  verb->AddOption("--curve", &flags->index, "which curve of a file that holds several")
+      .Type("INDEX")
+      .Group("Conditions");
+  AddConditionFlags(verb, &flags->conditions);
 }
 
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
@@ -171,24 +176,23 @@ Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
   return curve;
 }
 
-void AddReportFlags(CLI::App* app, const std::string& what, const std::string& picture,
+void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags) {
-  app->add_option("--json", flags->json_file,
+  verb->AddOption("--json", &flags->json_file,
                   "the " + what + " as JSON; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  app->add_option("--plot", flags->plot_file, "the " + picture + " as a picture, .svg or .png")
-      ->type_name("FILE")
-      ->group("Output");
-  app->add_flag("--brief", flags->brief, "one line instead of the whole report")->group("Output");
-  app->add_flag("--quiet", flags->quiet, "no text report")->group("Output");
+      .Writes();
+  verb->AddSwitch("--full-json", &flags->full_json,
+                  fmt::format("repeat every reading of curves of more than {} in JSON files",
+                              kMostJsonPoints))
+      .Group("Output");
+  verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
+      .Draws();
+  verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");
+  verb->AddSwitch("--quiet", &flags->quiet, "no text report").Group("Output");
 }
 
-Expected<void> CheckReportFlags(const ReportFlags& flags) {
-  if (auto writable = CheckWritable(flags.json_file); !writable) return writable;
-  if (flags.plot_file.empty()) return {};
-  if (auto drawable = CheckPlot(flags.plot_file); !drawable) return drawable;
-  return CheckWritable(flags.plot_file);
+bool TextWanted(const Verb& verb, const ReportFlags& flags) {
+  return !flags.quiet && !verb.StandardOutputTaken();
 }
 
 }  // namespace lyrefit

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -8,28 +7,40 @@
 #include <variant>
 #include <vector>
 
+#include "command_line.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/report/json_report.h"
 
 namespace lyrefit {
 
+// `text` as one of an enumeration's texts.
+template <class E>
+Expected<E> ParseEnum(const std::string& text) {
+  const std::optional<E> value = FromText<E>(text);
+  if (!value) return Fail("expected one of " + AllTexts<E>() + ", found '" + text + "'");
+  return *value;
+}
+
+// Reads one of an enumeration's texts into `target`, an E or a std::optional<E>.
+template <class E, class Target>
+FlagReader EnumReader(Target* target) {
+  return [target](const std::string& text) -> Expected<void> {
+    const Expected<E> value = ParseEnum<E>(text);
+    if (!value) return tl::unexpected(value.error());
+    *target = *value;
+    return {};
+  };
+}
+
 // A flag that takes one of an enumeration's texts.
 template <class E>
-CLI::Option* AddEnumFlag(CLI::App* app, const std::string& flag, const std::string& doc,
-                         E* target) {
-  const auto parse = [flag, target](const std::string& text) {
-    const std::optional<E> value = FromText<E>(text);
-    if (!value) {
-      throw CLI::ValidationError(flag,
-                                 "expected one of " + AllTexts<E>() + ", found '" + text + "'");
-    }
-    *target = *value;
-  };
+Flag AddEnumFlag(Verb* verb, const std::string& flag, const std::string& doc, E* target) {
   const std::string help = doc + ": " + AllTexts<E>() + " (default " + ToText(*target) + ")";
-  return app->add_option_function<std::string>(flag, parse, help)->type_name("NAME");
+  return verb->AddReader(flag, EnumReader<E>(target), help).Type("NAME");
 }
 
 // "doc [lower, upper] (default value)"; a range that is hardly a limit is left out.
@@ -52,31 +63,21 @@ std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
 
 // One flag for every row of an option table: name, help, unit and range come from the row.
 template <class Options, class Table>
-void AddTableFlags(CLI::App* app, const Table& table, const std::string& group, Options* options) {
+void AddTableFlags(Verb* verb, const Table& table, const std::string& group, Options* options) {
   const Options defaults;
   for (const OptionRow<Options>& row : table) {
-    const std::string flag = std::string("--") + row.name;
-    std::visit(
-        [&](auto field) {
-          const auto in_range = [&row](const std::string& text) {
-            double value = 0;
-            if (!CLI::detail::lexical_cast(text, value)) return std::string();
-            if (value >= row.lower && value <= row.upper) return std::string();
-            return text + " is outside [" + NumberText(row.lower) + ", " + NumberText(row.upper) +
-                   "]";
-          };
-          app->add_option(flag, options->*field, RowHelp(row, defaults))
-              ->check(in_range, "")
-              ->type_name(*row.unit != '\0' ? row.unit : "NUMBER")
-              ->group(group);
-        },
-        row.field);
+    const FlagTarget target =
+        std::visit([options](auto field) { return FlagTarget(&(options->*field)); }, row.field);
+    verb->AddOption(std::string("--") + row.name, target, RowHelp(row, defaults))
+        .Within(row.lower, row.upper)
+        .Type(*row.unit != '\0' ? row.unit : "NUMBER")
+        .Group(group);
   }
 }
 
 // A flag that may be given several times, one value each.
-CLI::Option* AddListFlag(CLI::App* app, const std::string& flag, const std::string& doc,
-                         std::vector<std::string>* target);
+Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
+                 std::vector<std::string>* target);
 
 // "Rs=0:0.5" given to `flag`, as symbol, lower and upper.
 Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std::string& flag,
@@ -96,7 +97,7 @@ struct ConditionFlags {
   std::optional<double> irradiance_W_m2;
 };
 
-void AddConditionFlags(CLI::App* app, ConditionFlags* flags);
+void AddConditionFlags(Verb* verb, ConditionFlags* flags);
 
 // Checks the flags and puts them into `curve`, where they replace what was assumed.
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve);
@@ -110,7 +111,9 @@ struct CurveFlags {
   ConditionFlags conditions;
 };
 
-void AddCurveFlags(CLI::App* app, CurveFlags* flags);
+void AddCurveFlags(Verb* verb, CurveFlags* flags);
+// The same without the file.
+void AddReadingFlags(Verb* verb, CurveFlags* flags);
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
 // What a verb on one curve writes.
@@ -119,13 +122,14 @@ struct ReportFlags {
   std::string plot_file;
   bool brief = false;
   bool quiet = false;
-  bool text() const { return !quiet && json_file != "-"; }
+  bool full_json = false;
+  JsonPoints points() const { return full_json ? JsonPoints::kAll : JsonPoints::kThinned; }
 };
 
 // `what` names the report in the help, `picture` the plot.
-void AddReportFlags(CLI::App* app, const std::string& what, const std::string& picture,
+void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags);
-// Whether both files can be written; to be asked before the work.
-Expected<void> CheckReportFlags(const ReportFlags& flags);
+// Whether the text report is to be printed.
+bool TextWanted(const Verb& verb, const ReportFlags& flags);
 
 }  // namespace lyrefit

@@ -1,6 +1,5 @@
 #include <glog/logging.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -9,12 +8,12 @@
 #include "audit_command.h"
 #include "budget_command.h"
 #include "certify_command.h"
+#include "command_line.h"
 #include "compare_command.h"
 #include "coverage_command.h"
 #include "data_sheet_command.h"
 #include "diagnose_command.h"
 #include "fit_command.h"
-#include "lyrefit/base/version.h"
 #include "output.h"
 #include "reproduce_command.h"
 #include "sensitivity_command.h"
@@ -34,15 +33,15 @@ constexpr char kFooter[] =
     "\n"
     "lyrefit VERB --help lists every flag of a verb.";
 
-// A verb of the command line, whatever its class.
-struct Verb {
+// What runs when its verb is on the line.
+struct Command {
   std::function<bool()> chosen;
   std::function<int()> run;
 };
 
-template <class Command>
-Verb MakeVerb(CLI::App* app) {
-  const auto command = std::make_shared<Command>(app);
+template <class T>
+Command MakeCommand(CommandLine* line) {
+  const auto command = std::make_shared<T>(line);
   return {[command] { return command->Chosen(); }, [command] { return command->Run(); }};
 }
 
@@ -54,46 +53,27 @@ void StartLogging(const char* program, int verbosity) {
   google::InitGoogleLogging(program);
 }
 
-// What CLI11 found wrong, in our words where its own say little.
-Error CommandLineError(const CLI::ParseError& error) {
-  std::string message = error.what();
-  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  if (extra && message.find('=') != std::string::npos) {
-    message += " (repeat --bound, --fix or --set before each value)";
-  }
-  const std::size_t repeated = message.find(": At Most 1 required");
-  if (repeated != std::string::npos)
-    message = message.substr(0, repeated) + ": given more than once";
-  return {message, {}};
-}
-
 int Main(int argc, char** argv) {
-  CLI::App app("lyrefit: diode-model parameters from measured photovoltaic I-V curves", "lyrefit");
-  app.set_version_flag("--version", std::string("lyrefit ") + Version());
-  app.footer(kFooter);
-  app.require_subcommand(1);
-  app.fallthrough();
-  int verbosity = 0;
-  app.add_flag("-v,--v,--verbose", verbosity, "log what happens inside; twice for more");
-  const Verb verbs[] = {
-      MakeVerb<FitCommand>(&app),       MakeVerb<SimulateCommand>(&app),
-      MakeVerb<CertifyCommand>(&app),   MakeVerb<CompareCommand>(&app),
-      MakeVerb<BudgetCommand>(&app),    MakeVerb<SensitivityCommand>(&app),
-      MakeVerb<DataSheetCommand>(&app), MakeVerb<AuditCommand>(&app),
-      MakeVerb<ReproduceCommand>(&app), MakeVerb<CoverageCommand>(&app),
-      MakeVerb<DiagnoseCommand>(&app),
+  CommandLine line(kFooter);
+  const Command commands[] = {
+      MakeCommand<FitCommand>(&line),       MakeCommand<SimulateCommand>(&line),
+      MakeCommand<CertifyCommand>(&line),   MakeCommand<CompareCommand>(&line),
+      MakeCommand<BudgetCommand>(&line),    MakeCommand<SensitivityCommand>(&line),
+      MakeCommand<DataSheetCommand>(&line), MakeCommand<AuditCommand>(&line),
+      MakeCommand<ReproduceCommand>(&line), MakeCommand<CoverageCommand>(&line),
+      MakeCommand<DiagnoseCommand>(&line),
   };
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return Refuse(CommandLineError(error));
+  const Expected<std::string> asked = line.Parse(argc, argv);
+  if (!asked) return Refuse(asked.error());
+  if (!asked->empty()) {
+    const auto written = WriteOutput("-", *asked);
+    return written ? kExitFine : Refuse(written.error());
   }
-  StartLogging(argv[0], verbosity);
-  for (const Verb& verb : verbs) {
-    if (verb.chosen()) return verb.run();
+  StartLogging(argv[0], line.verbosity());
+  for (const Command& command : commands) {
+    if (command.chosen()) return command.run();
   }
-  return kExitBadInput;  // CLI11 has asked for a verb
+  return kExitBadInput;  // the parser has asked for a verb
 }
 
 }  // namespace

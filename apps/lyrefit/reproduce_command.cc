@@ -57,31 +57,30 @@ Expected<void> Update(const PaperStudy& study, const std::string& page) {
 
 }  // namespace
 
-ReproduceCommand::ReproduceCommand(CLI::App* app)
-    : command_(app->add_subcommand(
-          "reproduce", "Do the published tables over again and write the page of results")) {
-  command_->add_option("FOLDER", folder_, "published.csv, rows.csv, remarks.csv")->required();
-  AddTableFlags(command_, kPaperStudyOptionTable, "Runs", &options_);
-  command_
-      ->add_option("--threads", options_.threads,
-                   "0: all cores; never changes a result but the seconds (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Runs");
-  command_
-      ->add_option("--peers", peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
-      ->type_name("LIST")
-      ->group("Runs");
-  command_->add_option("--out", output_, "folder to write into (default FOLDER)")
-      ->type_name("DIR")
-      ->group("Output");
-  AddListFlag(command_, "--update",
+ReproduceCommand::ReproduceCommand(CommandLine* line)
+    : verb_(line->AddVerb("reproduce",
+                          "Do the published tables over again and write the page of results")) {
+  verb_->AddOption("FOLDER", &folder_, "published.csv, rows.csv, remarks.csv").Required().Reads();
+  AddTableFlags(verb_, kPaperStudyOptionTable, "Runs", &options_);
+  verb_
+      ->AddOption("--threads", &options_.threads,
+                  "0: all cores; never changes a result but the seconds (default 0)")
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Runs");
+  verb_->AddOption("--peers", &peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
+      .Type("LIST")
+      .Group("Runs");
+  verb_->AddOption("--out", &output_, "folder to write into (default FOLDER)")
+      .Type("DIR")
+      .Group("Output");
+  AddListFlag(verb_, "--update",
               "a page whose blocks <!-- certified -->, <!-- ranked --> and <!-- budget --> are "
               "written anew; once for each",
               &pages_)
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kReproduceFooter);
+      .Type("FILE")
+      .Group("Output");
+  verb_->Footer(kReproduceFooter);
 }
 
 Expected<void> ReproduceCommand::AddPeers() {
@@ -118,11 +117,13 @@ int ReproduceCommand::Run() {
   if (auto peers = AddPeers(); !peers) return Refuse(peers.error());
   const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
   if (!remarks) return Refuse(remarks.error());
+  verb_->AlsoWrites("--out", (fs::path(output_) / "README.md").string());
   for (const Picture& picture : kPictures) {
     const std::string path = (fs::path(output_) / picture.file).string();
     if (auto drawable = CheckPlot(path); !drawable) return Refuse(drawable.error());
-    if (auto writable = CheckWritable(path); !writable) return Refuse(writable.error());
+    verb_->AlsoWrites("--out", path);
   }
+  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
   const auto study = ReproducePaper(folder_, options_, TerminalObserver());
   ClearProgressLine();

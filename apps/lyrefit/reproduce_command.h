@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "lyrefit/study/paper_study.h"
 
 namespace lyrefit {
@@ -11,15 +11,15 @@ namespace lyrefit {
 // `lyrefit reproduce`: does the published tables over again and writes the page of results.
 class ReproduceCommand {
  public:
-  explicit ReproduceCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit ReproduceCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   Expected<void> AddPeers();
   Expected<void> Write(const PaperStudy& study) const;
 
-  CLI::App* command_;
+  Verb* verb_;
   PaperStudyOptions options_;
   std::string folder_;
   std::string output_;

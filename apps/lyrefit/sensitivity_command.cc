@@ -16,24 +16,24 @@ constexpr char kSensitivityFooter[] =
 
 }  // namespace
 
-SensitivityCommand::SensitivityCommand(CLI::App* app)
-    : command_(app->add_subcommand("sensitivity", "MLO over a grid of its settings Pm and gamma")) {
+SensitivityCommand::SensitivityCommand(CommandLine* line)
+    : verb_(line->AddVerb("sensitivity", "MLO over a grid of its settings Pm and gamma")) {
   flags_.models = "td";
   flags_.search.population = 100;
   flags_.search.iterations = 1000;
   flags_.options.rankings = false;
-  AddStudyFlags(command_, &flags_);
+  AddStudyFlags(verb_, &flags_);
   const auto list = [this](const char* flag, const char* doc, std::string* target) {
-    command_->add_option(flag, *target, std::string(doc) + " (default " + *target + ")")
-        ->type_name("LIST")
-        ->group("Search");
+    verb_->AddOption(flag, target, std::string(doc) + " (default " + *target + ")")
+        .Type("LIST")
+        .Group("Search");
   };
   list("--memory-rates", "list of Pm, rate of the memory-based strategy", &memory_rates_);
   list("--distance-coefficients", "list of gamma, reach of the diversity strategy",
        &distance_coefficients_);
-  AddSearchRows(command_, {"population", "iterations", "max-evaluations", "elites"}, &flags_);
-  command_->add_flag("--no-polish", flags_.no_polish, "the search alone")->group("Polish");
-  command_->footer(kSensitivityFooter);
+  AddSearchRows(verb_, {"population", "iterations", "max-evaluations", "elites"}, &flags_);
+  verb_->AddSwitch("--no-polish", &flags_.no_polish, "the search alone").Group("Polish");
+  verb_->Footer(kSensitivityFooter);
 }
 
 int SensitivityCommand::Run() {
@@ -41,7 +41,7 @@ int SensitivityCommand::Run() {
   if (!rates) return Refuse(rates.error());
   const auto coefficients = ParseNumbers("--distance-coefficients", distance_coefficients_);
   if (!coefficients) return Refuse(coefficients.error());
-  return RunStudy(flags_, SensitivityContenders(*rates, *coefficients, flags_.search),
+  return RunStudy(*verb_, flags_, SensitivityContenders(*rates, *coefficients, flags_.search),
                   SensitivityText, {});
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "output.h"
 
@@ -25,54 +26,74 @@ std::string SidecarOf(const std::string& table) {
   return std::filesystem::path(table).replace_extension(".json").string();
 }
 
-Expected<void> CheckTargets(const std::string& table) {
-  if (table != "-" && table == SidecarOf(table)) {
-    return Fail("--out: expected a table that ends in .csv, found .json", table);
-  }
-  if (auto writable = CheckWritable(table); !writable) return writable;
-  return CheckWritable(SidecarOf(table));
+// Whether the table and its sidecar are to the byte what this verb writes of such a curve.
+bool IsOwnWork(const std::string& table) {
+  const Expected<IvCurve> curve = ReadCurve(table);
+  if (!curve) return false;
+  const std::uintmax_t largest = ReadOptions().largest_file_bytes;
+  const Expected<std::string> csv = ReadTextFile(table, largest);
+  const Expected<std::string> json = ReadTextFile(SidecarOf(table), largest);
+  return csv && json && *csv == CurveToCsv(*curve) && *json == CurveSidecarJson(*curve);
 }
 
 }  // namespace
 
-SimulateCommand::SimulateCommand(CLI::App* app)
-    : command_(
-          app->add_subcommand("simulate", "Write the curve of a device, with noise if wanted")) {
-  AddEnumFlag(command_, "--model", "number of diodes", &flags_.model)->group("Device");
-  AddListFlag(command_, "--set", "value of one parameter, Iph=0.76; once for each", &set_list_)
-      ->type_name("P=VALUE")
-      ->group("Device");
-  command_->add_option("--from", from_file_, "parameters and conditions of a JSON fit report")
-      ->type_name("FILE")
-      ->group("Device");
-  AddEnumFlag(command_, "--constants", "values of k and q", &flags_.constants)->group("Device");
-  AddConditionFlags(command_, &conditions_);
-  command_->add_option("--voltages", voltages_, "even steps in volt, both ends included")
-      ->type_name("FROM:TO:COUNT")
-      ->group("Points");
-  command_
-      ->add_option("--points", flags_.points,
-                   "points from 0 V to a little beyond open circuit (default 100)")
-      ->type_name("N")
-      ->excludes("--voltages")
-      ->group("Points");
-  command_
-      ->add_option("--noise-A", flags_.noise_A,
-                   "standard deviation of the current in A (default 0)")
-      ->type_name("S")
-      ->group("Noise");
-  command_
-      ->add_option("--noise-relative", flags_.noise_relative,
-                   "standard deviation as a part of the current (default 0)")
-      ->type_name("R")
-      ->group("Noise");
-  command_->add_option("--seed", flags_.seed, "seed of the noise (default 0)")
-      ->type_name("S")
-      ->group("Noise");
-  command_->add_option("--out", out_file_, "where to write; - for standard output (default -)")
-      ->type_name("FILE")
-      ->group("Output");
-  command_->footer(kSimulateFooter);
+SimulateCommand::SimulateCommand(CommandLine* line)
+    : verb_(line->AddVerb("simulate", "Write the curve of a device, with noise if wanted")) {
+  AddEnumFlag(verb_, "--model", "number of diodes", &flags_.model).Group("Device");
+  AddListFlag(verb_, "--set", "value of one parameter, Iph=0.76; once for each", &set_list_)
+      .Type("P=VALUE")
+      .Group("Device");
+  verb_->AddOption("--from", &from_file_, "parameters and conditions of a JSON fit report")
+      .Group("Device")
+      .Type("FILE")
+      .Reads();
+  AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
+  AddConditionFlags(verb_, &conditions_);
+  verb_->AddOption("--voltages", &voltages_, "even steps in volt, both ends included")
+      .Type("FROM:TO:COUNT")
+      .Group("Points");
+  verb_
+      ->AddOption("--points", &flags_.points,
+                  "points from 0 V to a little beyond open circuit (default 100)")
+      .Type("N")
+      .Excludes("--voltages")
+      .Group("Points");
+  verb_
+      ->AddOption("--noise-A", &flags_.noise_A,
+                  "standard deviation of the current in A (default 0)")
+      .Type("S")
+      .Group("Noise");
+  verb_
+      ->AddOption("--noise-relative", &flags_.noise_relative,
+                  "standard deviation as a part of the current (default 0)")
+      .Type("R")
+      .Group("Noise");
+  verb_->AddOption("--seed", &flags_.seed, "seed of the noise (default 0)")
+      .Type("S")
+      .Group("Noise");
+  verb_->AddOption("--out", &out_file_, "where to write; - for standard output (default -)")
+      .Writes();
+  verb_->Footer(kSimulateFooter);
+}
+
+Expected<void> SimulateCommand::CheckTargets() const {
+  if (out_file_ == "-") return verb_->CheckFiles();
+  const std::string sidecar = SidecarOf(out_file_);
+  if (out_file_ == sidecar) {
+    return Fail("--out: expected a table that ends in .csv, found .json", out_file_);
+  }
+  verb_->AlsoWrites("--out", sidecar);
+  if (auto checked = verb_->CheckFiles(); !checked || verb_->Forced()) return checked;
+  for (const std::string& file : {out_file_, sidecar}) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error) || IsOwnWork(out_file_)) continue;
+    return Fail(
+        "--out: the file is there and holds something else than a simulated curve: name "
+        "another file, or say --force to replace it",
+        file);
+  }
+  return {};
 }
 
 Expected<SimulateOptions> SimulateCommand::Options() const {
@@ -82,8 +103,8 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
     if (!fit) return fit;
     options.parameters = fit->parameters;
     options.conditions = fit->conditions;
-    if (command_->count("--model") == 0) options.model = fit->model;
-    if (command_->count("--constants") == 0) options.constants = fit->constants;
+    if (!verb_->Given("--model")) options.model = fit->model;
+    if (!verb_->Given("--constants")) options.constants = fit->constants;
   }
   for (const std::string& text : set_list_) {
     const auto assignment = ParseAssignment("--set", text);
@@ -108,7 +129,7 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
 int SimulateCommand::Run() {
   const Expected<SimulateOptions> options = Options();
   if (!options) return Refuse(options.error());
-  if (auto checked = CheckTargets(out_file_); !checked) return Refuse(checked.error());
+  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
   const Expected<IvCurve> curve = Simulate(*options);
   if (!curve) return Refuse(curve.error());
   if (auto written = WriteOutput(out_file_, CurveToCsv(*curve)); !written) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "flags.h"
 #include "lyrefit/fit/simulate.h"
 
@@ -12,14 +12,15 @@ namespace lyrefit {
 // `lyrefit simulate`: writes the curve of a device as a table that `lyrefit fit` reads.
 class SimulateCommand {
  public:
-  explicit SimulateCommand(CLI::App* app);
-  bool Chosen() const { return command_->parsed(); }
+  explicit SimulateCommand(CommandLine* line);
+  bool Chosen() const { return verb_->Chosen(); }
   int Run();
 
  private:
   Expected<SimulateOptions> Options() const;
+  Expected<void> CheckTargets() const;
 
-  CLI::App* command_;
+  Verb* verb_;
   SimulateOptions flags_;
   ConditionFlags conditions_;
   std::string from_file_;

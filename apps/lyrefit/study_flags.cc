@@ -9,75 +9,72 @@
 
 namespace lyrefit {
 
-void AddStudyFlags(CLI::App* app, StudyFlags* flags) {
-  app->add_option("CURVE", flags->curve_files, "one or more curve files or folders")->required();
-  AddConditionFlags(app, &flags->conditions);
-  app->add_option("--at", flags->at,
+void AddStudyFlags(Verb* verb, StudyFlags* flags) {
+  verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders")
+      .Required()
+      .ReadsCurves();
+  AddConditionFlags(verb, &flags->conditions);
+  verb->AddOption("--at", &flags->at,
                   "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as "
                   "far as 1 K)")
-      ->type_name("LIST")
-      ->group("Curves");
-  app->add_option("--curves", flags->curve_ids, "of a set of curves: those with these ids")
-      ->type_name("LIST")
-      ->group("Curves");
-  app->add_option("--models", flags->models,
+      .Type("LIST")
+      .Group("Curves");
+  verb->AddOption("--curves", &flags->curve_ids, "of a set of curves: those with these ids")
+      .Type("LIST")
+      .Group("Curves");
+  verb->AddOption("--models", &flags->models,
                   "list of " + AllTexts<Model>() + " (default " + flags->models + ")")
-      ->type_name("LIST")
-      ->group("Model");
-  AddEnumFlag(app, "--objective", "which residual is squared", &flags->options.objective)
-      ->group("Model");
-  AddEnumFlag(app, "--constants", "values of k and q", &flags->options.constants)->group("Model");
-  AddBoundsFlags(app, "Model", &flags->bounds);
-  const auto number = [app](const char* name, auto* target, const std::string& doc) {
-    app->add_option(name, *target, doc + " (default " + NumberText(*target) + ")")
-        ->type_name("NUMBER")
-        ->group("Runs");
+      .Type("LIST")
+      .Group("Model");
+  AddEnumFlag(verb, "--objective", "which residual is squared", &flags->options.objective)
+      .Group("Model");
+  AddEnumFlag(verb, "--constants", "values of k and q", &flags->options.constants).Group("Model");
+  AddBoundsFlags(verb, "Model", &flags->bounds);
+  const auto number = [verb](const char* name, auto* target, const std::string& doc) {
+    verb->AddOption(name, target, doc + " (default " + NumberText(*target) + ")")
+        .Type("NUMBER")
+        .Group("Runs");
   };
   number("--runs", &flags->options.runs, "runs of each algorithm on each problem");
   number("--seed", &flags->options.seed, "seed of all runs; run r has its own stream");
-  app->add_option("--threads", flags->options.threads,
+  verb->AddOption("--threads", &flags->options.threads,
                   "0: all cores; never changes a result but the seconds (default 0)")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->type_name("N")
-      ->group("Runs");
-  app->add_option("--json", flags->json_file, "everything as JSON; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
-  app->add_option("--csv", flags->csv_file, "one row a run; - for standard output, alone")
-      ->type_name("FILE")
-      ->group("Output");
+      .Between(0, 1024)
+      .Type("N")
+      .Group("Runs");
+  verb->AddOption("--json", &flags->json_file, "everything as JSON; - for standard output, alone")
+      .Writes();
+  verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")
+      .Writes();
 }
 
-void AddAlgorithmsFlag(CLI::App* app, StudyFlags* flags) {
+void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {
   const std::string peers = PagmoNames();
   const std::string pagmo = peers.empty() ? "; pagmo:NAME in a build with pagmo2"
                                           : "; pagmo:NAME with NAME one of " + peers;
-  app->add_option(
-         "--algorithms", flags->algorithms,
-         "list of " + AllTexts<Algorithm>() + pagmo + " (default " + flags->algorithms + ")")
-      ->type_name("LIST")
-      ->group("Search");
+  verb->AddOption(
+          "--algorithms", &flags->algorithms,
+          "list of " + AllTexts<Algorithm>() + pagmo + " (default " + flags->algorithms + ")")
+      .Type("LIST")
+      .Group("Search");
 }
 
-void AddSearchRows(CLI::App* app, const std::vector<std::string>& names, StudyFlags* flags) {
+void AddSearchRows(Verb* verb, const std::vector<std::string>& names, StudyFlags* flags) {
   for (const OptionRow<SearchOptions>& row : kSearchOptionTable) {
     if (std::find(names.begin(), names.end(), row.name) == names.end()) continue;
-    std::visit(
-        [&](auto field) {
-          app->add_option(std::string("--") + row.name, flags->search.*field,
-                          RowHelp(row, flags->search))
-              ->type_name(*row.unit != '\0' ? row.unit : "NUMBER")
-              ->group("Search");
-        },
-        row.field);
+    const FlagTarget target =
+        std::visit([flags](auto field) { return FlagTarget(&(flags->search.*field)); }, row.field);
+    verb->AddOption(std::string("--") + row.name, target, RowHelp(row, flags->search))
+        .Type(*row.unit != '\0' ? row.unit : "NUMBER")
+        .Group("Search");
   }
 }
 
-void AddPolishLevelFlags(CLI::App* app, StudyFlags* flags) {
-  app->add_flag("--no-polish", flags->no_polish, "the search alone")->group("Polish");
-  app->add_flag("--plain-polish", flags->options.plain_polish,
-                "also one bounded least-squares solve from the best bird, and nothing more")
-      ->group("Polish");
+void AddPolishLevelFlags(Verb* verb, StudyFlags* flags) {
+  verb->AddSwitch("--no-polish", &flags->no_polish, "the search alone").Group("Polish");
+  verb->AddSwitch("--plain-polish", &flags->options.plain_polish,
+                  "also one bounded least-squares solve from the best bird, and nothing more")
+      .Group("Polish");
 }
 
 Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text) {

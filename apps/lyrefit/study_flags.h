@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "bounds_flag.h"
+#include "command_line.h"
 #include "flags.h"
 #include "lyrefit/study/compare.h"
 
@@ -29,11 +29,11 @@ struct StudyFlags {
 };
 
 // Curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
-void AddStudyFlags(CLI::App* app, StudyFlags* flags);
-void AddAlgorithmsFlag(CLI::App* app, StudyFlags* flags);
+void AddStudyFlags(Verb* verb, StudyFlags* flags);
+void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags);
 // The rows of the search's option table with these names; `flags->search` holds the defaults.
-void AddSearchRows(CLI::App* app, const std::vector<std::string>& names, StudyFlags* flags);
-void AddPolishLevelFlags(CLI::App* app, StudyFlags* flags);
+void AddSearchRows(Verb* verb, const std::vector<std::string>& names, StudyFlags* flags);
+void AddPolishLevelFlags(Verb* verb, StudyFlags* flags);
 
 // "a,b" as its parts; empty parts are refused in the name of `flag`.
 Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text);
@@ -63,7 +63,7 @@ struct StudyPicture {
 };
 
 // Reads the curves, compares, writes what is wanted; returns the exit code.
-int RunStudy(const StudyFlags& flags, const std::vector<Contender>& contenders,
+int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Contender>& contenders,
              const std::function<std::string(const Comparison&)>& text,
              const std::vector<StudyPicture>& pictures);
 

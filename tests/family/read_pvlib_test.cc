@@ -95,6 +95,31 @@ TEST(ReadPvlibParameters, TakesBackWhatPvlibJsonWroteOfPvsyst) {
   }
 }
 
+// As earlier versions wrote them.
+TEST(ReadPvlibParameters, TakesFilesWithAllKeywordsInOnePlace) {
+  const TempFolder folder;
+  const Translation thin = *MakeTranslation(Pvsyst106(ShuntLaw::kExponential, true));
+  const std::vector<double> values = {1.2, 2e-10, 1.4,  5.1, 3100, 0.0006,
+                                      1.5, -1e-3, 9000, 5.5, 1.6,  0.9 * 106};
+  const Translation desoto = *MakeTranslation(DeSoto60());
+  const struct {
+    const Translation& translation;
+    const std::vector<double>& values;
+    double voc;
+  } kCases[] = {{desoto, kSilicon, 37}, {thin, values, 82}};
+  for (const auto& c : kCases) {
+    json file = json::parse(Written(c.translation, c.values));
+    file["parameters"]["cells_in_series"] = file["cells_in_series"];
+    file.erase("cells_in_series");
+    if (file.contains("bishop88")) file["parameters"].update(file["bishop88"]);
+    file.erase("bishop88");
+    const auto read = ReadPvlibParameters(folder.Write("old.json", file.dump()));
+    ASSERT_TRUE(read.has_value()) << read.error().ToString();
+    EXPECT_TRUE(read->cells_stated || read->translation.spec.law == TranslationLaw::kPvsyst);
+    ExpectTheSameCurves(c.translation, c.values, *read, c.voc);
+  }
+}
+
 json Keywords(const Translation& translation, const std::vector<double>& shared) {
   return json::parse(Written(translation, shared))["parameters"];
 }

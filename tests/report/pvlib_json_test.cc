@@ -4,6 +4,9 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
+
+#include "lyrefit/family/pvlib_parameters.h"
 
 namespace lyrefit {
 namespace {
@@ -20,11 +23,52 @@ TEST(PvlibJson, NamesTheFunctionAndItsKeywords) {
   EXPECT_EQ(j["name"], "module");
   EXPECT_EQ(j["function"], "calcparams_desoto");
   EXPECT_EQ(j["parameters"]["alpha_sc"], 0.0025);
-  EXPECT_TRUE(j["parameters"]["cells_in_series"].is_number_integer());
+  EXPECT_TRUE(j["cells_in_series"].is_number_integer());
   EXPECT_TRUE(j["parameters"]["R_sh_ref"].is_null());
   EXPECT_EQ(j["cec"]["Name"], "sample_module");
   EXPECT_EQ(j["cec"]["a_ref"], 0.97);
   EXPECT_EQ(j["cec_reason"], "");
+}
+
+std::set<std::string> Keys(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+// Another keyword would be a TypeError in Python.
+TEST(PvlibJson, ParametersAreTheArgumentsOfTheFunction) {
+  const auto written = [](TranslationLaw law, ShuntLaw shunt, bool recombination) {
+    TranslationSpec spec;
+    spec.law = law;
+    spec.shunt = shunt;
+    spec.recombination = recombination;
+    spec.cells_in_series = 36;
+    const auto translation = MakeTranslation(spec);
+    std::vector<double> shared(translation->size(), 1);
+    if (law == TranslationLaw::kPvsyst) {
+      shared[translation->resistance_shunt_dark] = 4;
+      shared[translation->shunt_exponent] = 5.5;
+    }
+    const auto keywords = PvlibParameters(*translation, shared);
+    EXPECT_TRUE(keywords) << keywords.error().message;
+    return json::parse(PvlibJson("m", law, *keywords, Fail("none")));
+  };
+  const json desoto = written(TranslationLaw::kDeSoto, ShuntLaw::kInverse, false);
+  EXPECT_EQ(Keys(desoto["parameters"]),
+            (std::set<std::string>{"alpha_sc", "a_ref", "I_L_ref", "I_o_ref", "R_sh_ref", "R_s",
+                                   "EgRef", "dEgdT"}));
+  EXPECT_EQ(desoto["cells_in_series"], 36);
+  EXPECT_FALSE(desoto.contains("bishop88"));
+  const std::set<std::string> pvsyst = {"alpha_sc",        "gamma_ref", "mu_gamma", "I_L_ref",
+                                        "I_o_ref",         "R_sh_ref",  "R_sh_0",   "R_s",
+                                        "cells_in_series", "R_sh_exp",  "EgRef"};
+  const json plain = written(TranslationLaw::kPvsyst, ShuntLaw::kExponential, false);
+  EXPECT_EQ(Keys(plain["parameters"]), pvsyst);
+  const json thin = written(TranslationLaw::kPvsyst, ShuntLaw::kExponential, true);
+  EXPECT_EQ(Keys(thin["parameters"]), pvsyst);
+  EXPECT_EQ(Keys(thin["bishop88"]), (std::set<std::string>{"d2mutau", "NsVbi"}));
+  EXPECT_EQ(thin["cells_in_series"], 36);
 }
 
 TEST(PvlibJson, SaysWhyThereIsNoRow) {

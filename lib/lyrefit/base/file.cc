@@ -1,10 +1,8 @@
 #include "lyrefit/base/file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -40,32 +38,6 @@ Expected<void> CheckIsText(const std::string& text, const std::string& path) {
   return {};
 }
 
-// Into the opened file; the error, if any, names `path`.
-Expected<void> WriteAndClose(File file, const std::string& text, const std::string& path) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
-  const int write_errno = errno;
-  if (!written) return Fail("cannot write the file: " + ErrnoText(write_errno), path);
-  if (std::fclose(file.release()) != 0) {
-    return Fail("cannot write the file: " + ErrnoText(errno), path);
-  }
-  return {};
-}
-
-// Pipes and terminals cannot be replaced by a rename, and /dev/stdout may stand for a regular file
-// that the shell still holds open.
-bool MustWriteInPlace(const fs::path& path) {
-  const std::string text = path.string();
-  if (StartsWith(text, "/dev/") || StartsWith(text, "/proc/")) return true;
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
-}
-
-std::string TemporaryName(const fs::path& target) {
-  static std::atomic<unsigned> count{0};
-  return fmt::format("{}.{}-{}.tmp", target.string(), ::getpid(), count++);
-}
-
 }  // namespace
 
 Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes) {
@@ -94,34 +66,6 @@ Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t large
   if (StartsWith(text, "\xef\xbb\xbf")) text.erase(0, 3);
   if (auto checked = CheckIsText(text, path); !checked) return tl::unexpected(checked.error());
   return text;
-}
-
-Expected<void> WriteTextFile(const std::string& path, const std::string& text) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return Fail("expected a file, found a folder", path);
-  if (MustWriteInPlace(path)) {
-    File file(std::fopen(path.c_str(), "ab"));
-    if (!file) return Fail("cannot open the file for writing: " + ErrnoText(errno), path);
-    return WriteAndClose(std::move(file), text, path);
-  }
-  // Through a symbolic link, so that the link survives.
-  fs::path target = fs::weakly_canonical(path, error);
-  if (error) target = path;
-  const std::string temporary = TemporaryName(target);
-  File file(std::fopen(temporary.c_str(), "wbx"));
-  if (!file) {
-    return Fail("cannot write into the folder of the file: " + ErrnoText(errno), path);
-  }
-  Expected<void> written = WriteAndClose(std::move(file), text, path);
-  if (written) {
-    const fs::file_status old = fs::status(target, error);
-    if (fs::exists(old)) fs::permissions(temporary, old.permissions(), error);
-    fs::rename(temporary, target, error);
-    if (error) written = Fail("cannot replace the file: " + error.message(), path);
-  }
-  std::error_code ignored;
-  if (!written) fs::remove(temporary, ignored);
-  return written;
 }
 
 }  // namespace lyrefit

@@ -95,6 +95,22 @@ class Reader {
   std::optional<Error> error_;
 };
 
+// The keywords of all functions. pvlib_json writes some beside "parameters"; files written before
+// it did so, and pvlib's own, have all in one place.
+Expected<json> KeywordsIn(const json& document, const std::string& text, const std::string& path) {
+  if (!document.contains("parameters")) return document;
+  const JsonFields fields(document, text, path);
+  json keywords = document.at("parameters");
+  if (!keywords.is_object()) return fields.Refuse("parameters", "an object");
+  if (document.contains("cells_in_series") && !keywords.contains("cells_in_series")) {
+    keywords["cells_in_series"] = document.at("cells_in_series");
+  }
+  if (!document.contains("bishop88")) return keywords;
+  if (!document.at("bishop88").is_object()) return fields.Refuse("bishop88", "an object");
+  keywords.update(document.at("bishop88"));
+  return keywords;
+}
+
 Expected<TranslationLaw> LawOf(const json& document, const json& dictionary,
                                const std::string& text, const std::string& path) {
   const bool desoto = dictionary.contains("a_ref");
@@ -174,16 +190,13 @@ Expected<NamedParameters> ReadPvlibParameters(const std::string& path) {
   const Expected<json> document = ParseJson(*text, path);
   if (!document) return tl::unexpected(document.error());
   if (!document->is_object()) return Fail("expected an object of pvlib's parameters", path, 1, 1);
-  const bool wrapped = document->contains("parameters");
-  const json& dictionary = wrapped ? document->at("parameters") : *document;
-  if (!dictionary.is_object()) {
-    return JsonFields(*document, *text, path).Refuse("parameters", "an object");
-  }
-  const Expected<TranslationLaw> law = LawOf(*document, dictionary, *text, path);
+  const Expected<json> dictionary = KeywordsIn(*document, *text, path);
+  if (!dictionary) return tl::unexpected(dictionary.error());
+  const Expected<TranslationLaw> law = LawOf(*document, *dictionary, *text, path);
   if (!law) return tl::unexpected(law.error());
   NamedParameters module;
   module.name = std::filesystem::path(path).filename().string();
-  Reader reader(dictionary, *text, path);
+  Reader reader(*dictionary, *text, path);
   reader.CheckReference("irrad_ref", kReferenceIrradiance_W_m2);
   reader.CheckReference("temp_ref", kReferenceTemperature_C);
   const Expected<void> taken =

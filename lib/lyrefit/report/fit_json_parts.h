@@ -4,9 +4,13 @@
 
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/report/json_report.h"
 
 // What the JSON writers of fits, of one curve and of many, share.
 namespace lyrefit {
+
+// What JsonReport writes.
+Json FitJson(const FitReport& report, JsonPoints points);
 
 // Everything about one parameter; without a polish nothing is refined.
 Json EstimateJson(const Estimate& estimate, bool polished);

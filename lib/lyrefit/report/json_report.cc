@@ -112,9 +112,31 @@ void AddEvidence(const FitReport& report, Json* json) {
   j["warnings"] = report.warnings;
 }
 
+// Every n-th value and the last.
+Json Thinned(const std::vector<double>& values, std::size_t every) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < values.size(); i += every) list.push_back(Number(values[i]));
+  if (!values.empty() && (values.size() - 1) % every != 0) list.push_back(Number(values.back()));
+  return list;
+}
+
+Json DataJson(const FitReport& report, JsonPoints points) {
+  const std::size_t all = report.curve.size();
+  const bool thin = points == JsonPoints::kThinned && all > kMostJsonPoints;
+  const std::size_t every = thin ? (all + kMostJsonPoints - 1) / kMostJsonPoints : 1;
+  Json json = {{"voltage_V", Thinned(report.curve.voltage_V, every)},
+               {"current_A", Thinned(report.curve.current_A, every)},
+               {"model_current_A", Thinned(report.model_current_A, every)},
+               {"residual_A", Thinned(report.residual_A, every)}};
+  if (!thin) return json;
+  json["points"] = all;
+  json["every"] = every;
+  return json;
+}
+
 }  // namespace
 
-std::string JsonReport(const FitReport& report) {
+Json FitJson(const FitReport& report, JsonPoints points) {
   Json json;
   json["lyrefit_version"] = report.version;
   json["curve"] = CurveJson(report.curve);
@@ -124,12 +146,13 @@ std::string JsonReport(const FitReport& report) {
   json["bounds"] = report.bounds_name;
   AddAnswer(report, &json);
   AddEvidence(report, &json);
-  json["data"] = {{"voltage_V", Numbers(report.curve.voltage_V)},
-                  {"current_A", Numbers(report.curve.current_A)},
-                  {"model_current_A", Numbers(report.model_current_A)},
-                  {"residual_A", Numbers(report.residual_A)}};
+  json["data"] = DataJson(report, points);
+  return json;
+}
+
+std::string JsonReport(const FitReport& report, JsonPoints points) {
   // Names and files may hold bytes that are not UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return FitJson(report, points).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lyrefit

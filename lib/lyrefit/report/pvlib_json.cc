@@ -6,13 +6,30 @@
 namespace lyrefit {
 namespace {
 
+constexpr char kCells[] = "cells_in_series";
+
 Json ValuesJson(const std::vector<NamedValue>& values) {
   Json json = Json::object();
   for (const NamedValue& value : values) json[value.name] = Number(value.value);
-  if (const auto cells = json.find("cells_in_series"); cells != json.end() && cells->is_number()) {
+  if (const auto cells = json.find(kCells); cells != json.end() && cells->is_number()) {
     *cells = static_cast<int>(cells->get<double>());
   }
   return json;
+}
+
+// Puts each value where its function takes it: what calcparams does not know raises a TypeError.
+void AddKeywords(const Json& values, bool pvsyst, Json* json) {
+  Json arguments = Json::object(), bishop88 = Json::object();
+  for (const auto& [name, value] : values.items()) {
+    if (name == kCells) (*json)[kCells] = value;
+    if (name == "d2mutau" || name == "NsVbi") {
+      bishop88[name] = value;
+    } else if (name != kCells || pvsyst) {
+      arguments[name] = value;
+    }
+  }
+  (*json)["parameters"] = std::move(arguments);
+  if (!bishop88.empty()) (*json)["bishop88"] = std::move(bishop88);
 }
 
 // The row begins as SAM's own do.
@@ -29,8 +46,9 @@ std::string PvlibJson(const std::string& name, TranslationLaw law,
   Json json;
   json["lyrefit_version"] = Version();
   json["name"] = name;
-  json["function"] = law == TranslationLaw::kPvsyst ? "calcparams_pvsyst" : "calcparams_desoto";
-  json["parameters"] = ValuesJson(keywords);
+  const bool pvsyst = law == TranslationLaw::kPvsyst;
+  json["function"] = pvsyst ? "calcparams_pvsyst" : "calcparams_desoto";
+  AddKeywords(ValuesJson(keywords), pvsyst, &json);
   json["cec"] = cec ? RowJson(*cec) : Json(nullptr);
   json["cec_reason"] = cec ? std::string() : cec.error().message;
   // Names and files may hold bytes that are not UTF-8.

@@ -42,7 +42,9 @@ AuditCommand::AuditCommand(CommandLine* line)
       .Writes();
   verb_->AddOption("--csv", &csv_file_, "the findings as a table; - for standard output, alone")
       .Writes();
-  verb_->AddSwitch("--brief", &brief_, "one line a row instead of the whole report");
+  verb_->AddSwitch("--brief", &brief_, "one line a row instead of the whole report")
+      .Group("Output");
+  verb_->AddQuietSwitch();
   verb_->Footer(kAuditFooter);
 }
 
@@ -60,7 +62,7 @@ int AuditCommand::Run() {
       return Refuse(written.error());
     }
   }
-  if (!verb_->StandardOutputTaken()) {
+  if (verb_->TextWanted()) {
     auto written = WriteOutput("-", brief_ ? BriefAudit(*report) : AuditText(*report));
     if (!written) return Refuse(written.error());
   }

@@ -48,7 +48,7 @@ Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotCertificate(certificate, output_.plot_file); !drawn) return drawn;
   }
-  if (!TextWanted(*verb_, output_)) return {};
+  if (!verb_->TextWanted()) return {};
   return WriteOutput("-",
                      output_.brief ? BriefCertificate(certificate) : CertificateText(certificate));
 }

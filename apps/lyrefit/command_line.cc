@@ -26,6 +26,51 @@ Error CommandLineError(const CLI::ParseError& error) {
   return {message, {}};
 }
 
+// Letters to insert, delete, replace or exchange with their neighbour to make `b` of `a`.
+std::size_t Distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      const bool same = a[i - 1] == b[j - 1];
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+// The first word of the line that is no flag.
+std::string FirstWord(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] != '-') return argv[i];
+  }
+  return "";
+}
+
+// A line without a verb of ours: which was meant, or which there are.
+Error NoVerb(const CLI::App& app, int argc, char** argv) {
+  const std::string word = FirstWord(argc, argv);
+  std::string near, all;
+  std::size_t nearest = 3;  // more than two letters off is another word
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string& name = verb->get_name();
+    all += (all.empty() ? "" : ", ") + name;
+    const bool begun = word.size() >= 2 && name.rfind(word, 0) == 0;
+    const std::size_t distance = begun ? 0 : Distance(word, name);
+    if (distance >= std::min(nearest, name.size())) continue;
+    nearest = distance;
+    near = name;
+  }
+  if (word.empty()) return {"expected a verb: " + all, {}};
+  if (near.empty()) return {"no verb '" + word + "': expected " + all, {}};
+  return {"no verb '" + word + "'; did you mean " + near + "?", {}};
+}
+
 }  // namespace
 
 struct Flag::Impl {
@@ -42,6 +87,7 @@ struct Verb::Impl {
   std::deque<Flag::Impl> flags;  // addresses stay
   std::vector<OutputFile> more_outputs;
   bool force = false;
+  bool quiet = false;
 };
 
 struct CommandLine::Impl {
@@ -168,7 +214,27 @@ FilePlan Verb::Files() const {
   return plan;
 }
 
-Expected<void> Verb::CheckFiles() const { return CheckFilePlan(Files()); }
+Expected<void> Verb::CheckNames() const {
+  for (const Flag::Impl& flag : impl_->flags) {
+    if (!flag.reads && !flag.writes) continue;
+    for (const std::string& value : flag.option->results()) {
+      if (!value.empty()) continue;
+      return Fail(flag.option->get_name() + ": expected the name of a file, found nothing");
+    }
+  }
+  return {};
+}
+
+Expected<void> Verb::CheckFiles() const {
+  if (auto named = CheckNames(); !named) return named;
+  return CheckFilePlan(Files());
+}
+
+void Verb::AddQuietSwitch() {
+  AddSwitch("--quiet", &impl_->quiet, "no text report").Group(kOutput);
+}
+
+bool Verb::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
 
 bool Verb::StandardOutputTaken() const {
   const FilePlan plan = Files();
@@ -211,13 +277,18 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
   try {
     impl_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) return tl::unexpected(CommandLineError(error));
+    if (error.get_exit_code() != 0) {
+      const bool verb = !impl_->app.get_subcommands().empty();
+      return tl::unexpected(verb ? CommandLineError(error) : NoVerb(impl_->app, argc, argv));
+    }
     std::ostringstream text;  // --help, --version
     impl_->app.exit(error, text, text);
     return text.str();
   }
   return std::string();
 }
+
+std::string CommandLine::Help() const { return impl_->app.help(); }
 
 int CommandLine::verbosity() const { return impl_->verbosity; }
 

@@ -75,7 +75,10 @@ class Verb {
   // Whether the files of this run can be written and nothing that is read would be lost; to be
   // asked before the work. --force, which every verb that writes has, allows to replace inputs.
   Expected<void> CheckFiles() const;
-  // Whether some output goes to standard output, where no text may follow.
+  // --quiet: no text on standard output.
+  void AddQuietSwitch();
+  // Whether text may be printed: not with --quiet, nor where an output has standard output.
+  bool TextWanted() const;
   bool StandardOutputTaken() const;
   bool Forced() const;
 
@@ -86,6 +89,7 @@ class Verb {
   Flag Declare(void* option, FlagTarget target);
 
   friend class CommandLine;
+  Expected<void> CheckNames() const;
   FilePlan Files() const;
   void AddForce();  // last in --help
 
@@ -106,6 +110,7 @@ class CommandLine {
   // Sets all targets. The text that --help or --version asks for; empty if there is a verb to run.
   Expected<std::string> Parse(int argc, char** argv);
 
+  std::string Help() const;
   int verbosity() const;
 
  private:

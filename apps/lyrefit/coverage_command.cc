@@ -57,6 +57,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
       .Group("Fit");
   verb_->AddOption("--json", &json_file_, "everything as JSON; - for standard output, alone")
       .Writes();
+  verb_->AddQuietSwitch();
   verb_->Footer(kCoverageFooter);
 }
 
@@ -75,7 +76,7 @@ int CoverageCommand::Run() {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
   }
-  if (!verb_->StandardOutputTaken()) {
+  if (verb_->TextWanted()) {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }

@@ -93,7 +93,7 @@ DataSheetCommand::DataSheetCommand(CommandLine* line)
       ->AddOption("--pvlib", &pvlib_file_,
                   "the parameters as pvlib takes them, JSON; - for standard output, alone")
       .Writes();
-  verb_->AddSwitch("--quiet", &quiet_, "no text").Group("Output");
+  verb_->AddQuietSwitch();
   verb_->Footer(kDataSheetFooter);
 }
 
@@ -140,7 +140,7 @@ Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
     const std::string json = PvlibJson(name_, fit.translation.spec.law, *keywords, row);
     if (auto written = WriteOutput(pvlib_file_, json); !written) return written;
   }
-  if (quiet_ || verb_->StandardOutputTaken()) return {};
+  if (!verb_->TextWanted()) return {};
   return WriteOutput("-", DataSheetText(fit));
 }
 

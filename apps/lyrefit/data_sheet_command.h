@@ -34,7 +34,6 @@ class DataSheetCommand {
   ConstantSet constants_ = ConstantSet::kCodata;
   std::string json_file_;
   std::string pvlib_file_;
-  bool quiet_ = false;
 };
 
 }  // namespace lyrefit

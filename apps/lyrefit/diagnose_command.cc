@@ -174,7 +174,7 @@ Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotDiagnosis(first, output_.plot_file); !drawn) return drawn;
   }
-  return TextWanted(*verb_, output_) ? WriteText(diagnoses) : Expected<void>();
+  return verb_->TextWanted() ? WriteText(diagnoses) : Expected<void>();
 }
 
 int DiagnoseCommand::Run() {

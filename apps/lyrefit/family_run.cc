@@ -86,7 +86,7 @@ Expected<void> Write(const Verb& verb, const FamilyReport& report, const CurveSe
   if (!output.plot_file.empty()) {
     if (auto drawn = PlotFamily(report, set, output.plot_file); !drawn) return drawn;
   }
-  if (TextWanted(verb, output)) {
+  if (verb.TextWanted()) {
     const std::string text = output.brief ? BriefFamily(report) : FamilyText(report);
     if (auto written = WriteOutput("-", text); !written) return written;
   }

@@ -156,7 +156,7 @@ Expected<void> FitCommand::Write(const std::vector<FittedFile>& fits) const {
   if (!output_.plot_file.empty()) {
     if (auto drawn = PlotFit(*fits.front().report, output_.plot_file); !drawn) return drawn;
   }
-  if (!TextWanted(*verb_, output_)) return {};
+  if (!verb_->TextWanted()) return {};
   std::string text;
   for (const FittedFile& fit : fits) {
     if (!fit.report) continue;

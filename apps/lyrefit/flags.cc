@@ -188,11 +188,7 @@ void AddReportFlags(Verb* verb, const std::string& what, const std::string& pict
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");
-  verb->AddSwitch("--quiet", &flags->quiet, "no text report").Group("Output");
-}
-
-bool TextWanted(const Verb& verb, const ReportFlags& flags) {
-  return !flags.quiet && !verb.StandardOutputTaken();
+  verb->AddQuietSwitch();
 }
 
 }  // namespace lyrefit

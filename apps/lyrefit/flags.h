@@ -121,7 +121,6 @@ struct ReportFlags {
   std::string json_file;
   std::string plot_file;
   bool brief = false;
-  bool quiet = false;
   bool full_json = false;
   JsonPoints points() const { return full_json ? JsonPoints::kAll : JsonPoints::kThinned; }
 };
@@ -129,7 +128,5 @@ struct ReportFlags {
 // `what` names the report in the help, `picture` the plot.
 void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags);
-// Whether the text report is to be printed.
-bool TextWanted(const Verb& verb, const ReportFlags& flags);
 
 }  // namespace lyrefit

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <glog/logging.h>
 
 #include <exception>
@@ -64,7 +65,10 @@ int Main(int argc, char** argv) {
       MakeCommand<DiagnoseCommand>(&line),
   };
   const Expected<std::string> asked = line.Parse(argc, argv);
-  if (!asked) return Refuse(asked.error());
+  if (!asked) {
+    if (argc == 1) fmt::print(stderr, "{}\n", line.Help());
+    return Refuse(asked.error());
+  }
   if (!asked->empty()) {
     const auto written = WriteOutput("-", *asked);
     return written ? kExitFine : Refuse(written.error());

@@ -36,7 +36,16 @@ Expected<void> CheckWritable(const std::string& path) {
     if (access(path.c_str(), W_OK) != 0) return CannotWrite(path, errno);
     if (!fs::is_regular_file(status)) return {};
   }
-  // A file beside it, as the writer will use one.
+  // A file beside it, as the writer will use one: without a name where the file system can.
+#ifdef O_TMPFILE
+  const fs::path folder = fs::path(path).parent_path();
+  const int nameless =
+      open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless >= 0) {
+    close(nameless);
+    return {};
+  }
+#endif
   const std::string probe = fmt::format("{}.{}.probe", path, getpid());
   const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return CannotWrite(path, errno);

@@ -80,6 +80,7 @@ ReproduceCommand::ReproduceCommand(CommandLine* line)
               &pages_)
       .Type("FILE")
       .Group("Output");
+  verb_->AddQuietSwitch();
   verb_->Footer(kReproduceFooter);
 }
 
@@ -131,6 +132,7 @@ int ReproduceCommand::Run() {
   if (auto written = Write(*study); !written) return Refuse(written.error());
   const std::string done = fmt::format("written: {} ({:.0f} s)\n",
                                        (fs::path(output_) / "README.md").string(), study->seconds);
+  if (!verb_->TextWanted()) return kExitFine;
   if (auto written = WriteOutput("-", done); !written) return Refuse(written.error());
   return kExitFine;
 }

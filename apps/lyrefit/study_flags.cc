@@ -46,6 +46,7 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
       .Writes();
   verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")
       .Writes();
+  verb->AddQuietSwitch();
 }
 
 void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {

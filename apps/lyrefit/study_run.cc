@@ -22,7 +22,7 @@ Expected<void> Write(const Verb& verb, const StudyFlags& flags, const Comparison
     if (picture.path.empty() || comparison.problems.empty()) continue;
     if (auto drawn = picture.draw(comparison, picture.path); !drawn) return drawn;
   }
-  if (verb.StandardOutputTaken()) return {};
+  if (!verb.TextWanted()) return {};
   return WriteOutput("-", text(comparison));
 }
 

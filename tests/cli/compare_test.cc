@@ -184,7 +184,7 @@ TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
       {"--bound Rs", "--bound"},
       {"--temperature-C 300", "looks like kelvin"},
       {"--plot " + folder.Path("box.gif"), ".svg or .png"},
-      {"--json - --csv -", "cannot both go to standard output"},
+      {"--json - --csv -", "only one of --json and --csv can have standard output"},
       {"--json " + folder.Path("no/c.json"), "cannot write the file"},
       {"no_such_curve.csv", "no_such_curve.csv"},
   };

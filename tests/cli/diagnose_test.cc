@@ -32,7 +32,7 @@ TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
       {kVerb + "--effects nonsense", "--effects: expected one of "},
       {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
       {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
-      {kVerb + "--json - --answers -", "only one of --json, --extend and --answers"},
+      {kVerb + "--json - --answers -", "only one of --json and --answers"},
       {kVerb + "--json no_such_folder/x.json", "cannot write"},
       {kVerb + "--plot x.pdf", ".svg or .png"},
       {kVerb + "other.csv --plot x.svg", "--plot and --extend are for one CURVE"},

@@ -34,8 +34,7 @@ TEST(FamilyFlags, OfASetNeedFamily) {
         std::string("--temperature-offset"), std::string("--irradiance-accuracy 2%"),
         std::string("--temperature-accuracy 1"), std::string("--free EgRef"),
         std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-free-fits"),
-        std::string("--against x.json"), "--csv " + folder.Path("x.csv"),
-        "--pvlib " + folder.Path("x.json")}) {
+        std::string("--against x.json"), "--pvlib " + folder.Path("x.json")}) {
     ExpectRefused(kRtc + " " + flag,
                   flag.substr(0, flag.find(' ')) + " is about a set of curves: it needs --family");
   }

@@ -32,13 +32,13 @@ std::vector<std::string> Algorithms(const ProblemResult& problem) {
   return names;
 }
 
-// Lines that would lie on each other are drawn one above the other.
+// Lines that lie on each other are drawn one in the other, the first one widest.
 std::string Panel(const ProblemResult& problem, const std::vector<std::string>& algorithms,
                   const DrawnLevel& level, const std::string& terminal) {
   std::string data, plot;
   double least = 1e300, most = 0;
   const int count = static_cast<int>(algorithms.size());
-  const double shift = std::min(1.4, 8.0 / count);  // percent
+  const double step = std::min(1.8, 9.0 / count);
   for (int a = 0; a < count; ++a) {
     data += fmt::format("$a{} << END_OF_DATA\n", a);
     for (const ContenderResult& contender : problem.contenders) {
@@ -51,14 +51,15 @@ std::string Panel(const ProblemResult& problem, const std::vector<std::string>& 
       fmt::format_to(std::back_inserter(data), "{} {}\n", budget, share);
     }
     data += "END_OF_DATA\n";
-    plot += fmt::format("{} $a{} using 1:($2+{:.3f}) with linespoints lw 1.5 pt {} ps {} {}",
-                        a == 0 ? "plot" : ", \\\n", a, shift * (0.5 * (count - 1) - a),
-                        PointLook(a), PointSize(terminal), LineLook(a));
+    const double width = 1.3 + step * (count - 1 - a);
+    plot += fmt::format("{} $a{} using 1:2 with linespoints lw {:.2f} pt {} ps {:.2f} {}",
+                        a == 0 ? "plot" : ", \\\n", a, width, PointLook(a),
+                        PointSize(terminal) * (1 + 0.15 * width), LineLook(a));
   }
   return data +
          fmt::format(
              "set logscale x\nset xrange [{:g}:{:g}]\nset format x '10^{{%T}}'\n"
-             "set yrange [-7:107]\nset ytics 0,20\n",
+             "set yrange [-4:104]\nset ytics 0,20\n",
              least / 1.6, most * 1.6) +
          plot + "\n";
 }
@@ -71,7 +72,7 @@ std::string BudgetScript(const Comparison& comparison, const std::string& termin
   const PanelPage page(
       static_cast<int>(comparison.problems.size()) * levels, levels,
       fmt::format("Share of {} runs that hit: within 1e-6 of the reference (search "
-                  "alone) or 1e-9 (polished), {}; equal lines are drawn side by side",
+                  "alone) or 1e-9 (polished), {}; of equal lines the first is the widest",
                   comparison.options.runs, ToText(comparison.options.objective)),
       LegendMark::kLineAndPoint, algorithms, 0);
   const char* const models[] = {"SD", "DD", "TD"};

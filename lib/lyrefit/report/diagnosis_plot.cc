@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "lyrefit/report/data_block.h"
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
 namespace {
@@ -38,8 +40,6 @@ struct Mark {
   DataBlock measured;
   DataBlock before;
   DataBlock after;
-  double voltage_V = 0;  // of the point in the middle
-  double current_A = 0;
 };
 
 struct DiagnosisData {
@@ -117,24 +117,39 @@ void AddPoint(const DiagnosedPoint& point, bool in_sigmas, Group* group) {
   group->after.Add({point.voltage_V, Residual(point, point.after_A, in_sigmas)});
 }
 
-Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause, std::size_t index, bool in_sigmas) {
+Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause, std::size_t index, bool in_sigmas,
+              const std::vector<bool>& drawn) {
   const auto block = [index](const char* what) {
     return DataBlock(fmt::format("mark_{}{}", what, index));
   };
   Mark mark{cause.title, block("measured"), block("before"), block("after")};
-  std::vector<const DiagnosedPoint*> marked;
   for (const int i : cause.points) {
-    if (i < 0 || i >= static_cast<int>(diagnosis.points.size())) continue;
+    if (i < 0 || i >= static_cast<int>(diagnosis.points.size()) || !drawn[i]) continue;
     const DiagnosedPoint& point = diagnosis.points[i];
     mark.measured.Add({point.voltage_V, point.current_A});
     mark.before.Add({point.voltage_V, Residual(point, point.before_A, in_sigmas)});
     mark.after.Add({point.voltage_V, Residual(point, point.after_A, in_sigmas)});
-    marked.push_back(&point);
   }
-  if (marked.empty()) return mark;
-  mark.voltage_V = marked[marked.size() / 2]->voltage_V;
-  mark.current_A = marked[marked.size() / 2]->current_A;
   return mark;
+}
+
+// Which points are drawn: all, or of each curve as many as can be told apart, and those that stand
+// out before or after.
+std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, bool in_sigmas) {
+  std::map<int, std::vector<std::size_t>> curves;
+  for (std::size_t i = 0; i < points.size(); ++i) curves[points[i].curve].push_back(i);
+  std::vector<bool> drawn(points.size());
+  for (const auto& [curve, places] : curves) {
+    for (const auto model : {&DiagnosedPoint::before_A, &DiagnosedPoint::after_A}) {
+      std::vector<double> voltage_V, residual;
+      for (const std::size_t i : places) {
+        voltage_V.push_back(points[i].voltage_V);
+        residual.push_back(Residual(points[i], points[i].*model, in_sigmas));
+      }
+      for (const std::size_t k : MarksToDraw(voltage_V, residual)) drawn[places[k]] = true;
+    }
+  }
+  return drawn;
 }
 
 DiagnosisData Collect(const Diagnosis& diagnosis) {
@@ -143,9 +158,13 @@ DiagnosisData Collect(const Diagnosis& diagnosis) {
                                [](const DiagnosedPoint& point) { return point.sigma_A > 0; });
   const std::vector<bool> falling = Falling(diagnosis.points);
   AddGroups(diagnosis, BothWays(diagnosis, falling), &data);
-  for (const DiagnosedPoint& point : diagnosis.points) {
-    Group* const group = &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)];
-    AddPoint(point, data.in_sigmas, group);
+  const std::vector<bool> drawn = Drawn(diagnosis.points, data.in_sigmas);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const DiagnosedPoint& point = diagnosis.points[i];
+    if (drawn[i]) {
+      AddPoint(point, data.in_sigmas,
+               &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)]);
+    }
     const auto largest = [&](double model_A, double most) {
       const double residual = std::fabs(Residual(point, model_A, data.in_sigmas));
       return std::isfinite(residual) ? std::max(most, residual) : most;
@@ -154,7 +173,7 @@ DiagnosisData Collect(const Diagnosis& diagnosis) {
     data.largest_after = largest(point.after_A, data.largest_after);
   }
   for (const Cause& cause : diagnosis.verdict.causes) {
-    data.marks.push_back(MakeMark(diagnosis, cause, data.marks.size(), data.in_sigmas));
+    data.marks.push_back(MakeMark(diagnosis, cause, data.marks.size(), data.in_sigmas, drawn));
   }
   return data;
 }
@@ -184,22 +203,16 @@ void JoinMarks(const DiagnosisData& data, const DataBlock Mark::*block, double s
   }
 }
 
-// The titles of the causes in the lower left, which a curve leaves free, each with an arrow to
-// where it acts.
+// The titles of the causes in the lower left, which a curve leaves free, in the colours of their
+// points.
 std::string MarkLabels(const DiagnosisData& data) {
   std::string text;
   double height = 0.06;
   for (std::size_t i = data.marks.size(); i-- > 0; height += 0.09) {
-    const Mark& mark = data.marks[i];
     text += fmt::format(
         "set label {} {} at graph 0.05, graph {} left noenhanced point pt 7 ps 1.2 lc rgb '{}' "
         "offset 1,0\n",
-        101 + i, GnuplotText(mark.title), height, MarkColour(i));
-    if (mark.measured.empty()) continue;
-    text += fmt::format(
-        "set arrow {} from graph 0.05, graph {} to first {}, first {} nohead lw 1.5 dt 3 lc rgb "
-        "'{}'\n",
-        101 + i, height, mark.voltage_V, mark.current_A, MarkColour(i));
+        101 + i, GnuplotText(data.marks[i].title), height, MarkColour(i));
   }
   return text;
 }
@@ -223,14 +236,17 @@ std::string CurvesPanel(const DiagnosisData& data, bool found, double size) {
   std::string command;
   JoinMarks(data, &Mark::measured, size, &command);
   for (const Group& group : data.groups) {
-    const std::string colour = ColourOf(group.colour);
     JoinPlot(group.measured,
              fmt::format("using 1:2 with points pt {} ps {} lc rgb '{}' notitle",
-                         group.triangles ? 8 : 6, SymbolSize(group, size), colour),
+                         group.triangles ? 8 : 6, SymbolSize(group, size), ColourOf(group.colour)),
              &command);
+  }
+  // Above all points.
+  for (const Group& group : data.groups) {
     JoinPlot(group.base, "using 1:2 with lines lw 1.4 dt 2 lc rgb '#000000' notitle", &command);
     if (!found) continue;
-    JoinPlot(group.extended, fmt::format("using 1:2 with lines lw 1.6 lc rgb '{}' notitle", colour),
+    JoinPlot(group.extended,
+             fmt::format("using 1:2 with lines lw 1.6 lc rgb '{}' notitle", ColourOf(group.colour)),
              &command);
   }
   const double below = 0.04 + 0.1 * static_cast<double>(data.marks.size());  // for the titles

@@ -11,6 +11,7 @@
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
 namespace {
@@ -93,8 +94,10 @@ struct FamilyData {
 
 void AddCurve(const FamilyReport& report, const FamilyCurve& curve, const IvCurve& points,
               FamilyData* data) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const std::size_t i : MarksToDraw(points.voltage_V, points.current_A)) {
     data->measured.Add({points.voltage_V[i], points.current_A[i], curve.temperature_C});
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
     data->lowest_V = std::min(data->lowest_V, points.voltage_V[i]);
     data->highest_V = std::max(data->highest_V, points.voltage_V[i]);
     data->lowest_A = std::min(data->lowest_A, points.current_A[i]);

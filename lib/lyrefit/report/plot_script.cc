@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "lyrefit/device/kernel.h"
+#include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
 namespace {
@@ -66,19 +67,31 @@ std::vector<double> Product(const std::vector<double>& a, const std::vector<doub
   return product;
 }
 
-// Gives both axes their zero at one height, where that does not squeeze either.
-void AlignZeros(Span* a, Span* b) {
-  if (!(a->high > 0 && b->high > 0)) return;
-  const double ratio = std::max(-a->low / a->high, -b->low / b->high);
-  if (ratio > 2) return;
+// Gives both axes their zero at one height, where neither is squeezed into a third of the panel.
+// Whether it did.
+bool AlignZeros(Span* a, Span* b) {
+  if (!(a->high > 0 && b->high > 0)) return a->high == b->high;
+  const double below_a = -a->low / a->high;
+  const double below_b = -b->low / b->high;
+  const double ratio = std::max(below_a, below_b);
+  if (1 + std::min(below_a, below_b) < (1 + ratio) / 3) return false;
   a->low = -ratio * a->high;
   b->low = -ratio * b->high;
+  return true;
 }
 
 std::string AxisRange(const Span& span, double factor) {
   const double air = span.high > span.low ? 0.06 * (span.high - span.low) : 1;
   return fmt::format("[{}:{}]", (span.low < 0 ? span.low - air : 0.0) * factor,
                      (span.high + air) * factor);
+}
+
+std::vector<double> At(const std::vector<std::size_t>& places, const std::vector<double>& values) {
+  std::vector<double> some;
+  for (const std::size_t place : places) {
+    if (place < values.size()) some.push_back(values[place]);
+  }
+  return some;
 }
 
 void AppendBlock(const char* name, const std::vector<double>& x, const std::vector<double>& y,
@@ -89,6 +102,13 @@ void AppendBlock(const char* name, const std::vector<double>& x, const std::vect
     fmt::format_to(std::back_inserter(*script), "{} {}\n", x[i], y[i]);
   }
   *script += "END_OF_DATA\n";
+}
+
+// Points, as many as can be told apart.
+void AppendMarks(const char* name, const std::vector<double>& x, const std::vector<double>& y,
+                 std::string* script) {
+  const std::vector<std::size_t> places = MarksToDraw(x, y);
+  AppendBlock(name, At(places, x), At(places, y), script);
 }
 
 std::string Title(const FitReport& report) {
@@ -119,7 +139,11 @@ std::string Preamble(const FitReport& report, const std::string& terminal, const
 std::string UpperPanel(const IvCurve& curve, double symbol_size) {
   Span current = SpanOf(curve.current_A);
   Span power = SpanOf(Product(curve.voltage_V, curve.current_A));
-  AlignZeros(&current, &power);
+  // Where the power has a zero of its own it is drawn too.
+  const char* const zero =
+      AlignZeros(&current, &power)
+          ? ""
+          : " 0 axes x1y2 with lines lw 0.8 dt 3 lc rgb '#D55E00' notitle, \\\n";
   const bool many = curve.size() > kManyPoints;
   const Prefix ampere = PrefixFor(current.Largest());
   const Prefix watt = PrefixFor(power.Largest());
@@ -130,7 +154,7 @@ std::string UpperPanel(const IvCurve& curve, double symbol_size) {
       "set ylabel 'Current ({}A)' textcolor rgb '{blue}'\n"
       "set y2label 'Power ({}W)' textcolor rgb '{red}'\n"
       "set ytics nomirror\nset y2tics\nset format x ''\n"
-      "plot 0 with lines lw 0.8 lc rgb 'black' notitle, \\\n"
+      "plot 0 with lines lw 0.8 lc rgb 'black' notitle, \\\n{zero}"
       " $measured using 1:($2*{f}) axes x1y1 with points pt 6 ps {size} lw 1.3 lc rgb '{i_colour}' "
       "title 'I measured', \\\n"
       " $model using 1:($2*{f}) axes x1y1 with lines lw 2 lc rgb '{blue}' title 'I model', \\\n"
@@ -139,8 +163,9 @@ std::string UpperPanel(const IvCurve& curve, double symbol_size) {
       "title 'P measured', \\\n"
       " $model using 1:($1*$2*{p}) axes x1y2 with lines lw 2 dt 2 lc rgb '{red}' title 'P model'\n",
       AxisRange(current, ampere.factor), AxisRange(power, watt.factor), ampere.text, watt.text,
-      fmt::arg("blue", kBlue), fmt::arg("red", kVermilion), fmt::arg("f", ampere.factor),
-      fmt::arg("p", watt.factor), fmt::arg("size", symbol_size * (many ? 0.4 : 1.3)),
+      fmt::arg("zero", zero), fmt::arg("blue", kBlue), fmt::arg("red", kVermilion),
+      fmt::arg("f", ampere.factor), fmt::arg("p", watt.factor),
+      fmt::arg("size", symbol_size * (many ? 0.4 : 1.3)),
       fmt::arg("i_colour", many ? kSkyBlue : kBlue),
       fmt::arg("p_colour", many ? kOrange : kVermilion));
 }
@@ -187,10 +212,10 @@ std::string PlotScript(const FitReport& report, const std::string& terminal) {
     model_V[i] = voltage.low + (voltage.high - voltage.low) * i / (kModelPoints - 1);
   }
   std::string script;
-  AppendBlock("measured", curve.voltage_V, curve.current_A, &script);
+  AppendMarks("measured", curve.voltage_V, curve.current_A, &script);
   AppendBlock("model", model_V, SolveCurrents(report.device, report.refined.data(), model_V),
               &script);
-  AppendBlock("residual", curve.voltage_V, report.residual_A, &script);
+  AppendMarks("residual", curve.voltage_V, report.residual_A, &script);
   const double symbol_size = terminal == "svg" ? 0.6 : 1;  // svg draws the same size larger
   return script + Preamble(report, terminal, voltage) + UpperPanel(curve, symbol_size) +
          LowerPanel(report, symbol_size) + "unset multiplot\n";

@@ -65,6 +65,7 @@ int CertifyCommand::Run() {
   ClearProgressLine();
   if (!certificate) return Refuse(certificate.error());
   if (auto written = Write(*certificate); !written) return Refuse(written.error());
+  if (certificate->interrupted) return kExitInterrupted;
   return AllCertified(*certificate) ? kExitFine : kExitNotUsable;
 }
 

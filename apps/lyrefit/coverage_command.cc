@@ -47,6 +47,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
       .Between(0, 1024)
       .Type("N")
       .Group("Sets");
+  AddResumeFlag(verb_, "set", "Sets", &options_.journal);
   verb_
       ->AddSwitch("--temperature-offset", &options_.family.temperature_offset,
                   "fit one common error of the temperatures")
@@ -68,9 +69,10 @@ int CoverageCommand::Run() {
   }
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
-  const auto report = Coverage(options_, FitFamily, TerminalObserver());
+  const auto report = Coverage(options_, FitFamily, TerminalObserver({"coverage"}));
   ClearProgressLine();
   if (!report) return Refuse(report.error());
+  PrintRemarks(report->remarks);
   if (!json_file_.empty()) {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
@@ -79,6 +81,7 @@ int CoverageCommand::Run() {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }
+  if (report->interrupted) return kExitInterrupted;
   return report->failed < static_cast<int>(report->sets.size()) ? kExitFine : kExitNotUsable;
 }
 

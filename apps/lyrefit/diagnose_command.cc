@@ -206,6 +206,7 @@ int DiagnoseCommand::Run() {
     if (diagnoses.back().interrupted) break;
   }
   if (auto written = Write(names, diagnoses); !written) return Refuse(written.error());
+  if (!diagnoses.empty() && diagnoses.back().interrupted) return kExitInterrupted;
   return exit_code;
 }
 

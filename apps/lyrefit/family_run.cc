@@ -116,6 +116,7 @@ int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& fl
   if (!report) return Refuse(report.error());
   if (auto written = Write(verb, *report, *set, truth, flags, output); !written)
     return Refuse(written.error());
+  if (report->interrupted) return kExitInterrupted;
   return report->usable ? kExitFine : kExitNotUsable;
 }
 

@@ -167,6 +167,7 @@ int FitCommand::Run() {
   ClearProgressLine();
   if (!report) return Refuse(report.error());
   if (auto written = Write(*report); !written) return Refuse(written.error());
+  if (report->interrupted) return kExitInterrupted;
   return report->usable ? kExitFine : kExitNotUsable;
 }
 

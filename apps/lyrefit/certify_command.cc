@@ -60,9 +60,9 @@ int CertifyCommand::Run() {
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(curve.error());
+  if (output_.quiet) SilenceProgress();
   const InterruptGuard guard;
   const Expected<Certificate> certificate = Certify(*curve, options_, TerminalObserver());
-  ClearProgressLine();
   if (!certificate) return Refuse(certificate.error());
   if (auto written = Write(*certificate); !written) return Refuse(written.error());
   if (certificate->interrupted) return kExitInterrupted;

@@ -47,7 +47,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
       .Between(0, 1024)
       .Type("N")
       .Group("Sets");
-  AddResumeFlag(verb_, "set", "Sets", &options_.journal);
+  AddResumeFlag(verb_, "set", &options_.journal);
   verb_
       ->AddSwitch("--temperature-offset", &options_.family.temperature_offset,
                   "fit one common error of the temperatures")
@@ -58,6 +58,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
       .Group("Fit");
   verb_->AddOption("--json", &json_file_, "everything as JSON; - for standard output, alone")
       .Writes();
+  AddQuietFlag(verb_, &quiet_);
   verb_->Footer(kCoverageFooter);
 }
 
@@ -68,16 +69,16 @@ int CoverageCommand::Run() {
     options_.module[assignment->first] = assignment->second;
   }
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
+  if (quiet_) SilenceProgress();
   const InterruptGuard guard;
   const auto report = Coverage(options_, FitFamily, TerminalObserver({"coverage"}));
-  ClearProgressLine();
   if (!report) return Refuse(report.error());
   PrintRemarks(report->remarks);
   if (!json_file_.empty()) {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
   }
-  if (!verb_->StandardOutputTaken()) {
+  if (!quiet_ && !verb_->StandardOutputTaken()) {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }

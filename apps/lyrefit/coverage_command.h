@@ -20,6 +20,7 @@ class CoverageCommand {
   CoverageOptions options_;
   std::vector<std::string> set_list_;
   std::string json_file_;
+  bool quiet_ = false;
 };
 
 }  // namespace lyrefit

@@ -141,7 +141,6 @@ Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string
     return tl::unexpected(applied.error());
   }
   Expected<Diagnosis> diagnosis = Diagnose(*set, options_, TerminalObserver());
-  ClearProgressLine();
   if (!diagnosis && diagnosis.error().file.empty()) diagnosis.error().file = file;
   return diagnosis;
 }
@@ -185,6 +184,7 @@ int DiagnoseCommand::Run() {
     return written ? kExitFine : Refuse(written.error());
   }
   if (auto checked = CheckFlags(); !checked) return Refuse(checked.error());
+  if (output_.quiet) SilenceProgress();
   const InterruptGuard guard;
   std::vector<std::string> names;
   std::vector<Diagnosis> diagnoses;

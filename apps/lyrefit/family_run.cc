@@ -110,9 +110,9 @@ int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& fl
     if (!rows) return Refuse(rows.error());
     truth = std::move(*rows);
   }
+  if (output.quiet) SilenceProgress();
   const InterruptGuard guard;
   const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
-  ClearProgressLine();
   if (!report) return Refuse(report.error());
   if (auto written = Write(verb, *report, *set, truth, flags, output); !written)
     return Refuse(written.error());

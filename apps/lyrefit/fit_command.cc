@@ -161,10 +161,10 @@ int FitCommand::Run() {
   }
   const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
   if (!curve) return Refuse(WhyNotOneCurve(curve_, curve.error()));
+  if (output_.quiet) SilenceProgress();
   const InterruptGuard guard;
   const Expected<FitReport> report = auto_model_ ? FitAuto(*curve, options_, TerminalObserver())
                                                  : Fit(*curve, options_, TerminalObserver());
-  ClearProgressLine();
   if (!report) return Refuse(report.error());
   if (auto written = Write(*report); !written) return Refuse(written.error());
   if (report->interrupted) return kExitInterrupted;

@@ -70,15 +70,17 @@ void ForgetAssumptions(const char* about, std::vector<std::string>* sentences) {
 
 }  // namespace
 
-Flag AddResumeFlag(Verb* verb, const std::string& unit, const std::string& group,
-                   std::string* target) {
+void AddQuietFlag(Verb* verb, bool* target) {
+  verb->AddSwitch("--quiet", target, "no text, no progress").Group("Output");
+}
+
+Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target) {
   return verb
       ->AddOption("--resume", target,
                   "a journal: every finished " + unit +
-                      " is added to it, and none that stands in " +
-                      "it is done again; begun where there is none")
-      .Type("FILE")
-      .Group(group);
+                      " is added to it, and none that stands in it is done again; begun where "
+                      "there is none")
+      .Writes();
 }
 
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
@@ -191,7 +193,7 @@ void AddReportFlags(Verb* verb, const std::string& what, const std::string& pict
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");
-  verb->AddSwitch("--quiet", &flags->quiet, "no text report").Group("Output");
+  AddQuietFlag(verb, &flags->quiet);
 }
 
 bool TextWanted(const Verb& verb, const ReportFlags& flags) {

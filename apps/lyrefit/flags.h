@@ -74,9 +74,10 @@ void AddTableFlags(Verb* verb, const Table& table, const std::string& group, Opt
   }
 }
 
+void AddQuietFlag(Verb* verb, bool* target);
+
 // --resume FILE: where a study is written to run by run (or set by set), and taken up from.
-Flag AddResumeFlag(Verb* verb, const std::string& unit, const std::string& group,
-                   std::string* target);
+Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target);
 
 // A flag that may be given several times, one value each.
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,

@@ -41,6 +41,11 @@ void OnInterrupt(int /*signal*/) {
 
 bool OnTerminal() { return isatty(STDERR_FILENO) != 0; }
 
+void WipeLine() {
+  fmt::print(stderr, "\r{:<79}\r", "");
+  std::fflush(stderr);
+}
+
 // Draws the line from a thread of its own, so that stages which tell nothing are seen to live.
 class ProgressDisplay {
  public:
@@ -55,7 +60,7 @@ class ProgressDisplay {
     }
     wake_.notify_all();
     if (drawer_.joinable()) drawer_.join();
-    if (drawn_) ClearProgressLine();
+    if (drawn_) WipeLine();
   }
 
   ProgressDisplay(const ProgressDisplay&) = delete;
@@ -75,7 +80,7 @@ class ProgressDisplay {
     while (!wake_.wait_for(lock, kPeriod, [this] { return over_; })) {
       const std::string notice = text_.LongRun(Seconds());
       if (!notice.empty()) {
-        if (drawn_) ClearProgressLine();
+        if (drawn_) WipeLine();
         fmt::print(stderr, "lyrefit: {}; {}\n", notice, style_.on_interrupt);
       }
       if (terminal) {
@@ -118,11 +123,5 @@ Observer TerminalObserver(ProgressStyle style) {
 }
 
 void SilenceProgress() { silent = true; }
-
-void ClearProgressLine() {
-  if (!OnTerminal()) return;
-  fmt::print(stderr, "\r{:<79}\r", "");
-  std::fflush(stderr);
-}
 
 }  // namespace lyrefit

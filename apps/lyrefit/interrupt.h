@@ -31,7 +31,4 @@ Observer TerminalObserver(ProgressStyle style = {});
 // No such lines from here on.
 void SilenceProgress();
 
-// Wipes the changing line.
-void ClearProgressLine();
-
 }  // namespace lyrefit

@@ -68,7 +68,8 @@ ReproduceCommand::ReproduceCommand(CommandLine* line)
       .Between(0, 1024)
       .Type("N")
       .Group("Runs");
-  AddResumeFlag(verb_, "run", "Runs", &options_.journal);
+  AddResumeFlag(verb_, "run", &options_.journal);
+  AddQuietFlag(verb_, &quiet_);
   verb_->AddOption("--peers", &peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
       .Type("LIST")
       .Group("Runs");
@@ -125,12 +126,12 @@ int ReproduceCommand::Run() {
     verb_->AlsoWrites("--out", path);
   }
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
+  if (quiet_) SilenceProgress();
   const InterruptGuard guard;
   const std::string kept = options_.journal.empty()
                                ? "Ctrl-C loses what is done; --resume FILE keeps it"
                                : "Ctrl-C keeps what is done in " + options_.journal;
   const auto study = ReproducePaper(folder_, options_, TerminalObserver({"", kept}));
-  ClearProgressLine();
   if (!study) return Refuse(study.error());
   PrintRemarks(study->remarks);
   if (study->interrupted) {
@@ -141,6 +142,7 @@ int ReproduceCommand::Run() {
     return kExitInterrupted;
   }
   if (auto written = Write(*study); !written) return Refuse(written.error());
+  if (quiet_) return kExitFine;
   const std::string done = fmt::format("written: {} ({:.0f} s)\n",
                                        (fs::path(output_) / "README.md").string(), study->seconds);
   if (auto written = WriteOutput("-", done); !written) return Refuse(written.error());

@@ -25,6 +25,7 @@ class ReproduceCommand {
   std::string output_;
   std::string peers_ = "de1220,sade,cmaes,pso,gwo,bee_colony";
   std::vector<std::string> pages_;
+  bool quiet_ = false;
 };
 
 }  // namespace lyrefit

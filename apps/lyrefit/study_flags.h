@@ -24,6 +24,7 @@ struct StudyFlags {
   CompareOptions options;
   SearchOptions search;
   bool no_polish = false;
+  bool quiet = false;
   std::string json_file;
   std::string csv_file;
 };

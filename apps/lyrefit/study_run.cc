@@ -22,7 +22,7 @@ Expected<void> Write(const Verb& verb, const StudyFlags& flags, const Comparison
     if (picture.path.empty() || comparison.problems.empty()) continue;
     if (auto drawn = picture.draw(comparison, picture.path); !drawn) return drawn;
   }
-  if (verb.StandardOutputTaken()) return {};
+  if (flags.quiet || verb.StandardOutputTaken()) return {};
   return WriteOutput("-", text(comparison));
 }
 
@@ -39,9 +39,9 @@ int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Conten
   if (auto checked = verb.CheckFiles(); !checked) return Refuse(checked.error());
   const auto curves = ReadStudyCurves(flags);
   if (!curves) return Refuse(curves.error());
+  if (flags.quiet) SilenceProgress();
   const InterruptGuard guard;
   const auto comparison = Compare(*curves, contenders, options, TerminalObserver({"compare"}));
-  ClearProgressLine();
   if (!comparison) return Refuse(comparison.error());
   PrintRemarks(comparison->remarks);
   if (auto written = Write(verb, flags, *comparison, text, pictures); !written) {

@@ -62,6 +62,7 @@ Expected<std::unique_ptr<Journal>> Journal::Open(const std::string& path,
 
 Expected<void> Journal::Lock() {
   std::error_code ignored;
+  if (path_ == "-") return Fail("expected a file for the journal, found standard output");
   if (std::filesystem::exists(path_, ignored) &&
       !std::filesystem::is_regular_file(path_, ignored)) {
     return Fail("expected a journal, or a file that does not exist yet", path_);

@@ -62,9 +62,9 @@ int CertifyCommand::Run() {
   if (!curve) return Refuse(curve.error());
   const InterruptGuard guard;
   const Expected<Certificate> certificate = Certify(*curve, options_, TerminalObserver());
-  ClearProgressLine();
   if (!certificate) return Refuse(certificate.error());
   if (auto written = Write(*certificate); !written) return Refuse(written.error());
+  if (certificate->interrupted) return kExitInterrupted;
   return AllCertified(*certificate) ? kExitFine : kExitNotUsable;
 }
 

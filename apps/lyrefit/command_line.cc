@@ -231,7 +231,7 @@ Expected<void> Verb::CheckFiles() const {
 }
 
 void Verb::AddQuietSwitch() {
-  AddSwitch("--quiet", &impl_->quiet, "no text report").Group(kOutput);
+  AddSwitch("--quiet", &impl_->quiet, "no text, no progress").Group(kOutput);
 }
 
 bool Verb::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
@@ -291,5 +291,10 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
 std::string CommandLine::Help() const { return impl_->app.help(); }
 
 int CommandLine::verbosity() const { return impl_->verbosity; }
+
+bool CommandLine::quiet() const {
+  return std::any_of(impl_->verbs.begin(), impl_->verbs.end(),
+                     [](const auto& verb) { return verb->Chosen() && verb->impl_->quiet; });
+}
 
 }  // namespace lyrefit

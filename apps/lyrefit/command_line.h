@@ -75,7 +75,7 @@ class Verb {
   // Whether the files of this run can be written and nothing that is read would be lost; to be
   // asked before the work. --force, which every verb that writes has, allows to replace inputs.
   Expected<void> CheckFiles() const;
-  // --quiet: no text on standard output.
+  // --quiet: no text on standard output, no progress on the other.
   void AddQuietSwitch();
   // Whether text may be printed: not with --quiet, nor where an output has standard output.
   bool TextWanted() const;
@@ -112,6 +112,7 @@ class CommandLine {
 
   std::string Help() const;
   int verbosity() const;
+  bool quiet() const;  // --quiet of the verb that was asked for
 
  private:
   struct Impl;

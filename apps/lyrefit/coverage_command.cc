@@ -47,6 +47,7 @@ CoverageCommand::CoverageCommand(CommandLine* line)
       .Between(0, 1024)
       .Type("N")
       .Group("Sets");
+  AddResumeFlag(verb_, "set", &options_.journal);
   verb_
       ->AddSwitch("--temperature-offset", &options_.family.temperature_offset,
                   "fit one common error of the temperatures")
@@ -69,9 +70,9 @@ int CoverageCommand::Run() {
   }
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
-  const auto report = Coverage(options_, FitFamily, TerminalObserver());
-  ClearProgressLine();
+  const auto report = Coverage(options_, FitFamily, TerminalObserver({"coverage"}));
   if (!report) return Refuse(report.error());
+  PrintRemarks(report->remarks);
   if (!json_file_.empty()) {
     auto written = WriteOutput(json_file_, CoverageJson(*report));
     if (!written) return Refuse(written.error());
@@ -80,6 +81,7 @@ int CoverageCommand::Run() {
     auto written = WriteOutput("-", CoverageText(*report));
     if (!written) return Refuse(written.error());
   }
+  if (report->interrupted) return kExitInterrupted;
   return report->failed < static_cast<int>(report->sets.size()) ? kExitFine : kExitNotUsable;
 }
 

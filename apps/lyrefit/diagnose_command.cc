@@ -141,7 +141,6 @@ Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string
     return tl::unexpected(applied.error());
   }
   Expected<Diagnosis> diagnosis = Diagnose(*set, options_, TerminalObserver());
-  ClearProgressLine();
   if (!diagnosis && diagnosis.error().file.empty()) diagnosis.error().file = file;
   return diagnosis;
 }
@@ -206,6 +205,7 @@ int DiagnoseCommand::Run() {
     if (diagnoses.back().interrupted) break;
   }
   if (auto written = Write(names, diagnoses); !written) return Refuse(written.error());
+  if (!diagnoses.empty() && diagnoses.back().interrupted) return kExitInterrupted;
   return exit_code;
 }
 

@@ -112,10 +112,10 @@ int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& fl
   }
   const InterruptGuard guard;
   const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
-  ClearProgressLine();
   if (!report) return Refuse(report.error());
   if (auto written = Write(verb, *report, *set, truth, flags, output); !written)
     return Refuse(written.error());
+  if (report->interrupted) return kExitInterrupted;
   return report->usable ? kExitFine : kExitNotUsable;
 }
 

@@ -184,13 +184,14 @@ int FitCommand::RunFamilyFit() {
 int FitCommand::RunOne() {
   const InterruptGuard guard;
   Expected<FitReport> report = FitFile(files_.front(), options_.threads, TerminalObserver());
-  ClearProgressLine();
   if (!report) return Refuse(report.error());
-  const bool usable = report->usable;
+  const int exit_code = report->interrupted ? kExitInterrupted
+                        : report->usable    ? kExitFine
+                                            : kExitNotUsable;
   if (auto written = Write({{files_.front(), std::move(report)}}); !written) {
     return Refuse(written.error());
   }
-  return usable ? kExitFine : kExitNotUsable;
+  return exit_code;
 }
 
 Expected<void> FitCommand::CheckMany() const {
@@ -205,21 +206,24 @@ int FitCommand::RunMany() {
   if (auto checked = CheckMany(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
   const std::vector<FittedFile> fits =
-      FitFiles(files_, options_.threads, TerminalObserver(),
+      FitFiles(files_, options_.threads, TerminalObserver({"fit"}),
                [this](const std::string& file, const Observer& observer) {
                  return FitFile(file, 1, observer);
                });
-  ClearProgressLine();
   int exit_code = kExitFine;
+  bool interrupted = fits.size() < files_.size();
   for (const FittedFile& fit : fits) {
     if (!fit.report) {
       exit_code = Refuse(fit.report.error());
-    } else if (!fit.report->usable && exit_code == kExitFine) {
+      continue;
+    }
+    interrupted = interrupted || fit.report->interrupted;
+    if (!fit.report->usable && exit_code == kExitFine) {
       exit_code = kExitNotUsable;
     }
   }
   if (auto written = Write(fits); !written) return Refuse(written.error());
-  return exit_code;
+  return interrupted ? kExitInterrupted : exit_code;
 }
 
 int FitCommand::Run() {

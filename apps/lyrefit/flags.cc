@@ -70,6 +70,15 @@ void ForgetAssumptions(const char* about, std::vector<std::string>* sentences) {
 
 }  // namespace
 
+Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target) {
+  return verb
+      ->AddOption("--resume", target,
+                  "a journal: every finished " + unit +
+                      " is added to it, and none that stands in it is done again; begun where "
+                      "there is none")
+      .Writes();
+}
+
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
                  std::vector<std::string>* target) {
   return verb->AddOption(flag, target, doc).OneEach().Type("TEXT ...");

@@ -75,6 +75,9 @@ void AddTableFlags(Verb* verb, const Table& table, const std::string& group, Opt
   }
 }
 
+// --resume FILE: where a study is written to run by run (or set by set), and taken up from.
+Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target);
+
 // A flag that may be given several times, one value each.
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
                  std::vector<std::string>* target);

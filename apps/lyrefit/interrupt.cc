@@ -3,84 +3,125 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <cmath>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
-#include <string>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "progress_text.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr std::chrono::milliseconds kProgressPeriod(100);
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPeriod(200);  // between two lines
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t ignored[std::size(kSignals)];  // by whoever started the program
+std::atomic<bool> silent{false};
 
-void OnInterrupt(int signal) {
+void LetGo() {
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    if (ignored[i] == 0) std::signal(kSignals[i], SIG_DFL);
+  }
+}
+
+void OnInterrupt(int /*signal*/) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  LetGo();
 }
 
-// "0:42", "1:02:03"
-std::string ClockText(double seconds) {
-  const auto whole = std::llround(std::min(seconds, 359999.0));
-  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
+bool OnTerminal() { return isatty(STDERR_FILENO) != 0; }
 
-// "compare [#########...........] 405 of 900, 0:21 left"
-std::string ProgressBar(const Progress& progress) {
-  constexpr std::size_t kWidth = 30;
-  const double part =
-      static_cast<double>(progress.iteration) / static_cast<double>(progress.iterations);
-  const auto filled = static_cast<std::size_t>(std::clamp(part, 0.0, 1.0) * kWidth);
-  std::string line =
-      fmt::format("{} [{}{}] {} of {}", progress.stage, std::string(filled, '#'),
-                  std::string(kWidth - filled, '.'), progress.iteration, progress.iterations);
-  if (part > 0) line += fmt::format(", {} left", ClockText(progress.seconds * (1 / part - 1)));
-  return line;
-}
-
-// One search, whose best is worth watching.
-std::string SearchLine(const Progress& progress) {
-  const std::string planned =
-      progress.iterations > 0 ? fmt::format(" of {}", progress.iterations) : std::string();
-  return fmt::format("{}: iteration {}{}, {} evaluations, best {:.6g}", progress.stage,
-                     progress.iteration, planned, progress.evaluations, progress.best);
-}
-
-void ShowProgress(const Progress& progress) {
-  const bool counted = progress.iterations > 0 && progress.stage != "search";
-  fmt::print(stderr, "\r{:<79.79}", counted ? ProgressBar(progress) : SearchLine(progress));
+void WipeLine() {
+  fmt::print(stderr, "\r{:<79}\r", "");
   std::fflush(stderr);
 }
+
+// Draws the line from a thread of its own, so that stages which tell nothing are seen to live.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(ProgressStyle style) : style_(std::move(style)), text_(style_.whole) {
+    if (!silent) drawer_ = std::thread([this] { Draw(); });
+  }
+
+  ~ProgressDisplay() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      over_ = true;
+    }
+    wake_.notify_all();
+    if (drawer_.joinable()) drawer_.join();
+    if (drawn_) WipeLine();
+  }
+
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  void Hear(const Progress& progress) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    text_.Hear(progress, Seconds());
+  }
+
+ private:
+  double Seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  void Draw() {
+    const bool terminal = OnTerminal();
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!wake_.wait_for(lock, kPeriod, [this] { return over_; })) {
+      const std::string notice = text_.LongRun(Seconds());
+      if (!notice.empty()) {
+        if (drawn_) WipeLine();
+        fmt::print(stderr, "lyrefit: {}; {}\n", notice, style_.on_interrupt);
+      }
+      if (terminal) {
+        const std::string line = interrupted != 0 ? "stopping" : text_.Line(Seconds());
+        if (line.empty()) continue;
+        fmt::print(stderr, "\r{:<79.79}", line);
+        drawn_ = true;
+      }
+      std::fflush(stderr);
+    }
+  }
+
+  const ProgressStyle style_;
+  const Clock::time_point begin_ = Clock::now();
+  std::mutex mutex_;  // of what follows
+  ProgressText text_;
+  bool over_ = false;
+  bool drawn_ = false;
+  std::condition_variable wake_;
+  std::thread drawer_;
+};
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  std::signal(SIGINT, OnInterrupt);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    ignored[i] = std::signal(kSignals[i], OnInterrupt) == SIG_IGN ? 1 : 0;
+    if (ignored[i] != 0) std::signal(kSignals[i], SIG_IGN);
+  }
 }
 
-InterruptGuard::~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
+InterruptGuard::~InterruptGuard() { LetGo(); }
 
-Observer TerminalObserver() {
-  using Clock = std::chrono::steady_clock;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  return [terminal, last = Clock::now()](const Progress& progress) mutable {
-    if (terminal && Clock::now() - last >= kProgressPeriod) {
-      last = Clock::now();
-      ShowProgress(progress);
-    }
+Observer TerminalObserver(ProgressStyle style) {
+  return [display = std::make_shared<ProgressDisplay>(std::move(style))](const Progress& progress) {
+    display->Hear(progress);
     return interrupted != 0 ? ObserverAction::kStop : ObserverAction::kContinue;
   };
 }
 
-void ClearProgressLine() {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r{:<79}\r", "");
-  std::fflush(stderr);
-}
+void SilenceProgress() { silent = true; }
 
 }  // namespace lyrefit

@@ -15,6 +15,7 @@
 #include "data_sheet_command.h"
 #include "diagnose_command.h"
 #include "fit_command.h"
+#include "interrupt.h"
 #include "output.h"
 #include "reproduce_command.h"
 #include "sensitivity_command.h"
@@ -74,6 +75,7 @@ int Main(int argc, char** argv) {
     return written ? kExitFine : Refuse(written.error());
   }
   StartLogging(argv[0], line.verbosity());
+  if (line.quiet()) SilenceProgress();
   for (const Command& command : commands) {
     if (command.chosen()) return command.run();
   }

@@ -27,6 +27,10 @@ int Refuse(const Error& error) {
   return kExitBadInput;
 }
 
+void PrintRemarks(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) fmt::print(stderr, "lyrefit: {}\n", remark);
+}
+
 Expected<void> CheckWritable(const std::string& path) {
   if (path.empty() || path == "-") return {};
   std::error_code error;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/base/error.h"
 
@@ -10,9 +11,13 @@ namespace lyrefit {
 constexpr int kExitFine = 0;
 constexpr int kExitBadInput = 1;
 constexpr int kExitNotUsable = 2;
+constexpr int kExitInterrupted = 130;  // also where a report of what was done was written
 
 // Prints "lyrefit: sentence" on standard error; returns kExitBadInput.
 int Refuse(const Error& error);
+
+// One line each on standard error.
+void PrintRemarks(const std::vector<std::string>& remarks);
 
 // Whether a file can be created or replaced at `path`; leaves nothing behind. "-" and "" pass.
 Expected<void> CheckWritable(const std::string& path);

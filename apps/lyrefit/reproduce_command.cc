@@ -68,6 +68,8 @@ ReproduceCommand::ReproduceCommand(CommandLine* line)
       .Between(0, 1024)
       .Type("N")
       .Group("Runs");
+  AddResumeFlag(verb_, "run", &options_.journal);
+  verb_->AddQuietSwitch();
   verb_->AddOption("--peers", &peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
       .Type("LIST")
       .Group("Runs");
@@ -126,13 +128,23 @@ int ReproduceCommand::Run() {
   }
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
-  const auto study = ReproducePaper(folder_, options_, TerminalObserver());
-  ClearProgressLine();
+  const std::string kept = options_.journal.empty()
+                               ? "Ctrl-C loses what is done; --resume FILE keeps it"
+                               : "Ctrl-C keeps what is done in " + options_.journal;
+  const auto study = ReproducePaper(folder_, options_, TerminalObserver({"", kept}));
   if (!study) return Refuse(study.error());
+  PrintRemarks(study->remarks);
+  if (study->interrupted) {
+    PrintRemarks(
+        {options_.journal.empty()
+             ? "interrupted; nothing is written, and nothing kept without --resume FILE"
+             : "interrupted; nothing is written, the same command goes on where it stopped"});
+    return kExitInterrupted;
+  }
   if (auto written = Write(*study); !written) return Refuse(written.error());
+  if (!verb_->TextWanted()) return kExitFine;
   const std::string done = fmt::format("written: {} ({:.0f} s)\n",
                                        (fs::path(output_) / "README.md").string(), study->seconds);
-  if (!verb_->TextWanted()) return kExitFine;
   if (auto written = WriteOutput("-", done); !written) return Refuse(written.error());
   return kExitFine;
 }

@@ -42,6 +42,8 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
       .Between(0, 1024)
       .Type("N")
       .Group("Runs");
+  AddResumeFlag(verb, "run", &flags->options.journal);
+  verb->AddQuietSwitch();
   verb->AddOption("--json", &flags->json_file, "everything as JSON; - for standard output, alone")
       .Writes();
   verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")

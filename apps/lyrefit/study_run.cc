@@ -40,13 +40,13 @@ int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Conten
   const auto curves = ReadStudyCurves(flags);
   if (!curves) return Refuse(curves.error());
   const InterruptGuard guard;
-  const auto comparison = Compare(*curves, contenders, options, TerminalObserver());
-  ClearProgressLine();
+  const auto comparison = Compare(*curves, contenders, options, TerminalObserver({"compare"}));
   if (!comparison) return Refuse(comparison.error());
+  PrintRemarks(comparison->remarks);
   if (auto written = Write(verb, flags, *comparison, text, pictures); !written) {
     return Refuse(written.error());
   }
-  return kExitFine;
+  return comparison->interrupted ? kExitInterrupted : kExitFine;
 }
 
 }  // namespace lyrefit

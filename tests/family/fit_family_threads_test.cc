@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <string>
+#include <thread>
 
 #include "family/made_family.h"
 #include "lyrefit/family/fit_family.h"
@@ -103,7 +106,8 @@ TEST(FitFamily, StopsAtEveryStage) {
   };
   const FamilyReport whole = *FitFamily(set, Small(), listen);
   EXPECT_FALSE(whole.interrupted);
-  EXPECT_THAT(stages, testing::IsSupersetOf({"search", "curves", "held out", "odd curves"}));
+  EXPECT_THAT(stages, testing::IsSupersetOf({"search", "curves", "joint fit", "intervals",
+                                             "held out", "odd curves", "jackknife"}));
   for (const std::string& stage : stages) {
     SCOPED_TRACE(stage);
     const Observer stop = [&](const Progress& now) {
@@ -122,6 +126,33 @@ TEST(FitFamily, StopsAtEveryStage) {
     EXPECT_TRUE(report.jackknife.empty() || report.jackknife.size() == count);
     EXPECT_EQ(report.usable, !report.estimates.empty());
   }
+}
+
+TEST(FitFamily, StopsInTheMiddleOfAJointSolve) {
+  const CurveSet set = SetWithAStranger();
+  FamilyOptions options = Small();
+  options.threads = 1;
+  options.temperature_accuracy_K = 1;
+  // The observer is asked at every step, at most every 50 ms: it wants to stop from the third on.
+  for (const std::string stage : {"joint fit", "jackknife"}) {
+    int asked = 0;
+    const FamilyReport report = *FitFamily(set, options, [&](const Progress& now) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(now.stage == stage ? 60 : 0));
+      asked += now.stage == stage;
+      return asked > 2 ? ObserverAction::kStop : ObserverAction::kContinue;
+    });
+    EXPECT_EQ(asked, 3) << stage;
+    EXPECT_TRUE(report.interrupted);
+    EXPECT_EQ(report.termination, stage == "joint fit" ? "interrupted" : "converged");
+    EXPECT_TRUE(report.jackknife.empty());
+  }
+}
+
+TEST(FitFamily, RefusesLessThanNoThreads) {
+  FamilyOptions options = Small();
+  options.threads = -3;
+  EXPECT_THAT(FitFamily(SetWithAStranger(), options).error().message,
+              testing::HasSubstr("threads = -3 is below 0"));
 }
 
 TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {

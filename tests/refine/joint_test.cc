@@ -150,6 +150,28 @@ class RefineJointlyTest : public testing::Test {
   std::vector<double> truth_ = MadeTruth(law_);
 };
 
+TEST_F(RefineJointlyTest, EndsAtTheBestPointSoFarWhenAskedTo) {
+  const JointProblem problem = Problem(1);
+  std::vector<double> start = truth_;
+  start[law_.saturation_current] *= 30;
+  start[law_.n] = 1.45;
+  const double best = Total(RefineJointly(problem, PointAt(problem, start)));
+  double before = HUGE_VAL;
+  for (const int steps : {0, 2, 4}) {
+    JointOptions options;
+    int asked = 0;
+    options.proceed = [&] { return asked++ < steps; };
+    const JointEnd end = RefineJointly(problem, PointAt(problem, start), options);
+    EXPECT_TRUE(end.stopped);
+    EXPECT_FALSE(end.converged);
+    EXPECT_EQ(asked, steps + 1) << "not asked again";
+    EXPECT_LE(Total(end), before);
+    EXPECT_GT(Total(end), best * 1.001);
+    before = Total(end);
+  }
+  EXPECT_FALSE(RefineJointly(problem, PointAt(problem, start)).stopped);
+}
+
 TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
   const JointProblem problem = WithLocals(Problem(1));
   const JointEnd end = RefineJointly(problem, PointAt(problem, truth_));

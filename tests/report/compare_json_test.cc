@@ -29,7 +29,8 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "objective", "constants", "seed", "runs", "target_gap",
                           "polish", "plain_polish", "interrupted", "seconds", "problems"}));
   const json& problem = j["problems"][0];
-  EXPECT_EQ(Keys(problem), (Set{"curve", "model", "bounds", "reference", "contenders", "ranking"}));
+  EXPECT_EQ(Keys(problem),
+            (Set{"curve", "model", "bounds", "complete", "reference", "contenders", "ranking"}));
   EXPECT_EQ(Keys(problem["reference"]),
             (Set{"rmse_A", "certified", "lower_bound_A", "floor_A", "origin", "parameters"}));
   const json& contender = problem["contenders"][0];

@@ -193,11 +193,26 @@ TEST(CompareText, LeavesOutWhatWasNotDone) {
 TEST(CompareText, StartsWithInterrupted) {
   Comparison comparison = SampleComparison();
   comparison.interrupted = true;
-  EXPECT_THAT(CompareText(comparison), StartsWith("INTERRUPTED"));
+  comparison.problems[1].complete = false;
+  comparison.problems[1].contenders[2].runs.pop_back();
+  const std::string text = CompareText(comparison);
+  EXPECT_THAT(text, StartsWith("INTERRUPTED"));
+  EXPECT_THAT(text, HasSubstr("of 4 runs, and runs within"));
+  EXPECT_THAT(text, HasSubstr("of 3 to 4 of 4 runs, and runs within"));
   comparison.problems.clear();
   EXPECT_THAT(CompareText(comparison), HasSubstr("nothing was completed"));
   EXPECT_THAT(BudgetText(comparison), StartsWith("INTERRUPTED"));
   EXPECT_THAT(SensitivityText(comparison), StartsWith("INTERRUPTED"));
+}
+
+TEST(BudgetText, LeavesACellOpenWhereNoRunWasDone) {
+  Comparison comparison =
+      SampleComparison(BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {1000, 100, 10}));
+  comparison.problems.pop_back();
+  comparison.interrupted = true;
+  comparison.problems[0].complete = false;
+  comparison.problems[0].contenders.pop_back();  // random@10
+  EXPECT_THAT(BudgetText(comparison), testing::ContainsRegex("random +- +[0-4] +[0-4]\n"));
 }
 
 // mlo and random at three budgets; `missed` runs of random at the largest one.

@@ -21,6 +21,7 @@ inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& co
     std::vector<RunOutcome> outcomes(4);
     for (int r = 0; r < 4; ++r) {
       RunRecord& run = outcomes[r].record;
+      run.run = r;
       const double excess = 0.01 * static_cast<double>(c * c) * (1 + 0.3 * r);
       const bool missed = c == 2 && r == 3 && model == Model::kDoubleDiode;
       run.searched_A = kBest * (1 + excess);

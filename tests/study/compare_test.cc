@@ -190,29 +190,53 @@ TEST(Compare, TellsTheObserverOfEveryRunOneThreadAtATime) {
     return ObserverAction::kContinue;
   };
   Compared(SmallContenders(), SmallOptions(), observer);
-  std::vector<std::int64_t> all(24);
-  for (int i = 0; i < 24; ++i) all[i] = i + 1;
+  std::vector<std::int64_t> all(25);
+  for (int i = 0; i < 25; ++i) all[i] = i;
   EXPECT_EQ(done, all);
 }
 
-TEST(Compare, KeepsCompleteProblemsWhenStopped) {
+Observer StopAfter(std::int64_t runs) {
+  return [runs](const Progress& progress) {
+    return progress.iteration >= runs ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+}
+
+TEST(Compare, KeepsEveryFinishedRunWhenStopped) {
   CompareOptions options = SmallOptions();
   const Comparison whole = Compared(SmallContenders(), options);
-  const auto stop_after = [](std::int64_t runs) {
-    return [runs](const Progress& progress) {
-      return progress.iteration >= runs ? ObserverAction::kStop : ObserverAction::kContinue;
-    };
-  };
-  options.threads = 1;  // two could be at the first problem's last run and beyond it
-  const Comparison part = Compared(SmallContenders(), options, stop_after(14));
+  options.threads = 1;  // two could be beyond the run that ends it
+  const Comparison part = Compared(SmallContenders(), options, StopAfter(12 + 8));
   EXPECT_TRUE(part.interrupted);
-  ASSERT_EQ(part.problems.size(), 1U);
+  ASSERT_EQ(part.problems.size(), 2U);
+  EXPECT_TRUE(part.problems[0].complete);
   EXPECT_EQ(part.problems[0].contenders[2].runs[3].polished_A,
             whole.problems[0].contenders[2].runs[3].polished_A);
-  const Comparison none = Compared(SmallContenders(), options, stop_after(0));
+  const ProblemResult& cut = part.problems[1];
+  EXPECT_FALSE(cut.complete);
+  EXPECT_FALSE(cut.reference.certified) << "the proof was not begun";
+  ASSERT_EQ(cut.contenders.size(), 3U);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::vector<RunRecord>& runs = cut.contenders[c].runs;
+    ASSERT_EQ(runs.size(), c < 2 ? 3U : 2U) << "run by run, contender by contender";
+    for (const RunRecord& run : runs) {
+      EXPECT_EQ(run.polished_A, whole.problems[1].contenders[c].runs[run.run].polished_A);
+    }
+  }
+  EXPECT_EQ(cut.searched.friedman.blocks, 2) << "what all have done";
+  const Comparison none = Compared(SmallContenders(), options, StopAfter(0));
   EXPECT_TRUE(none.interrupted);
   EXPECT_TRUE(none.problems.empty());
   EXPECT_FALSE(whole.interrupted);
+}
+
+TEST(Compare, LeavesOutContendersWithoutARun) {
+  CompareOptions options = SmallOptions();
+  options.threads = 1;
+  const Comparison part = Compared(SmallContenders(), options, StopAfter(2));
+  ASSERT_EQ(part.problems.size(), 1U);
+  ASSERT_EQ(part.problems[0].contenders.size(), 2U);
+  EXPECT_EQ(part.problems[0].contenders[1].name, "de");
+  EXPECT_TRUE(part.problems[0].searched.pairs.empty());
 }
 
 TEST(Compare, StopsInsideALongRun) {
@@ -268,6 +292,7 @@ TEST(Compare, RefusesBadOptions) {
   EXPECT_THAT(refusal([](CompareOptions* o) { o->target_gap = 0; }), HasSubstr("target-gap"));
   EXPECT_THAT(refusal([](CompareOptions* o) { o->target_gap = kUnknown; }),
               HasSubstr("target-gap"));
+  EXPECT_THAT(refusal([](CompareOptions* o) { o->threads = -3; }), HasSubstr("threads = -3"));
   EXPECT_THAT(Refusal({}, SmallContenders(), SmallOptions()), HasSubstr("no curve"));
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <mutex>
 
+#include "../temp_folder.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/device/kernel.h"
 #include "lyrefit/study/coverage_sets.h"
@@ -156,6 +158,47 @@ TEST(Coverage, StopsWithWhatIsDone) {
   EXPECT_EQ(report->sets.size(), 3U);
 }
 
+TEST(Coverage, TakesUpWhereAnEarlierProcessStopped) {
+  const TempFolder folder;
+  CoverageOptions options = Small();
+  options.threads = 1;
+  const FamilyFitter fit = Fitter(options, [](int set, FamilyReport* r) {
+    r->estimates[0].high_95 = set % 3 == 0 ? kInfinity : kUnknown;
+    r->usable = set != 1;
+  });
+  const auto whole = Coverage(options, fit);
+  options.journal = folder.Path("coverage.jsonl");
+  const auto part = Coverage(options, fit, [](const Progress& progress) {
+    return progress.iteration == 5 ? ObserverAction::kStop : ObserverAction::kContinue;
+  });
+  ASSERT_TRUE(part);
+  ASSERT_EQ(part->sets.size(), 5U);
+  EXPECT_TRUE(part->remarks.empty());
+  int fitted = 0;
+  const auto count = [&](const CurveSet& set, const FamilyOptions& family, const Observer& watch) {
+    ++fitted;
+    return fit(set, family, watch);
+  };
+  const auto rest = Coverage(options, count);
+  ASSERT_TRUE(rest) << rest.error().ToString();
+  EXPECT_EQ(fitted, 15);
+  EXPECT_FALSE(rest->interrupted);
+  EXPECT_THAT(rest->remarks, testing::ElementsAre(HasSubstr("5 of 20 sets were done before")));
+  ASSERT_EQ(rest->sets.size(), 20U);
+  for (std::size_t s = 0; s < 20; ++s) {
+    EXPECT_EQ(rest->sets[s].error, whole->sets[s].error);
+    ASSERT_EQ(rest->sets[s].rows.size(), whole->sets[s].rows.size());
+    for (std::size_t i = 0; i < whole->sets[s].rows.size(); ++i) {
+      const CoverageRow &a = rest->sets[s].rows[i], &b = whole->sets[s].rows[i];
+      EXPECT_EQ(std::memcmp(&a.interval, &b.interval, sizeof a.interval), 0) << "the same bits";
+      EXPECT_EQ(a.truth, b.truth);
+    }
+  }
+  options.noise_relative = 2e-3;
+  EXPECT_THAT(Coverage(options, fit).error().ToString(),
+              HasSubstr("begun with noise-relative: 0.001; now it is 0.002"));
+}
+
 TEST(Coverage, RefusesWhatCannotBeSimulated) {
   const auto error = [](const CoverageOptions& options) {
     const auto report = Coverage(options, Fitter(options, [](int, FamilyReport*) {}));
@@ -169,6 +212,9 @@ TEST(Coverage, RefusesWhatCannotBeSimulated) {
   EXPECT_THAT(error(options), HasSubstr("no value for Is1"));
   options.module = {{"Icph", 8}};
   EXPECT_THAT(error(options), HasSubstr("the law has no parameter Icph"));
+  options = Small();
+  options.threads = -1;
+  EXPECT_THAT(error(options), HasSubstr("threads = -1"));
   options = Small();
   options.family.model = Model::kTripleDiode;
   EXPECT_THAT(error(options), HasSubstr("expected sd or dd, found td"));

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -83,13 +85,17 @@ Against TestAgainst(const CurveSet& set, const FamilyProblem& family, const Fami
 }
 
 // Leaves whole curves out in turn, fits the others anew from the joint optimum and tests on those
-// left out.
-HeldOut TestByFolds(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-                    const JointProblem& problem, const JointEnd& end) {
+// left out. Nothing where it was stopped.
+std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& family,
+                                   const FamilyOptions& options, const JointProblem& problem,
+                                   const JointEnd& end, const Observer& observer) {
   const std::vector<int>& fitted = family.curves.fitted;
   const int folds = std::min(options.folds, static_cast<int>(fitted.size()));
   std::vector<std::vector<Tested>> parts(folds);
+  SharedObserver watch(observer, "held out", folds);
+  watch.Begin();
   ParallelFor(folds, options.threads, [&](int f) {
+    if (watch.Stopped()) return;
     std::vector<int> kept, left;
     for (std::size_t k = 0; k < fitted.size(); ++k) {
       (static_cast<int>(k) % folds == f ? left : kept).push_back(fitted[k]);
@@ -99,9 +105,12 @@ HeldOut TestByFolds(const CurveSet& set, const FamilyProblem& family, const Fami
     const JointPoint start{end.point.shared, std::vector<JointLocal>(kept.size(), {0, 0})};
     JointOptions quick;
     quick.function_tolerance = 1e-10;
+    quick.proceed = watch.Proceed();
     const JointEnd refit = RefineJointly(rest, start, quick);
     parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
+    watch.FinishJob();
   });
+  if (watch.Stopped()) return {};
   std::vector<Tested> tested;
   for (const auto& part : parts) tested.insert(tested.end(), part.begin(), part.end());
   HeldOut result = Summarise(tested, set);
@@ -133,14 +142,20 @@ Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& op
 }
 
 void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-                const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+                const JointProblem& problem, const JointEnd& end, const Observer& observer,
+                FamilyReport* report) {
   const FamilyMembers& curves = family.curves;
   const std::vector<int>& tested = curves.held_out.empty() ? curves.fitted : curves.held_out;
   HeldOut held;
   if (!curves.held_out.empty()) {
     held = TestOn(set, family, options, end.point.shared, tested);
   } else if (options.folds > 0 && curves.fitted.size() >= 4) {
-    held = TestByFolds(set, family, options, problem, end);
+    std::optional<HeldOut> folds = TestByFolds(set, family, options, problem, end, observer);
+    if (!folds) {
+      report->interrupted = true;
+      return;
+    }
+    held = std::move(*folds);
   }
   if (held.curves > 0) {
     held.median_free_rmse_A = FreeMedian(*report, tested);

@@ -1,25 +1,35 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
 
 void Jackknife(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end,
-               int threads, FamilyReport* report) {
+               int threads, const Observer& observer, FamilyReport* report) {
   const int curves = static_cast<int>(problem.curves.size());
   const int count = family.translation.size();
   std::vector<std::vector<double>> without(curves);
+  SharedObserver watch(observer, "jackknife", curves);
+  watch.Begin();
   ParallelFor(curves, threads, [&](int c) {
+    if (watch.Stopped()) return;
     JointProblem rest = problem;
     JointPoint start = end.point;
     rest.curves.erase(rest.curves.begin() + c);
     start.local.erase(start.local.begin() + c);
     JointOptions quick;
     quick.function_tolerance = 1e-9;
+    quick.proceed = watch.Proceed();
     without[c] = RefineJointly(rest, start, quick).point.shared;
+    watch.FinishJob();
   });
+  if (watch.Stopped()) {
+    report->interrupted = true;
+    return;
+  }
   const double t = StudentT95(std::max(curves - 1, 1));
   const Translation& at = family.translation;
   report->jackknife.clear();

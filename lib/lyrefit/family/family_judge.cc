@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/device/model_points.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
@@ -38,8 +39,13 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
 class Judge {
  public:
   Judge(const FamilyProblem& family, const FamilyOptions& options, const JointProblem& problem,
-        const JointEnd& end, FamilyReport* report)
-      : family_(family), options_(options), problem_(problem), end_(end), r_(*report) {}
+        const JointEnd& end, const Observer& observer, FamilyReport* report)
+      : family_(family),
+        options_(options),
+        problem_(problem),
+        end_(end),
+        observer_(observer),
+        r_(*report) {}
 
   void Run() {
     const std::vector<double>& shared = end_.point.shared;
@@ -145,12 +151,22 @@ class Judge {
     for (int i = 0; i < family_.translation.size(); ++i) {
       if (!NeedsProfile(i)) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error});
+        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error, {}});
       }
     }
     std::vector<JointProfileSide> sides(queries.size());
-    ParallelFor(static_cast<int>(queries.size()), options_.threads,
-                [&](int q) { sides[q] = FindJointProfileSide(problem_, end_, queries[q]); });
+    SharedObserver watch(observer_, "intervals", static_cast<std::int64_t>(queries.size()));
+    watch.Begin();
+    ParallelFor(static_cast<int>(queries.size()), options_.threads, [&](int q) {
+      if (watch.Stopped()) return;
+      queries[q].proceed = watch.Proceed();
+      sides[q] = FindJointProfileSide(problem_, end_, queries[q]);
+      watch.FinishJob();
+    });
+    if (watch.Stopped()) {
+      r_.interrupted = true;
+      return;
+    }
     for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
       const int i = queries[q].parameter;
       Estimate& e = r_.estimates[i];
@@ -242,6 +258,7 @@ class Judge {
   const FamilyOptions& options_;
   const JointProblem& problem_;
   const JointEnd& end_;
+  const Observer& observer_;
   FamilyReport& r_;
   double variance_ = 0;
   double t_ = 2;
@@ -259,8 +276,9 @@ double JointDegrees(const JointProblem& problem, int free_parameters, double loc
 }
 
 void JudgeFamily(const FamilyProblem& family, const FamilyOptions& options,
-                 const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
-  Judge judge(family, options, problem, end, report);
+                 const JointProblem& problem, const JointEnd& end, const Observer& observer,
+                 FamilyReport* report) {
+  Judge judge(family, options, problem, end, observer, report);
   judge.Run();
   for (std::size_t k = 0; k < family.curves.fitted.size(); ++k) {
     const JointCurve& curve = problem.curves[k];

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/device/kernel.h"
 #include "lyrefit/device/model_points.h"
@@ -35,11 +37,6 @@ struct Job {
   std::vector<JointPoint> starts;
   JointPoint searched;
   bool stopped = false;
-
-  bool Stop(std::string_view stage) {
-    if (!stopped && StopRequested(observer, {stage, 0, 0, 0, 0, 0})) stopped = true;
-    return stopped;
-  }
 };
 
 FitOptions SingleFitOptions(const FamilyOptions& options) {
@@ -160,8 +157,11 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
 }
 
 void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
-  const std::vector<int> odd = FindOddCurves(problem, end);
-  if (odd.empty()) return;
+  SharedObserver watch(job->observer, "odd curves", 0);
+  watch.Begin();
+  const std::vector<int> odd = FindOddCurves(problem, end, watch.Proceed());
+  job->stopped = watch.Stopped();
+  if (odd.empty() || job->stopped) return;
   WithoutOdd without;
   JointProblem rest = problem;
   JointPoint start = end.point;
@@ -169,12 +169,16 @@ void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyR
     rest.curves.erase(rest.curves.begin() + *c);
     start.local.erase(start.local.begin() + *c);
   }
+  JointOptions options;
+  options.proceed = watch.Proceed();
+  const JointEnd refit = RefineJointly(rest, start, options);
+  job->stopped = refit.stopped;
+  if (job->stopped) return;
   for (const int c : odd) {
     FamilyCurve& row = report->curves[job->family.curves.fitted[c]];
     row.odd = true;
     without.ids.push_back(row.id);
   }
-  const JointEnd refit = RefineJointly(rest, start);
   const std::vector<double>& shared = refit.point.shared;
   without.rmse = FamilyRmse(rest, refit.point);
   without.shared.assign(shared.begin(), shared.begin() + job->family.translation.size());
@@ -204,21 +208,25 @@ void Refine(Job* job, FamilyReport* report) {
   JointPoint bird = job->searched;
   bird.local.assign(problem.curves.size(), {0, 0});
   report->rmse.searched_all = FamilyRmse(problem, bird);
-  const JointEnd end =
-      FitJointly(job->family, job->options, job->search_curves, job->starts, &problem);
-  report->termination = end.converged ? "converged" : "no convergence";
+  const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
+                                  job->observer, &problem);
+  report->termination = end.stopped     ? "interrupted"
+                        : end.converged ? "converged"
+                                        : "no convergence";
   report->projected_gradient = end.projected_gradient;
   report->rmse.refined = FamilyRmse(problem, end.point);
-  JudgeFamily(job->family, job->options, problem, end, report);
+  JudgeFamily(job->family, job->options, problem, end, job->observer, report);
   FillCurves(*job, problem, end, report);
-  if (!job->Stop("held out")) {
-    TestFamily(job->set, job->family, job->options, problem, end, report);
+  job->stopped = job->stopped || end.stopped || report->interrupted;
+  if (!job->stopped) {
+    TestFamily(job->set, job->family, job->options, problem, end, job->observer, report);
+    job->stopped = report->interrupted;
   }
-  if (!job->Stop("odd curves")) FindOdd(job, problem, end, report);
+  if (!job->stopped) FindOdd(job, problem, end, report);
   const std::size_t curves = problem.curves.size();
-  if (job->options.intervals && curves > 2 && curves <= kMostJackknifed &&
-      !job->Stop("jackknife")) {
-    Jackknife(job->family, problem, end, job->options.threads, report);
+  if (job->options.intervals && curves > 2 && curves <= kMostJackknifed && !job->stopped) {
+    Jackknife(job->family, problem, end, job->options.threads, job->observer, report);
+    job->stopped = report->interrupted;
   }
 }
 
@@ -227,6 +235,9 @@ void Refine(Job* job, FamilyReport* report) {
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
                                  const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
+  if (auto threads = CheckThreads(options.threads); !threads) {
+    return tl::unexpected(threads.error());
+  }
   Expected<FamilyProblem> family = MakeFamilyProblem(set, options);
   if (!family) return tl::unexpected(family.error());
   if (auto checked = CheckAgainst(*family, options); !checked) {

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <mutex>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/free_fits.h"
 
@@ -27,20 +26,16 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
   const auto begin = std::chrono::steady_clock::now();
   FreeFits fits;
   fits.reports.resize(curves.size());
-  std::mutex mutex;
-  std::int64_t done = 0;
+  SharedObserver watch(observer, "curves", static_cast<std::int64_t>(curves.size()));
+  watch.Begin();
   ParallelFor(static_cast<int>(curves.size()), threads, [&](int c) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (fits.interrupted) return;
-    }
-    Expected<FitReport> report = Fit(*curves[c], options);
-    const std::lock_guard<std::mutex> lock(mutex);
-    const std::int64_t planned = static_cast<std::int64_t>(curves.size());
-    fits.interrupted = fits.interrupted ||
-                       StopRequested(observer, {"curves", ++done, planned, 0, 0, Seconds(begin)});
+    if (watch.Stopped()) return;
+    Expected<FitReport> report = Fit(*curves[c], options, watch.Inside());
+    if (report && report->interrupted) return;
     fits.reports[c] = std::move(report);
+    watch.FinishJob();
   });
+  fits.interrupted = watch.Stopped();
   fits.seconds = Seconds(begin);
   return fits;
 }
@@ -66,6 +61,9 @@ FamilyCurve DescribeCurve(const IvCurve& curve) {
 
 Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
+  if (auto threads = CheckThreads(options.threads); !threads) {
+    return tl::unexpected(threads.error());
+  }
   FamilyReport report;
   report.version = Version();
   report.name = set.name;

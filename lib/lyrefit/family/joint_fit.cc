@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/refine/joint_linear.h"
 
@@ -30,7 +31,11 @@ double NoiseOf(const FamilyProblem& family, const JointProblem& problem, const J
 
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
-                    JointProblem* problem) {
+                    const Observer& observer, JointProblem* problem) {
+  SharedObserver watch(observer, "joint fit", 0);
+  watch.Begin();
+  JointOptions thorough;
+  thorough.proceed = watch.Proceed();
   JointProblem small = JointProblemOn(family, options, search_curves);
   // Priors count from the start; a wide guess of the noise lets the data speak first.
   small.noise_A = problem->noise_A = 1e-3 * problem->current_scale_A;
@@ -38,7 +43,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
     JointPoint start = starts[s];
     start.local.assign(small.curves.size(), {0, 0});
-    JointOptions quick;
+    JointOptions quick = thorough;
     quick.function_tolerance = 1e-10;
     ends[s] = RefineJointly(small, start, quick);
   });
@@ -51,16 +56,17 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
     if (repeats) continue;
     JointPoint start = ends[s].point;
     start.local.assign(problem->curves.size(), {0, 0});
-    JointEnd end = RefineJointly(*problem, start);
+    JointEnd end = RefineJointly(*problem, start, thorough);
     if (s == 0 || Total(end) < Total(best)) best = std::move(end);
   }
   constexpr int kRounds = 4;
-  for (int round = 0; HasPriors(*problem) && round < kRounds; ++round) {
+  for (int round = 0; HasPriors(*problem) && round < kRounds && !watch.Stopped(); ++round) {
     const double before = problem->noise_A;
     problem->noise_A = std::max(NoiseOf(family, *problem, best), 1e-9 * problem->current_scale_A);
-    best = RefineJointly(*problem, best.point);
+    best = RefineJointly(*problem, best.point, thorough);
     if (std::fabs(problem->noise_A / before - 1) < 1e-3) break;
   }
+  best.stopped = watch.Stopped();
   return best;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/refine/joint.h"
 
@@ -9,10 +10,10 @@ namespace lyrefit {
 
 // The joint fit of some curves from several starts: every start is refined on the curves of the
 // search, the best two on all. With priors the noise that they are weighed against is found on the
-// way. `problem` (on `curves`) gets that noise.
+// way. `problem` (on `curves`) gets that noise. Stopped by the observer, it is the best so far.
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
-                    JointProblem* problem);
+                    const Observer& observer, JointProblem* problem);
 
 // A start from a curve's own fit: its parameters brought to the reference by the usual
 // coefficients. Empty where they do not go there.

@@ -18,7 +18,7 @@ double CurveSquare(const JointProblem& problem, const JointPoint& point, int c) 
 // Whether ordinary errors of its own readings explain a curve under these shared parameters: the
 // sensors of a good set differ by a few percent, and such a curve is no other device's.
 bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c, double noise_A,
-                     double limit_A) {
+                     double limit_A, const std::function<bool()>& proceed) {
   constexpr double kIrradianceSd = 0.02;
   constexpr double kTemperatureSd_K = 2;
   constexpr double kOrdinary = 3;  // standard deviations
@@ -32,7 +32,9 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
   JointCurve& curve = alone.curves[0];
   curve.irradiance_sd = std::max(curve.irradiance_sd, kIrradianceSd);
   curve.temperature_sd_K = std::max(curve.temperature_sd_K, kTemperatureSd_K);
-  const JointEnd end = RefineJointly(alone, {point.shared, {point.local[c]}});
+  JointOptions options;
+  options.proceed = proceed;
+  const JointEnd end = RefineJointly(alone, {point.shared, {point.local[c]}}, options);
   const JointLocal& own = end.point.local[0];
   return std::fabs(own[0]) <= kOrdinary * curve.irradiance_sd &&
          std::fabs(own[1]) <= kOrdinary * curve.temperature_sd_K &&
@@ -41,7 +43,8 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
 
 }  // namespace
 
-std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end) {
+std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end,
+                               const std::function<bool()>& proceed) {
   constexpr double kSuspicious = 4;  // times the median RMSE
   constexpr double kOdd = 6;
   constexpr double kVisible = 5e-3;  // of the largest current
@@ -70,6 +73,7 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end)
     }
     JointOptions quick;
     quick.function_tolerance = 1e-8;
+    quick.proceed = proceed;
     point = RefineJointly(robust, point, quick).point;
     median = measure(point);
   }
@@ -77,7 +81,8 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end)
   for (int c = 0; c < curves; ++c) {
     const double limit = std::max(kOdd * median, visible);
     const double noise = std::max(median, 1e-9 * problem.current_scale_A);
-    if (rmse[c] > limit && !ReadingsExplain(problem, point, c, noise, limit)) odd.push_back(c);
+    const bool far = rmse[c] > limit;
+    if (far && !ReadingsExplain(problem, point, c, noise, limit, proceed)) odd.push_back(c);
   }
   // More than a third cannot be the exception.
   if (3 * static_cast<int>(odd.size()) > curves) odd.clear();

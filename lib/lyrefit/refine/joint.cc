@@ -33,7 +33,7 @@ class JointPolish {
     Solve(/*bounded=*/true);
     HoldWhatPresses();
     State best;
-    for (int round = 0; round < options_.max_rounds; ++round) {
+    for (int round = 0; round < options_.max_rounds && !stopped_; ++round) {
       if (!SolveFree()) continue;
       if (cost_ < best.cost) {
         best = {at_, held_, cost_, converged_};
@@ -45,6 +45,7 @@ class JointPolish {
     }
     if (best.cost < cost_) Restore(best);
     JointEnd end;
+    end.stopped = stopped_;
     end.point = at_;
     end.held = held_;
     end.converged = converged_;
@@ -102,6 +103,8 @@ class JointPolish {
     const JointCoordinates coordinates(problem_, at_.shared, held_);
     converged_ = false;
     if (!std::isfinite(cost_)) return;  // from nowhere there is no way
+    stopped_ = stopped_ || (options_.proceed && !options_.proceed());
+    if (stopped_) return;
     double points = 0;
     for (const JointCurve& curve : problem_.curves) {
       points += static_cast<double>(curve.voltage_V.size());
@@ -111,6 +114,7 @@ class JointPolish {
     JointStep step = SolveJointly(problem_, coordinates, at_, {unit_A, bounded}, options_);
     iterations_ += step.iterations;
     converged_ = step.converged;
+    stopped_ = step.stopped;
     const double cost = Cost(step.point);
     if (cost <= cost_) {
       at_ = std::move(step.point);
@@ -267,6 +271,7 @@ class JointPolish {
   std::vector<bool> held_;
   double cost_ = HUGE_VAL;
   bool converged_ = false;
+  bool stopped_ = false;
   int iterations_ = 0;
   int released_ = 0;
   int last_released_ = -1;

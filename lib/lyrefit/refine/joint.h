@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "lyrefit/device/translation.h"
@@ -66,6 +67,7 @@ struct JointEnd {
   double squares = 0;        // weighted sum over the points, A^2
   double prior_squares = 0;  // what the priors add
   bool converged = false;
+  bool stopped = false;  // as `proceed` asked
   int iterations = 0;
   std::vector<bool> held;  // shared parameters that are fixed or at a bound
   // Largest cosine between the residuals and a column of the Jacobian along which a shared
@@ -77,6 +79,8 @@ struct JointOptions {
   int max_iterations = 500;
   double function_tolerance = 1e-14;
   int max_rounds = 12;  // of settling which bounds are active
+  // Asked before every step; false ends the fit at the best point so far. May be empty.
+  std::function<bool()> proceed;
 };
 
 // Bounded least squares from `start` by Ceres: the local unknowns are eliminated by their Schur

@@ -28,7 +28,7 @@ class JointSide {
     double far = bound;
     double x = FirstGuess(start, far);
     warm_ = best_.point;
-    while (side_.refits < kMaxJointRefits) {
+    while (side_.refits < kMaxJointRefits && !side_.stopped) {
       const double rise = Rise(x);
       if (std::fabs(rise - query_.t) < kCloseEnoughJoint * query_.t) break;
       (rise > query_.t ? far : near) = x;
@@ -93,7 +93,10 @@ class JointSide {
     held.lower[i] = held.upper[i] = FromScale(x);
     JointPoint start = warm_;
     start.shared[i] = held.lower[i];
-    JointEnd end = RefineJointly(held, start);
+    JointOptions options;
+    options.proceed = query_.proceed;
+    JointEnd end = RefineJointly(held, start, options);
+    side_.stopped = end.stopped;
     const double rise =
         (end.squares + end.prior_squares - best_.squares - best_.prior_squares) / query_.variance;
     warm_ = std::move(end.point);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "lyrefit/refine/joint_residuals.h"
@@ -45,6 +46,18 @@ class CurveCost : public ceres::CostFunction {
   const JointCoordinates& coordinates_;
   int curve_;
   double unit_A_;
+};
+
+class Proceed : public ceres::IterationCallback {
+ public:
+  explicit Proceed(const std::function<bool()>& proceed) : proceed_(proceed) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*step*/) override {
+    return proceed_() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  const std::function<bool()>& proceed_;
 };
 
 void SetBounds(const JointCoordinates& coordinates, std::vector<double>* theta,
@@ -115,10 +128,13 @@ JointStep SolveJointly(const JointProblem& problem, const JointCoordinates& coor
   ceres::Solver::Options solving = SolverOptions(options);
   solving.linear_solver_ordering = order;
   solving.linear_solver_type = any_local && !theta.empty() ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
+  Proceed proceed(options.proceed);
+  if (options.proceed) solving.callbacks.push_back(&proceed);
   ceres::Solver::Summary summary;
   ceres::Solve(solving, &solver, &summary);
   step.iterations = static_cast<int>(summary.iterations.size());
   step.converged = summary.termination_type == ceres::CONVERGENCE;
+  step.stopped = summary.termination_type == ceres::USER_SUCCESS;
   coordinates.ToShared(theta.data(), step.point.shared.data());
   for (std::size_t c = 0; c < locals.size(); ++c) {
     step.point.local[c] = UnpackLocal(ShapeOf(problem.curves[c]), locals[c]);

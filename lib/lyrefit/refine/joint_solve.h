@@ -12,6 +12,7 @@ std::vector<double> StartInside(const JointCoordinates& coordinates);
 struct JointStep {
   JointPoint point;
   bool converged = false;
+  bool stopped = false;
   int iterations = 0;
 };
 

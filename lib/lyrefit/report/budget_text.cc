@@ -77,8 +77,12 @@ std::string HitTable(const std::vector<SearchRow>& rows, const Level& level) {
   table.Add(head);
   for (const SearchRow& row : rows) {
     std::vector<std::string> line = {row.algorithm};
-    for (const ContenderResult* cell : row.cells) {
-      line.push_back(std::to_string((cell->*level.stage).*level.hits));
+    for (const ContenderResult* head_cell : rows[0].cells) {
+      const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
+        return other->search.max_evaluations == head_cell->search.max_evaluations;
+      });
+      const bool done = cell != row.cells.end();  // not where the study was cut short before it
+      line.push_back(done ? std::to_string(((*cell)->*level.stage).*level.hits) : "-");
     }
     table.Add(line);
   }
@@ -161,7 +165,8 @@ std::string BudgetOf(const Comparison& comparison, const ProblemResult& problem)
   std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
   for (const Level& level : kLevels) {
     text += fmt::format("\n  {} ({})\n",
-                        fmt::format(fmt::runtime(level.title), comparison.options.runs), objective);
+                        fmt::format(fmt::runtime(level.title), RunsText(comparison, problem)),
+                        objective);
     text += HitTable(rows, level);
   }
   text += fmt::format("\n  Evaluations from which on every run hits ({})\n", objective);

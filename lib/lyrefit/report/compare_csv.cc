@@ -17,11 +17,10 @@ std::string CompareCsv(const Comparison& comparison) {
         fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),
                     ToText(comparison.options.objective), CsvField(problem.bounds_name));
     for (const ContenderResult& contender : problem.contenders) {
-      for (std::size_t r = 0; r < contender.runs.size(); ++r) {
-        const RunRecord& run = contender.runs[r];
+      for (const RunRecord& run : contender.runs) {
         const std::int64_t to_target = run.evaluations_to_target;
         fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{}\n", begin,
-                       CsvField(contender.name), r, comparison.options.seed,
+                       CsvField(contender.name), run.run, comparison.options.seed,
                        CsvField(run.searched_A), CsvField(run.plain_polished_A),
                        CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
                        to_target < 0 ? "" : std::to_string(to_target), CsvField(run.search_seconds),

@@ -34,10 +34,9 @@ Json SpreadJson(const Spread& spread) {
 
 Json RunsJson(const std::vector<RunRecord>& runs) {
   Json list = Json::array();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const RunRecord& run = runs[r];
+  for (const RunRecord& run : runs) {
     const bool hit = run.evaluations_to_target >= 0;
-    list.push_back({{"run", r},
+    list.push_back({{"run", run.run},
                     {"searched_A", Number(run.searched_A)},
                     {"plain_polished_A", Number(run.plain_polished_A)},
                     {"best_bird_polished_A", Number(run.own_polished_A)},
@@ -140,6 +139,7 @@ Json ProblemJson(const ProblemResult& problem) {
   return {{"curve", problem.curve_name},
           {"model", ToText(problem.model)},
           {"bounds", problem.bounds_name},
+          {"complete", problem.complete},
           {"reference", ReferenceJson(problem)},
           {"contenders", std::move(contenders)},
           {"ranking",

@@ -11,6 +11,9 @@ namespace lyrefit {
 // "rtc_france, double-diode model, bounds literature"
 std::string ProblemTitle(const ProblemResult& problem);
 
+// Of how many runs the figures of a problem are: "50", or "12 to 13 of 50" where it was cut short.
+std::string RunsText(const Comparison& comparison, const ProblemResult& problem);
+
 // "INTERRUPTED: ..." or nothing.
 std::string InterruptedLine(const Comparison& comparison);
 

@@ -81,12 +81,12 @@ std::string ProblemText(const Comparison& comparison, const ProblemResult& probl
   std::string text = "\n" + Wrap("", ProblemTitle(problem)) + ReferenceField(comparison, problem);
   text +=
       fmt::format("\n  Search alone: RMSE in A ({}) of {} runs, and runs within 1e-9 and 1e-6\n",
-                  objective, comparison.options.runs);
+                  objective, RunsText(comparison, problem));
   text += SpreadTable(problem, &ContenderResult::searched, 6);
   if (comparison.options.polish) {
     text += fmt::format(
         "\n  Search and polish: RMSE in A ({}) of {} runs, and runs within 1e-9 and 1e-6\n",
-        objective, comparison.options.runs);
+        objective, RunsText(comparison, problem));
     text += SpreadTable(problem, &ContenderResult::polished, 7);
   }
   const bool levels = comparison.options.polish || comparison.options.plain_polish;
@@ -115,9 +115,21 @@ std::string ProblemTitle(const ProblemResult& problem) {
                      problem.bounds_name);
 }
 
+std::string RunsText(const Comparison& comparison, const ProblemResult& problem) {
+  if (problem.complete) return std::to_string(comparison.options.runs);
+  std::size_t fewest = problem.contenders[0].runs.size(), most = fewest;
+  for (const ContenderResult& contender : problem.contenders) {
+    fewest = std::min(fewest, contender.runs.size());
+    most = std::max(most, contender.runs.size());
+  }
+  const std::string done =
+      fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  return fmt::format("{} of {}", done, comparison.options.runs);
+}
+
 std::string InterruptedLine(const Comparison& comparison) {
   if (!comparison.interrupted) return "";
-  return "INTERRUPTED: only problems whose runs were all done are shown.\n";
+  return "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.\n";
 }
 
 std::string SetUpSection(const Comparison& comparison) {

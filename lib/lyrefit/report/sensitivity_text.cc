@@ -70,7 +70,7 @@ std::string RateVerdict(const ProblemResult& problem) {
 
 std::string SensitivityOf(const Comparison& comparison, const ProblemResult& problem) {
   const std::string objective = ToText(comparison.options.objective);
-  const int runs = comparison.options.runs;
+  const std::string runs = RunsText(comparison, problem);
   const auto figure = [](double Spread::*field, int digits) {
     return
         [field, digits](const ContenderResult& c) { return Scientific(c.searched.*field, digits); };

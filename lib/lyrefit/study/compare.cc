@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
+#include <optional>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/study/compare_checks.h"
+#include "lyrefit/study/compare_journal.h"
 #include "lyrefit/study/reference.h"
 #include "lyrefit/study/summary.h"
 
@@ -20,23 +23,55 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kWatchPeriod(100);  // between calls from inside a run
 
 // One curve with one model, while its runs are under way.
 struct Problem {
-  Problem(const CompareCurve& subject_, Model model_, int runs)
-      : subject(subject_), model(model_), outcomes(runs), left(runs) {}
+  Problem(const CompareCurve& subject_, Model model, int runs)
+      : subject(subject_), outcomes(runs), left(runs) {
+    result.curve_name = subject.curve.name;
+    result.model = model;
+    result.bounds_name = subject.bounds.name;
+  }
 
   const CompareCurve& subject;
-  Model model;
-  std::vector<RunOutcome> outcomes;  // contender by contender
-  std::atomic<int> left;             // runs that are not done
+  std::vector<std::optional<RunOutcome>> outcomes;  // contender by contender
+  std::atomic<int> left;                            // runs that are not done
   ProblemResult result;
 };
 
+using Problems = std::vector<std::unique_ptr<Problem>>;
+
+Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOptions& options,
+                      int runs) {
+  Problems problems;
+  for (const CompareCurve& curve : curves) {
+    for (const Model model : options.models) {
+      problems.push_back(std::make_unique<Problem>(curve, model, runs));
+    }
+  }
+  return problems;
+}
+
+// What a run costs, in about evaluations of one diode; the polish is worth some thousands of them.
+double WorkOf(const Problem& problem, const Contender& contender) {
+  constexpr double kPolish = 3000;
+  const SearchOptions& search = contender.search;
+  const double planned = static_cast<double>(search.population) * (search.iterations + 1.0);
+  const double evaluations = std::min(planned, static_cast<double>(search.max_evaluations));
+  return (evaluations + kPolish) * static_cast<double>(problem.result.model);
+}
+
+double WorkOfAll(const Problems& problems, const std::vector<Contender>& contenders, int runs) {
+  double work = 0;
+  for (const auto& problem : problems) {
+    for (const Contender& contender : contenders) work += runs * WorkOf(*problem, contender);
+  }
+  return work;
+}
+
 FitOptions OptionsOf(const Problem& problem, const CompareOptions& options) {
   FitOptions fit;
-  fit.model = problem.model;
+  fit.model = problem.result.model;
   fit.objective = options.objective;
   fit.constants = options.constants;
   fit.bounds = problem.subject.bounds;
@@ -49,8 +84,9 @@ FitOptions OptionsOf(const Problem& problem, const CompareOptions& options) {
   return fit;
 }
 
-RunOutcome OutcomeOf(const FitReport& report, Objective objective) {
+RunOutcome OutcomeOf(const FitReport& report, int run, Objective objective) {
   RunOutcome outcome;
+  outcome.record.run = run;
   outcome.record.searched_A = report.rmse.searched.Of(objective);
   outcome.record.plain_polished_A = report.rmse.plain_polished.Of(objective);
   outcome.record.own_polished_A = report.rmse.best_bird_polished.Of(objective);
@@ -72,15 +108,11 @@ class Study {
  public:
   Study(const std::vector<CompareCurve>& curves, const std::vector<Contender>& contenders,
         const CompareOptions& options, const Observer& observer)
-      : contenders_(contenders), options_(options), observer_(observer) {
-    const int runs = static_cast<int>(contenders.size()) * options.runs;
-    for (const CompareCurve& curve : curves) {
-      for (const Model model : options.models) {
-        problems_.push_back(std::make_unique<Problem>(curve, model, runs));
-      }
-    }
-    jobs_per_problem_ = runs;
-  }
+      : contenders_(contenders),
+        options_(options),
+        runs_per_problem_(static_cast<int>(contenders.size()) * options.runs),
+        problems_(MakeProblems(curves, options, runs_per_problem_)),
+        watch_(observer, "compare", jobs(), WorkOfAll(problems_, contenders, options.runs)) {}
 
   // One cheap search each finds whatever a fit would object to.
   Expected<void> Try() const {
@@ -91,105 +123,127 @@ class Study {
       fit.search.max_evaluations = 4;
       if (const auto report = Fit(problem->subject.curve, fit); !report) {
         Error error = report.error();
-        error.message = fmt::format("{} cannot be compared on {}: {}", ToText(problem->model),
-                                    problem->subject.curve.name, error.message);
+        error.message =
+            fmt::format("{} cannot be compared on {}: {}", ToText(problem->result.model),
+                        problem->subject.curve.name, error.message);
         return tl::unexpected(std::move(error));
       }
     }
     return {};
   }
 
+  // Takes over the runs that stand in the journal.
+  Expected<void> TakeUp(std::unique_ptr<Journal> journal) {
+    journal_ = std::move(journal);
+    for (const Journal::Record& record : journal_->records()) {
+      auto run = ReadRun(*journal_, record);
+      if (!run) return tl::unexpected(run.error());
+      const RunPlace& at = run->place;
+      if (at.run >= options_.runs) continue;  // more than are asked for this time
+      if (at.problem < 0 || at.problem >= static_cast<int>(problems_.size()) || at.run < 0 ||
+          at.contender < 0 || at.contender >= static_cast<int>(contenders_.size())) {
+        return Fail("this record is of no run of the study", journal_->path(), record.line);
+      }
+      std::optional<RunOutcome>& slot = SlotOf(at);
+      if (slot) continue;
+      slot = std::move(run->outcome);
+      ++taken_up_;
+      watch_.SkipJob(WorkOf(*problems_[at.problem], contenders_[at.contender]));
+    }
+    return {};
+  }
+
   Comparison Run() {
+    watch_.Begin();
     ParallelFor(jobs(), options_.threads, [this](int job) { RunJob(job); });
     Comparison comparison;
     comparison.version = Version();
     comparison.options = options_;
     for (const auto& problem : problems_) {
-      if (problem->left > 0) continue;
+      if (problem->left > 0) SumUp(problem.get());
+      comparison.interrupted = comparison.interrupted || !problem->result.complete;
+      if (problem->result.contenders.empty()) continue;
       comparison.problems.push_back(std::move(problem->result));
     }
-    comparison.interrupted = comparison.problems.size() < problems_.size();
+    if (journal_) {
+      const bool any = taken_up_ > 0;
+      comparison.remarks = JournalRemarks(
+          *journal_, any ? fmt::format("{} of {} runs were done before", taken_up_, jobs()) : "");
+    }
     comparison.seconds = SecondsSince(begin_);
     return comparison;
   }
 
  private:
-  int jobs() const { return static_cast<int>(problems_.size()) * jobs_per_problem_; }
+  int jobs() const { return static_cast<int>(problems_.size()) * runs_per_problem_; }
+
+  std::optional<RunOutcome>& SlotOf(const RunPlace& at) {
+    return problems_[at.problem]->outcomes[at.contender * options_.runs + at.run];
+  }
+
+  // Run by run, so that wherever a study ends its contenders are about as far.
+  RunPlace PlaceOf(int job) const {
+    const int contenders = static_cast<int>(contenders_.size());
+    const int in_problem = job % runs_per_problem_;
+    return {job / runs_per_problem_, in_problem % contenders, in_problem / contenders};
+  }
 
   void RunJob(int job) {
-    if (stopped_) return;
-    Problem* problem = problems_[job / jobs_per_problem_].get();
-    const int slot = job % jobs_per_problem_;
-    const Contender& contender = contenders_[slot / options_.runs];
-    FitOptions fit = OptionsOf(*problem, options_);
+    if (watch_.Stopped()) return;
+    const RunPlace at = PlaceOf(job);
+    Problem* problem = problems_[at.problem].get();
+    std::optional<RunOutcome>& slot = SlotOf(at);
+    const bool taken_up = slot.has_value();
+    if (!taken_up) slot = FitOnce(*problem, at);
+    if (!slot) return;
+    const std::int64_t evaluations = slot->record.evaluations;
+    if (--problem->left == 0) SumUp(problem);
+    if (!taken_up) watch_.FinishJob(WorkOf(*problem, contenders_[at.contender]), evaluations);
+  }
+
+  // Nothing where it was stopped.
+  std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
+    const Contender& contender = contenders_[at.contender];
+    FitOptions fit = OptionsOf(problem, options_);
     fit.search = contender.search;
     fit.search.seed = options_.seed;
-    fit.search.run = slot % options_.runs;
+    fit.search.run = at.run;
     fit.searcher = contender.searcher;
-    const Observer watch = [this](const Progress& /*inside*/) { return Watch(); };
-    const auto report = Fit(problem->subject.curve, fit, observer_ ? watch : Observer());
+    const auto report = Fit(problem.subject.curve, fit, watch_.Inside());
     CHECK(report.has_value()) << report.error().ToString();  // Try() would have seen it
-    if (report->interrupted) return;
-    problem->outcomes[slot] = OutcomeOf(*report, options_.objective);
-    if (--problem->left == 0) SumUp(problem);
-    const std::lock_guard<std::mutex> lock(observing_);
-    ++done_;
-    evaluations_ += report->search.evaluations;
-    TellObserver();
+    if (report->interrupted) return {};
+    RunOutcome outcome = OutcomeOf(*report, at.run, options_.objective);
+    if (journal_) journal_->Append(WriteRun(at, problem.result, contender, options_, outcome));
+    return outcome;
   }
 
-  // From inside a run: looks now and then whether the observer wants to stop.
-  ObserverAction Watch() {
-    std::unique_lock<std::mutex> lock(observing_, std::try_to_lock);
-    if (lock.owns_lock() && Clock::now() - told_ >= kWatchPeriod) TellObserver();
-    return stopped_ ? ObserverAction::kStop : ObserverAction::kContinue;
-  }
-
-  // `observing_` must be held.
-  void TellObserver() {
-    told_ = Clock::now();
-    const Progress progress{"compare", done_, jobs(), evaluations_, 0, SecondsSince(begin_)};
-    if (!stopped_ && StopRequested(observer_, progress)) stopped_ = true;
-  }
-
-  void SumUp(Problem* problem) const {
-    ProblemResult& result = problem->result;
-    result.curve_name = problem->subject.curve.name;
-    result.model = problem->model;
-    result.bounds_name = problem->subject.bounds.name;
-    result.reference =
-        FindReference(problem->subject, problem->model, options_, BestOf(problem->outcomes));
-    std::vector<std::vector<double>> searched, polished;
-    for (std::size_t c = 0; c < contenders_.size(); ++c) {
-      const auto first = problem->outcomes.begin() + static_cast<std::ptrdiff_t>(c) * options_.runs;
-      std::vector<RunOutcome> outcomes(std::make_move_iterator(first),
-                                       std::make_move_iterator(first + options_.runs));
-      result.contenders.push_back(
-          Summarise(contenders_[c], &outcomes, result.reference.rmse_A, options_.target_gap));
-      searched.emplace_back();
-      polished.emplace_back();
-      for (const RunRecord& run : result.contenders.back().runs) {
-        searched.back().push_back(run.searched_A);
-        polished.back().push_back(run.polished_A);
-      }
+  // Of the runs that are done.
+  void SumUp(Problem* problem) {
+    std::vector<std::vector<RunOutcome>> outcomes(contenders_.size());
+    bool any = false;
+    for (std::size_t i = 0; i < problem->outcomes.size(); ++i) {
+      std::optional<RunOutcome>& slot = problem->outcomes[i];
+      any = any || slot;
+      if (slot) outcomes[i / options_.runs].push_back(std::move(*slot));
     }
     problem->outcomes.clear();
-    if (!options_.rankings) return;
-    result.searched = RankAll(std::move(searched));
-    if (options_.polish) result.polished = RankJoined(polished);
+    ProblemResult& result = problem->result;
+    result.complete = problem->left == 0;
+    if (!any) return;
+    result.reference =
+        FindReference(problem->subject, result.model, options_, BestOf(outcomes), watch_.Inside());
+    result.complete = result.complete && !result.reference.interrupted;
+    SumUpContenders(contenders_, options_, std::move(outcomes), &result);
   }
 
   const std::vector<Contender>& contenders_;
   const CompareOptions& options_;
-  const Observer& observer_;
   const Clock::time_point begin_ = Clock::now();
-  std::vector<std::unique_ptr<Problem>> problems_;
-  int jobs_per_problem_ = 0;
-  std::atomic<bool> stopped_{false};
-  std::mutex observing_;  // guards what follows
-  Clock::time_point told_ = begin_;
-  std::int64_t done_ = 0;
-  std::int64_t evaluations_ = 0;
+  const int runs_per_problem_;
+  const Problems problems_;
+  SharedObserver watch_;
+  std::unique_ptr<Journal> journal_;  // null: none
+  int taken_up_ = 0;
 };
 
 }  // namespace
@@ -202,6 +256,14 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
   }
   Study study(curves, contenders, options, observer);
   if (auto tried = study.Try(); !tried) return tl::unexpected(tried.error());
+  if (!options.journal.empty()) {
+    auto journal = Journal::Open(options.journal, options.journal_section,
+                                 CompareHead(curves, contenders, options));
+    if (!journal) return tl::unexpected(journal.error());
+    if (auto taken = study.TakeUp(std::move(*journal)); !taken) {
+      return tl::unexpected(taken.error());
+    }
+  }
   return study.Run();
 }
 

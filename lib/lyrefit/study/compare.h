@@ -39,10 +39,16 @@ struct CompareOptions {
   bool rankings = true;       // rank tests of the contenders against each other
   int threads = 0;            // 0: all cores; never changes a result but the seconds
   const Kernel* kernel = nullptr;
+  // A file that every finished run is written to, and that a study is taken up from; empty: none.
+  // Taken up, it ends with the bits of one that was never interrupted. `runs`, `target_gap`,
+  // `rankings` and `threads` may be others than before.
+  std::string journal;
+  std::string journal_section = "comparison";  // of a file that several studies share
 };
 
 // RMSE in ampere, all of the objective compared. NaN: not asked for.
 struct RunRecord {
+  int run = 0;  // number of the run, which with the seed names its random stream
   double searched_A = kUnknown;
   double plain_polished_A = kUnknown;  // one bounded solve from the best bird
   double own_polished_A = kUnknown;    // the best bird's own polish
@@ -96,6 +102,7 @@ struct Reference {
   double floor_A = kUnknown;        // what any number of diodes could reach, NaN: not known
   std::string origin;               // in plain words
   std::vector<double> parameters;   // in the device's order
+  bool interrupted = false;         // before there was a proof
 };
 
 // Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
@@ -118,22 +125,29 @@ struct ProblemResult {
   std::string bounds_name;
   Reference reference;
   std::vector<ContenderResult> contenders;
+  // Of the runs that every contender has done.
   Ranking searched;
   Ranking polished;  // the hybrid's figures; those within 1e-9 of each other count as equal
+  // False where runs, or the proof of the reference, were cut short: only what was done is there,
+  // and contenders without a single run are left out.
+  bool complete = true;
 };
 
 struct Comparison {
   std::string version;
   CompareOptions options;
-  std::vector<ProblemResult> problems;  // curves in the order given, each with all models
+  std::vector<ProblemResult> problems;  // curves in the order given, each with all models; those
+                                        // without a single run are left out
   double seconds = 0;
-  bool interrupted = false;  // problems not complete are left out
+  bool interrupted = false;          // some problem is not complete
+  std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
 // Runs every contender `runs` times on every curve with every model. Everything is checked before
-// the first run. The observer hears of stage "compare" after every run (iteration: runs done of
-// those planned) and now and then in between. Errors: an unusable curve, options outside their
-// ranges, bounds that do not fit a model, no or two equal contender names.
+// the first run. Run r of all contenders comes before run r + 1 of any. The observer hears of stage
+// "compare" at the beginning, after every run (iteration: runs done of those planned) and now and
+// then in between. Errors: an unusable curve, options outside their ranges, bounds that do not fit
+// a model, no or two equal contender names, a journal of another study.
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
                              const std::vector<Contender>& contenders,
                              const CompareOptions& options = {}, const Observer& observer = {});

@@ -1,15 +1,18 @@
 #include "lyrefit/study/coverage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
+#include <memory>
 #include <optional>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/study/coverage_journal.h"
 #include "lyrefit/study/coverage_sets.h"
 #include "lyrefit/study/median.h"
 
@@ -68,13 +71,14 @@ std::vector<CoverageRow> RowsOf(const SimulatedSet& made, const FamilyReport& re
 }
 
 CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
-                   const FamilyFitter& fit, const Observer& watch) {
+                   const FamilyFitter& fit, const Observer& watch, bool* interrupted) {
   CoverageSet set;
   const Clock::time_point begin = Clock::now();
   set.cells_in_series = made.translation.spec.cells_in_series;
   set.curves = static_cast<int>(made.set.curves.size());
   const Expected<FamilyReport> report = fit(made.set, FitOptionsOf(options), watch);
   set.seconds = SecondsSince(begin);
+  *interrupted = report && report->interrupted;
   if (!report) {
     set.error = report.error().ToString();
   } else if (!report->usable || report->estimates.size() != made.truth.size()) {
@@ -116,9 +120,27 @@ ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t inde
 class CoverageRun {
  public:
   CoverageRun(const CoverageOptions& options, const FamilyFitter& fit, const Observer& observer)
-      : options_(options), fit_(fit), observer_(observer), slots_(options.sets) {}
+      : options_(options),
+        fit_(fit),
+        slots_(options.sets),
+        watch_(observer, "coverage", options.sets) {}
+
+  // Takes over the sets that stand in the journal.
+  Expected<void> TakeUp(std::unique_ptr<Journal> journal) {
+    journal_ = std::move(journal);
+    for (const Journal::Record& record : journal_->records()) {
+      auto written = ReadSet(*journal_, record);
+      if (!written) return tl::unexpected(written.error());
+      if (written->index >= options_.sets || slots_[written->index]) continue;
+      slots_[written->index] = std::move(written->set);
+      ++taken_up_;
+      watch_.SkipJob();
+    }
+    return {};
+  }
 
   std::vector<CoverageSet> Run() {
+    watch_.Begin();
     ParallelFor(options_.sets, options_.threads, [this](int index) { RunSet(index); });
     std::vector<CoverageSet> done;
     for (auto& slot : slots_) {
@@ -127,34 +149,36 @@ class CoverageRun {
     return done;
   }
 
+  std::vector<std::string> Remarks() const {
+    if (!journal_) return {};
+    const bool any = taken_up_ > 0;
+    return JournalRemarks(
+        *journal_,
+        any ? fmt::format("{} of {} sets were done before", taken_up_, options_.sets) : "");
+  }
+
  private:
   void RunSet(int index) {
-    if (stopped_) return;
+    if (slots_[index] || watch_.Stopped()) return;
     CoverageSet set;
     if (const auto made = SimulateSet(options_, index)) {
-      const Observer watch = [this](const Progress& /*inside*/) {
-        return stopped_ ? ObserverAction::kStop : ObserverAction::kContinue;
-      };
-      set = FitSet(*made, options_, fit_, observer_ ? watch : Observer());
+      bool interrupted = false;
+      set = FitSet(*made, options_, fit_, watch_.Inside(), &interrupted);
+      if (interrupted) return;
     } else {
       set.error = made.error().ToString();
     }
-    if (stopped_) return;  // perhaps in the middle of the fit
-    const std::lock_guard<std::mutex> lock(observing_);
+    if (journal_) journal_->Append(WriteSet(index, set));
     slots_[index] = std::move(set);
-    ++done_;
-    const Progress progress{"coverage", done_, options_.sets, done_, 0, SecondsSince(begin_)};
-    if (!stopped_ && StopRequested(observer_, progress)) stopped_ = true;
+    watch_.FinishJob();
   }
 
   const CoverageOptions& options_;
   const FamilyFitter& fit_;
-  const Observer& observer_;
-  const Clock::time_point begin_ = Clock::now();
   std::vector<std::optional<CoverageSet>> slots_;
-  std::atomic<bool> stopped_{false};
-  std::mutex observing_;
-  int done_ = 0;
+  SharedObserver watch_;
+  std::unique_ptr<Journal> journal_;  // null: none
+  int taken_up_ = 0;
 };
 
 }  // namespace
@@ -173,6 +197,9 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   if (auto valid = ValidateOptions(options, kCoverageOptionTable); !valid) {
     return tl::unexpected(valid.error());
   }
+  if (auto threads = CheckThreads(options.threads); !threads) {
+    return tl::unexpected(threads.error());
+  }
   if (options.cells_in_series < 1) return Fail("expected at least 1 cell in series");
   // The first set finds whatever is wrong with a module from the command line.
   if (auto tried = SimulateSet(options, 0); !tried) return tl::unexpected(tried.error());
@@ -182,7 +209,16 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   CoverageReport report;
   report.version = Version();
   report.options = options;
-  report.sets = CoverageRun(options, fit, observer).Run();
+  CoverageRun run(options, fit, observer);
+  if (!options.journal.empty()) {
+    auto journal = Journal::Open(options.journal, "coverage", CoverageHead(options));
+    if (!journal) return tl::unexpected(journal.error());
+    if (auto taken = run.TakeUp(std::move(*journal)); !taken) {
+      return tl::unexpected(taken.error());
+    }
+  }
+  report.sets = run.Run();
+  report.remarks = run.Remarks();
   report.interrupted = static_cast<int>(report.sets.size()) < options.sets;
   for (const CoverageSet& set : report.sets) report.failed += set.rows.empty() ? 1 : 0;
   const std::vector<ParameterInfo> infos = CoveredParameters(*translation, options);

@@ -28,6 +28,9 @@ struct CoverageOptions {
                                          // a module drawn for every set
   int cells_in_series = 72;              // of that module
   int threads = 0;                       // 0: all cores; never changes a result but the seconds
+  // A file that every finished set is written to, and that a study is taken up from; empty: none.
+  // `sets` and `threads` may be others than before.
+  std::string journal;
   // Law, model, offsets and search of the fits. What costs time and says nothing here (fits of
   // single curves, folds, random baseline) is switched off, and every fit has one thread.
   FamilyOptions family;
@@ -87,16 +90,18 @@ struct CoverageReport {
   std::vector<CoverageSet> sets;
   int failed = 0;  // sets without a usable fit
   double seconds = 0;
-  bool interrupted = false;  // only the sets that were done are there
+  bool interrupted = false;          // only the sets that were done are there
+  std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
 using FamilyFitter =
     std::function<Expected<FamilyReport>(const CurveSet&, const FamilyOptions&, const Observer&)>;
 
 // Simulates sets with known parameters (see coverage_sets.h), fits every one with `fit`, which is
-// FitFamily but in tests, and counts. The observer hears of stage "coverage" after every set.
-// Errors: options outside their ranges, a module with parameters missing, unknown or without an
-// open-circuit voltage. A fit that fails is counted, no error.
+// FitFamily but in tests, and counts. The observer hears of stage "coverage" at the beginning,
+// after every set and now and then in between. Errors: options outside their ranges, a module with
+// parameters missing, unknown or without an open-circuit voltage, a journal of another study. A fit
+// that fails is counted, no error.
 Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFitter& fit,
                                   const Observer& observer = {});
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
@@ -19,6 +20,18 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<Model> kModels = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
+
+// What the journal calls the studies.
+struct Section {
+  const char* name;
+  Comparison PaperStudy::*comparison;
+};
+constexpr Section kSections[] = {{"msx60", &PaperStudy::msx60},
+                                 {"rtc_france", &PaperStudy::rtc_france},
+                                 {"sensitivity", &PaperStudy::sensitivity},
+                                 {"ranked", &PaperStudy::ranked},
+                                 {"budget", &PaperStudy::budget},
+                                 {"s75", &PaperStudy::s75}};
 
 class PaperRun {
  public:
@@ -37,6 +50,13 @@ class PaperRun {
                             &PaperRun::RtcFrance, &PaperRun::Sensitivity, &PaperRun::S75,
                             &PaperRun::Rank, &PaperRun::Budget}) {
       if (auto done = (this->*step)(); !done) return tl::unexpected(done.error());
+      if (stopped_) break;
+    }
+    if (stopped_) {
+      PaperStudy nothing;
+      nothing.interrupted = true;
+      nothing.remarks = study_.remarks;
+      return nothing;
     }
     for (const PublishedValue& value : *published) {
       if (value.table == "Table 9") study_.machine.push_back(value);
@@ -93,18 +113,25 @@ class PaperRun {
 
   Expected<void> Study(const Expected<CompareCurve>& subject,
                        const std::vector<Contender>& contenders, const CompareOptions& options,
-                       Comparison* result) const {
+                       Comparison PaperStudy::*result) {
     if (!subject) return tl::unexpected(subject.error());
     return Study(std::vector<CompareCurve>{*subject}, contenders, options, result);
   }
 
   Expected<void> Study(const std::vector<CompareCurve>& subjects,
-                       const std::vector<Contender>& contenders, const CompareOptions& options,
-                       Comparison* result) const {
+                       const std::vector<Contender>& contenders, CompareOptions options,
+                       Comparison PaperStudy::*result) {
+    options.journal = study_.options.journal;
+    for (const Section& section : kSections) {
+      if (section.comparison == result) options.journal_section = section.name;
+    }
     Expected<Comparison> comparison = Compare(subjects, contenders, options, observer_);
     if (!comparison) return tl::unexpected(comparison.error());
-    if (comparison->interrupted) return Fail("stopped on request");
-    *result = std::move(*comparison);
+    stopped_ = comparison->interrupted;
+    for (const std::string& remark : comparison->remarks) {
+      study_.remarks.push_back(options.journal_section + ": " + remark);
+    }
+    study_.*result = std::move(*comparison);
     return {};
   }
 
@@ -125,8 +152,10 @@ class PaperRun {
       TimedSearch timed;
       constexpr int kTimes = 5;
       for (int i = 0; i < kTimes; ++i) {
-        const auto report = Fit(subject->curve, fit);
+        const auto report = Fit(subject->curve, fit, observer_);
         if (!report) return tl::unexpected(report.error());
+        stopped_ = report->interrupted;
+        if (stopped_) return {};
         seconds.push_back(report->search.seconds);
         timed.evaluations = report->search.evaluations;
       }
@@ -161,7 +190,8 @@ class PaperRun {
         options.n_upper = upper;
         Expected<Certificate> certificate = lyrefit::Certify(*curve, options, observer_);
         if (!certificate) return tl::unexpected(certificate.error());
-        if (certificate->interrupted) return Fail("stopped on request");
+        stopped_ = certificate->interrupted;
+        if (stopped_) return {};
         study_.certificates.push_back(std::move(*certificate));
       }
     }
@@ -171,7 +201,7 @@ class PaperRun {
   Expected<void> Msx60() {
     const int runs = study_.options.batch * study_.options.batches;
     return Study(PaperMsx60(), PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
-                 Options(kModels, runs), &study_.msx60);
+                 Options(kModels, runs), &PaperStudy::msx60);
   }
 
   Expected<void> RtcFrance() {
@@ -182,7 +212,7 @@ class PaperRun {
     contenders[2].search.distance_coefficient = 0.5;
     const int runs = study_.options.batch * study_.options.batches;
     return Study(Subject("rtc_france", "literature"), contenders, Options(kModels, runs),
-                 &study_.rtc_france);
+                 &PaperStudy::rtc_france);
   }
 
   Expected<void> Sensitivity() {
@@ -191,7 +221,8 @@ class PaperRun {
         Options({Model::kTripleDiode}, study_.options.batch * study_.options.sensitivity_batches);
     options.polish = false;
     return Study(Subject("rtc_france", "literature"),
-                 SensitivityContenders(steps, steps, PaperSearch()), options, &study_.sensitivity);
+                 SensitivityContenders(steps, steps, PaperSearch()), options,
+                 &PaperStudy::sensitivity);
   }
 
   // The paper does not say how many diodes it fitted to the S75: one, as its spreads of 1e-17 A
@@ -213,7 +244,7 @@ class PaperRun {
     return Study(
         subjects, PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
         Options({Model::kSingleDiode}, study_.options.batch * study_.options.sensitivity_batches),
-        &study_.s75);
+        &PaperStudy::s75);
   }
 
   Expected<void> Rank() {
@@ -228,7 +259,7 @@ class PaperRun {
     }
     CompareOptions options = Options({Model::kTripleDiode}, study_.options.ranked_runs);
     options.rankings = true;
-    return Study(Subject("rtc_france", "literature"), contenders, options, &study_.ranked);
+    return Study(Subject("rtc_france", "literature"), contenders, options, &PaperStudy::ranked);
   }
 
   Expected<void> Budget() {
@@ -240,12 +271,13 @@ class PaperRun {
         Subject("rtc_france", "paper"),
         BudgetContenders({Algorithm::kMlo, Algorithm::kLo, Algorithm::kDe, Algorithm::kRandom},
                          budgets),
-        options, &study_.budget);
+        options, &PaperStudy::budget);
   }
 
   const fs::path folder_;
   const Observer& observer_;
   PaperStudy study_;
+  bool stopped_ = false;
 };
 
 }  // namespace
@@ -254,6 +286,9 @@ Expected<PaperStudy> ReproducePaper(const std::string& folder, const PaperStudyO
                                     const Observer& observer) {
   if (auto valid = ValidateOptions(options, kPaperStudyOptionTable); !valid) {
     return tl::unexpected(valid.error());
+  }
+  if (auto threads = CheckThreads(options.threads); !threads) {
+    return tl::unexpected(threads.error());
   }
   return PaperRun(folder, options, observer).Run();
 }

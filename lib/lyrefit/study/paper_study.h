@@ -23,6 +23,8 @@ struct PaperStudyOptions {
   int budget_runs = 50;
   std::vector<Contender> peers;  // further algorithms to rank, of another library
   int threads = 0;
+  // A file that every finished run is written to, and that the study is taken up from; empty: none.
+  std::string journal;
 };
 
 inline const std::array<OptionRow<PaperStudyOptions>, 8> kPaperStudyOptionTable = {{
@@ -70,11 +72,14 @@ struct PaperStudy {
   AuditReport audit;                      // printed parameters
   std::vector<Certificate> certificates;  // every curve, n in [1, 2] and in [0.5, 4]
   double seconds = 0;
+  bool interrupted = false;
+  std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
 // Reads `folder` (published.csv and rows.csv, the curves in the folders beside it) and runs all
-// studies; takes minutes. Interrupted studies are an error. Errors: files missing or malformed,
-// options outside their ranges.
+// studies; takes minutes. Interrupted, it holds nothing but `interrupted` and `remarks`: half the
+// tables would replace whole ones. Errors: files missing or malformed, options outside their
+// ranges, a journal of another study.
 Expected<PaperStudy> ReproducePaper(const std::string& folder,
                                     const PaperStudyOptions& options = {},
                                     const Observer& observer = {});

@@ -21,7 +21,7 @@ bool Within(const std::vector<double>& parameters, const std::vector<ParameterBo
 }  // namespace
 
 Reference FindReference(const CompareCurve& subject, Model model, const CompareOptions& options,
-                        const BestFound& best) {
+                        const BestFound& best, const Observer& observer) {
   Reference reference;
   reference.rmse_A = best.rmse_A;
   reference.origin = "best of all runs";
@@ -32,8 +32,13 @@ Reference FindReference(const CompareCurve& subject, Model model, const CompareO
   if (!bounds) return reference;
   CertifyOptions certify = RangesOf(*bounds, options.constants, {model});
   certify.effort = kEffort;
-  const auto certificate = Certify(subject.curve, certify);
+  const auto certificate = Certify(subject.curve, certify, observer);
   if (!certificate) return reference;
+  reference.interrupted = certificate->interrupted;
+  if (reference.interrupted) {
+    reference.origin += " so far";
+    return reference;
+  }
   const ModelCertificate& proof = certificate->models.at(0);
   reference.lower_bound_A = proof.lower_bound_A;
   reference.floor_A = certificate->floor.rmse_A;

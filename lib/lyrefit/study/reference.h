@@ -12,8 +12,9 @@ struct BestFound {
   std::vector<double> parameters;  // in the device's order
 };
 
-// What the runs of one problem are measured against.
+// What the runs of one problem are measured against. Stopped by the observer, it is the best of the
+// runs.
 Reference FindReference(const CompareCurve& subject, Model model, const CompareOptions& options,
-                        const BestFound& best);
+                        const BestFound& best, const Observer& observer = {});
 
 }  // namespace lyrefit

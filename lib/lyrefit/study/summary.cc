@@ -85,13 +85,15 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
   return course;
 }
 
-BestFound BestOf(const std::vector<RunOutcome>& outcomes) {
+BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
   BestFound best{kInfinity, {}};
-  for (const RunOutcome& outcome : outcomes) {
-    const RunRecord& run = outcome.record;
-    for (const double rmse :
-         {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
-      if (rmse < best.rmse_A) best = {rmse, outcome.parameters};  // false for what is not known
+  for (const std::vector<RunOutcome>& contender : outcomes) {
+    for (const RunOutcome& outcome : contender) {
+      const RunRecord& run = outcome.record;
+      for (const double rmse :
+           {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
+        if (rmse < best.rmse_A) best = {rmse, outcome.parameters};  // false for what is not known
+      }
     }
   }
   return best;
@@ -176,6 +178,30 @@ ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* o
   result.polish_seconds = Mean(Column(result.runs, &RunRecord::polish_seconds));
   result.trace = MedianCourse(*outcomes);
   return result;
+}
+
+void SumUpContenders(const std::vector<Contender>& contenders, const CompareOptions& options,
+                     std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result) {
+  std::vector<int> done(options.runs, 0);  // by how many contenders
+  for (std::size_t c = 0; c < contenders.size(); ++c) {
+    if (outcomes[c].empty()) continue;
+    for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];
+    result->contenders.push_back(
+        Summarise(contenders[c], &outcomes[c], result->reference.rmse_A, options.target_gap));
+  }
+  if (!options.rankings) return;
+  std::vector<std::vector<double>> searched, polished;
+  for (const ContenderResult& contender : result->contenders) {
+    searched.emplace_back();
+    polished.emplace_back();
+    for (const RunRecord& run : contender.runs) {
+      if (done[run.run] < static_cast<int>(result->contenders.size())) continue;
+      searched.back().push_back(run.searched_A);
+      polished.back().push_back(run.polished_A);
+    }
+  }
+  result->searched = RankAll(std::move(searched));
+  if (options.polish) result->polished = RankJoined(polished);
 }
 
 }  // namespace lyrefit

@@ -24,8 +24,9 @@ std::int64_t EvaluationsTo(double target, const std::vector<TracePoint>& gains);
 // the logarithm, from where every run has a value to the end of the longest.
 std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, int marks = 60);
 
-// The lowest RMSE of all stages of all runs.
-BestFound BestOf(const std::vector<RunOutcome>& outcomes);
+// The lowest RMSE of all stages of all runs of all contenders; without parameters where there is no
+// run.
+BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes);
 
 // `values` must not be empty; all NaN if one is NaN.
 Spread SpreadOf(std::vector<double> values, double reference);
@@ -40,5 +41,10 @@ Ranking RankJoined(const std::vector<std::vector<double>>& values);
 // Everything that the runs of one contender say together; fills their evaluations to target.
 ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
                           double reference, double target_gap);
+
+// Contenders and rankings of a problem from what each contender has done, by rising number of the
+// run. Contenders without a run are left out; ranks are of the runs that all the others have done.
+void SumUpContenders(const std::vector<Contender>& contenders, const CompareOptions& options,
+                     std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result);
 
 }  // namespace lyrefit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "lyrefit/study/coverage.h"
+#include "lyrefit/study/journal.h"
+
+namespace lyrefit {
+
+// Everything that a set of a coverage study and its fit depend on.
+JournalLine CoverageHead(const CoverageOptions& options);
+
+JournalLine WriteSet(int index, const CoverageSet& set);
+
+struct WrittenSet {
+  int index = 0;  // from 0
+  CoverageSet set;
+};
+Expected<WrittenSet> ReadSet(const Journal& journal, const Journal::Record& record);
+
+}  // namespace lyrefit

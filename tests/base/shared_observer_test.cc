@@ -1,0 +1,87 @@
+#include "lyrefit/base/shared_observer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "lyrefit/base/parallel.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(SharedObserver, TellsTheBeginningAndEveryJob) {
+  std::vector<std::int64_t> heard;
+  std::vector<double> parts;
+  const Observer observer = [&](const Progress& progress) {
+    EXPECT_EQ(progress.stage, "jobs");
+    EXPECT_EQ(progress.iterations, 4);
+    heard.push_back(progress.iteration);
+    parts.push_back(progress.part);
+    return ObserverAction::kContinue;
+  };
+  SharedObserver shared(observer, "jobs", 4, 10);
+  shared.SkipJob(1);
+  shared.Begin();
+  for (const double work : {2.0, 3.0, 4.0}) shared.FinishJob(work, 7);
+  EXPECT_THAT(heard, testing::ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(parts, testing::ElementsAre(0.1, 0.3, 0.6, 1));
+  EXPECT_FALSE(shared.Stopped());
+}
+
+TEST(SharedObserver, AsksOneThreadAtATimeAndStopsThemAll) {
+  std::atomic<int> inside{0};
+  int asked = 0;
+  const Observer observer = [&](const Progress& /*progress*/) {
+    EXPECT_EQ(++inside, 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --inside;
+    return ++asked > 50 ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+  SharedObserver shared(observer, "jobs", 1000);
+  shared.Begin();
+  std::atomic<int> done{0};
+  ParallelFor(1000, 4, [&](int /*job*/) {
+    if (shared.Stopped()) return;
+    ++done;
+    shared.FinishJob();
+  });
+  EXPECT_TRUE(shared.Stopped());
+  EXPECT_EQ(asked, 51) << "not asked again after the stop";
+  EXPECT_GE(done, 50);
+  EXPECT_LT(done, 60);
+}
+
+TEST(SharedObserver, AsksFromTheInsideOfAJobAtMostEveryFewMilliseconds) {
+  int asked = 0;
+  const Observer observer = [&](const Progress& /*progress*/) {
+    return ++asked > 3 ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+  SharedObserver shared(observer, "jobs", 1);
+  const std::function<bool()> proceed = shared.Proceed();
+  const Observer inside = shared.Inside();
+  for (int i = 0; i < 1000000 && proceed(); ++i) EXPECT_FALSE(StopRequested(inside, {}));
+  EXPECT_LE(asked, 4);
+  while (proceed()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(asked, 4);
+  EXPECT_TRUE(StopRequested(inside, {}));
+}
+
+TEST(SharedObserver, NeverStopsWhereNobodyWatches) {
+  const Observer nobody;
+  SharedObserver shared(nobody, "jobs", 1);
+  EXPECT_FALSE(shared.Inside());
+  EXPECT_FALSE(shared.Proceed());
+  shared.FinishJob();
+  EXPECT_FALSE(shared.Stopped());
+}
+
+TEST(CheckThreads, RefusesLessThanNone) {
+  EXPECT_TRUE(CheckThreads(0));
+  EXPECT_TRUE(CheckThreads(8));
+  EXPECT_EQ(CheckThreads(-3).error().message, "threads = -3 is below 0, which means all cores");
+}
+
+}  // namespace
+}  // namespace lyrefit

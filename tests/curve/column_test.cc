@@ -35,6 +35,19 @@ TEST(RecogniseColumnTest, KnowsEverySpelling) {
       {"voltage_mV", ColumnKind::kVoltage, 1e-3},
       {"mV", ColumnKind::kVoltage, 1e-3},
       {"V (kV)", ColumnKind::kVoltage, 1e3},
+      {"Potential (V)", ColumnKind::kVoltage},
+      {"WE(1).Potential (V)", ColumnKind::kVoltage},
+      {"Ewe/V vs. SCE", ColumnKind::kVoltage},
+      {"Vf [V vs. Ref.]", ColumnKind::kVoltage},
+      {"Vmeas", ColumnKind::kVoltage},
+      {"Vdc [V]", ColumnKind::kVoltage},
+      {"V OPC [V]", ColumnKind::kVoltage},
+      {"Tensione [mV]", ColumnKind::kVoltage, 1e-3},
+      {"<I>/mA", ColumnKind::kCurrent, 1e-3},
+      {"Im [A]", ColumnKind::kCurrent},
+      {"Idc [A]", ColumnKind::kCurrent},
+      {"WE(1).Current (A)", ColumnKind::kCurrent},
+      {"Stromst\u00e4rke (mA)", ColumnKind::kCurrent, 1e-3},
       {"I", ColumnKind::kCurrent},
       {"i", ColumnKind::kCurrent},
       {"current", ColumnKind::kCurrent},
@@ -93,7 +106,7 @@ TEST(RecogniseColumnTest, KnowsEverySpelling) {
 
 TEST(RecogniseColumnTest, LeavesOtherColumnsAlone) {
   for (const char* label : {"", "Watts", "Ohms", "Power (W)", "P", "V_set", "voltage_offset", "Isc",
-                            "I_sc", "Voc", "V1", "ambient temperature (C)", "illuminance_lux",
+                            "I_sc", "Voc", "V_2x", "ambient temperature (C)", "illuminance_lux",
                             "timestamp", "date", "index", "x", "(", "%"}) {
     SCOPED_TRACE(label);
     EXPECT_EQ(RecogniseColumn(label).kind, ColumnKind::kUnknown);
@@ -112,13 +125,63 @@ TEST(RecogniseColumnTest, RefusesUnitsItCannotConvert) {
 }
 
 TEST(RecogniseColumnTest, CurrentDensityIsNotCurrent) {
-  for (const char* label : {"J", "J (mA/cm2)", "Current density (mA/cm\u00b2)", "current_density",
-                            "I (mA/cm2)", "Current [A/m^2]", "j_mA_cm2"}) {
-    SCOPED_TRACE(label);
-    const Column column = RecogniseColumn(label);
+  const struct {
+    const char* label;
+    double factor;
+  } kCases[] = {
+      {"J", 1e-3},  // what everybody writes
+      {"J (mA/cm2)", 1e-3},
+      {"Current density (mA/cm\u00b2)", 1e-3},
+      {"current_density", 1e-3},
+      {"I (mA/cm2)", 1e-3},
+      {"Current [A/m^2]", 1e-4},
+      {"j_mA_cm2", 1e-3},
+      {"J (mA cm-2)", 1e-3},
+      {"J [A/cm2]", 1},
+      {"J_2 [uA/cm2]", 1e-6},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.label);
+    const Column column = RecogniseColumn(c.label);
     EXPECT_EQ(column.kind, ColumnKind::kCurrentDensity);
-    EXPECT_THAT(column.refusal, HasSubstr("current density"));
+    EXPECT_EQ(column.factor, c.factor);
+    EXPECT_EQ(column.refusal, "");
   }
+  EXPECT_THAT(RecogniseColumn("J (%)").refusal, HasSubstr("expected mA/cm2"));
+}
+
+TEST(RecogniseColumnTest, TheNumberOfAPixelStandsApart) {
+  const struct {
+    const char* label;
+    ColumnKind kind;
+    const char* number;
+  } kCases[] = {
+      {"V1", ColumnKind::kVoltage, "1"},
+      {"I12", ColumnKind::kCurrent, "12"},
+      {"Current1", ColumnKind::kCurrent, "1"},
+      {"Current 2 (A)", ColumnKind::kCurrent, "2"},
+      {"Ch2 Voltage [V]", ColumnKind::kVoltage, "2"},
+      {"SMU-1 Current (1) (1)", ColumnKind::kCurrent, "1.1.1"},
+      {"J_3 (mA/cm2)", ColumnKind::kCurrentDensity, "3"},
+      {"T1 (C)", ColumnKind::kUnknown, ""},
+      {"W/m2", ColumnKind::kUnknown, ""},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.label);
+    const Column column = RecogniseColumn(c.label);
+    EXPECT_EQ(column.kind, c.kind);
+    EXPECT_EQ(column.number, c.number);
+  }
+}
+
+TEST(ColumnSaidToBeTest, TheNameDoesNotMatterTheUnitDoes) {
+  EXPECT_EQ(ColumnSaidToBe(ColumnKind::kVoltage, "Bias").kind, ColumnKind::kVoltage);
+  EXPECT_EQ(ColumnSaidToBe(ColumnKind::kVoltage, "Bias [mV]").factor, 1e-3);
+  EXPECT_EQ(ColumnSaidToBe(ColumnKind::kCurrent, "smu_a_mA").factor, 1e-3);
+  const Column density = ColumnSaidToBe(ColumnKind::kCurrent, "pixel (mA/cm2)");
+  EXPECT_EQ(density.kind, ColumnKind::kCurrentDensity);
+  EXPECT_EQ(density.factor, 1e-3);
+  EXPECT_EQ(ColumnSaidToBe(ColumnKind::kCurrent, "A").factor, 1);
 }
 
 }  // namespace

@@ -46,8 +46,19 @@ TEST(ParseNumberTest, TakesADecimalCommaOnlyWhereAllowed) {
   EXPECT_FALSE(ParseNumber("1,5", false));
   EXPECT_EQ(ParseNumber("1,5", true), 1.5);
   EXPECT_EQ(ParseNumber("-1,5e-3", true), -1.5e-3);
-  EXPECT_FALSE(ParseNumber("1,234.5", true));
   EXPECT_FALSE(ParseNumber("1,2,3", true));
+}
+
+TEST(ParseNumberTest, ThousandsMayBeSetApartWhereADecimalPartShowsThem) {
+  EXPECT_EQ(ParseNumber("8,892.6"), 8892.6);
+  EXPECT_EQ(ParseNumber("-1,234,567.5", true), -1234567.5);
+  EXPECT_EQ(ParseNumber("8.892,6", true), 8892.6);
+  EXPECT_EQ(ParseNumber("+1.234.567,25", true), 1234567.25);
+  EXPECT_FALSE(ParseNumber("8.892,6", false));
+  for (const char* text : {"8,892", "88,92.6", "8,8926.1", ",892.6", "8892,892.6", "8,892.6.1",
+                           "8,-92.6", "1.2,3.4", "8,892,.6"}) {
+    EXPECT_FALSE(ParseNumber(text)) << text;
+  }
 }
 
 TEST(ParseNumberTest, LeavesNotANumberToTheCaller) {

@@ -6,6 +6,10 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
+
+using ::testing::Contains;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -111,6 +115,73 @@ TEST(ReadTableTest, ErrorsNameLineColumnAndWhatWasExpected) {
     EXPECT_EQ(table.error().column, c.column);
     EXPECT_THAT(table.error().message, HasSubstr(c.phrase));
   }
+}
+
+TEST(ReadTableTest, ASecondTableBelowIsASecondSweep) {
+  const auto table = ReadTable(
+      "Irradiance (W/m2),1000\nV,I\n0,2\n0.5,1\n\nIrradiance (W/m2),500\nsecond\nV,I\n0,1\n0.4,0\n",
+      "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.sweep, ElementsAre(1, 1, 2, 2));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(2, 1, 1, 0));
+  EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(1000, 1000, 500, 500));
+  EXPECT_THAT(table->curve.assumptions, Contains(HasSubstr("read as sweeps 1 to 2")));
+  EXPECT_FALSE(ReadTable("V,I\n0,2\n0.5,1\nV,I,t\n0,1,0\n", "f"));
+}
+
+TEST(ReadTableTest, TextBelowTheTableIsLeftAndSaid) {
+  for (const char* text :
+       {"V,I\n0,2\n0.5,1\n,,\nIsc,8.9\nVoc,36\n", "V,I\n0,2\n0.5,1\nIsc,8.9\nend\n"}) {
+    const auto table = ReadTable(text, "f");
+    ASSERT_TRUE(table) << table.error().ToString();
+    EXPECT_EQ(table->curve.size(), 2U);
+    EXPECT_THAT(
+        table->curve.assumptions,
+        Contains(AllOf(HasSubstr("2 lines of text below the table"), HasSubstr("'Isc,8.9'"))));
+  }
+}
+
+TEST(ReadTableTest, NoPointIsTakenForText) {
+  for (const char* text :
+       {"V,I\n0,2\n0.5,1\n0.6\n", "V,I\n0,2\n0.5,1\nNA,0.5\n", "V,I\n0,2\nend\n0.5,1\n",
+        "V,I\n0,2\n0.5,1\n1.2.3,0.5\n", "V,I\n0,2\n0.5,1\nnan,0.5\n",
+        "V,I\n0,2\n0.5,1\n0.6,x\nV,I\n0,1\n", "V,I\n0,2\n0.5,1\n,0.5\n"}) {
+    EXPECT_FALSE(ReadTable(text, "f")) << text;
+  }
+}
+
+TEST(ReadTableTest, PairsSideBySideMayEndEarly) {
+  ReadOptions options;
+  options.column = "2";
+  const auto table = ReadTable("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,0.5\n0.6,0,,\n", "f", options);
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 0.4));
+  EXPECT_EQ(table->current_label, "I2");
+  EXPECT_FALSE(ReadTable("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,\n", "f", options));
+}
+
+TEST(ReadTableTest, DensitiesAreInAmperePerSquareCentimetre) {
+  const auto table = ReadTable("V,J (mA/cm2)\n0,40\n0.5,20\n", "f");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->per_area);
+  EXPECT_THAT(table->curve.current_A, ElementsAre(0.04, 0.02));
+}
+
+TEST(ReadTableTest, TheHeadTellsTheUnitOfAColumnThatNamesNone) {
+  const auto table = ReadTable("Jsc (mA/cm2),38\nVoltage,Current1\n0,-38.1\n0.5,-20\n", "f");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->per_area);
+  EXPECT_NEAR(table->curve.current_A[0], -0.0381, 1e-12);
+  const auto other = ReadTable("Jsc (mA/cm2),20\nVoltage,Current1\n0,-38.1\n0.5,-20\n", "f");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->curve.current_A[0], -38.1);
+}
+
+TEST(ReadTableTest, AWholeBufferInOneLineIsTakenApart) {
+  const auto table = ReadTable("0,-2,9.91e37,0,21508,0.5,-1,+9.910000E+37,0.1,21508\n", "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 0.5));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(-2, -1));
 }
 
 }  // namespace

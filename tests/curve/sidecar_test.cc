@@ -135,5 +135,36 @@ TEST(ReadSidecarTest, ErrorsNameFileKeyAndPlace) {
   }
 }
 
+TEST(ReadSidecarTest, AReportInItsPlaceGivesItsConditions) {
+  const TempFolder folder;
+  const auto sidecar = ReadSidecar(folder.Write("module.json", R"({"lyrefit_version": "0.1.0",
+      "curve": {"name": "m", "conditions": {"cells_in_series": 36, "strings_in_parallel": 1,
+      "cell_temperature_C": 51, "irradiance_Wm2": 1000},
+      "assumptions": ["irradiance not given: assumed 1000 W/m2"]}})"),
+                                   kLimit);
+  ASSERT_TRUE(sidecar) << sidecar.error().ToString();
+  EXPECT_EQ(sidecar->cells_in_series, 36);
+  EXPECT_EQ(sidecar->temperature_C, 51);
+  EXPECT_FALSE(sidecar->irradiance_W_m2);  // the report had to assume it
+  EXPECT_THAT(sidecar->assumptions,
+              ::testing::ElementsAre(HasSubstr("module.json is a report of lyrefit")));
+}
+
+TEST(ReadSidecarTest, AReportWithoutConditionsIsRefusedByName) {
+  const TempFolder folder;
+  const auto sidecar = ReadSidecar(
+      folder.Write("module.json", R"({"lyrefit_version": "0.1.0", "curves": []})"), kLimit);
+  ASSERT_FALSE(sidecar);
+  EXPECT_THAT(sidecar.error().ToString(), HasSubstr("module.json: this is a report of lyrefit"));
+}
+
+TEST(ReadSidecarTest, NoKnownKeyIsSaid) {
+  const TempFolder folder;
+  const auto sidecar = ReadSidecar(folder.Write("a.json", R"({"cells": 60})"), kLimit);
+  ASSERT_TRUE(sidecar);
+  EXPECT_THAT(sidecar->assumptions,
+              ::testing::ElementsAre(HasSubstr("a.json has none of the keys of a sidecar")));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -5,6 +5,14 @@
 namespace lyrefit {
 namespace {
 
+TableLine AsHeader(std::string_view line, std::string_view next_line) {
+  return lyrefit::AsHeader(line, next_line, {ReadOptions(), false});
+}
+
+TableLine HeaderInComment(std::string_view comment, std::string_view row) {
+  return lyrefit::HeaderInComment(comment, row, {ReadOptions(), false});
+}
+
 TEST(AsHeaderTest, FindsTheDelimiterOfEveryKind) {
   const struct {
     const char* header;
@@ -40,6 +48,26 @@ TEST(AsHeaderTest, NeedsVoltageAndCurrent) {
 TEST(AsHeaderTest, SaysWhenTheNextLineHasNoNumbers) {
   const TableLine header = AsHeader("I measured the voltage", "Second line of a remark");
   EXPECT_FALSE(header.fits);
+}
+
+TEST(AsHeaderTest, UnitsMayStandInColumnsOfTheirOwn) {
+  const TableLine header =
+      AsHeader("Index,Reading,Unit,Value,Source Unit", "1,-1.5e-1,Amp DC,-100,mVolt DC");
+  EXPECT_FALSE(header.fits);
+  const TableLine units =
+      AsHeader("Index,Reading,Unit,Value,Source Unit", "1,-1.5,Amp DC,0.1,Volt");
+  ASSERT_TRUE(units.fits);
+  EXPECT_EQ(units.columns[1].kind, ColumnKind::kCurrent);
+  EXPECT_EQ(units.columns[3].kind, ColumnKind::kVoltage);
+  EXPECT_EQ(units.columns[3].label, "Value");
+}
+
+TEST(WithUnitsTest, PutsEveryUnitBehindItsName) {
+  EXPECT_EQ(WithUnits("Voltage;Current", "mV;A"), "\"Voltage [mV]\";\"Current [A]\"");
+  EXPECT_EQ(WithUnits("V,T", "(mV),#"), "\"V (mV)\",\"T [#]\"");
+  EXPECT_EQ(WithUnits("V,I", "0,1"), "");
+  EXPECT_EQ(WithUnits("V,I", "first,second"), "");
+  EXPECT_EQ(WithUnits("V,I", "V"), "");
 }
 
 TEST(AsRowTest, NeedsTwoNumbersInFront) {

@@ -40,7 +40,7 @@ Expected<void> CheckIsText(const std::string& text, const std::string& path) {
 
 }  // namespace
 
-Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes) {
+Expected<std::string> ReadFileBytes(const std::string& path, std::uintmax_t largest_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return Fail("the file does not exist", path);
@@ -63,8 +63,14 @@ Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t large
     }
   }
   if (std::ferror(file.get()) != 0) return Fail("cannot read the file: " + ErrnoText(errno), path);
-  if (StartsWith(text, "\xef\xbb\xbf")) text.erase(0, 3);
-  if (auto checked = CheckIsText(text, path); !checked) return tl::unexpected(checked.error());
+  return text;
+}
+
+Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes) {
+  Expected<std::string> text = ReadFileBytes(path, largest_bytes);
+  if (!text) return text;
+  if (StartsWith(*text, "\xef\xbb\xbf")) text->erase(0, 3);
+  if (auto checked = CheckIsText(*text, path); !checked) return tl::unexpected(checked.error());
   return text;
 }
 

@@ -7,6 +7,10 @@
 
 namespace lyrefit {
 
+// The whole file as it is. Refuses what is missing, a folder, unreadable or larger than
+// `largest_bytes`.
+Expected<std::string> ReadFileBytes(const std::string& path, std::uintmax_t largest_bytes);
+
 // The whole file as text. Refuses what is missing, a folder, unreadable, larger than
 // `largest_bytes`, empty, or binary (holds a NUL byte); strips a UTF-8 byte order mark.
 Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes);

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
+#include "lyrefit/curve/label.h"
 #include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
@@ -21,11 +21,23 @@ constexpr Name kNames[] = {
     {"u", ColumnKind::kVoltage},
     {"voltage", ColumnKind::kVoltage},
     {"voltages", ColumnKind::kVoltage},
+    {"potential", ColumnKind::kVoltage},
+    {"ewe", ColumnKind::kVoltage},  // working electrode
+    {"vf", ColumnKind::kVoltage},   // "full", as potentiostats call what they measured
+    {"vm", ColumnKind::kVoltage},
     {"spannung", ColumnKind::kVoltage},
+    {"tension", ColumnKind::kVoltage},
+    {"tensione", ColumnKind::kVoltage},
+    {"voltaje", ColumnKind::kVoltage},
     {"i", ColumnKind::kCurrent},
+    {"im", ColumnKind::kCurrent},
     {"current", ColumnKind::kCurrent},
     {"currents", ColumnKind::kCurrent},
     {"strom", ColumnKind::kCurrent},
+    {"stromst\u00e4rke", ColumnKind::kCurrent},
+    {"courant", ColumnKind::kCurrent},
+    {"corrente", ColumnKind::kCurrent},
+    {"corriente", ColumnKind::kCurrent},
     {"sigma", ColumnKind::kSigma},
     {"sigmai", ColumnKind::kSigma},
     {"currentsigma", ColumnKind::kSigma},
@@ -39,6 +51,8 @@ constexpr Name kNames[] = {
     {"scan", ColumnKind::kSweep},
     {"curve", ColumnKind::kCurve},
     {"irradiance", ColumnKind::kIrradiance},
+    {"irrad", ColumnKind::kIrradiance},
+    {"intensity", ColumnKind::kIrradiance},
     {"g", ColumnKind::kIrradiance},
     {"poa", ColumnKind::kIrradiance},
     {"poairradiance", ColumnKind::kIrradiance},
@@ -51,147 +65,84 @@ constexpr Name kNames[] = {
     {"currentdensity", ColumnKind::kCurrentDensity},
 };
 
-struct Unit {
-  ColumnKind kind;
-  std::string_view text;
-  double factor;
-  double offset;
-  bool is_a_header;  // stands alone as a header: "Volts", "mA"
-};
-
-constexpr Unit kUnits[] = {
-    {ColumnKind::kVoltage, "v", 1, 0, false},
-    {ColumnKind::kVoltage, "volt", 1, 0, true},
-    {ColumnKind::kVoltage, "volts", 1, 0, true},
-    {ColumnKind::kVoltage, "mv", 1e-3, 0, true},
-    {ColumnKind::kVoltage, "millivolts", 1e-3, 0, true},
-    {ColumnKind::kVoltage, "uv", 1e-6, 0, true},
-    {ColumnKind::kVoltage, "kv", 1e3, 0, true},
-    {ColumnKind::kCurrent, "a", 1, 0, true},
-    {ColumnKind::kCurrent, "amp", 1, 0, true},
-    {ColumnKind::kCurrent, "amps", 1, 0, true},
-    {ColumnKind::kCurrent, "ampere", 1, 0, true},
-    {ColumnKind::kCurrent, "amperes", 1, 0, true},
-    {ColumnKind::kCurrent, "ma", 1e-3, 0, true},
-    {ColumnKind::kCurrent, "milliamps", 1e-3, 0, true},
-    {ColumnKind::kCurrent, "ua", 1e-6, 0, true},
-    {ColumnKind::kCurrent, "na", 1e-9, 0, true},
-    {ColumnKind::kCurrent, "ka", 1e3, 0, true},
-    {ColumnKind::kTime, "s", 1, 0, false},
-    {ColumnKind::kTime, "sec", 1, 0, false},
-    {ColumnKind::kTime, "seconds", 1, 0, false},
-    {ColumnKind::kTime, "ms", 1e-3, 0, false},
-    {ColumnKind::kTime, "us", 1e-6, 0, false},
-    {ColumnKind::kTime, "min", 60, 0, false},
-    {ColumnKind::kIrradiance, "wm2", 1, 0, false},
-    {ColumnKind::kIrradiance, "kwm2", 1e3, 0, false},
-    {ColumnKind::kIrradiance, "mwcm2", 10, 0, false},
-    {ColumnKind::kIrradiance, "sun", 1e3, 0, false},
-    {ColumnKind::kIrradiance, "suns", 1e3, 0, false},
-    {ColumnKind::kTemperature, "c", 1, 0, false},
-    {ColumnKind::kTemperature, "degc", 1, 0, false},
-    {ColumnKind::kTemperature, "celsius", 1, 0, false},
-    {ColumnKind::kTemperature, "k", 1, -273.15, false},
-    {ColumnKind::kTemperature, "kelvin", 1, -273.15, false},
-};
-
-// Say where a quantity was taken, not what it is.
-constexpr std::string_view kQualifiers[] = {"pv",       "module", "cell", "panel",  "array",
-                                            "string",   "load",   "bias", "dut",    "device",
-                                            "measured", "meas",   "dc",   "output", "in"};
+// Say where a quantity was taken, not what it is. A lone letter may carry one: "Vmeas", "Idc".
+constexpr std::string_view kQualifiers[] = {
+    "pv",       "module", "cell", "panel",  "array", "string", "load",      "bias", "dut", "device",
+    "measured", "meas",   "dc",   "output", "in",    "opc",    "electrode", "we",   "smu"};
 
 // Not ours, but certainly units: "voltage_percent" is a voltage in percent, "voltage_set" is not.
 constexpr std::string_view kForeignUnits[] = {"percent", "pct", "pu",  "w",         "mw", "kw",
                                               "ohm",     "db",  "f",   "degf",      "h",  "lux",
                                               "adc",     "raw", "bit", "fahrenheit"};
 
-struct Token {
-  std::string text;      // lower case
-  std::string original;  // as written
-  bool marked_as_unit;   // behind a bracket, slash or comma
-};
-
-std::string_view ExpectedUnits(ColumnKind kind) {
-  switch (kind) {
-    case ColumnKind::kVoltage:
-      return "V, mV, uV or kV";
-    case ColumnKind::kTime:
-      return "s, ms, us or min";
-    case ColumnKind::kIrradiance:
-      return "W/m2, kW/m2, mW/cm2 or suns";
-    case ColumnKind::kTemperature:
-      return "C or K";
-    default:
-      return "A, mA, uA, nA or kA";
-  }
+template <std::size_t N>
+bool IsAmong(const std::string_view (&list)[N], std::string_view text) {
+  return std::find(std::begin(list), std::end(list), text) != std::end(list);
 }
 
-// The character beyond ASCII at the start of `text`, where it means something in a unit.
-std::optional<std::pair<std::string_view, std::string_view>> Symbol(std::string_view text) {
-  static constexpr std::pair<std::string_view, std::string_view> kSymbols[] = {
-      {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b2", "2"}, {"\u00b0", ""},     {"\u03a9", "ohm"},
-      {"\u207b", ""},  {"\u2212", " "}, {"\u00a0", " "}, {"\u03c3", "sigma"}};
-  for (const auto& symbol : kSymbols) {
-    if (text.substr(0, symbol.first.size()) == symbol.first) return symbol;
-  }
-  return std::nullopt;
+bool IsDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-std::vector<Token> Tokenise(std::string_view label) {
-  std::vector<Token> tokens;
-  bool inside = false;
-  bool marked = false;
-  const auto add = [&](std::string_view letters) {
-    if (!inside) tokens.push_back({"", "", marked && !tokens.empty()});
-    inside = true;
-    for (const char c : letters) {
-      const bool upper = c >= 'A' && c <= 'Z';
-      tokens.back().text += upper ? static_cast<char>(c - 'A' + 'a') : c;
-      tokens.back().original += c;
-    }
-  };
-  for (std::size_t at = 0; at < label.size(); ++at) {
-    const char c = label[at];
-    const bool alnum = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (const auto symbol = Symbol(label.substr(at))) {
-      if (symbol->second == " ") inside = false;
-      if (symbol->second != " " && !symbol->second.empty()) add(symbol->second);
-      at += symbol->first.size() - 1;
-    } else if (alnum || static_cast<unsigned char>(c) >= 0x80) {
-      add(label.substr(at, 1));
-    } else {
-      inside = false;
-      if (c == '(' || c == '[' || c == '{' || c == '/' || c == ',') marked = true;
-      if (c == '%') add("percent");
-      if (c == '%') inside = false;
-    }
-  }
-  return tokens;
-}
-
-void DropQualifiers(std::vector<Token>* tokens) {
-  if (tokens->size() < 2) return;
-  std::vector<Token> kept;
-  for (const Token& token : *tokens) {
-    const bool qualifier = std::find(std::begin(kQualifiers), std::end(kQualifiers), token.text) !=
-                           std::end(kQualifiers);
-    if (!qualifier) kept.push_back(token);
-  }
-  if (!kept.empty()) *tokens = kept;
-}
-
-std::string Join(const std::vector<Token>& tokens, std::size_t from, std::size_t to) {
-  std::string joined;
-  for (std::size_t i = from; i < to; ++i) joined += tokens[i].text;
-  return joined;
-}
-
-const Unit* FindUnit(ColumnKind kind, std::string_view text) {
-  if (kind == ColumnKind::kSigma) kind = ColumnKind::kCurrent;
-  for (const Unit& unit : kUnits) {
-    if (unit.kind == kind && unit.text == text) return &unit;
+const Name* FindName(std::string_view text) {
+  for (const Name& name : kNames) {
+    if (name.text == text) return &name;
   }
   return nullptr;
+}
+
+bool IsElectrical(ColumnKind kind) {
+  return kind == ColumnKind::kVoltage || kind == ColumnKind::kCurrent ||
+         kind == ColumnKind::kCurrentDensity;
+}
+
+void DropQualifiers(std::vector<LabelWord>* words) {
+  if (words->size() < 2) return;
+  std::vector<LabelWord> kept;
+  for (const LabelWord& word : *words) {
+    if (!IsAmong(kQualifiers, word.text)) kept.push_back(word);
+  }
+  if (!kept.empty()) *words = kept;
+}
+
+// "vmeas" is "v", since "meas" only says how.
+void CutQualifierOffLetter(LabelWord* word) {
+  if (word->text.size() < 3 || FindName(word->text) != nullptr) return;
+  const Name* letter = FindName(word->text.substr(0, 1));
+  if (letter == nullptr || !IsElectrical(letter->kind)) return;
+  if (IsAmong(kQualifiers, std::string_view(word->text).substr(1))) word->text.resize(1);
+}
+
+// Takes the number of a pixel, channel or unit out of the words: "I1", "Ch2 voltage",
+// "Current 1 (A)". The 2 of "mA cm-2" is none.
+std::string TakeNumber(std::vector<LabelWord>* words) {
+  std::string number;
+  const auto add = [&number](std::string_view digits) {
+    if (!number.empty()) number += '.';
+    number += digits;
+  };
+  std::vector<LabelWord> kept;
+  for (LabelWord word : *words) {
+    const bool of_a_unit = !kept.empty() && (kept.back().text == "cm" || kept.back().text == "m" ||
+                                             kept.back().text == "mm");
+    if (IsDigits(word.text) && !of_a_unit) {
+      add(word.text);
+      continue;
+    }
+    const std::size_t letters = word.text.find_last_not_of("0123456789") + 1;
+    const std::string front = word.text.substr(0, letters);
+    const bool channel = front == "ch" || front == "channel" || front == "px" || front == "pixel";
+    const Name* name = FindName(front);
+    const bool named = name != nullptr && IsElectrical(name->kind);
+    if (letters < word.text.size() && (named || channel)) {
+      add(std::string_view(word.text).substr(letters));
+      word.text = front;
+    }
+    if (!channel) kept.push_back(word);
+  }
+  if (kept.empty()) return "";
+  *words = kept;
+  return number;
 }
 
 void TakeUnit(const Unit& unit, Column* column) {
@@ -204,63 +155,107 @@ bool IsPerArea(std::string_view unit) {
   return (unit.size() > 2 && unit.substr(unit.size() - 2) == "m2" && unit[0] != 'w');
 }
 
+void RefuseUnit(const std::string& unit, Column* column) {
+  column->unit = unit;
+  column->refusal = fmt::format("column {} is in {}: expected {}", Quoted(column->label),
+                                Quoted(unit), ExpectedUnits(column->kind));
+}
+
 // False if the words behind the name make it the name of something else.
-bool TakeRest(const std::vector<Token>& tokens, std::size_t from, Column* column) {
-  const std::string rest = Join(tokens, from, tokens.size());
+bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* column) {
+  const std::string rest = JoinWords(words, from, words.size());
   if (rest.empty()) return true;
-  if (column->kind == ColumnKind::kCurrentDensity) return true;
   if (const Unit* unit = FindUnit(column->kind, rest)) {
     TakeUnit(*unit, column);
     return true;
   }
   if (column->kind == ColumnKind::kCurrent && IsPerArea(rest)) {
     column->kind = ColumnKind::kCurrentDensity;
-    return true;
+    return TakeRest(words, from, column);
   }
   if (column->kind == ColumnKind::kSweep || column->kind == ColumnKind::kCurve) {
     return rest == "number" || rest == "index" || rest == "no" || rest == "id";
   }
-  const bool foreign = std::find(std::begin(kForeignUnits), std::end(kForeignUnits), rest) !=
-                       std::end(kForeignUnits);
-  if (!foreign && !tokens[from].marked_as_unit) return false;
-  column->unit = rest;
-  column->refusal = fmt::format("column {} is in {}: expected {}", Quoted(column->label),
-                                Quoted(rest), ExpectedUnits(column->kind));
+  if (!IsAmong(kForeignUnits, rest) && !words[from].marked_as_unit) return false;
+  RefuseUnit(rest, column);
   return true;
 }
 
 // A lone T is a temperature and a lone t a time, unless the unit says otherwise.
-ColumnKind TimeOrTemperature(const std::vector<Token>& tokens) {
-  const std::string unit = Join(tokens, 1, tokens.size());
+ColumnKind TimeOrTemperature(const std::vector<LabelWord>& words) {
+  const std::string unit = JoinWords(words, 1, words.size());
   if (FindUnit(ColumnKind::kTime, unit) != nullptr) return ColumnKind::kTime;
   if (FindUnit(ColumnKind::kTemperature, unit) != nullptr) return ColumnKind::kTemperature;
-  return tokens[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
+  return words[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
+}
+
+// An intensity is one of light only if its unit says so.
+bool IsVague(const Column& column, std::string_view name) {
+  return name == "intensity" && (column.unit.empty() || !column.refusal.empty());
+}
+
+// A density without a unit is in what everybody writes.
+void SettleDensity(Column* column) {
+  if (column->kind != ColumnKind::kCurrentDensity || !column->unit.empty()) return;
+  column->factor = FindUnit(ColumnKind::kCurrentDensity, "macm2")->factor;
+}
+
+Column Recognise(std::string_view label, std::vector<LabelWord> words) {
+  Column column;
+  column.label = std::string(label);
+  if (words.size() == 1) {
+    if (const Unit* unit = FindUnitHeader(words[0].text)) {
+      column.kind = unit->kind;
+      TakeUnit(*unit, &column);
+      return column;
+    }
+  }
+  if (!words.empty()) CutQualifierOffLetter(&words.front());
+  for (std::size_t count = words.size(); count > 0; --count) {
+    const Name* known = FindName(JoinWords(words, 0, count));
+    if (known == nullptr) continue;
+    column.kind = known->text == "t" ? TimeOrTemperature(words) : known->kind;
+    const bool named = TakeRest(words, count, &column) && !IsVague(column, known->text);
+    if (!named) column.kind = ColumnKind::kUnknown;
+    SettleDensity(&column);
+    return column;
+  }
+  return column;
 }
 
 }  // namespace
 
 Column RecogniseColumn(std::string_view label) {
-  Column column;
+  std::vector<LabelWord> words = SplitLabel(label);
+  DropQualifiers(&words);
+  Column column = Recognise(label, words);
+  if (column.kind != ColumnKind::kUnknown) return column;
+  const std::string number = TakeNumber(&words);
+  if (number.empty()) return column;
+  Column numbered = Recognise(label, words);
+  if (!IsElectrical(numbered.kind)) return column;
+  numbered.number = number;
+  return numbered;
+}
+
+Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
+  Column column = RecogniseColumn(label);
+  const bool as_said = column.kind == kind ||
+                       (kind == ColumnKind::kCurrent && column.kind == ColumnKind::kCurrentDensity);
+  if (as_said) return column;
+  column = {};
   column.label = std::string(label);
-  std::vector<Token> tokens = Tokenise(label);
-  DropQualifiers(&tokens);
-  for (const Unit& unit : kUnits) {
-    if (!unit.is_a_header || tokens.size() != 1 || unit.text != tokens[0].text) continue;
-    column.kind = unit.kind;
-    TakeUnit(unit, &column);
-    return column;
-  }
-  for (std::size_t words = tokens.size(); words > 0; --words) {
-    const std::string name = Join(tokens, 0, words);
-    for (const Name& known : kNames) {
-      if (known.text != name) continue;
-      column.kind = name == "t" ? TimeOrTemperature(tokens) : known.kind;
-      if (!TakeRest(tokens, words, &column)) column.kind = ColumnKind::kUnknown;
-      if (column.kind == ColumnKind::kCurrentDensity) {
-        column.refusal = fmt::format(
-            "column {} is a current density: expected a current (multiply by the cell's area)",
-            Quoted(column.label));
-      }
+  column.kind = kind;
+  const std::vector<LabelWord> words = SplitLabel(label);
+  for (std::size_t from = 0; from < words.size(); ++from) {
+    const std::string unit = JoinWords(words, from, words.size());
+    for (const ColumnKind as : {kind, ColumnKind::kCurrentDensity}) {
+      if (as != kind && kind != ColumnKind::kCurrent) continue;
+      const Unit* found = FindUnit(as, unit);
+      // A lone "A" may be a name as well as a unit.
+      if (found == nullptr || (from == 0 && words.size() == 1)) continue;
+      column.kind = as;
+      TakeUnit(*found, &column);
       return column;
     }
   }

@@ -15,11 +15,12 @@ enum class ColumnKind {
   kCurve,  // one of several measurements in a file
   kIrradiance,
   kTemperature,
-  kCurrentDensity,  // recognised only to be refused
+  kCurrentDensity,  // becomes a current by the area of the cell
+  kArea,            // stated in the head of a table, never a column
 };
 
 // What a header cell says about its column. A value in the file becomes factor * value + offset in
-// V, A, s, W/m2 or degrees Celsius.
+// V, A, A/cm2, s, W/m2 or degrees Celsius.
 struct Column {
   ColumnKind kind = ColumnKind::kUnknown;
   std::string label;  // as in the file
@@ -27,10 +28,15 @@ struct Column {
   double factor = 1;
   double offset = 0;
   std::string refusal;  // why a column of this kind cannot be used, empty if it can
+  std::string number;   // of one voltage or current among several: "1" of "I1" and "Current 1 (A)"
 };
 
-// Reads "Voltage (mV)", "I_mA", "U [V]", "Amps", ... without regard to case and punctuation. Only a
-// lone t and T differ: time and temperature.
+// Reads "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)", ... without regard to case and
+// punctuation. Only a lone t and T differ: time and temperature.
 Column RecogniseColumn(std::string_view label);
+
+// The column called `label` where somebody has said that it holds a voltage or a current: its name
+// does not matter, its unit does.
+Column ColumnSaidToBe(ColumnKind kind, std::string_view label);
 
 }  // namespace lyrefit

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
@@ -14,6 +13,7 @@
 #include "lyrefit/curve/table_layout.h"
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/curve/table_row.h"
+#include "lyrefit/curve/text_encoding.h"
 
 namespace lyrefit {
 namespace {
@@ -167,10 +167,9 @@ class IndexReader {
 
 Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
                                     const ReadOptions& options) {
-  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return tl::unexpected(text.error());
-  if (auto checked = CheckUtf8(*text, path); !checked) return tl::unexpected(checked.error());
-  LineReader lines(*text);
+  LineReader lines(text->text);
   std::string_view line;
   if (!lines.NextContent(&line)) {
     return Fail("the file holds no data, only blank lines and comments", path);

@@ -104,19 +104,25 @@ void CurveSetBuilder::ApplyIndex(const Sidecar& own, Sidecar* stated, IvCurve* c
   SayWhereTheyDiffer("cell temperature", "C", own.temperature_C, row.temperature_C, 1, curve);
 }
 
-void CurveSetBuilder::Add(IvCurve curve, const Sidecar& own, int line) {
-  std::string id = curve.name;
+void CurveSetBuilder::TakeHead(const Sidecar& head) {
+  common_ = MergeHead(std::move(common_), head);
+}
+
+void CurveSetBuilder::Add(RawCurve raw, int line) {
+  std::string id = raw.curve.name;
   Sidecar stated = common_;
   // A nominal value of the whole set only stands in for a column.
-  if (!curve.irradiance_W_m2.empty()) stated.irradiance_W_m2.reset();
-  if (!curve.temperature_C.empty()) stated.temperature_C.reset();
-  ApplyIndex(own, &stated, &curve);
-  SettleConditions(Merge(own, stated), &curve);
-  curve.name = id;
-  auto valid = CheckIrradiance(curve.irradiance_W_m2);
-  if (valid) valid = Validate(curve);
-  if (!valid) return Reject(std::move(id), {valid.error().message, curve.source, line});
-  set_.curves.push_back(std::move(curve));
+  if (!raw.curve.irradiance_W_m2.empty()) stated.irradiance_W_m2.reset();
+  if (!raw.curve.temperature_C.empty()) stated.temperature_C.reset();
+  ApplyIndex(raw.stated, &stated, &raw.curve);
+  raw.stated = Merge(std::move(raw.stated), stated);
+  const std::string source = raw.curve.source;
+  auto valid = CheckIrradiance(raw.curve.irradiance_W_m2);
+  if (!valid) return Reject(std::move(id), {valid.error().message, source, line});
+  Expected<IvCurve> curve = FinishCurve(std::move(raw), options_);
+  if (!curve) return Reject(std::move(id), {curve.error().message, source, line});
+  curve->name = id;
+  set_.curves.push_back(std::move(*curve));
 }
 
 void CurveSetBuilder::AddSettled(IvCurve curve) { set_.curves.push_back(std::move(curve)); }

@@ -10,6 +10,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/sidecar.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 
@@ -22,13 +23,16 @@ class CurveSetBuilder {
   Expected<void> ReadCommon(const std::string& path, SidecarOf of);
   Expected<void> ReadIndex(const std::string& path, IndexIds ids);
 
+  // What the head of a table of the whole set states; the sidecar goes before it.
+  void TakeHead(const Sidecar& head);
+
   // Every row of the index has to have its curve among `ids`.
   Expected<void> CheckIndex(const std::set<std::string>& ids) const;
 
-  // Takes a curve in generator sign, named by its id, that begins in `line` of its file (0: not
-  // tied to one). What a column says goes before `own`, its sidecar; then comes the index, then
-  // what is common.
-  void Add(IvCurve curve, const Sidecar& own, int line);
+  // Takes a curve named by its id that begins in `line` of its file (0: not tied to one). What a
+  // column says goes before what is stated for the curve; then comes the index, then what is
+  // common.
+  void Add(RawCurve raw, int line);
 
   // Takes a curve whose reader has settled everything.
   void AddSettled(IvCurve curve);

@@ -1,9 +1,11 @@
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/curve/read_table.h"
 #include "lyrefit/curve/select_sweep.h"
 #include "lyrefit/curve/table_curve.h"
@@ -16,21 +18,27 @@ namespace fs = std::filesystem;
 
 bool FolderHoldsSet(const fs::path& folder) {
   if (IsFile(folder / kCurvesName)) return true;
-  return !IsFile(folder / "curve.csv") && !TablesIn(folder).empty();
+  return CurveInFolder(folder).empty() && !TablesIn(folder).empty();
 }
 
 bool JsonHoldsSet(const std::string& text, const std::string& path) {
   const auto document = ParseJson(text, path);
-  if (!document || !document->is_object()) return false;
+  if (!document) return false;
+  if (!IsIvCurves(*document)) {
+    const auto curves = FindJsonCurves(*document, path, {});
+    return curves && curves->size() > 1;
+  }
   const auto list = document->find("IV Curves");
-  return list != document->end() && list->is_array() && list->size() > 1;
+  return list->is_array() && list->size() > 1;
 }
 
 bool TableHoldsSet(const std::string& text, const fs::path& path) {
-  // Most tables hold one curve: their header says so.
-  const auto layout = FindTableLayout(text, path.string());
-  if (!layout || layout->sweep == kNoColumn) return false;
-  const auto table = ReadTable(text, path.string(), BrokenRows::kSetAside);
+  ReadOptions first;
+  first.column = "1";
+  const auto layout = FindTableLayout(text, path.string(), first);
+  if (!layout) return false;
+  if (layout->channels.size() > 1) return true;
+  const auto table = ReadTable(text, path.string(), {}, BrokenRows::kSetAside);
   if (!table) return false;
   std::set<int> numbers(table->curve.sweep.begin(), table->curve.sweep.end());
   for (const auto& broken : table->broken) numbers.insert(broken.first);
@@ -43,9 +51,9 @@ bool TableHoldsSet(const std::string& text, const fs::path& path) {
 
 bool HoldsCurveSet(const std::string& path) {
   if (IsFolder(path)) return FolderHoldsSet(path);
-  const auto text = ReadTextFile(path, ReadOptions().largest_file_bytes);
+  const auto text = ReadDecodedFile(path, ReadOptions().largest_file_bytes);
   if (!text) return false;
-  return IsJson(path) ? JsonHoldsSet(*text, path) : TableHoldsSet(*text, path);
+  return IsJson(path) ? JsonHoldsSet(text->text, path) : TableHoldsSet(text->text, path);
 }
 
 }  // namespace lyrefit

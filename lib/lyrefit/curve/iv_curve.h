@@ -33,6 +33,9 @@ struct DeviceNotes {
   std::optional<double> current_noise_constant_A;  // standard deviation, constant part
   std::optional<double> current_noise_relative;    // standard deviation, part of |current|
   std::optional<double> current_resolution_A;      // step of the instrument
+  std::optional<double> area_cm2;                  // of the cell
+  std::optional<double> compliance_A;              // the source was set to give no more
+  std::string date;                                // of the measurement, as written
 };
 
 // One measured curve in generator sign: delivered current is positive, negative voltages are

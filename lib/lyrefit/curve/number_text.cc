@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -15,6 +16,28 @@ std::optional<double> Convert(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// "8,892.6" without the separators of its thousands; anything else as it is.
+std::string WithoutThousands(std::string text, bool decimal_comma) {
+  const std::size_t point = text.find_last_of(".,");
+  if (point == std::string::npos || point == 0) return text;
+  const char group = text[point] == '.' ? ',' : '.';
+  if (group == '.' && !decimal_comma) return text;
+  const std::size_t first = text.find(group);
+  if (first == std::string::npos || first > point) return text;
+  const std::size_t begin = text[0] == '+' || text[0] == '-' ? 1 : 0;
+  if (first == begin || first - begin > 3) return text;
+  std::string plain = text.substr(0, first);
+  std::size_t at = first;
+  for (; at < point; at += 4) {
+    const std::string digits = text.substr(at + 1, 3);
+    const bool whole = text[at] == group && at + 4 <= point &&
+                       digits.find_first_not_of("0123456789") == std::string::npos;
+    if (!whole) return text;
+    plain += digits;
+  }
+  return plain + text.substr(point);
 }
 
 std::string_view Trim(std::string_view text) {
@@ -57,6 +80,7 @@ std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
   for (std::size_t at; (at = plain.find(minus)) != std::string::npos;) {
     plain.replace(at, minus.size(), "-");
   }
+  plain = WithoutThousands(std::move(plain), decimal_comma);
   if (decimal_comma && plain.find('.') == std::string::npos) {
     if (const std::size_t at = plain.find(','); at != std::string::npos) plain[at] = '.';
   }

@@ -7,8 +7,10 @@
 namespace lyrefit {
 
 // A decimal number in any locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus, blanks around it
-// allowed; with `decimal_comma` also "1,5". Empty for anything else and for numbers beyond double;
-// "nan" and "inf" are numbers here, so that the caller can refuse them in its own words.
+// allowed; with `decimal_comma` also "1,5". Thousands may be set apart where a decimal part shows
+// which separator is which: "8,892.6", with `decimal_comma` also "8.892,6". Empty for anything else
+// and for numbers beyond double; "nan" and "inf" are numbers here, so that the caller can refuse
+// them in its own words.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
 // `text` in quotes for a message, shortened, control characters replaced.

@@ -3,54 +3,95 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "lyrefit/curve/settle_conditions.h"
-#include "lyrefit/curve/sidecar.h"
+#include "lyrefit/curve/json_curves.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/curve/table_curve.h"
+#include "lyrefit/curve/table_layout.h"
 
 namespace lyrefit {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
-Expected<IvCurve> ReadFromIvCurvesJson(const std::string& path, const ReadOptions& options) {
-  const fs::path table = fs::path(path).replace_extension(".csv");
-  Expected<std::vector<IvCurve>> curves = ReadIvCurvesJson(path, options);
-  if (!curves) {
-    Error error = curves.error();
-    if (error.line == 0 && IsFile(table)) {
-      error.message +=
-          fmt::format(" (for the curve beside it, name {})", table.filename().string());
+// A curve of a document by its number among them: the Index of an ivcurves file, else its place.
+struct NumberedCurve {
+  std::string number;
+  RawCurve raw;
+  bool settled = false;  // its reader has settled the conditions
+};
+
+Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::string& path,
+                                              const ReadOptions& options) {
+  std::vector<NumberedCurve> numbered;
+  if (IsIvCurves(document)) {
+    Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(document, path);
+    if (!entries) return tl::unexpected(entries.error());
+    for (IvCurvesEntry& entry : *entries) {
+      if (!entry.curve) return tl::unexpected(entry.curve.error());
+      numbered.push_back({entry.id, {std::move(*entry.curve), {}, false}, true});
     }
-    return tl::unexpected(std::move(error));
+    return numbered;
   }
+  Expected<std::vector<RawCurve>> curves = FindJsonCurves(document, path, options);
+  if (!curves) return tl::unexpected(curves.error());
+  for (RawCurve& raw : *curves) {
+    const std::string id = raw.curve.name;
+    raw.curve.name = fs::path(path).stem().string();
+    if (curves->size() > 1 && !id.empty()) raw.curve.name += "_" + id;
+    numbered.push_back({std::to_string(numbered.size() + 1), std::move(raw), false});
+  }
+  return numbered;
+}
+
+Expected<IvCurve> FromDocument(const json& document, const std::string& path,
+                               const ReadOptions& options) {
+  Expected<std::vector<NumberedCurve>> curves = CurvesOf(document, path, options);
+  if (!curves) return tl::unexpected(curves.error());
+  constexpr std::size_t kLongestList = 200;
   std::string numbers;
-  for (IvCurve& curve : *curves) {
-    // The reader names every curve FILE_INDEX.
-    const std::string index = curve.name.substr(curve.name.rfind('_') + 1);
-    if (options.curve && index == std::to_string(*options.curve)) return std::move(curve);
-    if (numbers.size() < 40) numbers += (numbers.empty() ? "" : ", ") + index;
+  NumberedCurve* chosen = curves->size() == 1 && !options.curve ? &curves->front() : nullptr;
+  for (NumberedCurve& curve : *curves) {
+    if (options.curve && curve.number == std::to_string(*options.curve)) chosen = &curve;
+    if (numbers.size() > kLongestList) continue;
+    numbers += (numbers.empty() ? "" : ", ") + curve.number;
+    if (!curve.settled) numbers += " " + Quoted(curve.raw.curve.name);
   }
-  if (options.curve) {
+  if (chosen == nullptr && options.curve) {
     return Fail(fmt::format("curve {} was asked for, but the file holds {} curves ({} ...)",
                             *options.curve, curves->size(), numbers),
                 path);
   }
-  if (curves->size() == 1) return std::move(curves->front());
-  return Fail(fmt::format("expected one curve, found {} ({} ...): choose one with --curve INDEX",
-                          curves->size(), numbers),
+  if (chosen == nullptr) {
+    return Fail(fmt::format("expected one curve, found {} ({} ...): choose one with --curve INDEX",
+                            curves->size(), numbers),
+                path);
+  }
+  if (chosen->settled) return std::move(chosen->raw.curve);
+  return FinishCurve(std::move(chosen->raw), options);
+}
+
+Expected<IvCurve> ReadFromJson(const std::string& path, const ReadOptions& options) {
+  const fs::path table = fs::path(path).replace_extension(".csv");
+  const Expected<json> document = ReadJsonFile(path, options);
+  Expected<IvCurve> curve =
+      document ? FromDocument(*document, path, options) : tl::unexpected(document.error());
+  if (curve || curve.error().line != 0 || !IsFile(table)) return curve;
+  return Fail(curve.error().message +
+                  fmt::format(" (for the curve beside it, name {})", table.filename().string()),
               path);
 }
 
 Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& options) {
-  Expected<IvCurve> curve = ReadTableCurve(path, options);
-  if (!curve) return curve;
-  const Expected<Sidecar> sidecar = ReadSidecarBeside(path, options);
-  if (!sidecar) return tl::unexpected(sidecar.error());
-  SettleConditions(*sidecar, &*curve);
-  if (options.curve) curve->name += "_" + std::to_string(*options.curve);
-  if (auto valid = Validate(*curve); !valid) return Fail(valid.error().message, path);
+  Expected<RawCurve> raw = ReadTableCurve(path, options);
+  if (!raw) return tl::unexpected(raw.error());
+  Expected<IvCurve> curve = FinishCurve(std::move(*raw), options);
+  if (curve && options.curve) curve->name += "_" + std::to_string(*options.curve);
   return curve;
 }
 
@@ -58,14 +99,38 @@ Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& opti
 
 Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options) {
   if (IsFolder(path)) {
-    const fs::path inside = fs::path(path) / "curve.csv";
-    if (!IsFile(inside)) {
-      return Fail("expected a file, or a folder that holds curve.csv, found a folder without it",
-                  path);
+    const fs::path inside = CurveInFolder(path);
+    if (inside.empty()) {
+      return Fail(
+          "expected a file, or a folder that holds curve.csv or a table of the folder's own name, "
+          "found a folder without it",
+          path);
     }
-    return ReadFromTable(inside.lexically_normal().string(), options);
+    return ReadFromTable(inside.string(), options);
   }
-  return IsJson(path) ? ReadFromIvCurvesJson(path, options) : ReadFromTable(path, options);
+  return IsJson(path) ? ReadFromJson(path, options) : ReadFromTable(path, options);
+}
+
+Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
+                                const ReadOptions& options) {
+  const Expected<DecodedText> decoded = DecodeText(std::move(text), name);
+  if (!decoded) return tl::unexpected(decoded.error());
+  const Expected<json> document = ParseJson(decoded->text, name);
+  const bool is_json = document && (document->is_object() || document->is_array());
+  if (is_json) return FromDocument(*document, name, options);
+  Expected<RawCurve> raw = TableCurveFromText(*decoded, name, options);
+  if (!raw) return tl::unexpected(raw.error());
+  raw->curve.name = name;
+  raw->curve.source = name;
+  return FinishCurve(std::move(*raw), options);
+}
+
+Expected<std::vector<ColumnNote>> ListColumns(const std::string& path, const ReadOptions& options) {
+  const fs::path inside = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
+  if (inside.empty()) return Fail("expected a file, found a folder", path);
+  const Expected<DecodedText> text = ReadDecodedFile(inside.string(), options.largest_file_bytes);
+  if (!text) return tl::unexpected(text.error());
+  return ListTableColumns(text->text, inside.string(), options);
 }
 
 }  // namespace lyrefit

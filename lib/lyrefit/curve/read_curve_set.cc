@@ -2,17 +2,20 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/curve_set_builder.h"
+#include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/curve/read_table.h"
+#include "lyrefit/curve/select_sweep.h"
 #include "lyrefit/curve/table_curve.h"
+#include "lyrefit/curve/table_layout.h"
 
 namespace lyrefit {
 namespace {
@@ -53,51 +56,94 @@ std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
   return parts;
 }
 
+// How many pairs of voltage and current stand side by side.
+Expected<std::size_t> CountChannels(std::string_view text, const std::string& path,
+                                    const ReadOptions& options) {
+  ReadOptions first = options;
+  if (first.column.empty()) first.column = "1";
+  const Expected<TableLayout> layout = FindTableLayout(text, path, first);
+  if (!layout) return tl::unexpected(layout.error());
+  return layout->channels.size();
+}
+
+// Every pair is a curve, named by its current.
+Expected<void> AddChannels(std::string_view text, const std::string& path, std::size_t channels,
+                           const ReadOptions& options, CurveSetBuilder* builder) {
+  std::set<std::string> ids;
+  for (std::size_t i = 1; i <= channels; ++i) {
+    ReadOptions one = options;
+    one.column = std::to_string(i);
+    Expected<Table> table = ReadTable(text, path, one);
+    if (!table) return tl::unexpected(table.error());
+    RawCurve raw{std::move(table->curve), table->head, table->per_area};
+    raw.curve.source = path;
+    raw.curve.name = table->current_label;
+    if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i);
+    if (auto whole = SelectSweep(std::nullopt, table->holds_curves, &raw.curve); !whole) {
+      builder->Reject(raw.curve.name, {whole.error().message, path});
+      continue;
+    }
+    TurnLoadSign(&raw.curve);
+    builder->Add(std::move(raw), 0);
+  }
+  return {};
+}
+
+// Every number in the column curve or sweep is a curve, and so is every table below another.
+Expected<void> AddSweeps(std::string_view text, const std::string& path, const fs::path& index,
+                         const ReadOptions& options, CurveSetBuilder* builder) {
+  const Expected<Table> table = ReadTable(text, path, options, BrokenRows::kSetAside);
+  if (!table) return tl::unexpected(table.error());
+  if (table->curve.sweep.empty() && table->broken.empty()) {
+    return Fail("expected a column curve or sweep that tells several curves apart, found none",
+                path);
+  }
+  builder->Assume(table->curve.assumptions);
+  builder->TakeHead(table->head);
+  if (auto read = builder->ReadIndex(index.string(), IndexIds::kNumbers); !read) return read;
+  std::set<std::string> ids;
+  for (TablePart& part : SplitTable(*table, path)) {
+    ids.insert(part.curve.name);
+    TurnLoadSign(&part.curve);
+    builder->Add({std::move(part.curve), {}, table->per_area}, part.line);
+  }
+  for (const auto& [number, error] : table->broken) {
+    ids.insert(std::to_string(number));
+    builder->Reject(std::to_string(number), error);
+  }
+  return builder->CheckIndex(ids);
+}
+
 // `path` is the table, `source` what the caller named: the table or its folder.
 Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,
                                     const ReadOptions& options) {
   const fs::path file(path);
   const bool in_folder = file.filename() == kCurvesName;
   const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
-  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return tl::unexpected(text.error());
-  const Expected<Table> table = ReadTable(*text, path, BrokenRows::kSetAside);
-  if (!table) return tl::unexpected(table.error());
-  if (table->curve.sweep.empty() && table->broken.empty()) {
-    return Fail("expected a column curve or sweep that tells several curves apart, found none",
-                path);
-  }
   CurveSetBuilder builder(name, source, options);
-  builder.Assume(table->curve.assumptions);
+  if (!text->remark.empty()) builder.Assume({text->remark});
   const fs::path common =
       in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
   const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
+  const Expected<std::size_t> channels = CountChannels(text->text, path, options);
+  if (!channels) return tl::unexpected(channels.error());
   auto read = builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve);
-  if (read) read = builder.ReadIndex(index.string(), IndexIds::kNumbers);
   if (!read) return tl::unexpected(read.error());
-
-  std::set<std::string> ids;
-  for (TablePart& part : SplitTable(*table, path)) {
-    ids.insert(part.curve.name);
-    TurnLoadSign(&part.curve);
-    builder.Add(std::move(part.curve), {}, part.line);
-  }
-  for (const auto& [number, error] : table->broken) {
-    ids.insert(std::to_string(number));
-    builder.Reject(std::to_string(number), error);
-  }
-  if (auto checked = builder.CheckIndex(ids); !checked) return tl::unexpected(checked.error());
+  auto added = *channels > 1 && options.column.empty()
+                   ? AddChannels(text->text, path, *channels, options, &builder)
+                   : AddSweeps(text->text, path, index, options, &builder);
+  if (!added) return tl::unexpected(added.error());
   return builder.Finish();
 }
 
 Expected<void> AddFromFile(const fs::path& table, const std::string& id, const ReadOptions& options,
                            CurveSetBuilder* builder) {
-  Expected<IvCurve> curve = ReadTableCurve(table.string(), options);
-  if (!curve) return tl::unexpected(curve.error());
-  const Expected<Sidecar> sidecar = ReadSidecarBeside(table.string(), options);
-  if (!sidecar) return tl::unexpected(sidecar.error());
-  curve->name = id;
-  builder->Add(std::move(*curve), *sidecar, 0);
+  Expected<RawCurve> raw = ReadTableCurve(table.string(), options);
+  if (!raw) return tl::unexpected(raw.error());
+  raw->curve.name = id;
+  builder->Add(std::move(*raw), 0);
   return {};
 }
 
@@ -105,10 +151,11 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
   const std::vector<fs::path> tables = TablesIn(folder);
   if (tables.empty()) {
     std::error_code error;
-    return Fail(fmt::format("expected curves.csv or tables of one curve each (.csv, .tsv, .txt), "
-                            "found {}",
-                            fs::is_empty(folder, error) ? "an empty folder" : "a folder without"),
-                folder);
+    return Fail(
+        fmt::format("expected curves.csv or tables of one curve each (.csv, .tsv, .txt, ...), "
+                    "found {}",
+                    fs::is_empty(folder, error) ? "an empty folder" : "a folder without"),
+        folder);
   }
   const fs::path inside(folder);
   CurveSetBuilder builder(FolderNameOf(inside / kCurvesName), folder, options);
@@ -137,9 +184,17 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
 }
 
 Expected<CurveSet> ReadFromJson(const std::string& path, const ReadOptions& options) {
-  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(path, options);
-  if (!entries) return tl::unexpected(entries.error());
+  const Expected<nlohmann::json> document = ReadJsonFile(path, options);
+  if (!document) return tl::unexpected(document.error());
   CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
+  if (!IsIvCurves(*document)) {
+    Expected<std::vector<RawCurve>> curves = FindJsonCurves(*document, path, options);
+    if (!curves) return tl::unexpected(curves.error());
+    for (RawCurve& raw : *curves) builder.Add(std::move(raw), 0);
+    return builder.Finish();
+  }
+  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(*document, path);
+  if (!entries) return tl::unexpected(entries.error());
   for (IvCurvesEntry& entry : *entries) {
     if (entry.curve) {
       entry.curve->name = entry.id;
@@ -163,8 +218,10 @@ Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& opti
   }
   const fs::path curves = fs::path(path) / kCurvesName;
   if (IsFile(curves)) return ReadSetFromTable(curves.lexically_normal().string(), path, options);
-  if (IsFile(fs::path(path) / "curve.csv")) {
-    return Fail("expected several curves, found a folder of one (it holds curve.csv)", path);
+  if (const fs::path one = CurveInFolder(path); !one.empty()) {
+    return Fail(fmt::format("expected several curves, found a folder of one (it holds {})",
+                            one.filename().string()),
+                path);
   }
   return ReadFromTables(path, options);
 }

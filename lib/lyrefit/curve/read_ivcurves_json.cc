@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <set>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/settle_conditions.h"
+#include "lyrefit/curve/text_encoding.h"
 
 namespace lyrefit {
 namespace {
@@ -150,18 +150,26 @@ class IvCurvesReader {
 
 }  // namespace
 
-Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const std::string& path,
-                                                         const ReadOptions& options) {
-  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
+bool IsIvCurves(const json& document) {
+  return document.is_object() && document.contains("IV Curves");
+}
+
+Expected<json> ReadJsonFile(const std::string& path, const ReadOptions& options) {
+  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return tl::unexpected(text.error());
-  const Expected<json> document = ParseJson(*text, path);
-  if (!document) return tl::unexpected(document.error());
-  return IvCurvesReader(*document, path).Read();
+  return ParseJson(text->text, path);
+}
+
+Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const json& document,
+                                                         const std::string& path) {
+  return IvCurvesReader(document, path).Read();
 }
 
 Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
                                                 const ReadOptions& options) {
-  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(path, options);
+  const Expected<json> document = ReadJsonFile(path, options);
+  if (!document) return tl::unexpected(document.error());
+  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(*document, path);
   if (!entries) return tl::unexpected(entries.error());
   std::vector<IvCurve> curves;
   for (IvCurvesEntry& entry : *entries) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,14 @@ struct IvCurvesEntry {
   Expected<IvCurve> curve;
 };
 
+// Whether a JSON document is an ivcurves file, by its key "IV Curves".
+bool IsIvCurves(const nlohmann::json& document);
+
 // What ReadIvCurvesJson reads, with the broken entries. Two of the same Index are an error.
-Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const std::string& path,
-                                                         const ReadOptions& options);
+Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const nlohmann::json& document,
+                                                         const std::string& path);
+
+// A file as JSON.
+Expected<nlohmann::json> ReadJsonFile(const std::string& path, const ReadOptions& options);
 
 }  // namespace lyrefit

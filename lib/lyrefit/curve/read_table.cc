@@ -1,5 +1,16 @@
 #include "lyrefit/curve/read_table.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/source_meter_trace.h"
+#include "lyrefit/curve/table_header.h"
+
 #include "lyrefit/curve/table_layout.h"
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/curve/table_row.h"
@@ -32,6 +43,7 @@ class RowReader {
 
   // Appends the row, or nothing of it.
   Expected<void> Read(std::string_view line, int number) {
+    if (layout_.channels.size() > 1 && IsPastEnd(line)) return {};
     if (auto taken = row_.Take(line, number); !taken) return taken;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       const Expected<double> value = row_.Value(slots_[i].field);
@@ -57,6 +69,16 @@ class RowReader {
   }
 
  private:
+  // Of pairs side by side some may end before the others.
+  bool IsPastEnd(std::string_view line) const {
+    const auto fields = SplitFields(line, layout_.delimiter);
+    if (!fields) return false;
+    const auto empty = [&](int field) {
+      return field >= static_cast<int>(fields->size()) || (*fields)[field].empty();
+    };
+    return empty(layout_.voltage) && empty(layout_.current);
+  }
+
   const TableLayout& layout_;
   TableRow row_;
   Table* table_;
@@ -64,28 +86,218 @@ class RowReader {
   std::vector<double> values_;
 };
 
+// Words for a reading that is missing: no text below a table.
+bool IsMissingValue(std::string_view field) {
+  static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
+                                                "overflow", "ovrflw", "ovf",  "err",  "error"};
+  std::string lower;
+  for (const char c : field) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
+}
+
+bool HasLetter(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           static_cast<unsigned char>(c) >= 0x80;
+  });
+}
+
+// Whether `line` can be no row of the table, not even a broken one: it begins with a word where a
+// number belongs, or has no number where the voltage belongs. Only delimiters are nothing at all.
+bool IsText(std::string_view line, const TableLayout& layout) {
+  const auto fields = SplitFields(line, layout.delimiter);
+  if (!fields) return false;
+  if (fields->empty()) return true;
+  const bool decimal_comma = layout.delimiter != ',';
+  const std::string& first = fields->front();
+  if (ParseNumber(first, decimal_comma) || IsMissingValue(first) || !HasLetter(first)) return false;
+  if (layout.voltage == 0 || layout.current == 0) return true;
+  const std::size_t voltage = layout.voltage;
+  return voltage >= fields->size() || !ParseNumber((*fields)[voltage], decimal_comma);
+}
+
+// Reads the rows of a table, and of the tables below it.
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& file, const ReadOptions& options,
+              BrokenRows broken_rows)
+      : text_(text), file_(file), options_(options), broken_rows_(broken_rows) {}
+
+  Expected<Table> Read() {
+    Expected<TableLayout> layout = FindTableLayout(text_, file_, options_);
+    if (!layout) return tl::unexpected(layout.error());
+    table_.curve.assumptions = layout->assumptions;
+    table_.head = layout->head.said;
+    table_.per_area = layout->per_area();
+    table_.current_label = layout->columns[layout->current].label;
+    table_.holds_curves =
+        layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
+    while (true) {
+      Expected<std::optional<TableLayout>> next = ReadRows(*layout);
+      if (!next) return tl::unexpected(next.error());
+      if (!*next) break;
+      if (auto taken = BeginNext(*layout, **next); !taken) return tl::unexpected(taken.error());
+      *layout = std::move(**next);
+    }
+    if (table_.curve.size() == 0 && table_.broken.empty()) {
+      return Fail("expected rows of numbers below the header, found none", file_,
+                  layout->first_row_line);
+    }
+    TakeUnitOfShortCircuit(*layout);
+    NumberTables();
+    return std::move(table_);
+  }
+
+ private:
+  // Until the text ends, or the next table begins.
+  Expected<std::optional<TableLayout>> ReadRows(const TableLayout& layout) {
+    RowReader reader(layout, file_, &table_);
+    LineReader lines(text_, layout.first_row_offset, layout.first_row_line);
+    std::size_t offset = lines.offset();
+    for (std::string_view line; lines.NextContent(&line, &offset);) {
+      if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+      const auto read = reader.Read(line, lines.number());
+      if (read) continue;
+      const bool aside = broken_rows_ == BrokenRows::kSetAside &&
+                         reader.SetAside(line, lines.number(), read.error());
+      if (aside) continue;
+      lines.StepBack(offset);
+      const Expected<TableLayout> next = FindNextLayout(lines, file_, options_);
+      if (next && OnlyText(lines, next->first_row_line, layout)) {
+        return std::optional<TableLayout>(*next);
+      }
+      const bool last = table_.curve.size() > 0 && OnlyText(lines, 0, layout);
+      if (!last) return tl::unexpected(read.error());
+      SayWhatWasLeft(lines);
+      break;
+    }
+    return std::optional<TableLayout>();
+  }
+
+  // Whether what follows, up to the line `before` (0: the end), holds no row of the table.
+  static bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
+    for (std::string_view line; lines.NextContent(&line);) {
+      if (before != 0 && lines.number() >= before) return true;
+      if (!IsText(line, layout)) return false;
+    }
+    return true;
+  }
+
+  void SayWhatWasLeft(LineReader lines) {
+    constexpr int kShown = 3;
+    int count = 0;
+    std::string shown;
+    int first = 0;
+    for (std::string_view line; lines.NextContent(&line);) {
+      if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+      if (count++ == 0) first = lines.number();
+      if (count <= kShown) shown += (count == 1 ? "" : ", ") + Quoted(line);
+    }
+    if (count == 0) return;
+    table_.curve.assumptions.push_back(
+        fmt::format("{} line{} of text below the table left aside, from line {} on: {}{}", count,
+                    count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : ""));
+  }
+
+  // Its columns have to be those of the table above.
+  Expected<void> BeginNext(const TableLayout& above, const TableLayout& next) {
+    const auto has = [](const TableLayout& layout, int TableLayout::*column) {
+      return layout.*column != kNoColumn;
+    };
+    bool same = above.per_area() == next.per_area();
+    for (int TableLayout::*column : {&TableLayout::sigma, &TableLayout::time, &TableLayout::sweep,
+                                     &TableLayout::irradiance, &TableLayout::temperature}) {
+      same = same && has(above, column) == has(next, column);
+    }
+    if (!same) {
+      return Fail(
+          "expected the columns of the table above in the second table, found others: "
+          "split the file",
+          file_, next.first_row_line);
+    }
+    starts_.push_back(table_.curve.size());
+    heads_.push_back(next.head.said);
+    return {};
+  }
+
+  // A column of currents that names no unit is in the one in which the head states the current at
+  // zero volt, if it shows that very number there.
+  void TakeUnitOfShortCircuit(const TableLayout& layout) {
+    constexpr double kAgrees = 0.02;
+    const std::optional<StatedCurrent>& stated = layout.head.short_circuit;
+    IvCurve& curve = table_.curve;
+    const Column& column = layout.columns[layout.current];
+    if (!stated || stated->factor == 1 || !column.unit.empty() || table_.per_area) return;
+    if (curve.size() == 0) return;
+    const auto nearest =
+        std::min_element(curve.voltage_V.begin(), curve.voltage_V.end(),
+                         [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const double shown = curve.current_A[nearest - curve.voltage_V.begin()];
+    if (std::abs(std::abs(shown) - std::abs(stated->value)) > kAgrees * std::abs(stated->value)) {
+      return;
+    }
+    for (double& current : curve.current_A) current *= stated->factor;
+    table_.per_area = stated->kind == ColumnKind::kCurrentDensity;
+    const std::string taken = fmt::format("column {} names no unit", Quoted(column.label));
+    auto& sentences = curve.assumptions;
+    sentences.erase(std::remove(sentences.begin(), sentences.end(), taken + ": taken as A"),
+                    sentences.end());
+    sentences.push_back(
+        fmt::format("{}: taken in that of {}, with which it agrees", taken, stated->source));
+  }
+
+  // Several tables without a sweep column are sweeps 1, 2, ...; where their heads state conditions
+  // these become columns.
+  void NumberTables() {
+    IvCurve& curve = table_.curve;
+    if (starts_.empty() || !curve.sweep.empty()) return;
+    starts_.push_back(curve.size());
+    heads_.insert(heads_.begin(), table_.head);
+    curve.assumptions.push_back(fmt::format("{} tables one below the other read as sweeps 1 to {}",
+                                            heads_.size(), heads_.size()));
+    SpreadCondition(&Sidecar::irradiance_W_m2, &curve.irradiance_W_m2);
+    SpreadCondition(&Sidecar::temperature_C, &curve.temperature_C);
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+      curve.sweep.resize(starts_[i], static_cast<int>(i) + 1);
+    }
+  }
+
+  // A head that says nothing leaves what the one above said.
+  void SpreadCondition(std::optional<double> Sidecar::*condition, std::vector<double>* column) {
+    std::optional<double> value = heads_.front().*condition;
+    bool differs = false;
+    for (const Sidecar& head : heads_)
+      differs = differs || (head.*condition && head.*condition != value);
+    if (!value || !differs || !column->empty()) return;
+    for (std::size_t i = 0; i < heads_.size(); ++i) {
+      if (heads_[i].*condition) value = heads_[i].*condition;
+      column->resize(starts_[i], *value);
+    }
+    (table_.head.*condition).reset();
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  const ReadOptions& options_;
+  BrokenRows broken_rows_;
+  Table table_;
+  std::vector<std::size_t> starts_;  // of the second table and so on, by their rows
+  std::vector<Sidecar> heads_;
+};
+
 }  // namespace
 
-Expected<Table> ReadTable(std::string_view text, const std::string& file, BrokenRows broken_rows) {
+Expected<Table> ReadTable(std::string_view text, const std::string& file,
+                          const ReadOptions& options, BrokenRows broken_rows) {
   if (auto checked = CheckUtf8(text, file); !checked) return tl::unexpected(checked.error());
-  const Expected<TableLayout> layout = FindTableLayout(text, file);
-  if (!layout) return tl::unexpected(layout.error());
-  Table table;
-  table.curve.assumptions = layout->assumptions;
-  table.holds_curves =
-      layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
-  RowReader reader(*layout, file, &table);
-  LineReader lines(text, layout->first_row_offset, layout->first_row_line);
-  std::string_view line;
-  while (lines.NextContent(&line)) {
-    const auto read = reader.Read(line, lines.number());
-    const bool go_on = read || (broken_rows == BrokenRows::kSetAside &&
-                                reader.SetAside(line, lines.number(), read.error()));
-    if (!go_on) return tl::unexpected(read.error());
-  }
-  if (table.curve.size() == 0 && table.broken.empty()) {
-    return Fail("expected rows of numbers below the header, found none", file,
-                layout->first_row_line);
+  const std::string rows = RowsOfTrace(text);
+  if (rows.empty()) return TableReader(text, file, options, broken_rows).Read();
+  auto table = TableReader(rows, file, options, broken_rows).Read();
+  if (table) {
+    table->curve.assumptions.insert(table->curve.assumptions.begin(),
+                                    "one line of five numbers a reading (voltage, current, "
+                                    "resistance, time, status), as source "
+                                    "meters send their buffer: taken apart");
   }
   return table;
 }

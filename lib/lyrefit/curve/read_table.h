@@ -7,6 +7,8 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/curve/sidecar.h"
 
 namespace lyrefit {
 
@@ -17,6 +19,9 @@ struct Table {
   bool holds_curves = false;    // `sweep` comes from a column named curve
   std::vector<int> lines;       // where each row stands
   std::map<int, Error> broken;  // sweeps with a row that could not be read: their first error
+  Sidecar head;                 // what the lines before the header state
+  bool per_area = false;        // the currents are in A/cm2
+  std::string current_label;    // of the column of the currents
 };
 
 enum class BrokenRows {
@@ -24,8 +29,10 @@ enum class BrokenRows {
   kSetAside  // in `broken`, as long as the row tells its sweep
 };
 
-// `file` is only for the errors.
+// Reads a table and the further ones below it, which become sweeps of their own; text below the
+// last row is left, and said in `assumptions`. `file` is only for the errors.
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
+                          const ReadOptions& options = {},
                           BrokenRows broken_rows = BrokenRows::kRefuse);
 
 }  // namespace lyrefit

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace lyrefit {
@@ -57,6 +58,8 @@ const char* const kIrradianceAssumed = "irradiance not given: assumed 1000 W/m2"
 void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   if (!sidecar.name.empty()) curve->name = sidecar.name;
   curve->notes = sidecar.notes;
+  curve->assumptions.insert(curve->assumptions.end(), sidecar.assumptions.begin(),
+                            sidecar.assumptions.end());
   Conditions& conditions = curve->conditions;
   conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
   conditions.cells_in_series = sidecar.cells_in_series.value_or(1);
@@ -79,6 +82,45 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   curve->irradiance_known = irradiance.has_value();
   // A sensor in the dark may show a little less than nothing.
   conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
+}
+
+Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve) {
+  const std::optional<double> area_cm2 =
+      options.area_cm2 ? options.area_cm2 : sidecar.notes.area_cm2;
+  if (!area_cm2) {
+    return Fail(
+        "the table holds current densities: give the area of the cell with --area-cm2, or as "
+        "area_cm2 in the JSON file beside the table");
+  }
+  if (!(*area_cm2 > 0 && std::isfinite(*area_cm2))) {
+    return Fail(fmt::format("expected a positive area in cm2, found {}", *area_cm2));
+  }
+  for (double& current : curve->current_A) current *= *area_cm2;
+  for (double& sigma : curve->sigma_A) sigma *= *area_cm2;
+  curve->assumptions.push_back(
+      fmt::format("the current densities were multiplied by the area of {:.6g} cm2", *area_cm2));
+  return {};
+}
+
+Sidecar MergeHead(Sidecar beside, const Sidecar& head) {
+  const auto compare = [&](const char* what, const char* unit, double tolerance,
+                           const std::optional<double>& own, const std::optional<double>& other) {
+    if (!own || !other || std::abs(*own - *other) <= tolerance) return;
+    beside.assumptions.push_back(
+        fmt::format("the {} in the head of the table ({:.6g}{}) differs from the one in the file "
+                    "beside it ({:.6g}{}): the latter counts",
+                    what, *other, unit, *own, unit));
+  };
+  const auto as_number = [](const std::optional<int>& count) {
+    return count ? std::optional<double>(*count) : std::nullopt;
+  };
+  compare("irradiance", " W/m2", 0.02 * beside.irradiance_W_m2.value_or(0), beside.irradiance_W_m2,
+          head.irradiance_W_m2);
+  compare("cell temperature", " C", 1, beside.temperature_C, head.temperature_C);
+  compare("cells in series", "", 0, as_number(beside.cells_in_series),
+          as_number(head.cells_in_series));
+  compare("area", " cm2", 1e-9, beside.notes.area_cm2, head.notes.area_cm2);
+  return Merge(std::move(beside), head);
 }
 
 }  // namespace lyrefit

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/sidecar.h"
 
 namespace lyrefit {
@@ -17,5 +19,13 @@ constexpr double kLargestDarkOffset_W_m2 = 20;
 // the sidecar that agree (2 % of irradiance, 1 K) leave the sidecar's round figure; where they
 // differ the mean of the column counts, since it belongs to these very points.
 void SettleConditions(const Sidecar& sidecar, IvCurve* curve);
+
+// Makes currents of the current densities (A/cm2) of `curve` by the area that the options or the
+// sidecar state. The error says how to state one.
+Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve);
+
+// What the file beside a table says, completed by the head of the table; where they differ the file
+// beside it counts, and the sentence says so.
+Sidecar MergeHead(Sidecar beside, const Sidecar& head);
 
 }  // namespace lyrefit

@@ -1,12 +1,40 @@
 #include "lyrefit/curve/sidecar.h"
 
-#include "lyrefit/base/file.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
 #include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/settle_conditions.h"
+#include "lyrefit/curve/text_encoding.h"
 
 namespace lyrefit {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kKnownKeys[] = {"name",
+                                      "technology",
+                                      "cell_temperature_C",
+                                      "temperature_C",
+                                      "nominal_temperature_C",
+                                      "irradiance_W_m2",
+                                      "irradiance_Wm2",
+                                      "nominal_irradiance_Wm2",
+                                      "nominal_irradiance_W_m2",
+                                      "cells_in_series",
+                                      "strings_in_parallel",
+                                      "bypass_diodes",
+                                      "bandgap_eV",
+                                      "isc_tempco_per_K",
+                                      "isc_tempco_A_per_K",
+                                      "alpha_Isc_A_per_K",
+                                      "current_resolution_A",
+                                      "current_noise",
+                                      "area_cm2",
+                                      "compliance_A",
+                                      "date"};
 
 // The word that says an entry has no single value.
 constexpr const char* kVaried = "varied";
@@ -26,6 +54,9 @@ class SidecarReader {
     ReadNumber({"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
     ReadNumber({"isc_tempco_A_per_K", "alpha_Isc_A_per_K"}, Sign::kAny, &notes.isc_tempco_A_per_K);
     ReadNumber({"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
+    ReadNumber({"area_cm2"}, Sign::kPositive, &notes.area_cm2);
+    ReadNumber({"compliance_A"}, Sign::kPositive, &notes.compliance_A);
+    ReadText("date", &notes.date);
     ReadNoise();
     if (failed_) return tl::unexpected(error_);
     return sidecar_;
@@ -142,13 +173,69 @@ class SidecarReader {
 
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
                               SidecarOf of) {
-  const Expected<std::string> text = ReadTextFile(path, largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  const Expected<json> object = ParseJson(*text, path);
+  const Expected<DecodedText> decoded = ReadDecodedFile(path, largest_file_bytes);
+  if (!decoded) return tl::unexpected(decoded.error());
+  const Expected<json> object = ParseJson(decoded->text, path);
   if (!object) return tl::unexpected(object.error());
   if (!object->is_object())
     return Fail("expected a JSON object with keys such as cells_in_series", path, 1, 1);
-  return SidecarReader(*object, *text, path, of).Read();
+  if (IsReport(*object)) {
+    if (auto conditions = ReportedConditions(*object, path)) return *conditions;
+    return Fail(
+        "this is a report of lyrefit, not a sidecar, and states no conditions of one "
+        "curve: move it to another name",
+        path);
+  }
+  Expected<Sidecar> sidecar = SidecarReader(*object, decoded->text, path, of).Read();
+  const bool known = std::any_of(std::begin(kKnownKeys), std::end(kKnownKeys),
+                                 [&](const char* key) { return object->contains(key); });
+  if (sidecar && !known) {
+    sidecar->assumptions.push_back(
+        fmt::format("{} has none of the keys of a sidecar (cells_in_series, cell_temperature_C, "
+                    "irradiance_W_m2, ...): nothing was taken from it",
+                    std::filesystem::path(path).filename().string()));
+  }
+  return sidecar;
+}
+
+bool IsReport(const json& document) {
+  return document.is_object() && document.contains("lyrefit_version");
+}
+
+std::optional<Sidecar> ReportedConditions(const json& report, const std::string& path) {
+  const auto curve = report.find("curve");
+  if (curve == report.end() || !curve->is_object()) return std::nullopt;
+  const auto found = curve->find("conditions");
+  if (found == curve->end() || !found->is_object()) return std::nullopt;
+  const auto assumptions = curve->value("assumptions", json::array());
+  // What the report had to assume itself, it does not know.
+  const auto number = [&](const char* key, const char* assumed) -> std::optional<double> {
+    const auto value = found->find(key);
+    const bool guess =
+        std::find(assumptions.begin(), assumptions.end(), assumed) != assumptions.end();
+    if (guess || value == found->end() || !value->is_number()) return std::nullopt;
+    return value->get<double>();
+  };
+  const auto count = [&](const char* key, const char* assumed) -> std::optional<int> {
+    const auto value = number(key, assumed);
+    if (!value || !(*value >= 1 && *value <= 1e6)) return std::nullopt;
+    return static_cast<int>(*value);
+  };
+  Sidecar sidecar;
+  const auto name = curve->find("name");
+  if (name != curve->end() && name->is_string()) sidecar.name = name->get<std::string>();
+  sidecar.cells_in_series = count("cells_in_series", kCellsAssumed);
+  sidecar.strings_in_parallel = count("strings_in_parallel", "");
+  sidecar.temperature_C = number("cell_temperature_C", kTemperatureAssumed);
+  if (sidecar.temperature_C && !(*sidecar.temperature_C >= -100 && *sidecar.temperature_C <= 150)) {
+    sidecar.temperature_C.reset();
+  }
+  sidecar.irradiance_W_m2 = number("irradiance_Wm2", kIrradianceAssumed);
+  if (sidecar.irradiance_W_m2 && !(*sidecar.irradiance_W_m2 >= 0)) sidecar.irradiance_W_m2.reset();
+  sidecar.assumptions.push_back(
+      fmt::format("{} is a report of lyrefit, not a sidecar: the conditions in it were used",
+                  std::filesystem::path(path).filename().string()));
+  return sidecar;
 }
 
 Sidecar Merge(Sidecar own, const Sidecar& common) {
@@ -169,6 +256,11 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&notes.current_noise_constant_A, common.notes.current_noise_constant_A);
   fill(&notes.current_noise_relative, common.notes.current_noise_relative);
   fill(&notes.current_resolution_A, common.notes.current_resolution_A);
+  fill(&notes.area_cm2, common.notes.area_cm2);
+  fill(&notes.compliance_A, common.notes.compliance_A);
+  if (notes.date.empty()) notes.date = common.notes.date;
+  own.assumptions.insert(own.assumptions.end(), common.assumptions.begin(),
+                         common.assumptions.end());
   return own;
 }
 

@@ -1,12 +1,13 @@
 #include "lyrefit/curve/table_curve.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/read_table.h"
 #include "lyrefit/curve/select_sweep.h"
+#include "lyrefit/curve/settle_conditions.h"
 
 namespace lyrefit {
 namespace {
@@ -37,12 +38,25 @@ bool IsJson(const fs::path& path) { return ExtensionOf(path) == ".json"; }
 
 bool IsTable(const fs::path& path) {
   const std::string extension = ExtensionOf(path);
-  return extension == ".csv" || extension == ".tsv" || extension == ".txt";
+  constexpr const char* kEndings[] = {".csv", ".tsv", ".txt", ".dat", ".asc",
+                                      ".dta", ".mpt", ".lvm", ".prn"};
+  return std::find(std::begin(kEndings), std::end(kEndings), extension) != std::end(kEndings);
 }
 
 std::string FolderNameOf(const fs::path& path) {
   std::error_code error;
   return fs::absolute(path, error).lexically_normal().parent_path().filename().string();
+}
+
+fs::path CurveInFolder(const fs::path& folder) {
+  const fs::path plain = folder / "curve.csv";
+  if (IsFile(plain)) return plain.lexically_normal();
+  const std::string name = FolderNameOf(plain);
+  for (const char* ending : {".csv", ".txt"}) {
+    const fs::path own = folder / (name + ending);
+    if (!name.empty() && IsFile(own)) return own.lexically_normal();
+  }
+  return {};
 }
 
 std::vector<fs::path> TablesIn(const fs::path& folder) {
@@ -59,21 +73,50 @@ std::vector<fs::path> TablesIn(const fs::path& folder) {
   return tables;
 }
 
-Expected<IvCurve> ReadTableCurve(const std::string& path, const ReadOptions& options) {
-  const Expected<std::string> text = ReadTextFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  Expected<Table> table = ReadTable(*text, path);
+Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,
+                                      const ReadOptions& options) {
+  Expected<Table> table = ReadTable(text.text, path, options);
   if (!table) return tl::unexpected(table.error());
-  IvCurve curve = std::move(table->curve);
-  curve.source = path;
+  RawCurve raw;
+  raw.curve = std::move(table->curve);
+  raw.stated = std::move(table->head);
+  raw.per_area = table->per_area;
+  if (!text.remark.empty()) {
+    raw.curve.assumptions.insert(raw.curve.assumptions.begin(), text.remark);
+  }
+  if (auto selected = SelectSweep(options.curve, table->holds_curves, &raw.curve); !selected) {
+    return Fail(selected.error().message, path);
+  }
+  TurnLoadSign(&raw.curve);
+  return raw;
+}
+
+Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options) {
+  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
+  if (!text) return tl::unexpected(text.error());
+  Expected<RawCurve> raw = TableCurveFromText(*text, path, options);
+  if (!raw) return raw;
+  raw->curve.source = path;
   // "curve.csv" is named after its folder.
   const fs::path file(path);
   const std::string folder = file.filename() == "curve.csv" ? FolderNameOf(file) : "";
-  curve.name = folder.empty() ? file.stem().string() : folder;
-  if (auto selected = SelectSweep(options.curve, table->holds_curves, &curve); !selected) {
-    return Fail(selected.error().message, path);
+  raw->curve.name = folder.empty() ? file.stem().string() : folder;
+  Expected<Sidecar> beside = ReadSidecarBeside(path, options);
+  if (!beside) return tl::unexpected(beside.error());
+  raw->stated = MergeHead(std::move(*beside), raw->stated);
+  return raw;
+}
+
+Expected<IvCurve> FinishCurve(RawCurve raw, const ReadOptions& options) {
+  IvCurve curve = std::move(raw.curve);
+  const std::string source = curve.source;
+  if (raw.per_area) {
+    auto settled = SettleArea(options, raw.stated, &curve);
+    if (!settled) return Fail(settled.error().message, source);
   }
-  TurnLoadSign(&curve);
+  SettleConditions(raw.stated, &curve);
+  if (options.area_cm2) curve.notes.area_cm2 = options.area_cm2;
+  if (auto valid = Validate(curve); !valid) return Fail(valid.error().message, source);
   return curve;
 }
 

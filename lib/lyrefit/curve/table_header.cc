@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "lyrefit/curve/label.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_columns.h"
 #include "lyrefit/curve/table_lines.h"
 
 namespace lyrefit {
@@ -27,9 +29,41 @@ bool LooksLikeHeader(const std::vector<Column>& columns) {
          (HasKind(columns, ColumnKind::kCurrent) || HasKind(columns, ColumnKind::kCurrentDensity));
 }
 
+bool IsNumber(const std::string& field, char delimiter) {
+  return ParseNumber(field, delimiter != ',').has_value();
+}
+
 bool IsNumericRow(const Fields& fields, char delimiter) {
-  return fields.size() >= 2 && ParseNumber(fields[0], delimiter != ',') &&
-         ParseNumber(fields[1], delimiter != ',');
+  return fields.size() >= 2 && IsNumber(fields[0], delimiter) && IsNumber(fields[1], delimiter);
+}
+
+// A column called "... Unit" that holds "Amp DC" says what the column on its left is.
+void TakeUnitColumns(const Fields& names, const Fields& row, std::vector<Column>* columns) {
+  for (std::size_t i = 1; i < names.size() && i < row.size(); ++i) {
+    const std::vector<LabelWord> words = SplitLabel(names[i]);
+    if (words.empty() || words.back().text != "unit") continue;
+    Column said = RecogniseColumn(row[i]);
+    if (said.kind != ColumnKind::kVoltage && said.kind != ColumnKind::kCurrent) continue;
+    if (said.unit.empty()) continue;
+    said.label = names[i - 1];
+    (*columns)[i - 1] = said;
+  }
+}
+
+std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, char delimiter,
+                              const HeaderRules& rules) {
+  std::vector<Column> columns = RecogniseAll(fields);
+  const auto row = SplitFields(next_line, delimiter);
+  const bool wished =
+      !rules.options.voltage_column.empty() || !rules.options.current_column.empty();
+  // A wish may be a mere place: only a line right above the numbers is the header then.
+  const bool above_numbers =
+      row && row->size() <= fields.size() && row->size() >= 2 && !IsNumericRow(fields, delimiter);
+  if (wished && above_numbers) ApplyColumnWishes(rules.options, &columns);
+  if (row && !LooksLikeHeader(columns)) TakeUnitColumns(fields, *row, &columns);
+  const bool found = LooksLikeHeader(columns) && !FindChannels(columns).empty();
+  if (rules.guess && above_numbers && !found) GuessColumns(&columns);
+  return columns;
 }
 
 // True if the line below the header has numbers where the header promises voltage and current.
@@ -66,13 +100,13 @@ bool HasKind(const std::vector<Column>& columns, ColumnKind kind) {
                      [&](const Column& column) { return column.kind == kind; });
 }
 
-TableLine AsHeader(std::string_view line, std::string_view next_line) {
+TableLine AsHeader(std::string_view line, std::string_view next_line, const HeaderRules& rules) {
   TableLine first;
   for (const char delimiter : kDelimiters) {
     auto fields = SplitFields(line, delimiter);
     if (!fields) continue;
     if (delimiter == ' ') fields = JoinBrackets(*fields);
-    std::vector<Column> columns = RecogniseAll(*fields);
+    std::vector<Column> columns = ColumnsOf(*fields, next_line, delimiter, rules);
     if (!LooksLikeHeader(columns)) continue;
     TableLine candidate{delimiter, *fields, columns, false};
     candidate.fits = RowFits(next_line, candidate);
@@ -80,6 +114,36 @@ TableLine AsHeader(std::string_view line, std::string_view next_line) {
     if (first.delimiter == 0) first = candidate;
   }
   return first;
+}
+
+std::string WithUnits(std::string_view names, std::string_view units) {
+  for (const char delimiter : {'\t', ';', ','}) {
+    const auto above = SplitFields(names, delimiter);
+    const auto below = SplitFields(units, delimiter);
+    if (!above || !below || above->size() < 2 || above->size() != below->size()) continue;
+    std::string joined;
+    bool any_unit = false;
+    bool any_number = false;
+    for (std::size_t i = 0; i < above->size(); ++i) {
+      std::string name = (*above)[i];
+      std::string unit = (*below)[i];
+      any_number = any_number || IsNumber(unit, delimiter);
+      const std::vector<LabelWord> words = SplitLabel(unit);
+      const std::string text = JoinWords(words, 0, words.size());
+      for (const ColumnKind kind : {ColumnKind::kVoltage, ColumnKind::kCurrent,
+                                    ColumnKind::kCurrentDensity, ColumnKind::kTime}) {
+        any_unit = any_unit || FindUnit(kind, text) != nullptr;
+      }
+      for (std::string* part : {&name, &unit}) {
+        part->erase(std::remove(part->begin(), part->end(), '"'), part->end());
+      }
+      const bool marked = !unit.empty() && (unit[0] == '(' || unit[0] == '[');
+      if (!unit.empty()) name += marked ? " " + unit : " [" + unit + "]";
+      joined += (i == 0 ? "\"" : std::string(1, delimiter) + "\"") + name + "\"";
+    }
+    if (any_unit && !any_number) return joined;
+  }
+  return "";
 }
 
 TableLine AsRow(std::string_view line) {
@@ -90,10 +154,11 @@ TableLine AsRow(std::string_view line) {
   return {};
 }
 
-TableLine HeaderInComment(std::string_view comment, std::string_view row) {
+TableLine HeaderInComment(std::string_view comment, std::string_view row,
+                          const HeaderRules& rules) {
   const std::size_t text = comment.find_first_not_of("# \t");
   if (text == std::string_view::npos) return {};
-  TableLine candidate = AsHeader(comment.substr(text), row);
+  TableLine candidate = AsHeader(comment.substr(text), row, rules);
   const TableLine numbers = AsRow(row);
   const bool fits = candidate.delimiter != 0 && candidate.fields.size() == numbers.fields.size();
   if (!fits) return {};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/curve/column.h"
+#include "lyrefit/curve/read_curve.h"
 
 namespace lyrefit {
 
@@ -28,14 +29,24 @@ std::vector<Column> RecogniseAll(const Fields& fields);
 
 bool HasKind(const std::vector<Column>& columns, ColumnKind kind);
 
+// How a header is recognised.
+struct HeaderRules {
+  const ReadOptions& options;  // names of columns
+  bool guess = false;          // letters and units count where names are unknown
+};
+
 // `line` as a header of at least a voltage and a current; `next_line` helps to choose the
-// delimiter.
-TableLine AsHeader(std::string_view line, std::string_view next_line);
+// delimiter, and says the units where they stand in columns of their own ("Reading,Unit").
+TableLine AsHeader(std::string_view line, std::string_view next_line, const HeaderRules& rules);
+
+// The line of names with the units that `units` has below them, "V [mV],I [mA]": as many fields,
+// none a number, some known units. Empty if `units` is no such line.
+std::string WithUnits(std::string_view names, std::string_view units);
 
 // `line` as a row that begins with two numbers.
 TableLine AsRow(std::string_view line);
 
 // "# voltage current" above headerless numbers, as NumPy writes it.
-TableLine HeaderInComment(std::string_view comment, std::string_view row);
+TableLine HeaderInComment(std::string_view comment, std::string_view row, const HeaderRules& rules);
 
 }  // namespace lyrefit

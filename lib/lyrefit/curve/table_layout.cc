@@ -20,6 +20,12 @@ std::string ListOf(const Fields& names) {
   return list;
 }
 
+Fields LabelsOf(const std::vector<Column>& columns) {
+  Fields labels;
+  for (const Column& column : columns) labels.push_back(column.label);
+  return labels;
+}
+
 struct Place {
   const std::string& file;
   int line;
@@ -56,10 +62,44 @@ Expected<int> PickColumn(const TableLayout& layout, ColumnKind kind, const Place
   return usable;
 }
 
-Expected<void> PickColumns(TableLayout* layout, const Place& place) {
-  const std::pair<ColumnKind, int*> wanted[] = {{ColumnKind::kVoltage, &layout->voltage},
-                                                {ColumnKind::kCurrent, &layout->current},
-                                                {ColumnKind::kSigma, &layout->sigma},
+// Why there is no pair of voltage and current, at the place of the column to blame.
+tl::unexpected<Error> NoChannel(const TableLayout& layout, const ReadOptions& options,
+                                const Place& place) {
+  for (const std::string* wish : {&options.voltage_column, &options.current_column}) {
+    if (wish->empty() || FindColumn(layout.columns, *wish)) continue;
+    return place.Refuse(fmt::format("expected a column {} in the header, found {}", Quoted(*wish),
+                                    ListOf(LabelsOf(layout.columns))),
+                        0);
+  }
+  for (const ColumnKind kind :
+       {ColumnKind::kVoltage, ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
+    const Expected<int> picked = PickColumn(layout, kind, place);
+    if (!picked) return tl::unexpected(picked.error());
+  }
+  return place.Refuse("expected a voltage and a current that belong together", 0);
+}
+
+Expected<void> PickChannel(const ReadOptions& options, const Place& place, TableLayout* layout) {
+  layout->channels = FindChannels(layout->columns);
+  if (layout->channels.empty()) return NoChannel(*layout, options, place);
+  for (const std::string* wish : {&options.voltage_column, &options.current_column}) {
+    if (!wish->empty() && !FindColumn(layout->columns, *wish)) {
+      return NoChannel(*layout, options, place);
+    }
+  }
+  const Expected<Channel> chosen = ChooseChannel(layout->columns, layout->channels, options.column);
+  if (!chosen) {
+    const std::size_t blamed = options.column.empty() ? 1 : 0;
+    return place.Refuse(chosen.error().message, layout->channels[blamed].current);
+  }
+  layout->voltage = chosen->voltage;
+  layout->current = chosen->current;
+  return {};
+}
+
+Expected<void> PickColumns(const ReadOptions& options, const Place& place, TableLayout* layout) {
+  if (auto picked = PickChannel(options, place, layout); !picked) return picked;
+  const std::pair<ColumnKind, int*> wanted[] = {{ColumnKind::kSigma, &layout->sigma},
                                                 {ColumnKind::kTime, &layout->time},
                                                 {ColumnKind::kSweep, &layout->sweep},
                                                 {ColumnKind::kIrradiance, &layout->irradiance},
@@ -70,10 +110,6 @@ Expected<void> PickColumns(TableLayout* layout, const Place& place) {
     *index = *picked;
   }
   if (layout->sweep == kNoColumn) layout->sweep = *PickColumn(*layout, ColumnKind::kCurve, place);
-  if (layout->current == kNoColumn) {
-    const Expected<int> density = PickColumn(*layout, ColumnKind::kCurrentDensity, place);
-    if (!density) return tl::unexpected(density.error());
-  }
   return {};
 }
 
@@ -94,6 +130,24 @@ bool IsUsed(const TableLayout& layout, int column) {
   return false;
 }
 
+const char* NameOf(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::kSigma:
+      return "standard deviation of the current";
+    case ColumnKind::kTime:
+      return "time";
+    case ColumnKind::kSweep:
+    case ColumnKind::kCurve:
+      return "number of the sweep or curve";
+    case ColumnKind::kIrradiance:
+      return "irradiance";
+    case ColumnKind::kTemperature:
+      return "cell temperature";
+    default:
+      return "used";
+  }
+}
+
 void SayWhatWasAssumed(TableLayout* layout) {
   Fields unused;
   for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
@@ -103,16 +157,19 @@ void SayWhatWasAssumed(TableLayout* layout) {
     } else if (column.offset != 0) {
       layout->assumptions.push_back(
           fmt::format("column {} converted from kelvin to degrees Celsius", Quoted(column.label)));
-    } else if (column.factor != 1) {
-      layout->assumptions.push_back(fmt::format("column {} multiplied by {} to get {}",
-                                                Quoted(column.label), column.factor,
-                                                column.kind == ColumnKind::kVoltage      ? "V"
-                                                : column.kind == ColumnKind::kTime       ? "s"
-                                                : column.kind == ColumnKind::kIrradiance ? "W/m2"
-                                                                                         : "A"));
+    } else if (column.factor != 1 && !column.unit.empty()) {
+      layout->assumptions.push_back(
+          fmt::format("column {} multiplied by {} to get {}", Quoted(column.label), column.factor,
+                      column.kind == ColumnKind::kVoltage          ? "V"
+                      : column.kind == ColumnKind::kTime           ? "s"
+                      : column.kind == ColumnKind::kIrradiance     ? "W/m2"
+                      : column.kind == ColumnKind::kCurrentDensity ? "A/cm2"
+                                                                   : "A"));
     }
   }
-  for (const auto& [index, unit] : {std::pair(layout->voltage, "V"), {layout->current, "A"}}) {
+  const char* const current_unit = layout->per_area() ? "mA/cm2" : "A";
+  for (const auto& [index, unit] :
+       {std::pair(layout->voltage, "V"), {layout->current, current_unit}}) {
     const Column& column = layout->columns[index];
     if (!column.unit.empty() || column.label.empty()) continue;
     layout->assumptions.push_back(
@@ -125,17 +182,39 @@ void SayWhatWasAssumed(TableLayout* layout) {
 }
 
 Expected<TableLayout> FromHeader(const TableLine& header, const Place& place,
-                                 std::string_view next_line) {
+                                 std::string_view next_line, const ReadOptions& options) {
   TableLayout layout;
   layout.delimiter = header.delimiter;
   layout.columns = header.columns;
-  if (auto picked = PickColumns(&layout, place); !picked) return tl::unexpected(picked.error());
+  if (auto picked = PickColumns(options, place, &layout); !picked) {
+    return tl::unexpected(picked.error());
+  }
   DropTextColumns(next_line, &layout);
   SayWhatWasAssumed(&layout);
   return layout;
 }
 
-Expected<TableLayout> WithoutHeader(const TableLine& row, const Place& place) {
+// The two columns of a table without a header: the first two, unless the options name others.
+Expected<Channel> PlacesWithoutHeader(const std::vector<Column>& columns, const Place& place,
+                                      const ReadOptions& options) {
+  std::optional<int> places[2];
+  const std::string* wishes[] = {&options.voltage_column, &options.current_column};
+  for (int i = 0; i < 2; ++i) {
+    if (wishes[i]->empty()) continue;
+    places[i] = FindColumn(columns, *wishes[i]);
+    if (places[i]) continue;
+    return place.Refuse(fmt::format("column {} was asked for, but the table has no header and {} "
+                                    "columns: name them by their place, from 1",
+                                    Quoted(*wishes[i]), columns.size()),
+                        0);
+  }
+  if (!places[0]) places[0] = places[1] == 0 ? 1 : 0;
+  if (!places[1]) places[1] = places[0] == 1 ? 0 : 1;
+  return Channel{*places[0], *places[1]};
+}
+
+Expected<TableLayout> WithoutHeader(const TableLine& row, const Place& place,
+                                    const ReadOptions& options) {
   // "0,5,7,48" may be two numbers with decimal commas.
   const bool may_be_decimal_commas =
       row.delimiter == ',' && row.fields.size() == 4 &&
@@ -151,71 +230,122 @@ Expected<TableLayout> WithoutHeader(const TableLine& row, const Place& place) {
   TableLayout layout;
   layout.delimiter = row.delimiter;
   layout.columns.resize(row.fields.size());
-  layout.voltage = 0;
-  layout.current = 1;
-  layout.assumptions.push_back(
-      "no header line: column 1 taken as the voltage in V, column 2 as the current in A");
+  const Expected<Channel> channel = PlacesWithoutHeader(layout.columns, place, options);
+  if (!channel) return tl::unexpected(channel.error());
+  layout.channels = {*channel};
+  layout.voltage = channel->voltage;
+  layout.current = channel->current;
+  layout.assumptions.push_back(fmt::format(
+      "no header line: column {} taken as the voltage in V, column {} as the current in A",
+      layout.voltage + 1, layout.current + 1));
   if (row.fields.size() > 2) {
     layout.assumptions.push_back(fmt::format("{} further columns not used", row.fields.size() - 2));
   }
   return layout;
 }
 
-// Why nothing could be made of the file, at the line that comes nearest to a header.
+// Why nothing could be made of the file, at the line that comes nearest to a header. Its fields are
+// shown as the delimiter separates them that is really there.
 Error NoLayout(std::string_view line, int number, const std::string& file) {
   const std::string expected =
-      "expected a header with a voltage and a current, such as "
-      "voltage_V,current_A";
+      "expected a header with a voltage and a current, such as voltage_V,current_A";
   if (number == 0) return Error{"the file holds no data, only blank lines and comments", file};
-  TableLine widest;
+  TableLine best;
   for (const char delimiter : kDelimiters) {
     const auto fields = SplitFields(line, delimiter);
-    if (fields && fields->size() > std::max<std::size_t>(1, widest.fields.size())) {
-      widest = {delimiter, *fields, RecogniseAll(*fields)};
-    }
+    if (!fields || fields->size() < 2) continue;
+    best = {delimiter, *fields, RecogniseAll(*fields)};
+    break;  // in the order they are tried: blanks separate words, too
   }
-  if (widest.delimiter == 0) {
+  if (best.delimiter == 0) {
     const char* what = ParseNumber(line, true) ? "a table of one column" : "one field";
     return Error{fmt::format("{}, found {}: {}", expected, what, Quoted(line)), file, number, 1};
   }
   std::string missing = "neither";
-  if (HasKind(widest.columns, ColumnKind::kVoltage)) missing = "no current";
-  if (HasKind(widest.columns, ColumnKind::kCurrent)) missing = "no voltage";
-  return Error{fmt::format("{}, found {} among {}", expected, missing, ListOf(widest.fields)), file,
-               number, 1};
+  if (HasKind(best.columns, ColumnKind::kVoltage)) missing = "no current";
+  if (HasKind(best.columns, ColumnKind::kCurrent)) missing = "no voltage";
+  return Error{fmt::format("{}, found {} among {}; name the columns with --voltage-column and "
+                           "--current-column (name or number)",
+                           expected, missing, ListOf(best.fields)),
+               file, number, 1};
 }
 
 // The search for the first line that is a header or, without one, the first row.
 class LayoutSearch {
  public:
-  LayoutSearch(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
+  LayoutSearch(LineReader lines, const std::string& file, const HeaderRules& rules)
+      : lines_(lines), file_(file), rules_(rules) {}
+
+  // Only a header with numbers below it counts.
+  void DemandHeader() { demand_header_ = true; }
 
   Expected<TableLayout> Run() {
     std::size_t offset = 0;
     while (skipped_ <= kLargestPreamble && NextContent(&offset)) {
-      std::string_view next_line;
-      LineReader ahead = lines_;
-      ahead.NextContent(&next_line);
-      const TableLine header = AsHeader(line_, next_line);
-      if (header.delimiter != 0 && (header.fits || !second_best_)) {
-        auto layout = Finish(FromHeader(header, PlaceOf(header), next_line), lines_.offset(),
-                             lines_.number());
-        if (header.fits) return layout;
-        second_best_ = std::move(layout);
-      }
+      if (auto header = TryHeader()) return *header;
       const TableLine row = AsRow(line_);
-      if (row.delimiter != 0 && skipped_ == 0) {
-        return Finish(FromRow(row), offset, lines_.number() - 1);
+      if (row.delimiter != 0 && !row_after_text_ && !demand_header_) {
+        if (skipped_ == 0 || WishesArePlaces()) {
+          return Finish(FromRow(row), offset, lines_.number() - 1);
+        }
+        // A header may still follow: numbers may stand in what a tracer writes before it.
+        row_after_text_ = true;
+        text_before_row_ = last_text_;
       }
-      if (row.delimiter != 0) return GiveUp(last_text_, last_text_number_);
       Skip();
     }
-    return GiveUp(first_text_, first_text_number_);
+    if (second_best_ && !demand_header_) return *second_best_;
+    const Text& shown = row_after_text_ ? text_before_row_ : first_text_;
+    return tl::unexpected(NoLayout(shown.line, shown.number, file_));
   }
 
  private:
+  struct Text {
+    std::string_view line;
+    int number = 0;
+  };
+
   Place PlaceOf(const TableLine& found) const {
     return {file_, lines_.number(), line_, found.delimiter};
+  }
+
+  // Whether columns are named by their places, so that no header is needed.
+  bool WishesArePlaces() const {
+    return ParseNumber(rules_.options.voltage_column) && ParseNumber(rules_.options.current_column);
+  }
+
+  // The line as a header, alone or with a line of units below it. One without numbers below is kept
+  // in mind: it is still better than none, its rows tell what is wrong.
+  std::optional<Expected<TableLayout>> TryHeader() {
+    if (auto with_units = TryUnits()) return with_units;
+    std::string_view next_line;
+    LineReader ahead = lines_;
+    ahead.NextContent(&next_line);
+    const TableLine header = AsHeader(line_, next_line, rules_);
+    if (header.delimiter == 0 || (!header.fits && second_best_)) return std::nullopt;
+    auto layout = Finish(FromHeader(header, PlaceOf(header), next_line, rules_.options),
+                         lines_.offset(), lines_.number());
+    if (header.fits) return layout;
+    second_best_ = std::move(layout);
+    return std::nullopt;
+  }
+
+  std::optional<Expected<TableLayout>> TryUnits() {
+    LineReader ahead = lines_;
+    std::string_view units;
+    do {
+      if (!ahead.Next(&units)) return std::nullopt;
+    } while (units.find_first_not_of(" \t") == std::string_view::npos);
+    const std::string joined = WithUnits(line_, units);
+    if (joined.empty()) return std::nullopt;
+    const LineReader below = ahead;
+    std::string_view next_line;
+    ahead.NextContent(&next_line);
+    const TableLine header = AsHeader(joined, next_line, rules_);
+    if (header.delimiter == 0 || !header.fits) return std::nullopt;
+    auto layout = FromHeader(header, PlaceOf(header), next_line, rules_.options);
+    lines_ = below;
+    return Finish(std::move(layout), lines_.offset(), lines_.number());
   }
 
   // Like LineReader's, but remembers comments and where the line began.
@@ -227,32 +357,24 @@ class LayoutSearch {
       if (first == std::string_view::npos) continue;
       if (line_[first] != '#') return true;
       comment_ = line_;
+      ReadHeadLine(line_, lines_.number(), HeadLine::kComment, &head_);
     }
   }
 
   void Skip() {
-    if (skipped_++ == 0) {
-      first_text_ = line_;
-      first_text_number_ = lines_.number();
-    }
-    last_text_ = line_;
-    last_text_number_ = lines_.number();
+    last_text_ = {line_, lines_.number()};
+    if (skipped_++ == 0) first_text_ = last_text_;
+    ReadHeadLine(line_, lines_.number(), HeadLine::kText, &head_);
   }
 
   Expected<TableLayout> FromRow(const TableLine& row) const {
-    const TableLine header = HeaderInComment(comment_, line_);
-    if (header.delimiter == 0) return WithoutHeader(row, PlaceOf(row));
-    Expected<TableLayout> layout = FromHeader(header, PlaceOf(header), line_);
+    const TableLine header = HeaderInComment(comment_, line_, rules_);
+    if (header.delimiter == 0) return WithoutHeader(row, PlaceOf(row), rules_.options);
+    Expected<TableLayout> layout = FromHeader(header, PlaceOf(header), line_, rules_.options);
     if (layout) {
       layout->assumptions.push_back("column names taken from the comment above the numbers");
     }
     return layout;
-  }
-
-  // A header without numbers below it is still better than none: its rows tell what is wrong.
-  Expected<TableLayout> GiveUp(std::string_view line, int number) const {
-    if (second_best_) return *second_best_;
-    return tl::unexpected(NoLayout(line, number, file_));
   }
 
   Expected<TableLayout> Finish(Expected<TableLayout> layout, std::size_t offset,
@@ -260,30 +382,72 @@ class LayoutSearch {
     if (!layout) return layout;
     layout->first_row_offset = offset;
     layout->first_row_line = lines_before;
+    layout->head = head_;
+    std::vector<std::string> about_head;
     if (skipped_ > 0) {
-      layout->assumptions.insert(layout->assumptions.begin(),
-                                 fmt::format("{} line{} before the header in line {} skipped",
-                                             skipped_, skipped_ == 1 ? "" : "s", lines_.number()));
+      about_head.push_back(fmt::format("{} line{} before the header in line {} skipped", skipped_,
+                                       skipped_ == 1 ? "" : "s", lines_.number()));
     }
+    const std::vector<std::string> sentences = HeadSentences(head_);
+    about_head.insert(about_head.end(), sentences.begin(), sentences.end());
+    layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
     return layout;
   }
 
   LineReader lines_;
   const std::string& file_;
+  HeaderRules rules_;
   std::string_view line_;
   std::string_view comment_;
-  std::string_view first_text_;
-  int first_text_number_ = 0;
-  std::string_view last_text_;
-  int last_text_number_ = 0;
+  Text first_text_;
+  Text last_text_;
+  Text text_before_row_;
+  bool row_after_text_ = false;
+  bool demand_header_ = false;
   std::optional<Expected<TableLayout>> second_best_;
+  TableHead head_;
   int skipped_ = 0;  // lines of text, not counting comments
 };
 
 }  // namespace
 
-Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file) {
-  return LayoutSearch(text, file).Run();
+Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
+                                      const ReadOptions& options) {
+  Expected<TableLayout> known = LayoutSearch(LineReader(text), file, {options, false}).Run();
+  if (known) return known;
+  Expected<TableLayout> guessed = LayoutSearch(LineReader(text), file, {options, true}).Run();
+  return guessed ? guessed : known;
+}
+
+Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
+                                     const ReadOptions& options) {
+  LayoutSearch search(lines, file, {options, false});
+  search.DemandHeader();
+  return search.Run();
+}
+
+Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
+                                                   const ReadOptions& options) {
+  ReadOptions any = options;
+  if (any.column.empty()) any.column = "1";
+  const Expected<TableLayout> layout = FindTableLayout(text, file, any);
+  if (!layout) return tl::unexpected(layout.error());
+  std::vector<ColumnNote> notes;
+  for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
+    std::string use;
+    const bool several = layout->channels.size() > 1;
+    for (std::size_t k = 0; k < layout->channels.size(); ++k) {
+      const Channel& channel = layout->channels[k];
+      const std::string pair = several ? fmt::format(" {}", k + 1) : "";
+      if (channel.current == i) use = (layout->per_area() ? "current density" : "current") + pair;
+      if (channel.voltage != i || !use.empty()) continue;
+      const bool shared = several && layout->channels[0].voltage == layout->channels[1].voltage;
+      use = "voltage" + (shared ? "" : pair);
+    }
+    if (use.empty()) use = IsUsed(*layout, i) ? NameOf(layout->columns[i].kind) : "not used";
+    notes.push_back({i + 1, layout->columns[i].label, use});
+  }
+  return notes;
 }
 
 }  // namespace lyrefit

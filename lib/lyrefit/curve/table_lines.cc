@@ -29,7 +29,12 @@ bool LineReader::Next(std::string_view* line) {
 }
 
 bool LineReader::NextContent(std::string_view* line) {
-  while (Next(line)) {
+  std::size_t offset = 0;
+  return NextContent(line, &offset);
+}
+
+bool LineReader::NextContent(std::string_view* line, std::size_t* offset) {
+  for (*offset = at_; Next(line); *offset = at_) {
     const auto first = std::find_if_not(line->begin(), line->end(), IsBlank);
     if (first != line->end() && *first != '#') return true;
   }

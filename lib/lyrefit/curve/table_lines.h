@@ -20,6 +20,15 @@ class LineReader {
   // The next line that is neither blank nor a comment ('#').
   bool NextContent(std::string_view* line);
 
+  // The same; `offset` becomes where it began.
+  bool NextContent(std::string_view* line, std::size_t* offset);
+
+  // So that the line returned last, which began at `offset`, comes again.
+  void StepBack(std::size_t offset) {
+    at_ = offset;
+    --number_;
+  }
+
   int number() const { return number_; }  // of the line returned last
   std::size_t offset() const { return at_; }
 

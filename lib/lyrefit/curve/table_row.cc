@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/curve/number_text.h"
 
@@ -32,6 +33,12 @@ tl::unexpected<Error> TableRow::RefuseField(int field, std::string_view expected
                 field);
 }
 
+tl::unexpected<Error> TableRow::RefuseMissing(int field, std::string_view expected) const {
+  Error error = RefuseField(field, expected).value();
+  error.message += ": delete the line if the reading is missing";
+  return tl::unexpected(std::move(error));
+}
+
 Expected<void> TableRow::CheckLength() const {
   std::size_t size = splitter_.size();
   const std::size_t expected = columns_.size();
@@ -49,8 +56,9 @@ Expected<void> TableRow::CheckLength() const {
 Expected<double> TableRow::Value(int field) {
   const std::string_view text = splitter_[field];
   const auto number = ParseNumber(text, delimiter_ != ',');
+  if (!number && text.empty()) return RefuseMissing(field, "a number");
   if (!number) return RefuseField(field, "a number");
-  if (!std::isfinite(*number)) return RefuseField(field, "a finite number");
+  if (!std::isfinite(*number)) return RefuseMissing(field, "a finite number");
   if (auto checked = CheckSeparator(field, text); !checked) {
     return tl::unexpected(checked.error());
   }
@@ -81,9 +89,8 @@ Expected<int> TableRow::WholeNumber(int field) {
 // "1,234" beside "0.5" is a thousands separator, not a decimal comma.
 Expected<void> TableRow::CheckSeparator(int field, std::string_view text) {
   if (delimiter_ == ',') return {};
-  const char found = text.find(',') != std::string_view::npos   ? ','
-                     : text.find('.') != std::string_view::npos ? '.'
-                                                                : '\0';
+  const std::size_t last = text.find_last_of(",.");  // before it stand thousands, if anything
+  const char found = last == std::string_view::npos ? '\0' : text[last];
   if (found == '\0' || found == separator_) return {};
   if (separator_ == '\0') {
     separator_ = found;

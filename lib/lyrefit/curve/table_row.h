@@ -36,6 +36,7 @@ class TableRow {
   tl::unexpected<Error> Refuse(std::string message, int field) const;
 
  private:
+  tl::unexpected<Error> RefuseMissing(int field, std::string_view expected) const;
   std::string ColumnName(int field) const;
   Expected<void> CheckLength() const;
   Expected<void> CheckSeparator(int field, std::string_view text);

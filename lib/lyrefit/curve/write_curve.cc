@@ -35,6 +35,9 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
     (*sidecar)["current_noise"]["relative"] = *notes.current_noise_relative;
   }
   add("current_resolution_A", notes.current_resolution_A);
+  add("area_cm2", notes.area_cm2);
+  add("compliance_A", notes.compliance_A);
+  if (!notes.date.empty()) (*sidecar)["date"] = notes.date;
 }
 
 }  // namespace

@@ -1,0 +1,246 @@
+#include "lyrefit/curve/table_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "lyrefit/curve/label.h"
+#include "lyrefit/curve/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+// What stands behind V and I in the name of a point or of something that was not measured.
+constexpr std::string_view kNoReading[] = {
+    "sc",  "oc",       "mp",    "mpp",   "pm",   "max",    "min", "x",   "xx",    "pmax",
+    "set", "setpoint", "model", "fit",   "stc",  "ref",    "nom", "lim", "limit", "range",
+    "src", "source",   "step",  "start", "stop", "offset", "ph",  "d",   "rms",   "nominal"};
+
+std::string LowerCase(std::string_view text) {
+  std::string lower;
+  for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+bool IsCurrent(ColumnKind kind) {
+  return kind == ColumnKind::kCurrent || kind == ColumnKind::kCurrentDensity;
+}
+
+bool SameSide(ColumnKind a, ColumnKind b) { return a == b || (IsCurrent(a) && IsCurrent(b)); }
+
+// What a column may be by its unit and by the letter its name begins with.
+struct Guess {
+  ColumnKind by_unit = ColumnKind::kUnknown;
+  ColumnKind by_letter = ColumnKind::kUnknown;
+  std::string suffix;  // behind the letter
+  const Unit* unit = nullptr;
+};
+
+Guess GuessAt(std::string_view label) {
+  Guess guess;
+  const std::vector<LabelWord> words = SplitLabel(label);
+  std::size_t name_words = 0;
+  while (name_words < words.size() && !words[name_words].marked_as_unit) ++name_words;
+  const std::string name = JoinWords(words, 0, name_words);
+  const std::string unit = JoinWords(words, name_words, words.size());
+  if (name.empty()) return guess;
+  guess.suffix = name.substr(1);
+  const bool no_reading =
+      std::find(std::begin(kNoReading), std::end(kNoReading), guess.suffix) != std::end(kNoReading);
+  if (no_reading) return guess;
+  for (const ColumnKind kind :
+       {ColumnKind::kVoltage, ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
+    const Unit* found = FindUnit(kind, unit);
+    if (found == nullptr) continue;
+    guess.by_unit = kind;
+    guess.unit = found;
+  }
+  const char letter = name[0];
+  ColumnKind by_letter = ColumnKind::kUnknown;
+  if (letter == 'v' || letter == 'u') by_letter = ColumnKind::kVoltage;
+  if (letter == 'i') by_letter = ColumnKind::kCurrent;
+  if (letter == 'j') by_letter = ColumnKind::kCurrentDensity;
+  const bool fits = unit.empty() || SameSide(guess.by_unit, by_letter);
+  if (!guess.suffix.empty() && fits) guess.by_letter = by_letter;
+  return guess;
+}
+
+void Become(ColumnKind kind, const Unit* unit, Column* column) {
+  const std::string label = column->label;
+  *column = {};
+  column->label = label;
+  column->kind = kind;
+  if (unit == nullptr) return;
+  column->unit = unit->text;
+  column->factor = unit->factor;
+}
+
+// Takes the two columns and leaves all others of their kinds aside.
+void TakePair(const std::vector<Guess>& guesses, int voltage, int current,
+              std::vector<Column>* columns) {
+  for (Column& column : *columns) {
+    if (column.kind == ColumnKind::kVoltage || IsCurrent(column.kind)) {
+      column.kind = ColumnKind::kUnknown;
+    }
+  }
+  Become(ColumnKind::kVoltage, guesses[voltage].unit, &(*columns)[voltage]);
+  const Guess& guess = guesses[current];
+  const ColumnKind kind = guess.by_unit != ColumnKind::kUnknown ? guess.by_unit : guess.by_letter;
+  Become(kind, guess.unit, &(*columns)[current]);
+}
+
+bool GuessByLetter(const std::vector<Guess>& guesses, std::vector<Column>* columns) {
+  std::map<std::string, std::pair<std::vector<int>, std::vector<int>>> pairs;
+  for (int i = 0; i < static_cast<int>(guesses.size()); ++i) {
+    if (guesses[i].by_letter == ColumnKind::kVoltage) pairs[guesses[i].suffix].first.push_back(i);
+    if (IsCurrent(guesses[i].by_letter)) pairs[guesses[i].suffix].second.push_back(i);
+  }
+  std::vector<std::pair<int, int>> found;
+  for (const auto& [suffix, sides] : pairs) {
+    const auto& [voltages, currents] = sides;
+    if (voltages.size() == 1 && currents.size() == 1) found.emplace_back(voltages[0], currents[0]);
+  }
+  if (found.size() != 1) return false;
+  TakePair(guesses, found[0].first, found[0].second, columns);
+  return true;
+}
+
+bool GuessByUnit(const std::vector<Guess>& guesses, std::vector<Column>* columns) {
+  const auto only = [&](ColumnKind kind) {
+    int place = -1;
+    for (int i = 0; i < static_cast<int>(guesses.size()); ++i) {
+      const bool known = (*columns)[i].kind == kind && (*columns)[i].refusal.empty();
+      if (!known && guesses[i].by_unit != kind) continue;
+      if (place != -1) return -1;
+      place = i;
+    }
+    return place;
+  };
+  const int voltage = only(ColumnKind::kVoltage);
+  int current = only(ColumnKind::kCurrent);
+  if (current == -1) current = only(ColumnKind::kCurrentDensity);
+  if (voltage == -1 || current == -1) return false;
+  const Column kept[] = {(*columns)[voltage], (*columns)[current]};
+  TakePair(guesses, voltage, current, columns);
+  if (kept[0].kind == ColumnKind::kVoltage) (*columns)[voltage] = kept[0];
+  if (IsCurrent(kept[1].kind)) (*columns)[current] = kept[1];
+  return true;
+}
+
+std::vector<int> Usable(const std::vector<Column>& columns, ColumnKind kind) {
+  std::vector<int> places;
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    if (columns[i].kind == kind && columns[i].refusal.empty()) places.push_back(i);
+  }
+  return places;
+}
+
+// The voltage with the number of `current`; -1 if there is not exactly one.
+int SameNumber(const std::vector<Column>& columns, const std::vector<int>& voltages, int current) {
+  int found = -1;
+  for (const int voltage : voltages) {
+    if (columns[voltage].number != columns[current].number) continue;
+    if (found != -1) return -1;
+    found = voltage;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<int> FindColumn(const std::vector<Column>& columns, const std::string& wish) {
+  const std::string name = LowerCase(Trim(wish));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (LowerCase(Trim(columns[i].label)) == name) return static_cast<int>(i);
+  }
+  const auto place = ParseNumber(wish);
+  for (std::size_t i = 0; i < columns.size() && place; ++i) {
+    if (*place == static_cast<double>(i + 1)) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns) {
+  const std::pair<ColumnKind, const std::string*> wishes[] = {
+      {ColumnKind::kVoltage, &options.voltage_column},
+      {ColumnKind::kCurrent, &options.current_column}};
+  for (const auto& [kind, wish] : wishes) {
+    const auto place = wish->empty() ? std::nullopt : FindColumn(*columns, *wish);
+    if (!place) continue;
+    for (Column& column : *columns) {
+      if (SameSide(column.kind, kind)) column.kind = ColumnKind::kUnknown;
+    }
+    (*columns)[*place] = ColumnSaidToBe(kind, (*columns)[*place].label);
+  }
+}
+
+bool GuessColumns(std::vector<Column>* columns) {
+  std::vector<Guess> guesses;
+  for (const Column& column : *columns) guesses.push_back(GuessAt(column.label));
+  return GuessByLetter(guesses, columns) || GuessByUnit(guesses, columns);
+}
+
+std::vector<Channel> FindChannels(const std::vector<Column>& columns) {
+  const std::vector<int> voltages = Usable(columns, ColumnKind::kVoltage);
+  std::vector<int> currents = Usable(columns, ColumnKind::kCurrent);
+  if (currents.empty()) currents = Usable(columns, ColumnKind::kCurrentDensity);
+  std::vector<Channel> channels;
+  if (voltages.size() == 1) {
+    for (const int current : currents) channels.push_back({voltages[0], current});
+    return channels;
+  }
+  for (const int current : currents) {
+    const int voltage = SameNumber(columns, voltages, current);
+    if (voltage != -1) channels.push_back({voltage, current});
+  }
+  if (channels.size() == currents.size()) return channels;
+  channels.clear();
+  if (voltages.size() != currents.size()) return channels;
+  for (std::size_t i = 0; i < currents.size(); ++i) channels.push_back({voltages[i], currents[i]});
+  return channels;
+}
+
+std::string ListChannels(const std::vector<Column>& columns, const std::vector<Channel>& channels) {
+  constexpr std::size_t kShown = 12;
+  std::string list;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (i == kShown) return list + fmt::format(", ... {}", channels.size());
+    const Column& current = columns[channels[i].current];
+    list += fmt::format("{}{} {}", i == 0 ? "" : ", ", i + 1, Quoted(current.label));
+  }
+  return list;
+}
+
+Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
+                                const std::vector<Channel>& channels, const std::string& wish) {
+  if (wish.empty()) {
+    if (channels.size() == 1) return channels[0];
+    return Fail(
+        fmt::format("expected one current column, found {}: {}; choose one with --column NAME|N",
+                    channels.size(), ListChannels(columns, channels)));
+  }
+  const auto place = ParseNumber(wish);
+  const std::string name = LowerCase(Trim(wish));
+  for (std::size_t i = 0; i < channels.size() && place; ++i) {
+    if (*place == static_cast<double>(i + 1)) return channels[i];
+  }
+  const bool own_voltages = channels.size() > 1 && channels[0].voltage != channels[1].voltage;
+  for (const Channel& channel : channels) {
+    const Column& current = columns[channel.current];
+    const bool called = LowerCase(Trim(current.label)) == name || current.number == wish ||
+                        (own_voltages && LowerCase(Trim(columns[channel.voltage].label)) == name);
+    if (called) return channel;
+  }
+  return Fail(fmt::format("column {} was asked for, but the table has {}", Quoted(wish),
+                          ListChannels(columns, channels)));
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,341 @@
+#include "lyrefit/curve/table_head.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "lyrefit/curve/label.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_header.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kShownLines = 6;
+
+// A label taken apart: the words of its name, and the unit behind it.
+struct Statement {
+  std::set<std::string> words;
+  std::string name;  // the words, one behind the other
+  std::string unit;
+  double value = 0;
+};
+
+bool HasAny(const Statement& statement, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return statement.words.count(word) != 0; });
+}
+
+// Said of something else than this curve: another plane, a limit, a standard condition.
+bool IsAboutOtherThings(const Statement& statement) {
+  return HasAny(
+      statement,
+      {"ghi",       "dni",         "dhi",    "horizontal", "diffuse", "stc",     "noct",
+       "reference", "ref",         "min",    "max",        "minimum", "maximum", "threshold",
+       "target",    "coefficient", "alpha",  "beta",       "gamma",   "tempco",  "tolerance",
+       "error",     "deviation",   "std",    "stdev",      "power",   "ambient", "air",
+       "back",      "parallel",    "modules"});
+}
+
+std::optional<double> Converted(const Statement& statement, ColumnKind kind) {
+  if (statement.unit.empty()) return std::nullopt;
+  const Unit* unit = FindUnit(kind, statement.unit);
+  if (unit == nullptr) return std::nullopt;
+  return statement.value * unit->factor + unit->offset;
+}
+
+std::optional<double> AsIrradiance(const Statement& statement) {
+  const bool named = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "insolation",
+                                        "einstrahlung", "irraggiamento", "eclairement", "intensity",
+                                        "light", "g", "e", "sun", "suns", "pyranometer"});
+  if (!named) return std::nullopt;
+  auto value = Converted(statement, ColumnKind::kIrradiance);
+  const bool plain = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "einstrahlung"});
+  if (!value && statement.unit.empty() && plain && statement.value >= 20) value = statement.value;
+  if (!value || !(*value >= 0 && *value <= 1e5)) return std::nullopt;
+  return value;
+}
+
+std::optional<double> AsTemperature(const Statement& statement) {
+  const bool whole = statement.name == "tc" || statement.name == "tcell" ||
+                     statement.name == "tmod" || statement.name == "tmodule" ||
+                     statement.name == "tpv" || statement.name == "temperature" ||
+                     statement.name == "temp";
+  const bool temperature = HasAny(statement, {"temperature", "temp", "temperatur", "t"});
+  const bool place = HasAny(statement, {"cell", "module", "mod", "pv", "panel", "device", "sample",
+                                        "zelle", "modul", "stage", "chuck"});
+  if (!whole && !(temperature && place)) return std::nullopt;
+  auto value = Converted(statement, ColumnKind::kTemperature);
+  if (!value && statement.unit.empty()) value = statement.value;
+  if (!value || !(*value >= -100 && *value <= 150)) return std::nullopt;
+  return value;
+}
+
+std::optional<int> AsCells(const Statement& statement) {
+  const bool count = HasAny(statement, {"number", "no", "num", "n", "count", "series", "in", "nr"});
+  const bool named = statement.name == "cells" || statement.name == "ns" ||
+                     statement.name == "ncells" || statement.name == "nscells" ||
+                     (HasAny(statement, {"cells", "zellen"}) && count);
+  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
+                     statement.value <= 10000;
+  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
+  return static_cast<int>(statement.value);
+}
+
+std::optional<double> AsArea(const Statement& statement) {
+  if (!HasAny(statement, {"area", "fl\u00e4che", "zellfl\u00e4che", "aperture"})) {
+    return std::nullopt;
+  }
+  const auto value = Converted(statement, ColumnKind::kArea);
+  if (!value || !(*value > 0)) return std::nullopt;
+  return value;
+}
+
+std::optional<double> AsCompliance(const Statement& statement) {
+  const bool named = HasAny(statement, {"compliance"}) ||
+                     (HasAny(statement, {"limit"}) && HasAny(statement, {"current", "i"}));
+  if (!named) return std::nullopt;
+  const auto value = Converted(statement, ColumnKind::kCurrent);
+  if (!value || !(*value > 0)) return std::nullopt;
+  return value;
+}
+
+// Fills what nobody has stated yet.
+template <class T>
+bool TakeFirst(const std::optional<T>& value, const char* what, const char* unit,
+               const std::string& source, std::optional<T>* target, TableHead* head) {
+  if (!value || *target) return false;
+  *target = value;
+  head->assumptions.push_back(
+      fmt::format("{} {:.6g}{} taken from {}", what, static_cast<double>(*value), unit, source));
+  return true;
+}
+
+// Remembered, but not understood: the readings say it better.
+void NoteShortCircuit(const Statement& statement, const std::string& source, TableHead* head) {
+  const bool named = statement.name == "isc" || statement.name == "jsc";
+  if (!named || head->short_circuit || statement.value == 0) return;
+  for (const ColumnKind kind : {ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
+    const Unit* unit = FindUnit(kind, statement.unit);
+    if (unit == nullptr) continue;
+    head->short_circuit = {statement.value, kind, unit->factor, source};
+  }
+}
+
+bool Take(const Statement& statement, const std::string& source, TableHead* head) {
+  Sidecar* said = &head->said;
+  NoteShortCircuit(statement, source, head);
+  if (TakeFirst(AsCompliance(statement), "compliance", " A", source, &said->notes.compliance_A,
+                head)) {
+    return true;
+  }
+  if (IsAboutOtherThings(statement)) return false;
+  return TakeFirst(AsIrradiance(statement), "irradiance", " W/m2", source, &said->irradiance_W_m2,
+                   head) ||
+         TakeFirst(AsTemperature(statement), "cell temperature", " C", source, &said->temperature_C,
+                   head) ||
+         TakeFirst(AsCells(statement), "cells in series", "", source, &said->cells_in_series,
+                   head) ||
+         TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
+}
+
+// The unit is the longest end of the label that is one: "Cell area (cm2)", "area_cm2".
+Statement Understand(const std::vector<LabelWord>& words, double value, std::string_view unit) {
+  Statement statement;
+  statement.value = value;
+  std::size_t end = words.size();
+  if (unit.empty()) {
+    for (std::size_t from = 1; from < words.size() && end == words.size(); ++from) {
+      const std::string text = JoinWords(words, from, words.size());
+      for (const ColumnKind kind :
+           {ColumnKind::kIrradiance, ColumnKind::kTemperature, ColumnKind::kArea,
+            ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
+        if (FindUnit(kind, text) != nullptr) end = from;
+      }
+      if (end == from) statement.unit = text;
+    }
+    for (std::size_t i = 0; i < end; ++i) {
+      if (words[i].marked_as_unit) end = i;
+    }
+    if (statement.unit.empty()) statement.unit = JoinWords(words, end, words.size());
+  } else {
+    const std::vector<LabelWord> unit_words = SplitLabel(unit);
+    statement.unit = JoinWords(unit_words, 0, unit_words.size());
+  }
+  statement.name = JoinWords(words, 0, end);
+  for (std::size_t i = 0; i < end; ++i) statement.words.insert(words[i].text);
+  return statement;
+}
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\"#%");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\"") - begin + 1);
+}
+
+// "47,3 C" as number and unit; a second number or a word before it makes it something else.
+struct Quantity {
+  double value;
+  std::string_view unit;
+};
+
+std::optional<Quantity> AsQuantity(std::string_view text) {
+  text = Trim(text);
+  const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+  if (const auto value = ParseNumber(text.substr(0, end), true)) {
+    if (!std::isfinite(*value)) return std::nullopt;
+    const std::string_view rest = Trim(text.substr(end));
+    const auto words = SplitFields(rest, ' ');
+    const bool more =
+        words && std::any_of(words->begin(), words->end(), [](const std::string& word) {
+          return ParseNumber(word, true).has_value();
+        });
+    if (more) return std::nullopt;
+    return Quantity{*value, rest};
+  }
+  // "25C"
+  const std::size_t digits = text.find_first_not_of("+-.,0123456789");
+  if (digits == 0 || digits == std::string_view::npos) return std::nullopt;
+  const auto value = ParseNumber(text.substr(0, digits), true);
+  const auto next = static_cast<unsigned char>(text[digits]);
+  const bool unit = next >= 0x80 || next == '%' || std::isalpha(next) != 0;
+  if (!value || !unit) return std::nullopt;
+  return Quantity{*value, text.substr(digits)};
+}
+
+// Reads one line, or the part of it between two delimiters.
+class LineParser {
+ public:
+  LineParser(const std::string& source, TableHead* head) : source_(source), head_(head) {}
+
+  void Read(std::string_view line) {
+    for (const char delimiter : {'\t', ';', ','}) {
+      const auto fields = SplitFields(line, delimiter);
+      if (!fields || fields->size() < 2) continue;
+      return ReadFields(*fields);
+    }
+    if (!ReadPart(line)) ReadWords(line);
+  }
+
+  bool understood() const { return understood_; }
+  bool holds_number() const { return holds_number_; }
+
+ private:
+  void ReadFields(const Fields& fields) {
+    std::string label;
+    std::vector<Quantity> quantities;
+    bool parts = false;
+    for (const std::string& field : fields) {
+      if (ReadPart(field)) {
+        parts = true;
+      } else if (const auto quantity = AsQuantity(field)) {
+        quantities.push_back(*quantity);
+      } else {
+        if (IsDate(label) && quantities.empty()) TakeDate(field);
+        label += (label.empty() ? "" : " ") + field;
+      }
+    }
+    if (parts && quantities.empty()) return;
+    // A unit may have a field of its own: "Irradiance;912;W/m2". Its words mark it.
+    if (quantities.size() == 1) State(label, quantities[0]);
+    if (quantities.size() > 1) holds_number_ = true;
+  }
+
+  // "Label: 47.3 C" or "Label = 47.3"
+  bool ReadPart(std::string_view text) {
+    const std::size_t at = text.find_first_of(":=");
+    if (at == std::string_view::npos || at == 0) return false;
+    const std::string_view value = Trim(text.substr(at + 1));
+    if (value.empty()) return false;
+    if (IsDate(text.substr(0, at))) {
+      TakeDate(value);
+      return true;
+    }
+    const auto quantity = AsQuantity(value);
+    if (quantity) State(text.substr(0, at), *quantity);
+    return quantity.has_value();
+  }
+
+  // "POA 912 W/m2": one number between words.
+  void ReadWords(std::string_view text) {
+    const auto words = SplitFields(text, ' ');
+    if (!words) return;
+    std::size_t numbers = 0;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < words->size(); ++i) {
+      if (!ParseNumber((*words)[i], true)) continue;
+      ++numbers;
+      place = i;
+    }
+    holds_number_ = holds_number_ || numbers > 0;
+    if (numbers != 1 || place == 0) return;
+    std::string label;
+    std::string rest;
+    for (std::size_t i = 0; i < words->size(); ++i) {
+      if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
+    }
+    State(label, {*ParseNumber((*words)[place], true), Trim(rest)});
+  }
+
+  void State(std::string_view label, const Quantity& quantity) {
+    holds_number_ = true;
+    const Statement statement = Understand(SplitLabel(label), quantity.value, quantity.unit);
+    understood_ = Take(statement, source_, head_) || understood_;
+  }
+
+  static bool IsDate(std::string_view label) {
+    const std::vector<LabelWord> words = SplitLabel(label);
+    return !words.empty() && words.size() <= 2 &&
+           (words[0].text == "date" || words[0].text == "datum");
+  }
+
+  void TakeDate(std::string_view text) {
+    const std::string_view date = Trim(text);
+    constexpr std::size_t kLongest = 40;
+    if (!head_->said.notes.date.empty() || date.size() > kLongest) return;
+    if (date.find_first_of("0123456789") == std::string_view::npos) return;
+    head_->said.notes.date = std::string(date);
+    understood_ = true;
+  }
+
+  const std::string& source_;
+  TableHead* head_;
+  bool understood_ = false;
+  bool holds_number_ = false;
+};
+
+}  // namespace
+
+void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
+  const std::string source = fmt::format("line {} {}", number, Quoted(Trim(line)));
+  LineParser parser(source, head);
+  parser.Read(Trim(line));
+  if (kind == HeadLine::kText && parser.holds_number() && !parser.understood()) {
+    head->left.push_back(source);
+  }
+}
+
+bool TakeStatement(std::string_view label, double value, const std::string& source,
+                   TableHead* head) {
+  return Take(Understand(SplitLabel(label), value, ""), source, head);
+}
+
+std::vector<std::string> HeadSentences(const TableHead& head) {
+  std::vector<std::string> sentences = head.assumptions;
+  if (head.left.empty()) return sentences;
+  std::string list;
+  for (std::size_t i = 0; i < head.left.size() && i < kShownLines; ++i) {
+    list += (i == 0 ? "" : ", ") + head.left[i];
+  }
+  if (head.left.size() > kShownLines) {
+    list += fmt::format(" and {} more", head.left.size() - kShownLines);
+  }
+  sentences.push_back("not understood, and not used: " + list);
+  return sentences;
+}
+
+}  // namespace lyrefit

@@ -72,6 +72,8 @@ Expected<Table> ReadTable(std::string_view text, const std::string& file, Broken
   if (!layout) return tl::unexpected(layout.error());
   Table table;
   table.curve.assumptions = layout->assumptions;
+  table.curve.voltage_unit_known = !layout->columns[layout->voltage].unit.empty();
+  table.curve.current_unit_known = !layout->columns[layout->current].unit.empty();
   table.holds_curves =
       layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
   RowReader reader(*layout, file, &table);

@@ -27,14 +27,14 @@ constexpr double kUsualCell_V = 0.62;
 constexpr double kDim_W_m2 = 50;   // below, a cell may have little voltage
 constexpr double kDark_W_m2 = 20;  // below, a sensor may show an offset
 
-double LargestMagnitude(const std::vector<double>& values) {
+double LargestOf(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::fabs(value));
   return largest;
 }
 
 // What the checks after the first two look at.
-struct Look {
+struct Examined {
   const IvCurve& curve;
   KeyPoints key;
   double largest_A = 0;
@@ -43,10 +43,10 @@ struct Look {
   bool lit = false;
 };
 
-Look LookAt(const IvCurve& curve) {
+Examined Examine(const IvCurve& curve) {
   constexpr double kNoise = 0.02;  // of the largest current
-  Look look{curve, FindKeyPoints(curve.voltage_V, curve.current_A),
-            LargestMagnitude(curve.current_A), LargestMagnitude(curve.voltage_V)};
+  Examined look{curve, FindKeyPoints(curve.voltage_V, curve.current_A), LargestOf(curve.current_A),
+                LargestOf(curve.voltage_V)};
   for (std::size_t k = 0; k < curve.size(); ++k) {
     if (curve.voltage_V[k] >= 0) look.delivered_A = std::max(look.delivered_A, curve.current_A[k]);
   }
@@ -79,7 +79,7 @@ void LookForOverflow(const IvCurve& curve, Findings* out) {
 }
 
 void LookForNothing(const IvCurve& curve, Findings* out) {
-  const double largest = LargestMagnitude(curve.current_A);
+  const double largest = LargestOf(curve.current_A);
   const bool equal = std::all_of(curve.current_A.begin(), curve.current_A.end(),
                                  [&](double value) { return value == curve.current_A.front(); });
   std::string sentence;
@@ -102,7 +102,7 @@ void LookForNothing(const IvCurve& curve, Findings* out) {
   if (!sentence.empty()) out->push_back({"nothing", sentence, true, {}});
 }
 
-void LookAtSigns(const Look& look, Findings* out) {
+void LookAtSigns(const Examined& look, Findings* out) {
   constexpr double kOffset = 0.05;  // of the largest current
   const IvCurve& curve = look.curve;
   if (DetectCurrentSign(curve.voltage_V, curve.current_A) == CurrentSign::kUnclear) {
@@ -157,8 +157,8 @@ double VoltageAt(double part, double whole, const std::vector<std::pair<double, 
   return std::nan("");
 }
 
-std::vector<std::pair<double, double>> Sorted(const std::vector<double>& x,
-                                              const std::vector<double>& y) {
+std::vector<std::pair<double, double>> ByFirst(const std::vector<double>& x,
+                                               const std::vector<double>& y) {
   std::vector<std::pair<double, double>> points;
   for (std::size_t k = 0; k < x.size(); ++k) points.emplace_back(x[k], y[k]);
   std::sort(points.begin(), points.end());
@@ -169,7 +169,7 @@ std::vector<std::pair<double, double>> Sorted(const std::vector<double>& x,
 // and half the current, and series resistance adds to it; a shunt that takes as much of the current
 // up to half the voltage is a poor one. With voltage and current exchanged it is the other way
 // round.
-void LookForExchange(const Look& look, Findings* out) {
+void LookForExchange(const Examined& look, Findings* out) {
   constexpr double kLeastDiode = 0.012, kPoorShunt = 0.02;
   const double voc = look.key.open_circuit_voltage_V;
   // A curve that does not reach open circuit, exchanged, does not reach short circuit.
@@ -177,8 +177,8 @@ void LookForExchange(const Look& look, Findings* out) {
   const double isc = known_isc > 0 ? known_isc : look.delivered_A;
   if (!look.lit || !(voc > 0)) return;
   const IvCurve& curve = look.curve;
-  const double knee = 1 - VoltageAt(0.5, isc, Sorted(curve.voltage_V, curve.current_A)) / voc;
-  const double slope = 1 - VoltageAt(0.5, voc, Sorted(curve.current_A, curve.voltage_V)) / isc;
+  const double knee = 1 - VoltageAt(0.5, isc, ByFirst(curve.voltage_V, curve.current_A)) / voc;
+  const double slope = 1 - VoltageAt(0.5, voc, ByFirst(curve.current_A, curve.voltage_V)) / isc;
   const bool mirrored = knee < kLeastDiode && slope > std::max(kPoorShunt, 2 * knee);
   const int cells = curve.conditions.cells_in_series;
   const bool fits_exchanged = curve.cells_known && ImplausibleCell(voc / cells) &&
@@ -194,7 +194,7 @@ void LookForExchange(const Look& look, Findings* out) {
                   {}});
 }
 
-void LookAtUnits(const Look& look, Findings* out) {
+void LookAtUnits(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
   const int strings = curve.conditions.strings_in_parallel;
   const double current_A = look.lit ? look.delivered_A : look.largest_A;
@@ -231,7 +231,7 @@ void LookAtUnits(const Look& look, Findings* out) {
   }
 }
 
-void LookAtCells(const Look& look, Findings* out) {
+void LookAtCells(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
   const double voc = look.key.open_circuit_voltage_V;
   if (!look.lit || !(voc > 0)) return;
@@ -269,7 +269,7 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   LookForOverflow(curve, &findings);
   LookForNothing(curve, &findings);
   if (!findings.empty()) return findings;  // nothing else can be said of such values
-  const Look look = LookAt(curve);
+  const Examined look = Examine(curve);
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);
   LookAtUnits(look, &findings);

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFewest = 5;         // readings; fewer are chance
+constexpr int kFewestEqual = 5;    // readings; fewer are chance
 constexpr double kSteps = 20;      // a change of so many steps of the instrument is no rounding
 constexpr double kVisible = 0.02;  // of the range of the currents
 constexpr double kSharp = 5e-4;    // of the range of the currents, at a corner
@@ -71,7 +71,7 @@ double CoarseStep(const std::vector<double>& values) {
   return 0;
 }
 
-double Range(const std::vector<double>& values) {
+double RangeOf(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
 }
@@ -98,7 +98,7 @@ bool IsForwardLimit(const Ordered& readings, int run) {
       std::fabs(readings.voltage_V.back() - readings.voltage_V[readings.position.size() - run]);
   const double expected = SlopeBefore(readings, run) * width;
   return expected > kSteps * CoarseStep(readings.current_A) &&
-         expected > kVisible * Range(readings.current_A);
+         expected > kVisible * RangeOf(readings.current_A);
 }
 
 // Over how many volts the slope of a device falls by e, at least: a diode of n = 1 in the cold; in
@@ -127,10 +127,10 @@ bool IsReverseLimit(const Ordered& readings, int run, double corner_V) {
                       2;
   const double expected = std::fabs(beyond - beside) * std::exp(-away / corner_V);
   return expected > kSteps * CoarseStep(readings.current_A) &&
-         expected > kSharp * Range(readings.current_A);
+         expected > kSharp * RangeOf(readings.current_A);
 }
 
-ReadingFinding Finding(const Ordered& readings, int run, const std::string& sentence) {
+ReadingFinding LimitFinding(const Ordered& readings, int run, const std::string& sentence) {
   ReadingFinding finding;
   finding.id = "limit";
   finding.sentence = sentence;
@@ -142,17 +142,17 @@ ReadingFinding Finding(const Ordered& readings, int run, const std::string& sent
 void LookForCurrentLimit(const IvCurve& curve, bool low_end, std::vector<ReadingFinding>* out) {
   const Ordered readings = ByVoltage(curve, low_end);
   const int run = EqualAtTheEnd(readings.current_A);
-  if (run < kFewest || run + 4 > static_cast<int>(curve.size())) return;
+  if (run < kFewestEqual || run + 4 > static_cast<int>(curve.size())) return;
   const bool limit = low_end ? IsReverseLimit(readings, run, SharpestCorner_V(curve))
                              : IsForwardLimit(readings, run);
   if (!limit) return;
   const double from_V = readings.voltage_V[readings.position.size() - run];
   out->push_back(
-      Finding(readings, run,
-              fmt::format("{} consecutive readings of exactly the same current {:.6g} A from "
-                          "{:.4g} V {}: a current limit (compliance) of the instrument? leave "
-                          "them out, or fit with a robust loss (--loss huber)",
-                          run, readings.current_A.back(), from_V, low_end ? "down" : "up")));
+      LimitFinding(readings, run,
+                   fmt::format("{} consecutive readings of exactly the same current {:.6g} A from "
+                               "{:.4g} V {}: a current limit (compliance) of the instrument? leave "
+                               "them out, or fit with a robust loss (--loss huber)",
+                               run, readings.current_A.back(), from_V, low_end ? "down" : "up")));
 }
 
 int LongestRunElsewhere(const Ordered& readings, int run) {
@@ -168,12 +168,12 @@ void LookForVoltageLimit(const IvCurve& curve, bool low_end, std::vector<Reading
   constexpr int kUpAndDown = 2;  // readings at one voltage that a sweep there and back has
   const Ordered readings = ByVoltage(curve, low_end);
   const int run = EqualAtTheEnd(readings.voltage_V);
-  if (run < kFewest || run + 4 > static_cast<int>(curve.size())) return;
+  if (run < kFewestEqual || run + 4 > static_cast<int>(curve.size())) return;
   if (LongestRunElsewhere(readings, run) > kUpAndDown) return;
   // Equal currents as well are one state read again and again, which harms nobody.
   const std::vector<double> currents(readings.current_A.end() - run, readings.current_A.end());
-  if (Range(currents) < kVisible * Range(readings.current_A)) return;
-  out->push_back(Finding(
+  if (RangeOf(currents) < kVisible * RangeOf(readings.current_A)) return;
+  out->push_back(LimitFinding(
       readings, run,
       fmt::format("{} readings of exactly the same voltage {:.6g} V at the {} end: a voltage limit "
                   "of the instrument? leave them out, or fit with a robust loss (--loss huber)",

@@ -116,8 +116,9 @@ std::string ProblemTitle(const ProblemResult& problem) {
 }
 
 std::string InterruptedLine(const Comparison& comparison) {
-  if (!comparison.interrupted) return "";
-  return "INTERRUPTED: only problems whose runs were all done are shown.\n";
+  const std::string doubts = DoubtLines(comparison.doubts);
+  if (!comparison.interrupted) return doubts;
+  return doubts + "INTERRUPTED: only problems whose runs were all done are shown.\n";
 }
 
 std::string SetUpSection(const Comparison& comparison) {

@@ -126,6 +126,7 @@ struct Comparison {
   std::string version;
   CompareOptions options;
   std::vector<ProblemResult> problems;  // curves in the order given, each with all models
+  std::vector<std::string> doubts;      // of the readings, before any run; see CheckReadings
   double seconds = 0;
   bool interrupted = false;  // problems not complete are left out
 };

@@ -121,8 +121,8 @@ void AddConditionFlags(Verb* verb, ConditionFlags* flags) {
   verb->AddOption("--irradiance-Wm2", &flags->irradiance_W_m2, "irradiance in W/m2")
       .Type("G")
       .Group("Conditions");
-  verb->AddFlag("--as-is", &flags->as_is,
-                "take the readings as they are: what would be refused becomes a warning")
+  verb->AddSwitch("--as-is", &flags->as_is,
+                  "take the readings as they are: what would be refused becomes a warning")
       .Group("Conditions");
 }
 

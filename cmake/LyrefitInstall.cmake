@@ -19,6 +19,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/random.h
   base/version.h
   certify/certify.h
+  curve/check_readings.h
   curve/curve_files.h
   curve/curve_set.h
   curve/iv_curve.h

@@ -130,12 +130,17 @@ void AddConditionFlags(Verb* verb, ConditionFlags* flags) {
   verb->AddOption("--irradiance-Wm2", &flags->irradiance_W_m2, "irradiance in W/m2")
       .Type("G")
       .Group("Conditions");
+  verb->AddSwitch("--as-is", &flags->as_is,
+                  "take the readings as they are: what would be refused becomes a warning")
+      .Group("Conditions");
 }
 
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) {
   if (auto checked = CheckConditionFlags(flags); !checked) return checked;
+  curve->as_is = flags.as_is;
   if (flags.cells) {
     curve->conditions.cells_in_series = *flags.cells;
+    curve->cells_known = true;
     ForgetAssumptions("cells in series", &curve->assumptions);
   }
   if (flags.temperature_C) {

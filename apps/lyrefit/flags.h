@@ -98,6 +98,7 @@ struct ConditionFlags {
   std::optional<int> cells;
   std::optional<double> temperature_C;
   std::optional<double> irradiance_W_m2;
+  bool as_is = false;
 };
 
 void AddConditionFlags(Verb* verb, ConditionFlags* flags);

@@ -190,6 +190,7 @@ TEST(CertifySound, HoldsBeyondTheResistancesGoneThrough) {
 TEST(CertifySound, AsksForTheCellsOfAModule) {
   IvCurve module = Shipped("msx60");
   module.conditions.cells_in_series = 1;
+  module.cells_known = false;
   const auto certificate = Certify(module);
   ASSERT_FALSE(certificate);
   EXPECT_THAT(certificate.error().message,

@@ -25,7 +25,7 @@ TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j),
             (Set{"lyrefit_version", "curve", "objective", "constants", "n_lower", "n_upper",
                  "rs_lower_ohm", "rs_upper_ohm", "reference_voltage_V", "module_thermal_voltage_V",
-                 "floor", "models", "options", "interrupted", "seconds", "data"}));
+                 "floor", "models", "options", "interrupted", "warnings", "seconds", "data"}));
   EXPECT_EQ(Keys(j["floor"]),
             (Set{"rmse_A", "lower_bound_A", "gap", "certified", "photocurrent", "resistance_series",
                  "conductance_shunt", "diodes", "duality_gap", "largest_correlation", "dual_A",

@@ -26,8 +26,9 @@ json Parsed(const Comparison& comparison) { return json::parse(CompareJson(compa
 TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   using Set = std::set<std::string>;
   const json j = Parsed(SampleComparison());
-  EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "objective", "constants", "seed", "runs", "target_gap",
-                          "polish", "plain_polish", "interrupted", "seconds", "problems"}));
+  EXPECT_EQ(Keys(j),
+            (Set{"lyrefit_version", "objective", "constants", "seed", "runs", "target_gap",
+                 "polish", "plain_polish", "interrupted", "seconds", "warnings", "problems"}));
   const json& problem = j["problems"][0];
   EXPECT_EQ(Keys(problem),
             (Set{"curve", "model", "bounds", "complete", "reference", "contenders", "ranking"}));

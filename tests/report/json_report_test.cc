@@ -45,6 +45,7 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
                                      "options",
                                      "interrupted",
                                      "usable",
+                                     "not_usable_because",
                                      "warnings",
                                      "data"};
   EXPECT_EQ(Keys(j), top);

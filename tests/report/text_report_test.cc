@@ -89,6 +89,17 @@ TEST(FullReport, SaysNotUsable) {
   EXPECT_THAT(FullReport(report), StartsWith("NOT USABLE"));
 }
 
+TEST(FullReport, SaysFirstWhyItIsNotUsableAndWhatIsDoubtful) {
+  FitReport report = SampleReport();
+  report.doubts = {"Voc is 38 V: some 60 cells in series?"};
+  EXPECT_THAT(FullReport(report), StartsWith("DOUBTFUL: Voc is 38 V: some 60 cells in series?\n"));
+  report.usable = false;
+  report.not_usable_because = "the curve has a step near 25 V";
+  EXPECT_THAT(FullReport(report),
+              StartsWith("NOT USABLE: the curve has a step near 25 V.\n\nDOUBTFUL: "));
+  EXPECT_THAT(BriefReport(report), HasSubstr(", NOT USABLE: the curve has a step near 25 V"));
+}
+
 TEST(FullReport, MarksBoundsFixedAndNotIdentifiable) {
   FitReport report = SampleReport();
   report.estimates[0].fixed = true;

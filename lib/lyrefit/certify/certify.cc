@@ -10,6 +10,7 @@
 #include "lyrefit/certify/attain.h"
 #include "lyrefit/certify/beyond.h"
 #include "lyrefit/certify/branch.h"
+#include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -24,7 +25,8 @@ struct Proof {
   BranchLimits limits;
   double thermal_voltage_V = 0;
   double beyond = std::numeric_limits<double>::infinity();  // half sum of squares at larger Rs
-  double rounding_A = 0;  // RMSEs no further apart than this are equal
+  double rounding_A = 0;            // RMSEs no further apart than this are equal
+  std::vector<std::string> doubts;  // of the readings
   bool stopped = false;
 
   double Rmse(double half_sum_of_squares) const {
@@ -68,6 +70,9 @@ Expected<void> Prepare(Proof* proof) {
   const IvCurve& curve = proof->curve;
   const CertifyOptions& options = proof->options;
   if (auto valid = Validate(curve); !valid) return valid;
+  auto doubts = JudgeReadings(curve);
+  if (!doubts) return tl::unexpected(doubts.error());
+  proof->doubts = std::move(*doubts);
   if (auto valid = CheckOptions(options); !valid) return valid;
   const auto points = static_cast<Eigen::Index>(curve.size());
   MixtureData& data = proof->data;
@@ -198,6 +203,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
   certificate.version = Version();
   certificate.curve = curve;
   certificate.options = options;
+  certificate.doubts = proof.doubts;
   certificate.rs_upper_ohm = proof.limits.rs_upper;
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;

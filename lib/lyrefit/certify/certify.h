@@ -89,6 +89,7 @@ struct Certificate {
   double module_thermal_voltage_V = 0;  // Ns k T / q
   Floor floor;
   std::vector<ModelCertificate> models;
+  std::vector<std::string> doubts;  // of the readings, before any fit; see CheckReadings
   std::vector<OptionEcho> non_default_options;
   double seconds = 0;
   bool interrupted = false;

@@ -56,6 +56,10 @@ struct IvCurve {
   std::vector<std::string> assumptions;  // plain sentences: what the reader had to assume
   bool irradiance_known = true;          // false: nobody stated it, the conditions hold a default
   bool temperature_known = true;
+  bool cells_known = true;         // false: conditions.cells_in_series is a guess
+  bool current_unit_known = true;  // false: ampere was assumed
+  bool voltage_unit_known = true;  // false: volt was assumed
+  bool as_is = false;  // taken as they are: what CheckReadings would refuse becomes a doubt
 
   std::size_t size() const { return voltage_V.size(); }
 };

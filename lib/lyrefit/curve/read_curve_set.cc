@@ -50,6 +50,8 @@ std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
       parts.push_back({{}, table.lines[row]});
       parts.back().curve.name = std::to_string(number);
       parts.back().curve.source = path;
+      parts.back().curve.voltage_unit_known = table.curve.voltage_unit_known;
+      parts.back().curve.current_unit_known = table.curve.current_unit_known;
     }
     AppendRow(table.curve, row, &parts[place->second].curve);
   }

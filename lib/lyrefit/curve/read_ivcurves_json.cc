@@ -109,6 +109,7 @@ class IvCurvesReader {
     const json cells = Setting(entry, "cells_in_series");
     if (cells.is_null()) {
       curve->assumptions.push_back(kCellsAssumed);
+      curve->cells_known = false;
     } else {
       const auto number = NumberOrText(cells);
       const bool counts =

@@ -127,6 +127,8 @@ class TableReader {
     Expected<TableLayout> layout = FindTableLayout(text_, file_, options_);
     if (!layout) return tl::unexpected(layout.error());
     table_.curve.assumptions = layout->assumptions;
+    table_.curve.voltage_unit_known = !layout->columns[layout->voltage].unit.empty();
+    table_.curve.current_unit_known = !layout->columns[layout->current].unit.empty();
     table_.head = layout->head.said;
     table_.per_area = layout->per_area();
     table_.current_label = layout->columns[layout->current].label;
@@ -237,6 +239,7 @@ class TableReader {
       return;
     }
     for (double& current : curve.current_A) current *= stated->factor;
+    curve.current_unit_known = true;
     table_.per_area = stated->kind == ColumnKind::kCurrentDensity;
     const std::string taken = fmt::format("column {} names no unit", Quoted(column.label));
     auto& sentences = curve.assumptions;

@@ -63,7 +63,8 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   Conditions& conditions = curve->conditions;
   conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
   conditions.cells_in_series = sidecar.cells_in_series.value_or(1);
-  if (!sidecar.cells_in_series) curve->assumptions.push_back(kCellsAssumed);
+  curve->cells_known = sidecar.cells_in_series.has_value();
+  if (!curve->cells_known) curve->assumptions.push_back(kCellsAssumed);
 
   const auto temperature_C =
       Settle({"cell temperature", "C", sidecar.temperature_C, curve->temperature_C, 1},

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/extended_report.h"
@@ -188,7 +189,9 @@ void DescribeGain(const Selection& selection, Gain* gain) {
 }
 
 void AddWarnings(const Selection& selection, const Measurement& measurement, Diagnosis* diagnosis) {
-  diagnosis->warnings = measurement.warnings;
+  diagnosis->warnings = diagnosis->doubts;
+  diagnosis->warnings.insert(diagnosis->warnings.end(), measurement.warnings.begin(),
+                             measurement.warnings.end());
   if (selection.bench.correlation > 0) {
     diagnosis->warnings.push_back(
         "the noise of neighbouring readings is correlated; p-values allow for it, but trust them "
@@ -222,6 +225,8 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
     return tl::unexpected(valid.error());
   }
   if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  const auto doubts = JudgeReadings(set.curves);
+  if (!doubts) return tl::unexpected(doubts.error());
   auto measurement = MakeReadings(set);
   if (!measurement) return tl::unexpected(measurement.error());
   const Readings& readings = measurement->readings;
@@ -243,6 +248,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options
   }
   Diagnosis diagnosis;
   diagnosis.version = Version();
+  diagnosis.doubts = *doubts;
   diagnosis.name = set.curves.size() == 1 || set.name.empty() ? set.curves.front().name : set.name;
   diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
   diagnosis.base = ToText(options.base);

@@ -156,7 +156,8 @@ struct Diagnosis {
   FitReport extended;
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;  // what the reader of the files had to assume
-  std::vector<std::string> warnings;
+  std::vector<std::string> doubts;       // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> warnings;     // these doubts among them
   double seconds = 0;
   bool interrupted = false;
 };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/family/spread_curves.h"
 #include "lyrefit/fit/statistics.h"
@@ -32,9 +34,9 @@ int UsualCells(const CurveSet& set) {
   return cells.empty() ? 0 : static_cast<int>(Median(cells));
 }
 
-// Members that no law can place.
+// Members that no law can place. `refusal` gets the first one's whose readings cannot be.
 void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
-                     std::vector<FamilyMember>* members) {
+                     std::vector<FamilyMember>* members, std::optional<Error>* refusal) {
   const int cells = UsualCells(set);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     const IvCurve& curve = set.curves[c];
@@ -49,6 +51,9 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       LeaveOut(fmt::format("has {} cells in series, the others {}: another device",
                            curve.conditions.cells_in_series, cells),
                &member);
+    } else if (const auto judged = JudgeReadings(curve); !judged) {
+      LeaveOut(judged.error().message, &member);
+      if (!refusal->has_value()) *refusal = judged.error();
     } else if (member.irradiance_known && !(irradiance > 0)) {
       const bool lit = isc > 0;
       LeaveOut(lit ? fmt::format("its irradiance is stated as 0 W/m2 but it delivers {:.4g} A: "
@@ -196,7 +201,8 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
     member.temperature_known = curve.temperature_known;
     result.members.push_back(std::move(member));
   }
-  LeaveOutMisfits(set, options, &result.members);
+  std::optional<Error> refusal;
+  LeaveOutMisfits(set, options, &result.members, &refusal);
   AddSensorUnknowns(options, &result.members);
   GuessIrradiances(&result.members, &result.notes);
   if (auto guessed = GuessTemperatures(&result.members, &result.notes); !guessed) {
@@ -211,6 +217,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
     per_sun.push_back(member.short_circuit_current_A / member.joint.irradiance_W_m2 *
                       kReferenceIrradiance_W_m2);
   }
+  if (light.size() < 2 && refusal) return tl::unexpected(*refusal);
   if (light.size() < 2) {
     return Fail(
         fmt::format("expected at least two light curves, found {}: one curve cannot tell "

@@ -153,7 +153,8 @@ struct FamilyReport {
   std::vector<RejectedCurve> rejected;  // files or curves that could not be read
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;
-  std::vector<std::string> warnings;
+  std::vector<std::string> doubts;    // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> warnings;  // these doubts among them
   bool interrupted = false;
   bool usable = true;
 };

@@ -263,7 +263,10 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
     report.refined = report.searched;
   }
   report.interrupted = job.stopped;
-  report.warnings = FamilyWarnings(report, options);
+  report.doubts = DoubtsOfKept(set, report);
+  report.warnings = report.doubts;
+  const std::vector<std::string> found = FamilyWarnings(report, options);
+  report.warnings.insert(report.warnings.end(), found.begin(), found.end());
   const double isc = job.family.curves.reference_current_A;
   const double solved = report.rmse.refined.solved_current_A;
   report.usable = std::isfinite(solved) && solved < 0.2 * isc;

@@ -8,6 +8,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/family/free_fits.h"
 
 namespace lyrefit {
@@ -59,6 +60,15 @@ FamilyCurve DescribeCurve(const IvCurve& curve) {
   return described;
 }
 
+std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report) {
+  std::vector<IvCurve> kept;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    if (report.curves[c].role != CurveRole::kLeftOut) kept.push_back(set.curves[c]);
+  }
+  const auto doubts = JudgeReadings(kept);
+  return doubts ? *doubts : std::vector<std::string>();  // what is refused is left out
+}
+
 Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
   if (auto threads = CheckThreads(options.threads); !threads) {
@@ -108,6 +118,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   std::size_t next = 0;
   int failed = 0, fitted = 0, correlated = 0, refused = 0;
   const Error* first = nullptr;
+  const FitReport* unusable = nullptr;
   for (FamilyCurve& curve : report.curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
@@ -115,6 +126,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
       FillFreeFit(**one, &curve);
       fitted += (*one)->usable;
       failed += !(*one)->usable;
+      if (!(*one)->usable && unusable == nullptr) unusable = &**one;
       const ResidualStatistics& residuals = (*one)->residuals;
       correlated +=
           residuals.runs < residuals.expected_runs && residuals.runs_p_value < kCorrelated;
@@ -131,9 +143,12 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   if (first != nullptr && refused == static_cast<int>(curves.size())) {
     return tl::unexpected(*first);
   }
+  report.doubts = DoubtsOfKept(set, report);
+  report.warnings.insert(report.warnings.begin(), report.doubts.begin(), report.doubts.end());
   if (failed > 0) {
     report.warnings.push_back(
-        fmt::format("{} of {} fits are worse than a straight line.", failed, failed + fitted));
+        fmt::format("{} of {} fits are not usable; the first, of curve {}: {}.", failed,
+                    failed + fitted, unusable->curve.name, unusable->not_usable_because));
   }
   if (2 * correlated > fitted) {
     report.warnings.push_back(fmt::format(

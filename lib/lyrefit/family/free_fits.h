@@ -24,4 +24,7 @@ void FillFreeFit(const FitReport& fit, FamilyCurve* curve);
 // Id, points and conditions as stated.
 FamilyCurve DescribeCurve(const IvCurve& curve);
 
+// What is doubtful about the readings of the curves that are not left out.
+std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report);
+
 }  // namespace lyrefit

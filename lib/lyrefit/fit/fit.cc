@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/device/current.h"
 #include "lyrefit/device/model_points.h"
 #include "lyrefit/fit/diode_order.h"
@@ -18,6 +18,7 @@
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
 
 namespace lyrefit {
@@ -46,6 +47,9 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   const IvCurve& curve = job->curve;
   const FitOptions& options = job->options;
   if (auto valid = Validate(curve); !valid) return valid;
+  auto doubts = JudgeReadings(curve);
+  if (!doubts) return tl::unexpected(doubts.error());
+  report->doubts = std::move(*doubts);
   if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
   report->device = MakeDevice(options.model, curve.conditions, options.constants);
@@ -119,23 +123,6 @@ std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
   return elites;
 }
 
-// RMSE of the straight line through the points: what a fit must at least beat.
-double StraightLineRmse(const IvCurve& curve) {
-  const double n = static_cast<double>(curve.size());
-  const auto mean = [&](const std::vector<double>& x) {
-    return std::accumulate(x.begin(), x.end(), 0.0) / n;
-  };
-  const double v0 = mean(curve.voltage_V), i0 = mean(curve.current_A);
-  double vv = 0, vi = 0, ii = 0;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    const double v = curve.voltage_V[k] - v0, i = curve.current_A[k] - i0;
-    vv += v * v;
-    vi += v * i;
-    ii += i * i;
-  }
-  return std::sqrt(std::max(ii - vi * vi / vv, 0.0) / n);
-}
-
 void FillEstimates(const Job& job, FitReport* report) {
   report->estimates.clear();
   for (int i = 0; i < report->device.size(); ++i) {
@@ -170,8 +157,9 @@ void FillResults(const Job& job, FitReport* report) {
   report->criteria = FindInformation(MeanSquare(job.problem, p), static_cast<int>(curve.size()),
                                      job.free_parameters);
   report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
-  const double solved = BothRmse(device, p, curve).solved_current_A;
-  report->usable = std::isfinite(solved) && solved < StraightLineRmse(curve);
+  report->not_usable_because =
+      WhyNotUsable(*report, job.stopped, job.options.loss != Loss::kSquared);
+  report->usable = report->not_usable_because.empty();
 }
 
 // How far the answer lies above what any number of diodes could reach.

@@ -171,9 +171,11 @@ struct FitReport {
   double interval_seconds = 0;
   std::optional<ModelChoice> choice;  // of `auto`
   std::vector<OptionEcho> non_default_options;
-  std::vector<std::string> warnings;  // plain words
+  std::vector<std::string> doubts;    // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> warnings;  // plain words, these doubts among them
   bool interrupted = false;
-  bool usable = true;  // finite, and not worse than a straight line through the data
+  bool usable = true;              // finite, and near enough to the readings; see WhyNotUsable
+  std::string not_usable_because;  // empty: usable
 };
 
 }  // namespace lyrefit

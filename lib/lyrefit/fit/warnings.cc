@@ -13,11 +13,10 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 void WarnOfStops(const FitReport& report, Sentences* out) {
+  if (!report.usable) out->push_back("the fit is not usable: " + report.not_usable_because);
+  out->insert(out->end(), report.doubts.begin(), report.doubts.end());
   if (report.interrupted) {
     out->push_back("interrupted: this is the best so far, not the end of the search");
-  }
-  if (!report.usable) {
-    out->push_back("the fit is not usable: a straight line describes these points as well");
   }
   if (report.polished && report.refine.termination == "no convergence") {
     out->push_back("the polish stopped before it converged; do not trust the last digits");

@@ -63,6 +63,7 @@ std::string CertificateJson(const Certificate& certificate) {
                      {"models", models},
                      {"options", OptionsJson(certificate.non_default_options)},
                      {"interrupted", certificate.interrupted},
+                     {"warnings", certificate.doubts},
                      {"seconds", Number(certificate.seconds)},
                      {"data",
                       {{"voltage_V", Numbers(certificate.curve.voltage_V)},

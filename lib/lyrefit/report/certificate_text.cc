@@ -29,7 +29,7 @@ std::string Ranges(const Certificate& certificate) {
 }
 
 std::string Header(const Certificate& certificate) {
-  std::string text;
+  std::string text = DoubtLines(certificate.doubts);
   if (certificate.interrupted) {
     text +=
         Wrap("", "INTERRUPTED: the bounds hold, but with more time they would be closer.") + "\n";
@@ -177,6 +177,7 @@ std::string BriefCertificate(const Certificate& certificate) {
                         model.certified ? "" : ", NOT CERTIFIED");
   }
   if (certificate.interrupted) text += ", INTERRUPTED";
+  if (!certificate.doubts.empty()) text += ", " + Plural(certificate.doubts.size(), "warning");
   return text + "\n";
 }
 

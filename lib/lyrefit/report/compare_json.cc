@@ -162,6 +162,7 @@ std::string CompareJson(const Comparison& comparison) {
   json["plain_polish"] = options.plain_polish;
   json["interrupted"] = comparison.interrupted;
   json["seconds"] = Number(comparison.seconds);
+  json["warnings"] = comparison.doubts;
   json["problems"] = Json::array();
   for (const ProblemResult& problem : comparison.problems) {
     json["problems"].push_back(ProblemJson(problem));

@@ -128,8 +128,10 @@ std::string RunsText(const Comparison& comparison, const ProblemResult& problem)
 }
 
 std::string InterruptedLine(const Comparison& comparison) {
-  if (!comparison.interrupted) return "";
-  return "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.\n";
+  const std::string doubts = DoubtLines(comparison.doubts);
+  if (!comparison.interrupted) return doubts;
+  return doubts +
+         "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.\n";
 }
 
 std::string SetUpSection(const Comparison& comparison) {

@@ -35,7 +35,7 @@ std::string ConditionsText(const Diagnosis& diagnosis) {
 }
 
 std::string Header(const Diagnosis& diagnosis) {
-  std::string text = Banner(diagnosis.interrupted, diagnosis.extended.usable);
+  std::string text = Banner(diagnosis.interrupted, diagnosis.extended.usable, {}, diagnosis.doubts);
   text += fmt::format("lyrefit {}: diagnosis of {}\n", diagnosis.version, diagnosis.name);
   text += Field(
       "measured",

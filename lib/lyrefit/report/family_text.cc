@@ -49,7 +49,7 @@ std::string Law(const FamilyReport& report) {
 }
 
 std::string Header(const FamilyReport& report) {
-  std::string text = Banner(report.interrupted, report.usable);
+  std::string text = Banner(report.interrupted, report.usable, {}, report.doubts);
   const TranslationSpec& spec = report.translation.spec;
   const std::string model = ModelTitle(spec.model);
   text += fmt::format("lyrefit {}: ", report.version);

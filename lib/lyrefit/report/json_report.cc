@@ -109,6 +109,7 @@ void AddEvidence(const FitReport& report, Json* json) {
   j["options"] = OptionsJson(report.non_default_options);
   j["interrupted"] = report.interrupted;
   j["usable"] = report.usable;
+  j["not_usable_because"] = report.not_usable_because;
   j["warnings"] = report.warnings;
 }
 

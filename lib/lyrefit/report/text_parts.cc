@@ -47,22 +47,33 @@ std::string BoundText(double bound) {
   return Scientific(std::floor(bound / unit) * unit, 10);
 }
 
-std::string Banner(bool interrupted, bool usable) {
+std::string DoubtLines(const std::vector<std::string>& doubts) {
   std::string text;
-  if (interrupted) {
-    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
-            "\n";
-  }
-  if (!usable) {
-    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
+  for (const std::string& doubt : doubts) {
+    text += Wrap("", "DOUBTFUL: " + doubt + (doubt.back() == '?' ? "" : ".")) + "\n";
   }
   return text;
 }
 
-std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings) {
+std::string Banner(bool interrupted, bool usable, const std::string& because,
+                   const std::vector<std::string>& doubts) {
+  std::string text;
+  if (!usable && !because.empty()) text += Wrap("", "NOT USABLE: " + because + ".") + "\n";
+  if (interrupted) {
+    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
+            "\n";
+  }
+  if (!usable && because.empty()) {
+    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
+  }
+  return text + DoubtLines(doubts);
+}
+
+std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
+                       const std::string& because) {
   std::string text;
   if (interrupted) text += ", INTERRUPTED";
-  if (!usable) text += ", NOT USABLE";
+  if (!usable) text += ", NOT USABLE" + (because.empty() ? "" : ": " + because);
   if (warnings > 0) text += fmt::format(", {}", Plural(warnings, "warning"));
   return text;
 }

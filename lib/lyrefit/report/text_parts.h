@@ -23,10 +23,16 @@ std::string CurveFields(const IvCurve& curve);
 std::string BoundText(double bound);
 
 // What stands above everything else of a report that is unfinished or worthless; else nothing.
-std::string Banner(bool interrupted, bool usable);
+// `because` says why it is worthless, `doubts` what is doubtful about its readings.
+std::string Banner(bool interrupted, bool usable, const std::string& because = {},
+                   const std::vector<std::string>& doubts = {});
+
+// The lines of the doubts alone.
+std::string DoubtLines(const std::vector<std::string>& doubts);
 
 // The same, and how many warnings there are, at the end of a report of one line.
-std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings);
+std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
+                       const std::string& because = {});
 
 // A title and a list of sentences; nothing without sentences.
 std::string List(const std::string& title, const std::vector<std::string>& sentences);

@@ -10,7 +10,8 @@ namespace lyrefit {
 namespace {
 
 std::string Header(const FitReport& report) {
-  std::string text = Banner(report.interrupted, report.usable);
+  std::string text =
+      Banner(report.interrupted, report.usable, report.not_usable_because, report.doubts);
   text += fmt::format("lyrefit {}: {} model of {}\n", report.version, ModelTitle(report.model),
                       report.curve.name);
   text += CurveFields(report.curve);
@@ -44,7 +45,8 @@ std::string BriefReport(const FitReport& report) {
     text += fmt::format(", {} {}{}{}", info.symbol, Significant(report.refined[i], 6),
                         info.unit.empty() ? "" : " ", info.unit);
   }
-  text += BriefMarks(report.interrupted, report.usable, report.warnings.size());
+  text += BriefMarks(report.interrupted, report.usable, report.warnings.size(),
+                     report.not_usable_because);
   return text + "\n";
 }
 

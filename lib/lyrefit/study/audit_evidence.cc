@@ -124,6 +124,7 @@ double OptimumFinder::Find(const AuditSubject& subject, const ReadingPlan& plan,
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   IvCurve curve = subject.shelf->curves[plan.curve].curve;
   curve.conditions = plan.conditions;
+  curve.as_is = true;  // the publication may have counted other cells
   FitOptions options;
   options.model = subject.row->model;
   options.objective = plan.objective;

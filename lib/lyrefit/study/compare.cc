@@ -13,6 +13,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/compare_journal.h"
 #include "lyrefit/study/reference.h"
@@ -254,6 +255,10 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
   if (auto checked = CheckComparison(curves, contenders, options); !checked) {
     return tl::unexpected(checked.error());
   }
+  std::vector<IvCurve> readings;
+  for (const CompareCurve& curve : curves) readings.push_back(curve.curve);
+  auto doubts = JudgeReadings(readings);
+  if (!doubts) return tl::unexpected(doubts.error());
   Study study(curves, contenders, options, observer);
   if (auto tried = study.Try(); !tried) return tl::unexpected(tried.error());
   if (!options.journal.empty()) {
@@ -264,7 +269,9 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
       return tl::unexpected(taken.error());
     }
   }
-  return study.Run();
+  Comparison comparison = study.Run();
+  comparison.doubts = std::move(*doubts);
+  return comparison;
 }
 
 }  // namespace lyrefit

@@ -138,6 +138,7 @@ struct Comparison {
   CompareOptions options;
   std::vector<ProblemResult> problems;  // curves in the order given, each with all models; those
                                         // without a single run are left out
+  std::vector<std::string> doubts;      // of the readings, before any run; see CheckReadings
   double seconds = 0;
   bool interrupted = false;          // some problem is not complete
   std::vector<std::string> remarks;  // on the journal, in plain sentences

@@ -122,6 +122,7 @@ Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions&
   const TranslatedDevice module =
       TranslateTo(made.translation, made.truth, irradiance, temperature_C + kZeroCelsius_K);
   IvCurve curve;
+  curve.as_is = true;  // computed
   curve.conditions.irradiance_W_m2 = irradiance + options.irradiance_error_W_m2;
   curve.conditions.cell_temperature_K =
       temperature_C + kZeroCelsius_K + options.temperature_error_K;

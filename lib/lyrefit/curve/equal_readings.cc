@@ -1,0 +1,195 @@
+#include "lyrefit/curve/equal_readings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lyrefit {
+namespace {
+
+constexpr int kFewestEqual = 5;    // readings; fewer are chance
+constexpr double kSteps = 20;      // a change of so many steps of the instrument is no rounding
+constexpr double kVisible = 0.02;  // of the range of the currents
+constexpr double kSharp = 5e-4;    // of the range of the currents, at a corner
+
+// The readings by rising voltage, or by falling voltage, which looks at the other end.
+struct Ordered {
+  std::vector<int> position;  // in the curve
+  std::vector<double> voltage_V;
+  std::vector<double> current_A;
+};
+
+Ordered ByVoltage(const IvCurve& curve, bool falling) {
+  Ordered ordered;
+  ordered.position.resize(curve.size());
+  std::iota(ordered.position.begin(), ordered.position.end(), 0);
+  std::stable_sort(ordered.position.begin(), ordered.position.end(), [&](int a, int b) {
+    return falling ? curve.voltage_V[a] > curve.voltage_V[b]
+                   : curve.voltage_V[a] < curve.voltage_V[b];
+  });
+  for (const int k : ordered.position) {
+    ordered.voltage_V.push_back(curve.voltage_V[k]);
+    ordered.current_A.push_back(curve.current_A[k]);
+  }
+  return ordered;
+}
+
+// How many of the last values are equal.
+int EqualAtTheEnd(const std::vector<double>& values) {
+  const auto other = std::find_if(values.rbegin(), values.rend(),
+                                  [&](double value) { return value != values.back(); });
+  return static_cast<int>(other - values.rbegin());
+}
+
+// The step of a coarse instrument: what all small differences between neighbours are multiples of.
+// 0: a fine one. Where the differences are too few or too unequal to tell, the smallest.
+double CoarseStep(const std::vector<double>& values) {
+  constexpr int kTelling = 6;
+  constexpr int kMostParts = 8;
+  constexpr double kMany = 20;      // steps beyond which written digits hide the multiple
+  constexpr double kRounded = 0.1;  // of a step
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] != values[k - 1]) steps.push_back(std::fabs(values[k] - values[k - 1]));
+  }
+  if (steps.empty()) return 0;
+  const double smallest = *std::min_element(steps.begin(), steps.end());
+  for (int parts = 1; parts <= kMostParts; ++parts) {
+    const double step = smallest / parts;
+    int telling = 0, multiples = 0;
+    for (const double difference : steps) {
+      const double multiple = difference / step;
+      if (multiple > kMany) continue;
+      ++telling;
+      multiples += std::fabs(multiple - std::round(multiple)) < kRounded;
+    }
+    if (telling < kTelling) return parts == 1 ? smallest : 0;
+    if (multiples == telling) return step;
+  }
+  return 0;
+}
+
+double RangeOf(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+// The smallest slope of the three intervals before the last `run` readings, in ampere per volt: an
+// outlier or a bypass diode's step makes one or two steep, not three.
+double SlopeBefore(const Ordered& readings, int run) {
+  double slope = HUGE_VAL;
+  int intervals = 0;
+  // The first reading of the run may lie anywhere between the curve and the limit.
+  const int last = static_cast<int>(readings.position.size()) - run - 1;
+  for (int k = last; k > 0 && intervals < 3; --k) {
+    const double width = std::fabs(readings.voltage_V[k] - readings.voltage_V[k - 1]);
+    if (!(width > 0)) continue;
+    slope = std::min(slope, (readings.current_A[k - 1] - readings.current_A[k]) / width);
+    ++intervals;
+  }
+  return intervals == 3 ? slope : 0;
+}
+
+// Beyond the knee a device's current falls ever faster.
+bool IsForwardLimit(const Ordered& readings, int run) {
+  const double width =
+      std::fabs(readings.voltage_V.back() - readings.voltage_V[readings.position.size() - run]);
+  const double expected = SlopeBefore(readings, run) * width;
+  return expected > kSteps * CoarseStep(readings.current_A) &&
+         expected > kVisible * RangeOf(readings.current_A);
+}
+
+// Over how many volts the slope of a device falls by e, at least: a diode of n = 1 in the cold; in
+// a module a third of its cells may turn the corner alone, behind a bypass diode.
+double SharpestCorner_V(const IvCurve& curve) {
+  constexpr double kThermal_V = 0.02;
+  constexpr double kUsual_V = 0.62;  // of a cell, where nobody counted them
+  constexpr double kFewestBypassed = 18;
+  const double highest_V = *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
+  const double cells =
+      curve.cells_known ? curve.conditions.cells_in_series : std::max(1.0, highest_V / kUsual_V);
+  return kThermal_V * (cells < kFewestBypassed ? cells : cells / 3);
+}
+
+// Towards low voltage (the order is falling) the slope of a device dies away, but no faster than a
+// diode's exponential does.
+bool IsReverseLimit(const Ordered& readings, int run, double corner_V) {
+  const std::size_t first = readings.position.size() - run;
+  const double level = readings.current_A.back();
+  const double beside = readings.current_A[first - 1], beyond = readings.current_A[first - 2];
+  const bool goes_on = (beside - level) * (beyond - beside) > 0 &&
+                       (beyond - beside) * (readings.current_A[first - 3] - beyond) > 0;
+  if (!goes_on) return false;
+  const double away = (readings.voltage_V[first - 2] + readings.voltage_V[first - 1] -
+                       readings.voltage_V[first] - readings.voltage_V[first + 1]) /
+                      2;
+  const double expected = std::fabs(beyond - beside) * std::exp(-away / corner_V);
+  return expected > kSteps * CoarseStep(readings.current_A) &&
+         expected > kSharp * RangeOf(readings.current_A);
+}
+
+ReadingFinding LimitFinding(const Ordered& readings, int run, const std::string& sentence) {
+  ReadingFinding finding;
+  finding.id = "limit";
+  finding.sentence = sentence;
+  finding.points.assign(readings.position.end() - run, readings.position.end());
+  std::sort(finding.points.begin(), finding.points.end());
+  return finding;
+}
+
+void LookForCurrentLimit(const IvCurve& curve, bool low_end, std::vector<ReadingFinding>* out) {
+  const Ordered readings = ByVoltage(curve, low_end);
+  const int run = EqualAtTheEnd(readings.current_A);
+  if (run < kFewestEqual || run + 4 > static_cast<int>(curve.size())) return;
+  const bool limit = low_end ? IsReverseLimit(readings, run, SharpestCorner_V(curve))
+                             : IsForwardLimit(readings, run);
+  if (!limit) return;
+  const double from_V = readings.voltage_V[readings.position.size() - run];
+  out->push_back(
+      LimitFinding(readings, run,
+                   fmt::format("{} consecutive readings of exactly the same current {:.6g} A from "
+                               "{:.4g} V {}: a current limit (compliance) of the instrument? leave "
+                               "them out, or fit with a robust loss (--loss huber)",
+                               run, readings.current_A.back(), from_V, low_end ? "down" : "up")));
+}
+
+int LongestRunElsewhere(const Ordered& readings, int run) {
+  int longest = 1, here = 1;
+  for (std::size_t k = 1; k + run < readings.position.size(); ++k) {
+    here = readings.voltage_V[k] == readings.voltage_V[k - 1] ? here + 1 : 1;
+    longest = std::max(longest, here);
+  }
+  return longest;
+}
+
+void LookForVoltageLimit(const IvCurve& curve, bool low_end, std::vector<ReadingFinding>* out) {
+  constexpr int kUpAndDown = 2;  // readings at one voltage that a sweep there and back has
+  const Ordered readings = ByVoltage(curve, low_end);
+  const int run = EqualAtTheEnd(readings.voltage_V);
+  if (run < kFewestEqual || run + 4 > static_cast<int>(curve.size())) return;
+  if (LongestRunElsewhere(readings, run) > kUpAndDown) return;
+  // Equal currents as well are one state read again and again, which harms nobody.
+  const std::vector<double> currents(readings.current_A.end() - run, readings.current_A.end());
+  if (RangeOf(currents) < kVisible * RangeOf(readings.current_A)) return;
+  out->push_back(LimitFinding(
+      readings, run,
+      fmt::format("{} readings of exactly the same voltage {:.6g} V at the {} end: a voltage limit "
+                  "of the instrument? leave them out, or fit with a robust loss (--loss huber)",
+                  run, readings.voltage_V.back(), low_end ? "low" : "high")));
+}
+
+}  // namespace
+
+std::vector<ReadingFinding> FindEqualReadings(const IvCurve& curve) {
+  std::vector<ReadingFinding> findings;
+  if (curve.size() == 0) return findings;
+  for (const bool low_end : {false, true}) {
+    LookForCurrentLimit(curve, low_end, &findings);
+    LookForVoltageLimit(curve, low_end, &findings);
+  }
+  return findings;
+}
+
+}  // namespace lyrefit

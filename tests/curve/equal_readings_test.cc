@@ -1,0 +1,85 @@
+#include "lyrefit/curve/equal_readings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+IvCurve Clamped(IvCurve curve, double lowest_A, double highest_A) {
+  for (double& current : curve.current_A) current = std::clamp(current, lowest_A, highest_A);
+  return curve;
+}
+
+void ExpectLimit(const IvCurve& curve, const std::vector<const char*>& says) {
+  const auto findings = FindEqualReadings(curve);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_FALSE(findings[0].refuse);
+  EXPECT_EQ(findings[0].id, "limit");
+  for (const char* text : says) EXPECT_THAT(findings[0].sentence, HasSubstr(text));
+  for (const int k : findings[0].points) {
+    EXPECT_TRUE(curve.current_A[k] == curve.current_A[findings[0].points[0]] ||
+                curve.voltage_V[k] == curve.voltage_V[findings[0].points[0]]);
+  }
+}
+
+TEST(EqualReadingsTest, ALimitBeyondOpenCircuitIsFound) {
+  ExpectLimit(Clamped(MadeCell(), -0.1, 1), {"exactly the same current -0.1 A", " V up"});
+  ExpectLimit(Clamped(MadeCell(0), -0.1, 1), {"exactly the same current -0.1 A"});
+  ExpectLimit(Clamped(MadeModule(), 4, 100), {"exactly the same current 4 A"});
+}
+
+TEST(EqualReadingsTest, ALimitBelowShortCircuitIsFoundByItsCorner) {
+  ExpectLimit(Clamped(MadeCell(), -1, 0.12), {"exactly the same current 0.12 A", " V down"});
+  ExpectLimit(Clamped(MadeModule(), -100, 8), {"exactly the same current 8 A"});
+}
+
+TEST(EqualReadingsTest, ReadingsInAnyOrderCount) {
+  IvCurve curve = Clamped(MadeCell(), -0.1, 1);
+  std::reverse(curve.voltage_V.begin(), curve.voltage_V.end());
+  std::reverse(curve.current_A.begin(), curve.current_A.end());
+  ExpectLimit(curve, {"-0.1 A"});
+  EXPECT_EQ(FindEqualReadings(curve)[0].points.front(), 0);
+}
+
+TEST(EqualReadingsTest, ALimitOfTheVoltageIsFoundWhereCurrentsGoOn) {
+  IvCurve curve = MadeModule();
+  for (double& voltage : curve.voltage_V) voltage = std::min(voltage, 36.0);
+  ExpectLimit(curve, {"exactly the same voltage 36 V", "high end"});
+  // One state read again and again.
+  curve = MadeModule();
+  for (int k = 0; k < 8; ++k) {
+    curve.voltage_V.push_back(curve.voltage_V.back());
+    curve.current_A.push_back(curve.current_A.back() + 1e-4 * k);
+  }
+  EXPECT_THAT(FindEqualReadings(curve), IsEmpty());
+}
+
+TEST(EqualReadingsTest, TheFlatPartOfACoarseReadingIsNone) {
+  for (const int every : {1, 2, 4}) {
+    for (const double step : {0.0005, 0.001, 0.005, 0.01}) {
+      SCOPED_TRACE(::testing::Message() << "every " << every << ", step " << step);
+      for (const double light : {0.0, 1.0}) {
+        const IvCurve cell = MadeCell(light);
+        IvCurve coarse = cell;
+        coarse.voltage_V.clear();
+        coarse.current_A.clear();
+        for (std::size_t k = 0; k < cell.size(); k += every) {
+          coarse.voltage_V.push_back(cell.voltage_V[k]);
+          coarse.current_A.push_back(std::round(cell.current_A[k] / step) * step);
+        }
+        EXPECT_THAT(FindEqualReadings(coarse), IsEmpty());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

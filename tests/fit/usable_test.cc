@@ -1,0 +1,103 @@
+#include "lyrefit/fit/usable.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../curve/made_curve.h"
+#include "lyrefit/base/random.h"
+#include "lyrefit/fit/fit.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+FitOptions Quick() {
+  FitOptions options;
+  options.intervals = Intervals::kNone;
+  options.random_baseline = false;
+  return options;
+}
+
+TEST(UsableTest, AStepIsNamedFirstAndMakesAFitUseless) {
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
+    FitOptions options = Quick();
+    options.model = model;
+    const auto report = Fit(MadeModule(1, 1, 0.5), options);
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->usable);
+    EXPECT_THAT(report->not_usable_because,
+                AnyOf(HasSubstr("a step near 24"), HasSubstr("a step near 25"),
+                      HasSubstr("a step near 26")));
+    EXPECT_THAT(report->not_usable_because, HasSubstr("% of Isc"));
+    EXPECT_EQ(report->warnings.at(0), "the fit is not usable: " + report->not_usable_because);
+  }
+}
+
+TEST(UsableTest, SoundCurvesAreFittedWithoutSuchWarnings) {
+  for (const IvCurve& curve : {MadeModule(), MadeCell(), MadeCell(0)}) {
+    const auto report = Fit(curve, Quick());
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(report->usable) << report->not_usable_because;
+    EXPECT_EQ(report->not_usable_because, "");
+    EXPECT_THAT(report->doubts, IsEmpty());
+  }
+}
+
+TEST(UsableTest, WhatIsNoCurveIsNotUsable) {
+  IvCurve curve = MadeModule();
+  RandomStream random(5);
+  for (std::size_t k = curve.size() - 1; k > 0; --k) {
+    std::swap(
+        curve.current_A[k],
+        curve.current_A[static_cast<std::size_t>(random.Uniform() * static_cast<double>(k + 1))]);
+  }
+  const auto shuffled = Fit(curve, Quick());
+  ASSERT_TRUE(shuffled);
+  EXPECT_FALSE(shuffled->usable);
+  EXPECT_THAT(shuffled->warnings.at(0), StartsWith("the fit is not usable: "));
+  for (double& current : curve.current_A) current = 9 * random.Uniform();
+  const auto noise = Fit(curve, Quick());
+  EXPECT_TRUE(!noise || !noise->usable);
+}
+
+TEST(UsableTest, WhatASearchAloneMissesIsNotTheModelsFault) {
+  FitOptions options = Quick();
+  options.polish = false;
+  options.search.iterations = 2;
+  const auto report = Fit(MadeModule(), options);
+  ASSERT_TRUE(report);
+  EXPECT_THAT(report->not_usable_because, AnyOf("", HasSubstr("straight line")));
+}
+
+TEST(UsableTest, ALimitOfTheInstrumentIsDoubtedBeforeAllElse) {
+  IvCurve curve = MadeCell();
+  for (double& current : curve.current_A) current = std::max(current, -0.05);
+  FitOptions options = Quick();
+  options.loss = Loss::kHuber;
+  const auto report = Fit(curve, options);
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->doubts.size(), 1U);
+  EXPECT_THAT(report->doubts[0], HasSubstr("exactly the same current -0.05 A"));
+  EXPECT_THAT(report->warnings, ::testing::Contains(report->doubts[0]));
+}
+
+TEST(UsableTest, ImplausibleReadingsAreRefusedAsTheyAreOnlyIfAsked) {
+  IvCurve curve = MadeModule();
+  curve.conditions.cells_in_series = 600;
+  const auto refused = Fit(curve, Quick());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("give --cells 60?"));
+  curve.as_is = true;
+  const auto taken = Fit(curve, Quick());
+  ASSERT_TRUE(taken);
+  EXPECT_THAT(taken->doubts, ::testing::ElementsAre(HasSubstr("give --cells 60?")));
+}
+
+}  // namespace
+}  // namespace lyrefit

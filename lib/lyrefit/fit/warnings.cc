@@ -57,6 +57,18 @@ void WarnOfRichModel(const FitReport& report, Sentences* out) {
       "{} may be 0: the data do not support this many diodes; --model auto decides", absent));
 }
 
+void WarnOfProfiles(const FitReport& report, Sentences* out) {
+  std::string unsettled;
+  for (const Estimate& e : report.estimates) {
+    if (e.interval != IntervalMethod::kUnsettled) continue;
+    unsettled += (unsettled.empty() ? "" : ", ") + e.info.symbol;
+  }
+  if (unsettled.empty()) return;
+  out->push_back(fmt::format(
+      "the profile of {} did not settle: the interval ends where it is known to be too wide",
+      unsettled));
+}
+
 void WarnOfData(const FitReport& report, Sentences* out) {
   const int spare = report.criteria.points - report.criteria.parameters;
   if (spare < 3) {
@@ -109,6 +121,7 @@ std::vector<std::string> FindWarnings(const FitReport& report) {
   WarnOfStops(report, &warnings);
   WarnOfBounds(report, &warnings);
   WarnOfRichModel(report, &warnings);
+  WarnOfProfiles(report, &warnings);
   WarnOfRisingCurrent(report, &warnings);
   WarnOfResiduals(report, &warnings);
   WarnOfData(report, &warnings);

@@ -5,14 +5,17 @@
 #include <utility>
 
 #include "lyrefit/refine/coordinates.h"
-#include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kMaxRefits = 24;
+constexpr int kMaxIterations = 100;     // of one refit
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
+// What a refit may still fall by when it ends, in parts of the rise that is looked for.
+constexpr double kSlack = 1e-4;
+constexpr double kLoosest = 1e-6;  // the same in parts of the mean square, at most
 
 // The scale on which a profile is closest to a straight line: ln Is, 1 / Rsh, the rest as they are.
 double ToScale(int i, double value) {
@@ -26,8 +29,15 @@ double FromScale(int i, double scaled) {
 
 class Side {
  public:
-  Side(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query)
-      : problem_(problem), best_(best), query_(query), warm_(best.p) {}
+  Side(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
+       const std::function<bool()>& stop)
+      : problem_(problem), best_(best), query_(query), warm_(best.p) {
+    const double looked_for = query.t * query.t / query.degrees_of_freedom;
+    how_.function_tolerance = std::min(kSlack * looked_for, kLoosest);
+    how_.max_iterations = kMaxIterations;
+    how_.let_diodes_in = false;  // the descent before it does that
+    how_.stop = [this, &stop] { return stopped_ = stopped_ || (stop && stop()); };
+  }
 
   ProfileSide Find() {
     const int i = query_.parameter;
@@ -42,22 +52,34 @@ class Side {
     double near = start;                                      // where it is below
     double x = FirstGuess(start, far);
     warm_ = best_.p;
-    while (side_.refits < kMaxRefits && side_.better.empty()) {
+    side_.settled = false;
+    while (side_.refits < kMaxRefits && !Ended()) {
       const double rise = Rise(FromScale(i, x));
-      if (std::fabs(rise - query_.t) < kCloseEnough * query_.t) break;
+      side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
+      if (side_.settled) break;
       (rise > query_.t ? far : near) = x;
       // The rise is close to proportional to the distance; fall back on bisection outside the
       // bracket.
       const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
       const bool inside = std::min(near, far) < proposal && proposal < std::max(near, far);
-      x = inside ? proposal : 0.5 * (near + far);
+      x = inside && side_.refits < kProposals ? proposal : 0.5 * (near + far);
+      // Where the refits jump from one valley to another there is no place at the threshold.
+      side_.settled = std::fabs(far - near) < kCloseEnough * std::fabs(far - start);
+      if (side_.settled) x = far;
+      if (side_.settled) break;
     }
-    side_.value = FromScale(i, x);
+    if (side_.settled) side_.value = FromScale(i, x);
+    if (!side_.settled && !unbounded) side_.value = FromScale(i, far);
     return Finish();
   }
 
  private:
-  ProfileSide Finish() { return std::move(side_); }
+  bool Ended() const { return stopped_ || (query_.end_at_better && !side_.better.empty()); }
+
+  ProfileSide Finish() {
+    side_.settled = side_.settled && !Ended();
+    return std::move(side_);
+  }
 
   // The optimum on the scale, moved inside where it has no place there (a vanished diode).
   double StartOnScale(double bound) const {
@@ -85,8 +107,11 @@ class Side {
     held.lower[i] = held.upper[i] = value;
     std::vector<double> start = warm_;
     start[i] = value;
-    RefineEnd end = Refine(held, SeparableDescent(held, start));
-    if (end.mean_square < best_.mean_square * (1 - kBetter)) side_.better = end.p;
+    RefineEnd end = RefineFrom(held, start, how_);
+    if (end.mean_square < lowest_ * (1 - kBetter)) {
+      lowest_ = end.mean_square;
+      side_.better = end.p;
+    }
     const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
     warm_ = std::move(end.p);
     return std::sqrt(std::max(rise, 0.0));
@@ -96,14 +121,17 @@ class Side {
   const RefineEnd& best_;
   const ProfileQuery& query_;
   std::vector<double> warm_;
+  double lowest_ = best_.mean_square;
+  bool stopped_ = false;
+  RefineOptions how_;
   ProfileSide side_;
 };
 
 }  // namespace
 
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
-                            const ProfileQuery& query) {
-  return Side(problem, best, query).Find();
+                            const ProfileQuery& query, const std::function<bool()>& stop) {
+  return Side(problem, best, query, stop).Find();
 }
 
 }  // namespace lyrefit

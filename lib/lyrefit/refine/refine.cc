@@ -7,8 +7,10 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/refine/finite.h"
 #include "lyrefit/refine/jacobian.h"
 #include "lyrefit/refine/residuals.h"
+#include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
 namespace {
@@ -17,6 +19,23 @@ namespace {
 constexpr double kFaded = 1e-9;
 // Cosine below which a gradient counts as zero when a bound is released or a diode let in.
 constexpr double kFlat = 1e-8;
+// Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
+constexpr double kWorse = 1e-9;
+
+// Ends a solve where it stands when asked to.
+class StopAsked : public ceres::IterationCallback {
+ public:
+  explicit StopAsked(const std::function<bool()>& stop) : stop_(stop) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    if (stop_ && stop_()) stopped_ = true;
+    return stopped_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  const std::function<bool()>& stop_;
+  bool stopped_ = false;
+};
 
 class Polish {
  public:
@@ -27,16 +46,20 @@ class Polish {
       p_[i] = std::min(std::max(p_[i], problem.lower[i]), problem.upper[i]);
       held_[i] = problem.fixed(i);
     }
+    mean_square_ = MeanSquare(problem_, p_);
+    Remember();
     RemoveFadedDiodes();
     mean_square_ = MeanSquare(problem_, p_);
   }
 
   RefineEnd Run() {
-    Solve(/*bounded=*/true, 1e-9, 40);
+    Solve(/*bounded=*/true, std::max(options_.function_tolerance, 1e-9), 40);
+    Remember();
     bool settled = false;
-    for (int round = 0; round < options_.max_rounds && !settled; ++round) {
+    for (int round = 0; round < options_.max_rounds && !settled && !stop_.stopped(); ++round) {
       HoldWhatPresses();
       settled = SolveFree() && !ReleaseOne() && !LetDiodeIn();
+      Remember();
     }
     return End(settled && solver_converged_);
   }
@@ -47,7 +70,21 @@ class Polish {
   }
 
  private:
-  RefineEnd End(bool converged) const {
+  // Holding and letting go may lead uphill on a curve that the model does not describe.
+  void Remember() {
+    if (!best_p_.empty() && !(mean_square_ < best_mean_square_)) return;
+    best_p_ = p_;
+    best_held_ = held_;
+    best_mean_square_ = mean_square_;
+  }
+
+  RefineEnd End(bool converged) {
+    if (!(mean_square_ <= best_mean_square_ * (1 + kWorse))) {
+      p_ = best_p_;
+      held_ = best_held_;
+      mean_square_ = best_mean_square_;
+      converged = false;
+    }
     RefineEnd end;
     end.p = p_;
     end.held = held_;
@@ -70,7 +107,9 @@ class Polish {
     }
     std::vector<double> theta = coordinates.Start();
     solver_converged_ = false;
-    if (!coordinates.Sane(theta.data())) return;  // no place to take a step from
+    // No place to take a step from.
+    if (!AllFinite(theta.data(), theta.size()) || !std::isfinite(mean_square_)) return;
+    if (!coordinates.Sane(theta.data())) return;
     const double unit_A = std::max(std::sqrt(mean_square_), 1e-13 * problem_.current_scale_A);
     auto* cost = new ceres::DynamicAutoDiffCostFunction<CurveResiduals, kJetWidth>(
         new CurveResiduals(problem_, coordinates, unit_A));
@@ -96,6 +135,7 @@ class Polish {
     options.initial_trust_region_radius = 1e10;  // starts are good: close to Gauss-Newton steps
     options.logging_type = ceres::SILENT;
     options.max_num_consecutive_invalid_steps = 20;
+    options.callbacks.push_back(&stop_);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_problem, &summary);
     iterations_ += static_cast<int>(summary.iterations.size());
@@ -263,9 +303,14 @@ class Polish {
   int iterations_ = 0;
   int released_ = 0;
   int let_in_ = 0;
+  StopAsked stop_{options_.stop};
+  std::vector<double> best_p_;
+  std::vector<bool> best_held_;
+  double best_mean_square_ = 0;
 };
 
 bool Polish::LetDiodeIn() {
+  if (!options_.let_diodes_in || stop_.stopped()) return false;
   constexpr int kSteps = 24;
   for (int d = 0; d < DiodeCount(problem_.device); ++d) {
     const int is = SaturationCurrentIndex(d);
@@ -319,6 +364,15 @@ bool Polish::LetDiodeIn() {
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
   return Polish(problem, std::move(start), options).Run();
+}
+
+RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,
+                     const RefineOptions& options) {
+  const double tolerance = std::max(options.function_tolerance, 1e-11);
+  RefineEnd end = Refine(problem, SeparableDescent(problem, start, tolerance), options);
+  if (end.mean_square <= MeanSquare(problem, start) * (1 + kWorse)) return end;
+  RefineEnd own = Refine(problem, start, options);
+  return own.mean_square < end.mean_square ? own : end;
 }
 
 RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,

@@ -49,6 +49,9 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* wa
     lower.push_back(e.bounds.lower);
     upper.push_back(e.bounds.upper);
   }
+  const Observer nobody;
+  Watch unobserved(nobody);
+  if (watch == nullptr) watch = &unobserved;
   std::vector<double> squares(blocks);
   watch->Begin("held out", blocks);
   ParallelFor(blocks, options.threads, [&](int block) {

@@ -12,6 +12,6 @@ namespace lyrefit {
 // alike and single points would be too easy; the first and the last point always stay in, since
 // beyond them every model is guessing. Refits see Thin() of the rest. NaN, too, once `watch` asks
 // to stop.
-double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* watch);
+double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* watch = nullptr);
 
 }  // namespace lyrefit

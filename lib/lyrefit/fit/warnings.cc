@@ -58,6 +58,12 @@ void WarnOfRichModel(const FitReport& report, Sentences* out) {
 }
 
 void WarnOfProfiles(const FitReport& report, Sentences* out) {
+  const RefineReport& refine = report.refine;
+  if (refine.winner >= 0 && refine.starts[refine.winner].origin == "profile") {
+    out->push_back(
+        "a profile came upon a lower optimum than the polish had found, which is reported here; "
+        "without profiles (--intervals none or symmetric) the parameters differ");
+  }
   std::string unsettled;
   for (const Estimate& e : report.estimates) {
     if (e.interval != IntervalMethod::kUnsettled) continue;

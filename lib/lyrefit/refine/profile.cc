@@ -10,11 +10,14 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMaxRefits = 24;
-constexpr int kMaxIterations = 100;     // of one refit
+constexpr int kProposals = 8;       // then by bisection
+constexpr int kMaxIterations = 30;  // of one refit
+constexpr int kMaxRounds = 6;
+constexpr double kHopeless = 10;  // of t: no exchange of diodes brings a saturation current so far
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
 // What a refit may still fall by when it ends, in parts of the rise that is looked for.
-constexpr double kSlack = 1e-4;
+constexpr double kSlack = 3e-4;
 constexpr double kLoosest = 1e-6;  // the same in parts of the mean square, at most
 
 // The scale on which a profile is closest to a straight line: ln Is, 1 / Rsh, the rest as they are.
@@ -31,10 +34,14 @@ class Side {
  public:
   Side(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
        const std::function<bool()>& stop)
-      : problem_(problem), best_(best), query_(query), warm_(best.p) {
-    const double looked_for = query.t * query.t / query.degrees_of_freedom;
-    how_.function_tolerance = std::min(kSlack * looked_for, kLoosest);
+      : problem_(problem),
+        best_(best),
+        query_(query),
+        warm_(best.p),
+        looked_for_(query.t * query.t / query.degrees_of_freedom) {
+    how_.function_tolerance = std::min(kSlack * looked_for_, kLoosest);
     how_.max_iterations = kMaxIterations;
+    how_.max_rounds = kMaxRounds;
     how_.let_diodes_in = false;  // the descent before it does that
     how_.stop = [this, &stop] { return stopped_ = stopped_ || (stop && stop()); };
   }
@@ -44,7 +51,10 @@ class Side {
     const double bound = query_.upper ? problem_.upper[i] : problem_.lower[i];
     side_.value = bound;
     side_.at_bound = true;
-    if (best_.p[i] == bound || Rise(bound) <= query_.t) return Finish();
+    if (best_.p[i] == bound) return Finish();
+    how_.enough = best_.mean_square * (1 + looked_for_);
+    if (Rise(bound) <= query_.t * (1 + 1e-9)) return Finish();
+    how_.enough = 0;
     side_.at_bound = false;
     const double start = StartOnScale(bound);
     const bool unbounded = bound <= 0 && Coordinates::IsSaturation(i);
@@ -108,19 +118,52 @@ class Side {
     std::vector<double> start = warm_;
     start[i] = value;
     RefineEnd end = RefineFrom(held, start, how_);
+    // Before a place counts as outside: the diodes may have changed their parts there.
+    const double hopeless = Coordinates::IsSaturation(i) ? kHopeless * query_.t : HUGE_VAL;
+    const double outside = (1 - kCloseEnough) * query_.t;
+    for (int d = 0; d < DiodeCount(problem_.device); ++d) {
+      if (!(RiseOf(end) > outside && RiseOf(end) < hopeless)) break;
+      if (!TradePlaces(d, &start)) continue;
+      start[i] = value;
+      RefineEnd other = Refine(held, start, how_);
+      if (other.mean_square < end.mean_square) end = std::move(other);
+    }
     if (end.mean_square < lowest_ * (1 - kBetter)) {
       lowest_ = end.mean_square;
       side_.better = end.p;
     }
-    const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
+    const double rise = RiseOf(end);
     warm_ = std::move(end.p);
+    return rise;
+  }
+
+  double RiseOf(const RefineEnd& end) const {
+    const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
     return std::sqrt(std::max(rise, 0.0));
+  }
+
+  // The optimum with the diode of the profiled parameter and diode d exchanged, where both have the
+  // same bounds.
+  bool TradePlaces(int d, std::vector<double>* p) const {
+    const int i = query_.parameter;
+    if (!Coordinates::IsSaturation(i) && !Coordinates::IsIdeality(i)) return false;
+    const int own = Coordinates::IsSaturation(i) ? i : i - 1;
+    const int other = SaturationCurrentIndex(d);
+    if (own == other) return false;
+    *p = best_.p;
+    for (const int k : {0, 1}) {
+      if (problem_.lower[own + k] != problem_.lower[other + k]) return false;
+      if (problem_.upper[own + k] != problem_.upper[other + k]) return false;
+      std::swap((*p)[own + k], (*p)[other + k]);
+    }
+    return true;
   }
 
   const RefineProblem& problem_;
   const RefineEnd& best_;
   const ProfileQuery& query_;
   std::vector<double> warm_;
+  double looked_for_;  // rise of the mean square at the end of the interval, relative
   double lowest_ = best_.mean_square;
   bool stopped_ = false;
   RefineOptions how_;

@@ -12,6 +12,7 @@ struct RefineOptions {
   double function_tolerance = 1e-15;  // relative decrease of the sum of squares that ends a solve
   int max_rounds = 30;                // of settling which bounds are active
   bool let_diodes_in = true;          // whether a diode that has vanished may come back
+  double enough = 0;                  // A^2: a mean square at or below which nothing more is done
   std::function<bool()> stop;         // asked once an iteration; true: end where it stands
 };
 

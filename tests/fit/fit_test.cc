@@ -296,7 +296,7 @@ IvCurve Clipped() {
 }
 
 TEST(Fit, NeverPolishesABirdIntoSomethingWorse) {
-  for (int seed = 0; seed < 10; ++seed) {
+  for (int seed = 0; seed < 4; ++seed) {
     FitOptions options;
     options.search.seed = seed;
     options.intervals = Intervals::kNone;
@@ -307,7 +307,7 @@ TEST(Fit, NeverPolishesABirdIntoSomethingWorse) {
 }
 
 TEST(Fit, HasTheSameParametersWithAndWithoutIntervals) {
-  for (int seed = 0; seed < 10; ++seed) {
+  for (int seed = 0; seed < 3; ++seed) {
     FitOptions options;
     options.search.seed = seed;
     const FitReport with = *Fit(Clipped(), options);

@@ -5,19 +5,21 @@
 #include <utility>
 
 #include "lyrefit/refine/coordinates.h"
+#include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr int kMaxRefits = 24;
+constexpr int kMaxRefits = 32;
+constexpr int kGridStarts = 1;
 constexpr int kProposals = 8;       // then by bisection
-constexpr int kMaxIterations = 30;  // of one refit
-constexpr int kMaxRounds = 6;
+constexpr int kMaxIterations = 20;  // of one refit
+constexpr int kMaxRounds = 3;
 constexpr double kHopeless = 10;  // of t: no exchange of diodes brings a saturation current so far
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
 // What a refit may still fall by when it ends, in parts of the rise that is looked for.
-constexpr double kSlack = 3e-4;
+constexpr double kSlack = 1e-3;
 constexpr double kLoosest = 1e-6;  // the same in parts of the mean square, at most
 
 // The scale on which a profile is closest to a straight line: ln Is, 1 / Rsh, the rest as they are.
@@ -58,25 +60,34 @@ class Side {
     side_.at_bound = false;
     const double start = StartOnScale(bound);
     const bool unbounded = bound <= 0 && Coordinates::IsSaturation(i);
-    double far = unbounded ? start - 60 : ToScale(i, bound);  // where the rise is above t
-    double near = start;                                      // where it is below
+    const double end = unbounded ? start - 60 : ToScale(i, bound);
+    double far = end;     // where the rise is above t
+    double near = start;  // where it is below
     double x = FirstGuess(start, far);
     warm_ = best_.p;
     side_.settled = false;
     while (side_.refits < kMaxRefits && !Ended()) {
       const double rise = Rise(FromScale(i, x));
-      side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
-      if (side_.settled) break;
       (rise > query_.t ? far : near) = x;
+      side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
+      // Where the refits jump from one valley to another there is no place at the threshold.
+      if (!side_.settled && Length(near, far) < kCloseEnough * Length(start, far)) {
+        side_.settled = true;
+        x = far;
+      }
+      if (side_.settled && IsOutside(FromScale(i, x))) break;
+      if (side_.settled) {
+        side_.settled = false;
+        near = x;
+        far = end;
+        x = 0.5 * (near + far);
+        continue;
+      }
       // The rise is close to proportional to the distance; fall back on bisection outside the
       // bracket.
       const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
       const bool inside = std::min(near, far) < proposal && proposal < std::max(near, far);
       x = inside && side_.refits < kProposals ? proposal : 0.5 * (near + far);
-      // Where the refits jump from one valley to another there is no place at the threshold.
-      side_.settled = std::fabs(far - near) < kCloseEnough * std::fabs(far - start);
-      if (side_.settled) x = far;
-      if (side_.settled) break;
     }
     if (side_.settled) side_.value = FromScale(i, x);
     if (!side_.settled && !unbounded) side_.value = FromScale(i, far);
@@ -85,6 +96,41 @@ class Side {
 
  private:
   bool Ended() const { return stopped_ || (query_.end_at_better && !side_.better.empty()); }
+
+  // Distance of two places on the scale; of saturation currents in ampere, since the logarithm of a
+  // vanished one is far from anything.
+  double Length(double a, double b) const {
+    const bool saturation = Coordinates::IsSaturation(query_.parameter);
+    return saturation ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
+  }
+
+  // Whether no start that needs no luck leads into a valley below the threshold either. What a
+  // single diode does has one valley.
+  bool IsOutside(double value) {
+    if (DiodeCount(problem_.device) == 1) return true;
+    const RefineProblem held = Held(value);
+    std::vector<double> start = best_.p;
+    start[query_.parameter] = value;
+    RefineOptions how = how_;
+    how.enough = best_.mean_square * (1 + looked_for_ * (1 - 4 * kCloseEnough));
+    std::vector<std::vector<double>> starts = {start};
+    for (const SeparableStart& grid : SeparableStarts(held, best_.p[kRs], kGridStarts)) {
+      starts.push_back(grid.p);
+    }
+    for (const std::vector<double>& from : starts) {
+      RefineEnd end = RefineFrom(held, from, how);
+      if (end.mean_square > how.enough) continue;
+      warm_ = std::move(end.p);
+      return false;
+    }
+    return true;
+  }
+
+  RefineProblem Held(double value) const {
+    RefineProblem held = problem_;
+    held.lower[query_.parameter] = held.upper[query_.parameter] = value;
+    return held;
+  }
 
   ProfileSide Finish() {
     side_.settled = side_.settled && !Ended();
@@ -113,8 +159,7 @@ class Side {
   double Rise(double value) {
     const int i = query_.parameter;
     ++side_.refits;
-    RefineProblem held = problem_;
-    held.lower[i] = held.upper[i] = value;
+    const RefineProblem held = Held(value);
     std::vector<double> start = warm_;
     start[i] = value;
     RefineEnd end = RefineFrom(held, start, how_);

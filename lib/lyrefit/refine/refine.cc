@@ -11,6 +11,7 @@
 #include "lyrefit/refine/jacobian.h"
 #include "lyrefit/refine/residuals.h"
 #include "lyrefit/refine/separable.h"
+#include "lyrefit/refine/stop_asked.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -22,24 +23,6 @@ constexpr double kFaded = 1e-9;
 constexpr double kFlat = 1e-8;
 // Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
 constexpr double kWorse = 1e-9;
-
-// Ends a solve where it stands when asked to, or when it is low enough.
-class StopAsked : public ceres::IterationCallback {
- public:
-  explicit StopAsked(const std::function<bool()>& stop) : stop_(stop) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (stop_ && stop_()) stopped_ = true;
-    const bool end = stopped_ || summary.cost <= enough_;
-    return end ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-  }
-  bool stopped() const { return stopped_; }
-  void set_enough(double cost) { enough_ = cost; }
-
- private:
-  const std::function<bool()>& stop_;
-  double enough_ = 0;
-  bool stopped_ = false;
-};
 
 class Polish {
  public:

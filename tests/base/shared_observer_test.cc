@@ -77,10 +77,10 @@ TEST(SharedObserver, NeverStopsWhereNobodyWatches) {
   EXPECT_FALSE(shared.Stopped());
 }
 
-TEST(CheckThreads, RefusesLessThanNone) {
-  EXPECT_TRUE(CheckThreads(0));
-  EXPECT_TRUE(CheckThreads(8));
-  EXPECT_EQ(CheckThreads(-3).error().message, "threads = -3 is below 0, which means all cores");
+TEST(ValidateThreads, RefusesLessThanNone) {
+  EXPECT_TRUE(ValidateThreads(0));
+  EXPECT_TRUE(ValidateThreads(8));
+  EXPECT_EQ(ValidateThreads(-3).error().message, "threads = -3, expected 0 (all cores) or more");
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace lyrefit {
 
-Expected<void> CheckThreads(int threads) {
+Expected<void> ValidateThreads(int threads) {
   if (threads >= 0) return {};
-  return Fail("threads = " + std::to_string(threads) + " is below 0, which means all cores");
+  return Fail("threads = " + std::to_string(threads) + ", expected 0 (all cores) or more");
 }
 
 void ParallelFor(int count, int threads, const std::function<void(int)>& body) {

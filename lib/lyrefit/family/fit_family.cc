@@ -235,7 +235,7 @@ void Refine(Job* job, FamilyReport* report) {
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
                                  const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
-  if (auto threads = CheckThreads(options.threads); !threads) {
+  if (auto threads = ValidateThreads(options.threads); !threads) {
     return tl::unexpected(threads.error());
   }
   Expected<FamilyProblem> family = MakeFamilyProblem(set, options);

@@ -71,9 +71,7 @@ std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& r
 
 Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
-  if (auto threads = CheckThreads(options.threads); !threads) {
-    return tl::unexpected(threads.error());
-  }
+  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   FamilyReport report;
   report.version = Version();
   report.name = set.name;

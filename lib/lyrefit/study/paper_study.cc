@@ -287,7 +287,7 @@ Expected<PaperStudy> ReproducePaper(const std::string& folder, const PaperStudyO
   if (auto valid = ValidateOptions(options, kPaperStudyOptionTable); !valid) {
     return tl::unexpected(valid.error());
   }
-  if (auto threads = CheckThreads(options.threads); !threads) {
+  if (auto threads = ValidateThreads(options.threads); !threads) {
     return tl::unexpected(threads.error());
   }
   return PaperRun(folder, options, observer).Run();

@@ -14,26 +14,28 @@ constexpr int kEnough = 300;          // readings that show as much as more woul
 constexpr int kFewestInStretch = 40;  // averages of a monotone stretch that shapes need
 
 // Base model and noise of all readings.
-struct Shape {
+struct FittedBase {
   Workbench bench;
   LawFit fit;
   Noise noise;
 };
 
-Shape FitShape(const Readings& readings, const NoiseSource& source, const Law& base, Watch* watch) {
+FittedBase FitAllReadings(const Readings& readings, const NoiseSource& source, const Law& base, Watch* watch) {
   const std::size_t count = readings.points.size();
-  Shape shape{
+  FittedBase shape{
       {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, watch},
       {},
       {}};
   for (const int k : source.values.at_lower) shape.bench.used[k] = 0;
+  if (count <= kQuickToFit) shape.bench.watch = nullptr;
   shape.fit = FitBase(shape.bench, base);
+  shape.bench.watch = watch;
   if (shape.fit.usable) shape.noise = SettleNoise(source, &shape.bench, &shape.fit);
   return shape;
 }
 
 // Further from the middle of its neighbours than noise goes.
-bool Sudden(const Shape& shape, const std::vector<double>& off, int k) {
+bool Sudden(const FittedBase& shape, const std::vector<double>& off, int k) {
   constexpr int kReach = 3;
   constexpr double kFar = 4.5;
   const std::vector<Reading>& points = shape.bench.readings->points;
@@ -129,7 +131,7 @@ bool IsLong(const Readings& readings) {
 Averaged Average(const Readings& readings, const NoiseSource& source, const Law& base,
                  Watch* watch) {
   const int count = static_cast<int>(readings.points.size());
-  const Shape shape = FitShape(readings, source, base, watch);
+  const FittedBase shape = FitAllReadings(readings, source, base, watch);
   std::vector<double> off(count, 0.0);
   std::vector<char> alone(count, shape.fit.usable ? 0 : 1);
   for (int k = 0; shape.fit.usable && k < count; ++k) {

@@ -43,7 +43,9 @@ class Selector {
   Selection Run() {
     Stage("base fit", 3);
     Law law = options_.base;
+    if (readings_.points.size() <= kQuickToFit) bench_.watch = nullptr;
     FitBaseLaw(law);
+    bench_.watch = options_.watch;
     Selection selection;
     selection.base = selection.extended = fit_;
     selection.bench = selection.base_bench = bench_;

@@ -40,6 +40,10 @@ struct LawFit {
 LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 
+// The base model of this many readings is fitted even where a stop was asked for already: it takes
+// a fraction of a second, and without it there is nothing to report.
+constexpr std::size_t kQuickToFit = 2500;
+
 // The base model from several starts.
 LawFit FitBase(const Workbench& bench, const Law& law);
 

@@ -153,6 +153,13 @@ TEST(DiagnoseVerb, ExtendsTheModelByItsCauses) {
   for (const char* name : {"photocurrent", "resistance_series", "irr_step_relative_step"}) {
     EXPECT_THAT(parameters, HasSubstr(name));
   }
+  EXPECT_EQ(fit["causes"], json({"irr_step"}));
+  // The cause would be lost: the curve is refused rather than drawn without it.
+  std::ofstream(folder.Path("extended.json")) << fit;
+  const AppResult simulated = RunApp("simulate --from '" + folder.Path("extended.json") + "'");
+  EXPECT_EQ(simulated.exit_code, 1);
+  EXPECT_EQ(simulated.out, "");
+  EXPECT_THAT(simulated.err, HasSubstr("extended by irr_step, which cannot be simulated yet"));
   const json answers = json::parse(RunApp(verb + "--answers -").out, nullptr, false);
   ASSERT_TRUE(answers.is_object());
   EXPECT_THAT(answers["step"].dump(), HasSubstr("irr_step"));

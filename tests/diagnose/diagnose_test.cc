@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -213,9 +214,25 @@ TEST(DiagnoseTest, OnlyTheEffectsAskedForAreTried) {
   for (const Trial& trial : d.trials) {
     const bool asked = trial.effect == "drift" || trial.effect == "second_diode";
     EXPECT_TRUE(asked || !trial.tried) << trial.effect;
+    EXPECT_EQ(trial.why_not.find("not among the effects asked for") == std::string::npos, asked)
+        << trial.effect << ": " << trial.why_not;
   }
   const std::vector<std::string> ids = Ids(d);
   EXPECT_THAT(ids, Not(Contains("irr_step")));
+}
+
+TEST(DiagnoseTest, EveryChoiceIsEchoed) {
+  DiagnoseOptions options = Quick();
+  options.base = Model::kDoubleDiode;
+  options.effects = {"nonohmic_shunt", "drift"};
+  std::map<std::string, std::string> echoed;
+  for (const OptionEcho& echo : DiagnoseOrFail(MadeCurve({}), options).non_default_options) {
+    echoed[echo.name] = echo.value;
+  }
+  EXPECT_EQ(echoed, (std::map<std::string, std::string>{{"base", "dd"},
+                                                        {"effects", "nonohmic_shunt,drift"},
+                                                        {"held-out", "no"},
+                                                        {"draws", "400"}}));
 }
 
 TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
@@ -225,7 +242,8 @@ TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
   const FitReport& report = d.extended;
   ASSERT_EQ(report.estimates.size(), 7U);
   EXPECT_EQ(report.estimates[5].info.symbol, "irr_step.s");
-  EXPECT_EQ(report.device.parameters.size(), report.estimates.size());
+  EXPECT_TRUE(report.device.parameters.empty());  // no device has this law
+  EXPECT_THAT(report.causes, testing::ElementsAre("irr_step"));
   EXPECT_EQ(report.residual_A.size(), d.points.size());
   EXPECT_GT(report.search.evaluations, 0);
   EXPECT_NEAR(report.rmse.refined.solved_current_A, d.gain.rmse_after_A, 1e-12);

@@ -69,6 +69,22 @@ TEST(LookAtValuesTest, FindsClippedReadings) {
   EXPECT_EQ(findings.clipped.front(), 0);
 }
 
+// As a source meter does at its compliance.
+TEST(LookAtValuesTest, FindsALowerLimit) {
+  IvCurve curve = MadeCurve({});
+  const double limit = curve.current_A[curve.size() - 6];
+  for (double& i : curve.current_A) i = std::max(i, limit);
+  const ValueFindings findings = Look(curve);
+  ASSERT_TRUE(findings.limited);
+  EXPECT_EQ(findings.at_lower.size(), 6U);
+  EXPECT_EQ(findings.clip_level, 0);
+  curve = MadeCurve({});
+  for (std::size_t k = curve.size() - 2; k < curve.size(); ++k) {
+    curve.current_A[k] = curve.current_A[curve.size() - 2];
+  }
+  EXPECT_FALSE(Look(curve).limited);  // two readings are none
+}
+
 TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
   IvCurve curve = MadeCurve({});
   for (const int k : {0, 1, 2}) curve.current_A[k] = 8.1;
@@ -89,6 +105,7 @@ TEST(LookAtValuesTest, CleanCurvesShowNothing) {
   EXPECT_EQ(findings.grids.lit, 0);
   EXPECT_EQ(findings.grids.dark, 0);
   EXPECT_EQ(findings.clip_level, 0);
+  EXPECT_FALSE(findings.limited);
   EXPECT_THAT(findings.clipped, IsEmpty());
   EXPECT_THAT(findings.rounding, Each(0));
 }

@@ -16,8 +16,8 @@ lyrefit::IvCurve Bare(const Measurement& from, std::size_t first, int number) {
   curve.conditions.cell_temperature_K = from.temperature[first] + 273.15;
   curve.notes.technology = from.thin_film ? "thin film" : "crystalline silicon";
   if (from.bypass_diodes > 0) curve.notes.bypass_diodes = from.bypass_diodes;
-  curve.notes.bandgap_eV = from.bandgap_eV;
-  curve.notes.isc_tempco_per_K = from.isc_tempco_per_K;
+  if (from.bandgap_eV > 0) curve.notes.bandgap_eV = from.bandgap_eV;
+  if (from.isc_tempco_per_K > 0) curve.notes.isc_tempco_per_K = from.isc_tempco_per_K;
   if (from.noise_constant_A > 0) {
     curve.notes.current_noise_constant_A = from.noise_constant_A;
     curve.notes.current_noise_relative = from.noise_relative;

@@ -43,8 +43,8 @@ struct Measurement {
   std::vector<double> temperature;  // deg C
   int cells = 1;
   int bypass_diodes = 0;  // 0: not stated
-  double bandgap_eV = 1.121;
-  double isc_tempco_per_K = 0;
+  double bandgap_eV = 1.121;    // 0: not stated
+  double isc_tempco_per_K = 0;  // 0: not stated
   bool thin_film = false;
   double noise_constant_A = 0;  // 0: not stated
   double noise_relative = 0;

@@ -114,5 +114,21 @@ TEST(Silence, IsKeptWhereNothingIsHidden) {
   EXPECT_GT(AtLeast(alarms, cases, kLevel), 0.002) << alarms << " alarms in " << cases;
 }
 
+// What nobody states is estimated: nobody is accused of having stated it wrongly.
+TEST(Silence, IsKeptWhereTheCoefficientsAreNotStated) {
+  int cases = 0, alarms = 0;
+  for (int i = 0; i < 16; ++i) {
+    Case made = MakeNull(Kind::kConditions, static_cast<NoiseType>(i % (kNoiseTypes - 1)), 300 + i);
+    made.measurement.bandgap_eV = made.measurement.isc_tempco_per_K = 0;
+    const Answer answer = Ask(made.measurement, i, kLevel, 1, made.second_diode);
+    ASSERT_EQ(answer.error, "");
+    ++cases;
+    if (Counted(made, answer).empty()) continue;
+    ++alarms;
+    std::cout << i << " with " << made.absorbed << ":" << Told(answer) << "\n";
+  }
+  EXPECT_GT(AtLeast(alarms, cases, kLevel), 0.002) << alarms << " alarms in " << cases;
+}
+
 }  // namespace
 }  // namespace hidden

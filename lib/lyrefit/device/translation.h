@@ -37,6 +37,7 @@ struct EnumTable<ShuntLaw> {
 constexpr double kReferenceIrradiance_W_m2 = 1000;
 constexpr double kReferenceTemperature_K = 298.15;
 constexpr double kReferenceTemperature_C = 25;
+constexpr double kDeSotoBandgapSlope_per_K = -2.677e-4;  // of silicon, De Soto 2006, eq. 10
 
 struct TranslationSpec {
   TranslationLaw law = TranslationLaw::kDeSoto;
@@ -92,6 +93,15 @@ S ShuntAt(const Translation& at, const S* shared, const S& g) {
   return base + (shared[at.resistance_shunt_dark] - base) * exp(-shared[at.shunt_exponent] * g);
 }
 
+// ln of what the band gap makes of De Soto's saturation current between two temperatures:
+// Eg(T0) / (k T0) - Eg(T) / (k T), Eg = EgRef (1 + slope (T - Tref)). `k_eV`: k / q.
+template <class S>
+S DeSotoBarrier(const S& gap, const S& slope, double from_K, const S& to_K, double k_eV) {
+  const S from = gap * (1.0 + slope * (from_K - kReferenceTemperature_K));
+  return from / (k_eV * from_K) -
+         gap * (1.0 + slope * (to_K - kReferenceTemperature_K)) / (k_eV * to_K);
+}
+
 // Parameters of `translation.device` (in its order; idealities times T / Tref) at irradiance G in
 // W/m2 and cell temperature T in kelvin. S may be a dual number.
 //
@@ -119,10 +129,8 @@ void Translate(const Translation& translation, const S* shared, const S& irradia
   const S& gap = shared[at.bandgap];
   const bool pvsyst = at.spec.law == TranslationLaw::kPvsyst;
   const S n = pvsyst ? S(shared[at.n] + shared[at.n_slope] * dt) : S(shared[at.n]);
-  // EgRef / (k Tref) - Eg(T) / (k T)
-  const S slope = pvsyst ? S(0.0) : S(shared[at.bandgap_slope] * dt);
-  const S barrier =
-      gap / (k_eV * kReferenceTemperature_K) - gap * (1.0 + slope) / (k_eV * temperature_K);
+  const S slope = pvsyst ? S(0.0) : shared[at.bandgap_slope];
+  const S barrier = DeSotoBarrier(gap, slope, kReferenceTemperature_K, temperature_K, k_eV);
   device[kIph] = g * (shared[at.photocurrent] + shared[at.alpha_sc] * dt);
   device[SaturationCurrentIndex(0)] = shared[at.saturation_current] * ratio * ratio * ratio *
                                       exp(pvsyst ? S(barrier / n) : barrier);

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <sstream>
 
-#include "lyrefit/base/constants.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -21,14 +20,6 @@ std::string Short(double value) {
   text.precision(3);
   text << value;
   return text.str();
-}
-
-int DegreesOf(const Workbench& bench, const LawFit& fit) {
-  return std::max(bench.count() - FreeCount(bench, fit.law), 1);
-}
-
-double VarianceOf(const Workbench& bench, const LawFit& fit) {
-  return std::max(fit.sum / DegreesOf(bench, fit), bench.least_variance);
 }
 
 // Readings at which a cause moves the current most: above half of the largest move, in noise.
@@ -80,8 +71,8 @@ double DevicePower(const Workbench& bench, const LawFit& fit) {
     at.current = at.irradiance > 0 ? 1 : 0;
     grid.points.push_back(at);
   }
-  Law law;
-  law.second_diode = fit.law.second_diode;
+  Law law = fit.law;
+  law.effects.clear();
   std::vector<double> p(fit.p.begin(), fit.p.begin() + fit.law.base_size());
   for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
     if (std::strcmp(fit.law.effects[e]->where, "device") != 0) continue;
@@ -142,11 +133,12 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
   const Effect& effect = *fit.law.effects[index];
   const int first = fit.law.Offset(index);
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const double spread = StudentT95(DegreesOf(bench, fit)) * std::sqrt(VarianceOf(bench, fit));
+  const double spread = StudentT95(Degrees(bench, fit.law)) * std::sqrt(NoiseVariance(bench, fit));
   std::vector<CauseParameter> described;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     const double value = fit.p[first + k];
+    if (value == info.absent_at) continue;
     const double factor = info.ReportedFactor(fit.p.data() + first, bench.readings->scale);
     CauseParameter parameter{info.symbol, info.name, info.unit, value * factor,
                              kUnknown,    kUnknown,  false};
@@ -165,7 +157,8 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
 }
 
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
-                                  const std::vector<const Effect*>& candidates) {
+                                  const std::vector<const Effect*>& candidates,
+                                  const std::vector<std::string>& asked_for) {
   const Workbench& bench = selection.base_bench;
   const int points = bench.count();
   const double base_aicc =
@@ -179,12 +172,16 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
     const bool allowed =
         std::find(candidates.begin(), candidates.end(), effect) != candidates.end();
     const auto reason = effect->why_not(readings.traits);
-    if (reason) {
+    const bool asked = asked_for.empty() ||
+                       std::find(asked_for.begin(), asked_for.end(), effect->id) != asked_for.end();
+    if (!asked) {
+      trial.why_not = "excluded: not among the effects asked for";
+    } else if (reason) {
       trial.why_not = *reason;
     } else if (effect->probes == nullptr && !allowed) {
       trial.why_not = "looked for in the values and the base model's parameters, not fitted";
     } else if (!allowed) {
-      trial.why_not = "not asked for";
+      trial.why_not = "part of the base model";
     }
     for (const Rival& rival : selection.trials) {
       if (rival.score.effect != effect) continue;
@@ -216,7 +213,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     const ChosenCause& chosen = selection.causes[c];
     const Effect& effect = *chosen.effect;
     Cause cause = MakeCause(effect.id, "fit", chosen.corrected_p);
-    const bool by_values = std::strcmp(effect.id, "clip") == 0 && values.clip_level > 0;
+    const bool by_values =
+        std::strcmp(effect.id, "clip") == 0 && (values.clip_level > 0 || values.limited);
     if (by_values) cause.evidence = "values";
     cause.strength = DescribeParameters(bench, selection.extended, static_cast<int>(c));
     double own = 0;
@@ -230,9 +228,18 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
       AddSeparation(effect, &cause.separate_by);
       AddSeparation(*rival.score.effect, &cause.separate_by);
     }
-    cause.points =
-        by_values ? values.clipped : WhereItActs(bench, selection.extended, selection.without[c]);
+    if (by_values) {
+      cause.points = values.clipped;
+      cause.points.insert(cause.points.end(), values.at_lower.begin(), values.at_lower.end());
+      std::sort(cause.points.begin(), cause.points.end());
+    } else if (selection.without[c].usable) {
+      cause.points = WhereItActs(bench, selection.extended, selection.without[c]);
+    }
     cause.sentence = CauseSentence(cause, effect);
+    if (by_values) {
+      cause.sentence += "; " + std::to_string(cause.points.size()) +
+                        " readings at that limit, left out of the fit";
+    }
     causes.push_back(std::move(cause));
   }
   if (!selection.outliers.empty()) {
@@ -252,7 +259,7 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
   const Readings& readings = *bench.readings;
   const LawFit &before = selection.base, &after = selection.extended;
   const std::vector<double> errors = StandardErrors(Linearize(bench, after), after.law.size());
-  const double sd = std::sqrt(VarianceOf(bench, after));
+  const double sd = std::sqrt(NoiseVariance(bench, after));
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
   double brightest = 1;
   if (readings.traits.single && !readings.traits.only_dark) {
@@ -278,6 +285,20 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
       "Rs", "resistance_series", "ohm",
       [&](const LawFit& f) { return f.p[kBaseResistance] * cells / scale; },
       errors[kBaseResistance] * sd * cells / scale);
+  const double at_reference = per_p / brightest;
+  if (after.law.free_tempco) {
+    add(
+        "alpha", "alpha_sc", "A/K",
+        [&](const LawFit& f) {
+          return f.p[f.law.TempcoAt()] * f.p[kBasePhotocurrent] * at_reference;
+        },
+        errors[after.law.TempcoAt()] * sd * after.p[kBasePhotocurrent] * at_reference);
+  }
+  if (after.law.free_bandgap) {
+    add(
+        "Eg", "EgRef", "eV", [](const LawFit& f) { return f.p[f.law.BandgapAt()]; },
+        errors[after.law.BandgapAt()] * sd);
+  }
   const double g = after.p[kBaseConductance];
   add(
       "Rsh", "resistance_shunt", "ohm",

@@ -12,9 +12,10 @@ namespace lyrefit {
 std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
                                                int index);
 
-// One trial an effect of the catalogue, fitted or not.
+// One trial an effect of the catalogue, fitted or not. `asked_for`: ids; empty: all.
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
-                                  const std::vector<const Effect*>& candidates);
+                                  const std::vector<const Effect*>& candidates,
+                                  const std::vector<std::string>& asked_for);
 
 // A cause of the catalogue, still without size and place. `evidence`: "fit" or "values".
 Cause MakeCause(const char* id, const char* evidence, double corrected_p);

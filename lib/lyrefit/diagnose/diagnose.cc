@@ -7,6 +7,8 @@
 
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/diagnose/average.h"
+#include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/extended_report.h"
@@ -14,6 +16,7 @@
 #include "lyrefit/diagnose/make_readings.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/values.h"
+#include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -24,15 +27,11 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
   for (const std::string& id : options.effects) {
     if (FindEffect(id) == nullptr) return Fail("there is no effect '" + id + "'");
   }
-  const auto wanted = [&](const Effect* effect) {
-    const std::vector<std::string>& ids = options.effects;
-    return ids.empty() || std::find(ids.begin(), ids.end(), effect->id) != ids.end();
-  };
   std::vector<const Effect*> candidates;
   for (const Effect* effect : Catalogue()) {
     const std::string id = effect->id;
     const bool scored = effect->probes != nullptr || id == "outliers" || id == "unknown_structure";
-    if (!scored || !wanted(effect) || effect->why_not(traits)) continue;
+    if (!scored || !IsWanted(id, options) || effect->why_not(traits)) continue;
     if (options.base == Model::kDoubleDiode && id == "second_diode") continue;
     candidates.push_back(effect);
   }
@@ -41,14 +40,13 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
 
 // Noise that is correlated from reading to reading makes every test see effects: where the
 // residuals of the extended model show it, everything is done again with it taken out.
-Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes& notes,
-                               const ValueFindings& values, const SelectOptions& options,
-                               Selection* selection) {
+Autocorrelation SelectWhitened(const Readings& readings, const NoiseSource& source,
+                               const SelectOptions& options, Selection* selection) {
   // More than the largest is rather structure that no cause took away than noise.
   constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
-  const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
-  *selection = SelectCauses(readings, measurement.dark, notes, used, values, 0, options);
+  *selection = SelectCauses(readings, source.dark, source.notes, used, source.values, 0, options);
+  if (!selection->base.usable || Stopped(options.watch)) return {};
   std::vector<double> whitened;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     whitened.push_back((selection->extended.current[k] - readings.points[k].current) /
@@ -57,17 +55,18 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const DeviceNotes
   const Autocorrelation correlation =
       EstimateAutocorrelation(readings, whitened, selection->bench.used,
                               FreeCount(selection->bench, selection->extended.law));
-  const bool coarse = IsCoarse(readings, measurement.dark, selection->noise, values.grids);
+  const bool coarse = IsCoarse(readings, source.dark, selection->noise, source.values.grids);
   if (!coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
-    *selection = SelectCauses(readings, measurement.dark, notes, used, values,
-                              std::min(correlation.value, kLargest), options);
+    Selection again = SelectCauses(readings, source.dark, source.notes, used, source.values,
+                                   std::min(correlation.value, kLargest), options);
+    if (again.base.usable) *selection = std::move(again);
   }
   return correlation;
 }
 
-void DescribePoints(const CurveSet& set, const Measurement& measurement, const Selection& selection,
-                    Diagnosis* diagnosis) {
+void DescribePoints(const CurveSet& set, const Measurement& measurement,
+                    const ValueFindings& values, const Selection& selection, Diagnosis* diagnosis) {
   const Readings& readings = measurement.readings;
   const double scale = readings.scale.current_A;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
@@ -93,83 +92,11 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
     diagnosis->points.push_back(point);
     ++in_curve;
   }
-}
-
-Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
-  Cause cause = MakeCause("quantisation", "values", 0);
-  const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
-  const double step = finest * readings.scale.current_A;
-  cause.strength = {{"q", "resolution", "A", step, step, step, false}};
-  cause.sentence += "; " + StrengthText(cause.strength.front());
-  return cause;
-}
-
-Cause UnknownCause(const Selection& selection, double whiteness_after) {
-  Cause cause =
-      MakeCause("unknown_structure", "fit", std::min(selection.unknown_p, whiteness_after));
-  cause.separate_by = {FindEffect(cause.id)->separate_by};
-  return cause;
-}
-
-std::string VerdictSentence(const Verdict& verdict) {
-  if (verdict.unexplained && verdict.causes.front().id == "unknown_structure") {
-    return "Something is there that noise does not explain, and none of the known causes fits.";
+  // An instrument at its limit shows the base model no other way.
+  for (const int k : values.at_lower) {
+    DiagnosedPoint& point = diagnosis->points[k];
+    point.before_A = std::max(point.before_A, values.lower_limit * scale);
   }
-  if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
-  std::string text = "The data show ";
-  for (std::size_t c = 0; c < verdict.causes.size(); ++c) {
-    if (c > 0) text += c + 1 < verdict.causes.size() ? ", " : " and ";
-    text += verdict.causes[c].title;
-    if (!verdict.causes[c].equivalents.empty()) text += " (or what looks like it)";
-  }
-  if (verdict.unexplained) {
-    text +=
-        "; but structure remains that these do not explain: take the names as the nearest the "
-        "catalogue has";
-  }
-  return text + ".";
-}
-
-// Whether what the causes leave is certainly not noise.
-bool Remains(const Selection& selection, double whiteness_after) {
-  constexpr double kCertain = 1e-3;
-  return selection.unknown_p < kCertain || whiteness_after < kCertain ||
-         selection.bench.correlation >= 0.5;
-}
-
-Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options,
-               double whiteness_after) {
-  const Readings& readings = measurement.readings;
-  Verdict verdict;
-  verdict.causes = DescribeCauses(selection, values);
-  const auto wanted = [&](const char* id) {
-    return options.effects.empty() ||
-           std::find(options.effects.begin(), options.effects.end(), id) != options.effects.end();
-  };
-  if (wanted("quantisation") &&
-      IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
-    verdict.causes.push_back(QuantisationCause(readings, values));
-  }
-  if (wanted("temperature_or_cells")) {
-    for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
-  }
-  std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
-  constexpr double kNeverNoise = 1e-6;
-  const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
-  if (unknown && verdict.causes.empty()) {
-    verdict.unexplained = true;
-    verdict.causes.push_back(UnknownCause(selection, whiteness_after));
-  }
-  verdict.found = !verdict.causes.empty();
-  if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
-  for (const Inseparable& open : InseparableCauses()) {
-    if (!open.applies(readings.traits)) continue;
-    verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
-  }
-  verdict.sentence = VerdictSentence(verdict);
-  return verdict;
 }
 
 void DescribeGain(const Selection& selection, Gain* gain) {
@@ -207,83 +134,142 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
   }
 }
 
-bool Stopped(const Observer& observer, const char* stage, std::int64_t at, Diagnosis* diagnosis) {
-  Progress progress;
-  progress.stage = stage;
-  progress.iteration = at;
-  progress.iterations = 3;
-  diagnosis->interrupted = diagnosis->interrupted || StopRequested(observer, progress);
-  return diagnosis->interrupted;
+void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes) {
+  if (options.base != Model::kSingleDiode) {
+    echoes->push_back({"base", ToText(options.base), ToText(Model::kSingleDiode)});
+  }
+  if (!options.effects.empty()) {
+    std::string ids;
+    for (const std::string& id : options.effects) ids += (ids.empty() ? "" : ",") + id;
+    echoes->push_back({"effects", ids, "all"});
+  }
+  if (!options.held_out) echoes->push_back({"held-out", "no", "yes"});
+  AppendNonDefaults(options, kDiagnoseOptionRows, echoes);
 }
 
-}  // namespace
-
-Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options,
-                             const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
-  if (auto valid = ValidateOptions(options, kDiagnoseOptionRows); !valid) {
-    return tl::unexpected(valid.error());
-  }
-  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
-  const auto doubts = JudgeReadings(set.curves);
-  if (!doubts) return tl::unexpected(doubts.error());
-  auto measurement = MakeReadings(set);
-  if (!measurement) return tl::unexpected(measurement.error());
-  const Readings& readings = measurement->readings;
-  auto candidates = Candidates(readings.traits, options);
-  if (!candidates) return tl::unexpected(candidates.error());
+SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions& options,
+                                const std::vector<const Effect*>& candidates, Watch* watch) {
   SelectOptions select;
   select.level = options.level;
   select.draws = options.draws;
   select.largest_causes = options.largest_causes;
   select.seed = options.seed;
-  select.second_diode = options.base == Model::kDoubleDiode;
-  select.candidates = *candidates;
-  const DeviceNotes& notes = set.curves.front().notes;
-  ValueFindings values = LookAtValues(readings, measurement->dark);
-  if (!options.effects.empty() &&
-      std::find(options.effects.begin(), options.effects.end(), "clip") == options.effects.end()) {
-    values.clip_level = 0;
-    values.clipped.clear();
-  }
+  select.base = StartingLaw(readings, options.base == Model::kDoubleDiode);
+  select.candidates = candidates;
+  select.watch = watch;
+  return select;
+}
+
+Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
+                         const DiagnoseOptions& options) {
   Diagnosis diagnosis;
   diagnosis.version = Version();
-  diagnosis.doubts = *doubts;
   diagnosis.name = set.curves.size() == 1 || set.name.empty() ? set.curves.front().name : set.name;
   diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
   diagnosis.base = ToText(options.base);
-  diagnosis.base_sentence =
-      std::string(select.second_diode ? "two diodes (n2 = 2) and six" : "one diode and five") +
-      " parameters for all readings, photocurrent in proportion to light, Rsh that does not know "
-      "the light";
   diagnosis.seed = options.seed;
   diagnosis.level = options.level;
-  diagnosis.cells_in_series = readings.scale.cells;
-  AppendNonDefaults(options, kDiagnoseOptionRows, &diagnosis.non_default_options);
-  Selection selection;
-  const Autocorrelation correlation =
-      SelectWhitened(*measurement, notes, values, select, &selection);
-  if (!selection.base.usable) return Fail(diagnosis.name + ": no diode model fits these readings");
-  FindRivals(select, &selection);
-  diagnosis.trials = DescribeTrials(readings, selection, *candidates);
-  if (options.held_out && !Stopped(observer, "held out", 1, &diagnosis)) {
-    MeasureHeldOut(readings, measurement->dark, notes, values, select, selection, options.folds,
-                   options.threads, &diagnosis.gain, &diagnosis.trials);
-  }
-  diagnosis.evidence = DescribeEvidence(selection, values, correlation);
-  diagnosis.verdict =
-      Decide(*measurement, selection, values, options, diagnosis.evidence.whiteness_after_p_value);
-  DescribeGain(selection, &diagnosis.gain);
-  DescribePoints(set, *measurement, selection, &diagnosis);
-  AddWarnings(selection, *measurement, &diagnosis);
+  diagnosis.cells_in_series = measurement.readings.scale.cells;
+  EchoOptions(options, &diagnosis.non_default_options);
   for (const IvCurve& curve : set.curves) {
     for (const std::string& sentence : curve.assumptions) {
       auto& all = diagnosis.assumptions;
       if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
     }
   }
-  const bool search = options.extend && !Stopped(observer, "search", 2, &diagnosis);
-  diagnosis.extended = ExtendedReport(set, selection, search, options.seed, observer);
+  return diagnosis;
+}
+
+// Limits in the values, unless nobody wants to hear of them.
+ValueFindings LookForLimits(const Measurement& measurement, const DiagnoseOptions& options) {
+  ValueFindings values = LookAtValues(measurement.readings, measurement.dark);
+  if (IsWanted("clip", options)) return values;
+  values.clip_level = 0;
+  values.clipped.clear();
+  values.limited = false;
+  values.at_lower.clear();
+  return values;
+}
+
+// The selection on readings or, where these are many, on averages of them.
+struct Outcome {
+  Selection found;
+  Selection shown;  // fitted to all readings
+  Autocorrelation correlation;
+};
+
+Outcome SearchCauses(const Readings& readings, const NoiseSource& source,
+                     const SelectOptions& select, const DiagnoseOptions& options,
+                     Averaged* averaged, Diagnosis* diagnosis) {
+  const bool is_long = IsLong(readings);
+  if (is_long) *averaged = Average(readings, source, select.base, select.watch);
+  const Readings& seen = is_long ? averaged->readings : readings;
+  const NoiseSource seen_source{source.dark, source.notes,
+                                is_long ? averaged->values : source.values};
+  Outcome outcome;
+  outcome.correlation = SelectWhitened(seen, seen_source, select, &outcome.found);
+  if (!outcome.found.base.usable) return outcome;
+  FindRivals(select, &outcome.found);
+  outcome.shown =
+      is_long ? OnAllReadings(outcome.found, *averaged, readings, source) : outcome.found;
+  diagnosis->trials = DescribeTrials(readings, outcome.shown, select.candidates, options.effects);
+  if (options.held_out && !Stopped(select.watch)) {
+    MeasureHeldOut(seen, source.dark, source.notes, seen_source.values, select, outcome.found,
+                   options.folds, options.threads, &diagnosis->gain, &diagnosis->trials);
+  }
+  return outcome;
+}
+
+}  // namespace
+
+Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
+                             const Observer& observer) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (auto valid = ValidateOptions(options, kDiagnoseOptionRows); !valid) {
+    return tl::unexpected(valid.error());
+  }
+  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  auto doubts = JudgeReadings(taken.curves);
+  if (!doubts) return tl::unexpected(doubts.error());
+  std::vector<std::string> disorder;
+  const CurveSet set = InOrder(taken, &disorder);
+  auto measurement = MakeReadings(set);
+  if (!measurement) return tl::unexpected(measurement.error());
+  measurement->warnings.insert(measurement->warnings.begin(), disorder.begin(), disorder.end());
+  const Readings& readings = measurement->readings;
+  auto candidates = Candidates(readings.traits, options);
+  if (!candidates) return tl::unexpected(candidates.error());
+  Watch watch(observer);
+  const SelectOptions select = MakeSelectOptions(readings, options, *candidates, &watch);
+  const ValueFindings values = LookForLimits(*measurement, options);
+  const NoiseSource source{measurement->dark, set.curves.front().notes, values};
+  Diagnosis diagnosis = BeginDiagnosis(set, *measurement, options);
+  diagnosis.doubts = std::move(*doubts);
+  Averaged averaged;
+  const Outcome outcome = SearchCauses(readings, source, select, options, &averaged, &diagnosis);
+  if (!outcome.shown.base.usable || !outcome.shown.extended.usable) {
+    return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
+                                                  : ": no diode model fits these readings"));
+  }
+  const Selection& shown = outcome.shown;
+  diagnosis.base_sentence = DescribeLaw(readings, shown.base.law);
+  diagnosis.evidence = DescribeEvidence(shown, values, outcome.correlation);
+  diagnosis.evidence.whiteness_p_value = Whiteness(outcome.found.base_bench, outcome.found.base);
+  diagnosis.evidence.whiteness_after_p_value =
+      Whiteness(outcome.found.bench, outcome.found.extended);
+  diagnosis.verdict =
+      Decide(*measurement, shown, values, options, diagnosis.evidence.whiteness_after_p_value);
+  DescribeGain(shown, &diagnosis.gain);
+  DescribePoints(set, *measurement, values, shown, &diagnosis);
+  AddWarnings(outcome.found, *measurement, &diagnosis);
+  diagnosis.interrupted = watch.Stopped();
+  if (diagnosis.interrupted) {
+    diagnosis.verdict.sentence = diagnosis.verdict.found
+                                     ? "Stopped early; so far: " + diagnosis.verdict.sentence
+                                     : "Stopped early: nothing was found so far.";
+  }
+  diagnosis.extended =
+      ExtendedReport(set, shown, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;
   diagnosis.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -151,8 +151,8 @@ struct Diagnosis {
   Verdict verdict;
   Gain gain;
   // The extended model (the base model where nothing was found) as a fit like any other. With
-  // DiagnoseOptions::extend it is searched and polished; without, only `device`, `estimates` and
-  // `usable` are filled.
+  // DiagnoseOptions::extend it is searched and polished; without, only `estimates`,
+  // `causes`, `curves` and `usable` are filled. `device` is empty: the law is the catalogue's.
   FitReport extended;
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;  // what the reader of the files had to assume

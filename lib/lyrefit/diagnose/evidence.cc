@@ -7,6 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
@@ -17,35 +18,16 @@ namespace {
 
 double MedianSigma(const Noise& noise) { return Median(noise.sigma); }
 
-std::vector<double> Residuals(const Readings& readings, const LawFit& fit) {
-  std::vector<double> residuals;
+// Of the readings that the bench uses.
+ResidualStatistics StatisticsOf(const Workbench& bench, const LawFit& fit) {
+  const Readings& readings = *bench.readings;
+  std::vector<double> voltages, residuals;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    voltages.push_back(readings.points[k].voltage * readings.scale.cells);
     residuals.push_back((fit.current[k] - readings.points[k].current) * readings.scale.current_A);
   }
-  return residuals;
-}
-
-// Ljung-Box over 8 lags inside each stretch, of whitened residuals.
-double Whiteness(const Workbench& bench, const LawFit& fit) {
-  constexpr int kLags = 8;
-  const std::vector<Reading>& points = bench.readings->points;
-  const int count = static_cast<int>(points.size());
-  Eigen::VectorXd r(count);
-  for (int k = 0; k < count; ++k) r[k] = fit.current[k] - points[k].current;
-  r = Whiten(bench, r);
-  const double total = r.squaredNorm();
-  if (count < 3 * kLags || !(total > 0)) return 1;
-  double statistic = 0;
-  for (int lag = 1; lag <= kLags; ++lag) {
-    double product = 0;
-    for (int k = lag; k < count; ++k) {
-      if (points[k].segment == points[k - lag].segment) product += r[k] * r[k - lag];
-    }
-    const double correlation = product / total;
-    statistic += correlation * correlation / (count - lag);
-  }
-  statistic *= static_cast<double>(count) * (count + 2);
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(kLags), statistic));
+  return FindResidualStatistics(voltages, residuals);
 }
 
 // A photocurrent that no string of cells gives at 1000 W/m2: the irradiance is not what was stated.
@@ -75,8 +57,8 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
       {"n_below_1",
        fmt::format("n = {:.3f} is below 1: at {} cells, n between 1 and 1.5 needs {:.0f} to {:.0f} "
                    "C, not the {:.1f} C stated; check the temperature and the number of cells",
-                   n, readings.scale.cells, kelvin / 1.5 - 273.15, kelvin - 273.15,
-                   readings.reference_temperature_K - 273.15),
+                   n, readings.scale.cells, kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K,
+                   readings.reference_temperature_K - kZeroCelsius_K),
        {}});
 }
 
@@ -87,6 +69,13 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                         fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
                                     evidence->clipped_points, evidence->clip_level_A),
                         values.clipped});
+  }
+  if (values.limited) {
+    findings.push_back({"clipping",
+                        fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
+                                    values.at_lower.size(),
+                                    values.lower_limit * selection.bench.readings->scale.current_A),
+                        values.at_lower});
   }
   if (evidence->grid_step_A > 0) {
     findings.push_back(
@@ -129,6 +118,28 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
 
 }  // namespace
 
+double Whiteness(const Workbench& bench, const LawFit& fit) {
+  constexpr int kLags = 8;
+  const std::vector<Reading>& points = bench.readings->points;
+  const int count = static_cast<int>(points.size());
+  Eigen::VectorXd r(count);
+  for (int k = 0; k < count; ++k) r[k] = fit.current[k] - points[k].current;
+  r = Whiten(bench, r);
+  const double total = r.squaredNorm();
+  if (count < 3 * kLags || !(total > 0)) return 1;
+  double statistic = 0;
+  for (int lag = 1; lag <= kLags; ++lag) {
+    double product = 0;
+    for (int k = lag; k < count; ++k) {
+      if (points[k].segment == points[k - lag].segment) product += r[k] * r[k - lag];
+    }
+    const double correlation = product / total;
+    statistic += correlation * correlation / (count - lag);
+  }
+  statistic *= static_cast<double>(count) * (count + 2);
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(kLags), statistic));
+}
+
 std::string KindOfData(const Readings& readings) {
   const DataTraits& t = readings.traits;
   std::string text;
@@ -162,8 +173,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = selection.noise.dark.constant * scale;
   }
-  const int degrees = std::max(bench.count() - FreeCount(bench, selection.base.law), 1);
-  evidence.misfit_ratio = std::sqrt(selection.base.sum / degrees);
+  evidence.misfit_ratio = std::sqrt(selection.base.sum / Degrees(bench, selection.base.law));
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
@@ -171,9 +181,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   evidence.grid_step_V = FindGrid(voltages);
   evidence.clipped_points = static_cast<int>(values.clipped.size());
   evidence.clip_level_A = values.clip_level * scale;
-  evidence.residuals = FindResidualStatistics(voltages, Residuals(readings, selection.base));
-  evidence.whiteness_p_value = Whiteness(bench, selection.base);
-  evidence.whiteness_after_p_value = Whiteness(selection.bench, selection.extended);
+  evidence.residuals = StatisticsOf(bench, selection.base);
   AddFindings(selection, values, &evidence);
   return evidence;
 }
@@ -214,7 +222,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   const double n = fit.p[kBaseIdeality];
   if (n >= kSmallest && n <= kLargest) return {};
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const int degrees = std::max(bench.count() - FreeCount(bench, fit.law), 1);
+  const int degrees = Degrees(bench, fit.law);
   const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
   if (!(error > 0)) return {};
   const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
@@ -224,16 +232,17 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
-  const double z = 1.96 * error;
+  const double z = StudentT95(degrees) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false},
-                    {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - 273.15,
-                     kelvin / 1.5 - 273.15, kelvin - 273.15, false},
+                    {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - kZeroCelsius_K,
+                     kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, false},
                     {"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
   cause.sentence = fmt::format(
       "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
       "or {:.0f} to {:.0f} cells",
-      cause.sentence, n, readings.scale.cells, readings.reference_temperature_K - 273.15,
-      kelvin / 1.5 - 273.15, kelvin - 273.15, std::ceil(cells / 1.5), std::floor(cells));
+      cause.sentence, n, readings.scale.cells, readings.reference_temperature_K - kZeroCelsius_K,
+      kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, std::ceil(cells / 1.5),
+      std::floor(cells));
   return {cause};
 }
 

@@ -11,6 +11,9 @@ namespace lyrefit {
 // "one sweep from -0.1 V to 0.6 V, beyond open circuit", in words.
 std::string KindOfData(const Readings& readings);
 
+// p-value of Ljung and Box's test over 8 lags inside each stretch, of whitened residuals.
+double Whiteness(const Workbench& bench, const LawFit& fit);
+
 // Everything that was seen before a cause was thought of.
 Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
                           const Autocorrelation& autocorrelation);

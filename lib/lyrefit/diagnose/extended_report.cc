@@ -23,6 +23,10 @@ Box SearchBox(const Selection& selection) {
     box.lower.push_back(0);
     box.upper.push_back(1);
   }
+  for (int k = static_cast<int>(box.lower.size()); k < law.base_size(); ++k) {
+    box.lower.push_back(law.Lower(k));
+    box.upper.push_back(law.Upper(k));
+  }
   for (int k = law.base_size(); k < law.size(); ++k) {
     const bool held = law.Searched(k);
     box.lower.push_back(held ? p[k] : law.Lower(k));
@@ -61,7 +65,8 @@ Searched SearchLaw(const Selection& selection, std::uint64_t seed, const Observe
   searched.rmse.searched.solved_current_A = searched.summary.best.objective;
   SearchOptions random = searched.options;
   random.algorithm = Algorithm::kRandom;
-  searched.rmse.random_baseline.solved_current_A = Search(rmse, box, random).best.objective;
+  searched.rmse.random_baseline.solved_current_A =
+      Search(rmse, box, random, observer).best.objective;
   searched.polished = FitLaw(bench, law, searched.best);
   if (searched.polished.usable) {
     searched.rmse.best_bird_polished.solved_current_A = RmseOf(bench, searched.polished.current);
@@ -74,6 +79,7 @@ struct Row {
   const char* name;
   const char* unit;
   const char* doc;
+  bool positive = true;
 };
 
 // Values in a person's units, in the order of the report.
@@ -91,6 +97,8 @@ std::vector<double> Reported(const Workbench& bench, const Law& law, const std::
     values.push_back(p[kBaseSecond] * readings.scale.saturation_2_unit * scale);
     values.push_back(2);
   }
+  if (law.free_tempco) values.push_back(p[law.TempcoAt()] * p[kBasePhotocurrent] * scale);
+  if (law.free_bandgap) values.push_back(p[law.BandgapAt()]);
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const int first = law.Offset(static_cast<int>(e));
     for (int k = 0; k < law.effects[e]->size(); ++k) {
@@ -116,7 +124,11 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     for (int k = 0; k < 5; ++k) {
       if (shift.symbol == kBase[k].symbol) errors[k] = shift.standard_error;
     }
+    const int second = law.second_diode ? 1 : 0;  // and its ideality
+    if (shift.symbol == "alpha") errors[law.TempcoAt() + second] = shift.standard_error;
+    if (shift.symbol == "Eg") errors[law.BandgapAt() + second] = shift.standard_error;
   }
+  const double t = StudentT95(Degrees(selection.bench, law));
   const auto add = [&](const Row& row) {
     const std::size_t k = report->estimates.size();
     Estimate estimate;
@@ -125,11 +137,12 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     if (!searched.empty()) estimate.searched = searched[k];
     if (errors[k] > 0 && std::isfinite(errors[k])) {
       estimate.standard_error = errors[k];
-      estimate.low_95 = std::max(0.0, refined[k] - 1.96 * errors[k]);
-      estimate.high_95 = refined[k] + 1.96 * errors[k];
+      const double half = t * errors[k];
+      estimate.low_95 = refined[k] - half;
+      if (row.positive) estimate.low_95 = std::max(0.0, estimate.low_95);
+      estimate.high_95 = refined[k] + half;
       estimate.interval = IntervalMethod::kSymmetric;
     }
-    report->device.parameters.push_back(estimate.info);
     report->estimates.push_back(estimate);
     return &report->estimates.back();
   };
@@ -138,6 +151,10 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     add({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
     add({"n2", "n_2", "", "ideality of the second diode"})->fixed = true;
   }
+  if (law.free_tempco) {
+    add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc", false});
+  }
+  if (law.free_bandgap) add({"Eg", "EgRef", "eV", "band gap at the reference"});
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const auto parameters =
         DescribeParameters(selection.bench, selection.extended, static_cast<int>(e));
@@ -146,8 +163,11 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
       const std::string symbol = std::string(law.effects[e]->id) + "." + info.symbol;
       const std::string name = std::string(law.effects[e]->id) + "_" + info.name;
       Estimate* estimate = add({symbol.c_str(), name.c_str(), info.unit, info.doc});
-      estimate->low_95 = parameters[k].low_95;
-      estimate->high_95 = parameters[k].high_95;
+      for (const CauseParameter& parameter : parameters) {
+        if (parameter.symbol != info.symbol) continue;
+        estimate->low_95 = parameter.low_95;
+        estimate->high_95 = parameter.high_95;
+      }
       estimate->fixed = info.searched;
       if (std::isfinite(estimate->low_95)) estimate->interval = IntervalMethod::kSymmetric;
       const double factor = info.ReportedFactor(
@@ -190,6 +210,8 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool s
   report.model = fit.law.second_diode ? Model::kDoubleDiode : Model::kSingleDiode;
   report.bounds_name = "catalogue of effects";
   report.usable = fit.usable;
+  for (const Effect* effect : fit.law.effects) report.causes.push_back(effect->id);
+  report.curves = static_cast<int>(set.curves.size());
   report.polished = true;
   if (!fit.usable) return report;
   std::vector<double> searched;

@@ -9,9 +9,11 @@ namespace lyrefit {
 void FindRivals(const SelectOptions& options, Selection* selection) {
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     const Workbench& bench = selection->bench;
+    Begin(options.watch, "rivals", static_cast<std::int64_t>(options.candidates.size()));
     selection->without.push_back(FitWithout(bench, selection->extended, static_cast<int>(c)));
     const LawFit& without = selection->without.back();
-    if (!without.usable) continue;
+    if (!without.usable || Stopped(options.watch)) continue;
+    if (selection->causes[c].score.effect == nullptr) continue;  // it shows in the values
     std::vector<const Effect*> open;
     for (const Effect* effect : options.candidates) {
       const auto& in = selection->extended.law.effects;
@@ -22,20 +24,21 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
       if (!taken && effect->probes != nullptr) open.push_back(effect);
     }
     const LawFit& extended = selection->extended;
-    const int degrees = std::max(bench.count() - FreeCount(bench, extended.law), 1);
-    const double variance = std::max(extended.sum / degrees, bench.least_variance);
+    const double variance = NoiseVariance(bench, extended);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
     const std::vector<Score> scores =
         ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
-      if (!score.testable || without.law.size() + score.effect->size() > 20) continue;
+      Step(options.watch);
+      if (!score.testable || without.law.size() + score.effect->size() > kMostParameters) continue;
+      if (Stopped(options.watch)) break;
       if (score.statistic < hopeless && score.effect != selection->causes[c].effect) continue;
       Rival rival{score, FitEffect(bench, without, score), 0};
       if (!rival.fit.usable) continue;
       const bool own = score.effect == selection->causes[c].effect;
       const double sum = own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
-      rival.statistic = (without.sum - sum) / std::max(variance, 1e-300);
+      rival.statistic = (without.sum - sum) / variance;
       rivals.push_back(std::move(rival));
     }
     std::stable_sort(rivals.begin(), rivals.end(),

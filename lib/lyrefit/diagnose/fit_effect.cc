@@ -22,6 +22,7 @@ std::vector<Direction> ChooseStarts(const Effect& effect, const std::vector<Prob
   };
   std::set<std::vector<double>> all;
   for (const Direction& d : score.directions) all.insert(settings(d));
+  searched = searched && all.size() > 1;
   const std::size_t most = !searched ? 2 : all.size() <= 8 ? all.size() : 3;
   std::vector<Direction> starts;
   std::set<std::vector<double>> taken;
@@ -71,7 +72,7 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
 
 }  // namespace
 
-LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) {
+LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, Effort effort) {
   const Effect& effect = *score.effect;
   const std::vector<Probe> probes = effect.probes(bench.readings->traits);
   Law law = fit.law;
@@ -80,9 +81,11 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score) 
   std::vector<std::vector<double>> starts;
   for (const Direction& direction : ChooseStarts(effect, probes, score)) {
     starts.push_back(Scaled(effect, probes[direction.probe], direction));
+    if (effort == Effort::kInPassing) break;
   }
   // A strength that does not act in proportion is better met as it was tried.
-  starts.push_back(probes[score.directions.front().probe]);
+  const std::vector<double>& tried = probes[score.directions.front().probe];
+  if (starts.front() != tried) starts.push_back(tried);
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());

@@ -5,9 +5,13 @@
 
 namespace lyrefit {
 
+// In passing, an effect is tried from its best probe alone: for a table of what was tried.
+enum class Effort { kFull, kInPassing };
+
 // `fit`'s law with one more effect, all parameters free, from the best of the effect's probes;
 // never worse than `fit` itself but for the effects that have no neutral value.
-LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score);
+LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score,
+                 Effort effort = Effort::kFull);
 
 // `fit`'s law without effect number `index`, from where it stands.
 LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index);

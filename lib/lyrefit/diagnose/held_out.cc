@@ -10,7 +10,7 @@ namespace {
 
 struct Squares {
   double sum = 0;
-  int count = 0;
+  double count = 0;
   double Mean() const { return count > 0 ? sum / count : 0; }
 };
 
@@ -33,9 +33,10 @@ class Judge {
   Squares Of(const std::vector<double>& current) const {
     Squares squares;
     for (const int k : held_) {
-      const double r = current[k] - readings_.points[k].current;
-      squares.sum += r * r;
-      ++squares.count;
+      const Reading& reading = readings_.points[k];
+      const double r = current[k] - reading.current;
+      squares.sum += reading.weight * (r * r + reading.scatter);
+      squares.count += reading.weight;
     }
     return squares;
   }
@@ -45,6 +46,9 @@ class Judge {
   const Readings& readings_;
   std::vector<int> held_;
 };
+
+// From the fit to all readings it is not far.
+const LeastSquaresOptions kNearby = {20, 1e-6};
 
 void AddSquares(const Squares& from, Squares* to) {
   to->sum += from.sum;
@@ -72,19 +76,22 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
   const std::vector<int> of = MakeFolds(readings, folds);
   const int used_folds = *std::max_element(of.begin(), of.end()) + 1;
   std::vector<Fold> results(used_folds);
+  Begin(options.watch, "held out", used_folds);
   ParallelFor(used_folds, threads, [&](int f) {
     const Judge judge(readings, of, f, selection.bench.used);
-    if (judge.empty()) return;
+    if (judge.empty() || Stopped(options.watch)) return;
     std::vector<char> used(of.size(), 1);
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
     SelectOptions inner = options;
     inner.trials = false;
+    inner.base = selection.base.law;
+    inner.start = selection.base.p;
     inner.calibration = selection.calibration;
     inner.draws = std::max(options.draws / 2, 200);
     const Selection again =
         SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];
-    if (!again.base.usable || !again.extended.usable) return;
+    if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return;
     result.before = judge.Of(again.base.current);
     result.after = judge.Of(again.extended.current);
     Workbench bench = selection.base_bench;
@@ -92,12 +99,14 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     for (const Rival& rival : selection.trials) {
       Squares squares;
       if (rival.fit.usable) {
-        const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p);
+        const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p, kNearby);
         if (fit.usable) squares = judge.Of(fit.current);
       }
       result.trials.push_back(squares);
     }
+    Step(options.watch);
   });
+  if (Stopped(options.watch)) return;
   Squares before, after;
   std::vector<Squares> by_trial(selection.trials.size());
   std::vector<double> gains;

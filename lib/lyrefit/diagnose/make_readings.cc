@@ -9,6 +9,7 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/effects/law.h"
+#include "lyrefit/family/held_values.h"
 
 namespace lyrefit {
 namespace {
@@ -137,10 +138,16 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
   if (layout.times) readings->scale.span_s = std::max(readings->scale.span_s, span);
 }
 
+// Also of values that lie so close together that no gap parts them.
 int Levels(std::vector<double> values, double apart) {
   std::sort(values.begin(), values.end());
-  int levels = values.empty() ? 0 : 1;
-  for (std::size_t k = 1; k < values.size(); ++k) levels += values[k] - values[k - 1] > apart;
+  int levels = 0;
+  double level = 0;
+  for (const double value : values) {
+    if (levels > 0 && value - level <= apart) continue;
+    level = value;
+    ++levels;
+  }
   return levels;
 }
 
@@ -212,11 +219,7 @@ void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* re
     }
     traits.up_down = traits.up_down || segments.size() > 1;
   }
-  if (!traits.single) return;
-  const std::vector<Reading>& points = readings->points;
-  for (std::size_t k = 1; k + 2 < points.size(); ++k) {
-    traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
-  }
+  SetStepTimes(readings);
 }
 
 // The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
@@ -242,7 +245,77 @@ int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>
   return cells;
 }
 
+// What is stated of the device; else what a joint fit holds, if the temperature hardly varies.
+void TakeNotes(const CurveSet& set, Readings* readings) {
+  readings->bandgap_eV = kHeldBandgap_eV;
+  readings->isc_tempco_per_K = kHeldTempco_per_K;
+  readings->traits.bandgap_known = readings->traits.tempco_known = false;
+  for (const IvCurve& curve : set.curves) {
+    const DeviceNotes& notes = curve.notes;
+    if (notes.bandgap_eV && !readings->traits.bandgap_known) {
+      readings->bandgap_eV = *notes.bandgap_eV;
+      readings->traits.bandgap_known = true;
+    }
+    if (readings->traits.tempco_known) continue;
+    if (notes.isc_tempco_per_K) {
+      readings->isc_tempco_per_K = *notes.isc_tempco_per_K;
+      readings->traits.tempco_known = true;
+    } else if (notes.isc_tempco_A_per_K) {
+      readings->isc_tempco_per_K = 0;
+      readings->isc_tempco_scales_per_K = *notes.isc_tempco_A_per_K / readings->scale.current_A;
+      readings->traits.tempco_known = true;
+    }
+  }
+}
+
+template <class T>
+void Permute(const std::vector<std::size_t>& order, std::vector<T>* values) {
+  if (values->size() != order.size()) return;
+  std::vector<T> sorted;
+  sorted.reserve(order.size());
+  for (const std::size_t k : order) sorted.push_back((*values)[k]);
+  *values = std::move(sorted);
+}
+
+void SortByVoltage(IvCurve* curve) {
+  std::vector<std::size_t> order(curve->size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return curve->voltage_V[a] < curve->voltage_V[b];
+  });
+  curve->time_s.clear();
+  curve->sweep.clear();
+  Permute(order, &curve->voltage_V);
+  Permute(order, &curve->current_A);
+  Permute(order, &curve->sigma_A);
+  Permute(order, &curve->irradiance_W_m2);
+  Permute(order, &curve->temperature_C);
+}
+
 }  // namespace
+
+void SetStepTimes(Readings* readings) {
+  readings->traits.step_times.clear();
+  if (!readings->traits.single) return;
+  const std::vector<Reading>& points = readings->points;
+  for (std::size_t k = 1; k + 2 < points.size(); ++k) {
+    readings->traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
+  }
+}
+
+CurveSet InOrder(const CurveSet& set, std::vector<std::string>* warnings) {
+  constexpr std::size_t kShortest = 6;  // readings of a sweep, on the average
+  CurveSet ordered = set;
+  for (IvCurve& curve : ordered.curves) {
+    const std::size_t sweeps = FindTurns(curve.voltage_V).size();
+    if (sweeps < 3 || curve.size() >= kShortest * sweeps) continue;
+    SortByVoltage(&curve);
+    warnings->push_back(curve.name +
+                        ": the readings are in no order of voltage; taken as one sweep from the "
+                        "lowest to the highest, so what happened in time cannot be seen");
+  }
+  return ordered;
+}
 
 std::vector<int> FindTurns(const std::vector<double>& voltage) {
   const auto [low, high] = std::minmax_element(voltage.begin(), voltage.end());
@@ -294,13 +367,7 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
   SetScales(measurement.dark, &readings);
   FindTraits(set, measurement.dark, &readings);
   readings.scale.strings = set.curves.front().conditions.strings_in_parallel;
-  const DeviceNotes& notes = set.curves.front().notes;
-  readings.bandgap_eV = notes.bandgap_eV.value_or(1.121);
-  if (notes.isc_tempco_per_K) {
-    readings.isc_tempco_per_K = *notes.isc_tempco_per_K;
-  } else if (notes.isc_tempco_A_per_K) {
-    readings.isc_tempco_per_K = *notes.isc_tempco_A_per_K / readings.scale.current_A;
-  }
+  TakeNotes(set, &readings);
   DataTraits& traits = readings.traits;
   readings.reference_temperature_K =
       traits.temperature_levels > 1 ? 298.15 : set.curves.front().conditions.cell_temperature_K;

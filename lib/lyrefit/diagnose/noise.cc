@@ -51,8 +51,9 @@ std::vector<Difference> Differences(const Readings& readings, const std::vector<
     for (int i = 0; i < 3; ++i) {
       const double current = readings.points[at[i]].current;
       value += weight[i] * residual[at[i]];
-      difference.constant += weight[i] * weight[i];
-      difference.relative += weight[i] * weight[i] * current * current;
+      const double part_of_noise = weight[i] * weight[i] / readings.points[at[i]].weight;
+      difference.constant += part_of_noise;
+      difference.relative += part_of_noise * current * current;
     }
     difference.steep = difference.constant * slope * slope;
     difference.square = value * value;
@@ -194,8 +195,9 @@ Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
     const Reading& r = readings.points[k];
     const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
     const double rounding = 0.25 * (dark[r.curve] != 0 ? grids.dark : grids.lit);
-    noise.sigma.push_back(std::max(
-        {Deviation(law, r.current, SlopeAt(readings.points, k)), rounding, kSmallestNoise}));
+    const double single =
+        std::max(Deviation(law, r.current, SlopeAt(readings.points, k)), rounding);
+    noise.sigma.push_back(std::max(single / std::sqrt(r.weight), kSmallestNoise));
   }
   return noise;
 }
@@ -206,7 +208,8 @@ bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noi
     const double step = class_of != 0 ? grids.dark : grids.lit;
     std::vector<double> sigma;
     for (std::size_t k = 0; k < readings.points.size(); ++k) {
-      if (dark[readings.points[k].curve] == class_of) sigma.push_back(noise.sigma[k]);
+      if (dark[readings.points[k].curve] != class_of) continue;
+      sigma.push_back(noise.sigma[k] * std::sqrt(readings.points[k].weight));
     }
     if (sigma.empty() || !(step > 0)) continue;
     std::nth_element(sigma.begin(), sigma.begin() + sigma.size() / 2, sigma.end());

@@ -154,6 +154,7 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
   RandomStream random(seed, 0);
   for (int first = 0; first < draws; first += kLot) {
     const int lot = std::min(kLot, draws - first);
+    if (Stopped(bench.watch)) break;
     Eigen::MatrixXd noise(count, lot);
     for (int d = 0; d < lot; ++d) {
       for (int k = 0; k < count; ++k) noise(k, d) = bench.used[k] != 0 ? random.Normal() : 0.0;
@@ -232,6 +233,7 @@ Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
   prepared.degrees = bench.count() - static_cast<int>(prepared.linear.basis.cols());
   const double sum = prepared.linear.residual.squaredNorm();
   for (const Effect* effect : effects) {
+    if (Stopped(bench.watch)) break;
     const bool outliers = std::strcmp(effect->id, "outliers") == 0;
     Candidate candidate = outliers ? PrepareOutliers(bench, prepared.linear, *effect)
                                    : Prepare(bench, fit, prepared.linear, *effect);
@@ -363,10 +365,12 @@ Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
       SimulateNulls(bench, prepared.linear, prepared.candidates, prepared.degrees, 2 * draws, seed),
       prepared.degrees, prepared.candidates);
   if (list.laws.empty()) return calibration;
+  Begin(bench.watch, "nulls", draws);
   const Refit refit(bench, prepared, question);
   RandomStream random(seed, 1);
-  for (int d = 0; d < draws; ++d) {
+  for (int d = 0; d < draws && !Stopped(bench.watch); ++d) {
     const std::vector<double> statistics = refit.Draw(&random);
+    Step(bench.watch);
     double smallest = 1;
     for (std::size_t c = 0; c < statistics.size(); ++c) {
       smallest = std::min(smallest, list.laws[c].Of(statistics[c]));

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <set>
 
+#include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
@@ -13,6 +14,15 @@ namespace lyrefit {
 namespace {
 
 bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
+
+// A grid much coarser than the noise leaves errors that neighbours share.
+void WidenByRounding(const NoiseSource& source, const Noise& noise, Workbench* bench) {
+  if (!IsCoarse(*bench->readings, source.dark, noise, source.values.grids)) return;
+  bench->least_variance = 1;
+  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
+    bench->sigma[k] = std::hypot(bench->sigma[k], source.values.rounding[k]);
+  }
+}
 
 class Selector {
  public:
@@ -24,22 +34,31 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
-        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3), used, correlation, 0} {
+        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
+               used,      correlation,
+               0,         options.watch} {
+    for (const int k : values.at_lower) bench_.used[k] = 0;
   }
 
   Selection Run() {
-    Law law;
-    law.second_diode = options_.second_diode;
-    fit_ = FitBase(bench_, law);
+    Stage("base fit", 3);
+    Law law = options_.base;
+    if (readings_.points.size() <= kQuickToFit) bench_.watch = nullptr;
+    FitBaseLaw(law);
+    bench_.watch = options_.watch;
     Selection selection;
     selection.base = selection.extended = fit_;
     selection.bench = selection.base_bench = bench_;
     if (!fit_.usable) return selection;
+    CountStep();
     SettleNoise();
-    fit_ = FitBase(bench_, law);
+    CountStep();
+    if (options_.start.empty()) law = ChooseLaw(bench_, law);
+    FitBaseLaw(law);
+    if (Stopped(bench_.watch)) fit_ = selection.base;
     selection.base = fit_;
     selection.base_bench = bench_;
-    if (values_.clip_level > 0) AddClip();
+    if (values_.clip_level > 0 || values_.limited) AddClip();
     Calibrate();
     Extend(&selection);
     selection.extended = fit_;
@@ -53,31 +72,18 @@ class Selector {
   }
 
  private:
-  // Noise from the residuals of the present law, which is then fitted anew.
-  void SettleNoise() {
-    for (int round = 0; round < 2; ++round) {
-      std::vector<double> residual(readings_.points.size());
-      for (std::size_t k = 0; k < residual.size(); ++k) {
-        residual[k] = fit_.current[k] - readings_.points[k].current;
-      }
-      noise_ = EstimateNoise(readings_, dark_, residual, bench_.used, notes_, values_.grids);
-      bench_.sigma = noise_.sigma;
-      WidenByRounding();
-      const bool exact = *std::max_element(noise_.sigma.begin(), noise_.sigma.end()) <
-                         10 * kSmallestNoise;  // computed readings: what is left is arithmetic
-      if (exact) bench_.least_variance = 1;
-      LawFit again = FitLaw(bench_, fit_.law, fit_.p);
-      if (again.usable) fit_ = std::move(again);
-    }
+  void SettleNoise() { noise_ = lyrefit::SettleNoise({dark_, notes_, values_}, &bench_, &fit_); }
+
+  void FitBaseLaw(const Law& law) {
+    fit_ = options_.start.empty() ? FitBase(bench_, law) : FitLaw(bench_, law, options_.start);
   }
 
-  // A grid much coarser than the noise leaves errors that neighbours share.
-  void WidenByRounding() {
-    if (!IsCoarse(readings_, dark_, noise_, values_.grids)) return;
-    bench_.least_variance = 1;
-    for (std::size_t k = 0; k < bench_.sigma.size(); ++k) {
-      bench_.sigma[k] = std::hypot(bench_.sigma[k], values_.rounding[k]);
-    }
+  // The watch hears of the selection itself, not of its repetitions.
+  void Stage(const char* name, std::size_t steps) const {
+    if (options_.trials) Begin(bench_.watch, name, static_cast<std::int64_t>(steps));
+  }
+  void CountStep() const {
+    if (options_.trials) Step(bench_.watch);
   }
 
   // Clipped readings say no more than that they were clipped: they are left out, and the limit
@@ -88,7 +94,8 @@ class Selector {
     Law law = fit_.law;
     law.effects.push_back(clip);
     std::vector<double> start = fit_.p;
-    start.push_back(values_.clip_level);
+    start.push_back(values_.clip_level > 0 ? values_.clip_level : kNoUpperLimit);
+    start.push_back(values_.limited ? values_.lower_limit : kNoLowerLimit);
     fit_ = FitLaw(bench_, law, start);
     causes_.push_back({clip, 0, {}, {}});
     SettleNoise();
@@ -120,26 +127,30 @@ class Selector {
     return open;
   }
 
-  double Variance(const LawFit& fit) const {
-    return std::max(fit.sum / Degrees(fit), bench_.least_variance);
-  }
+  double Variance(const LawFit& fit) const { return NoiseVariance(bench_, fit); }
 
-  // Fits the effects that stand a chance, or all.
-  std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false) const {
+  // Fits the effects that stand a chance; with `all` the others as well, in passing. Where nothing
+  // `is_there` all are fitted in passing: it is for the record.
+  std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false,
+                            bool is_there = true) const {
     std::vector<Rival> rivals;
-    const double hopeless = all ? 0 : HopelessStatistic(scores);
+    Stage("selection", scores.size());
+    const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
-      const bool fits = score.testable && score.statistic >= hopeless &&
+      CountStep();
+      const bool fits = score.testable && (all || score.statistic >= hopeless) &&
                         score.effect->probes != nullptr &&
-                        fit_.law.size() + score.effect->size() <= 20;
-      if (!fits) continue;
-      Rival rival{score, FitEffect(bench_, fit_, score), 0};
+                        fit_.law.size() + score.effect->size() <= kMostParameters;
+      if (!fits || Stopped(bench_.watch)) continue;
+      const Effort effort =
+          is_there && score.statistic >= hopeless ? Effort::kFull : Effort::kInPassing;
+      Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
     double variance = Variance(fit_);
     for (const Rival& rival : rivals) variance = std::min(variance, Variance(rival.fit));
     for (Rival& rival : rivals) {
-      rival.statistic = (fit_.sum - rival.fit.sum) / std::max(variance, 1e-300);
+      rival.statistic = (fit_.sum - rival.fit.sum) / variance;
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
@@ -159,6 +170,7 @@ class Selector {
     for (int step = 0;; ++step) {
       const std::vector<Score> scores =
           ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step, calibration_);
+      if (Stopped(bench_.watch)) return;
       double smallest = 1;
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
@@ -166,15 +178,16 @@ class Selector {
       const Score* unknown = Find(scores, "unknown_structure");
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
       std::vector<Rival> rivals;
-      if (step == 0 && options_.trials) {
-        selection->trials = rivals = FitAll(scores, true);
-        AddUntried(scores, &selection->trials);
-      }
       const bool later = !causes_.empty() || !outliers_.empty();
       level_ = options_.level * (later ? kLaterLevel : 1);
+      if (step == 0 && options_.trials) {
+        selection->trials = rivals = FitAll(scores, true, smallest < level_);
+        AddUntried(scores, &selection->trials);
+      }
       if (!(smallest < level_)) return;
       if (static_cast<int>(causes_.size()) >= most) return;
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
+      if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
       if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
@@ -208,8 +221,9 @@ class Selector {
     Workbench without = bench_;
     without.used[outliers->outlier] = 0;
     LawFit fit = FitLaw(without, fit_.law, fit_.p);
+    if (!fit.usable || Stopped(bench_.watch)) return false;
     const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
-    const double gain = (fit_.sum - fit.sum) / std::max(variance, 1e-300);
+    const double gain = (fit_.sum - fit.sum) / variance;
     const bool beaten = !rivals.empty() && gain - outliers->charge < rivals.front().Charged();
     // Light that changes for a moment can bend to any single reading.
     const bool by_moment = !rivals.empty() && (Is(rivals.front().score.effect, "transient") ||
@@ -234,7 +248,8 @@ class Selector {
     for (const int k : outliers_) bench_.used[k] = plausible(k) ? 1 : 0;
     outliers_.erase(std::remove_if(outliers_.begin(), outliers_.end(), plausible), outliers_.end());
     if (outliers_.size() == before) return;
-    fit_ = FitLaw(bench_, fit_.law, fit_.p);
+    LawFit again = FitLaw(bench_, fit_.law, fit_.p);
+    if (again.usable) fit_ = std::move(again);
     SettleNoise();
   }
 
@@ -255,12 +270,9 @@ class Selector {
     return neighbours == 2;
   }
 
-  int Degrees(const LawFit& fit) const {
-    return std::max(bench_.count() - FreeCount(bench_, fit.law), 1);
-  }
-
   bool Accept(const Rival& rival) {
-    const double p = CorrectedP(rival.score, rival.statistic, Degrees(rival.fit), calibration_);
+    const double p =
+        CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law), calibration_);
     if (!(p < level_)) return false;
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
@@ -268,12 +280,18 @@ class Selector {
     return true;
   }
 
+  // Limits that show in the values stay.
+  bool ByValues(const Effect* effect) const {
+    return Is(effect, "clip") && (values_.clip_level > 0 || values_.limited);
+  }
+
   // Every cause but the last gives its place to any effect that does better beside the others.
   void Exchange() {
     for (int round = 0; round < 2; ++round) {
       bool changed = false;
       for (int c = 0; c + 1 < static_cast<int>(causes_.size()); ++c) {
-        if (Is(causes_[c].effect, "clip") && values_.clip_level > 0) continue;
+        if (ByValues(causes_[c].effect)) continue;
+        if (Stopped(bench_.watch)) return;
         changed = ExchangeOne(c) || changed;
       }
       if (!changed) return;
@@ -295,7 +313,8 @@ class Selector {
           own == rivals.end()
               ? 0
               : own->Charged() + std::max(0.0, own->fit.sum - present.sum) / Variance(present);
-      if (!rivals.empty() && rivals.front().score.effect != effect &&
+      const bool stopped = Stopped(bench_.watch);
+      if (!stopped && !rivals.empty() && rivals.front().score.effect != effect &&
           rivals.front().Charged() > kept + 1) {
         fit_ = rivals.front().fit;
         causes_.push_back(
@@ -312,11 +331,11 @@ class Selector {
   // Drops causes that the later ones made idle.
   void Prune() {
     for (int c = static_cast<int>(causes_.size()) - 1; c >= 0 && causes_.size() > 1; --c) {
-      if (Is(causes_[c].effect, "clip") && values_.clip_level > 0) continue;
+      if (ByValues(causes_[c].effect)) continue;
       LawFit without = FitWithout(bench_, fit_, c);
-      if (!without.usable) continue;
-      const double loss = (without.sum - fit_.sum) / std::max(Variance(fit_), 1e-300);
-      if (CorrectedP(causes_[c].score, loss, Degrees(fit_), calibration_) <
+      if (!without.usable || Stopped(bench_.watch)) continue;
+      const double loss = (without.sum - fit_.sum) / Variance(fit_);
+      if (CorrectedP(causes_[c].score, loss, Degrees(bench_, fit_.law), calibration_) <
           options_.level * kLaterLevel)
         continue;
       fit_ = std::move(without);
@@ -341,6 +360,27 @@ class Selector {
 };
 
 }  // namespace
+
+Noise SettleNoise(const NoiseSource& source, Workbench* bench, LawFit* fit) {
+  const Readings& readings = *bench->readings;
+  Noise noise;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<double> residual(readings.points.size());
+    for (std::size_t k = 0; k < residual.size(); ++k) {
+      residual[k] = fit->current[k] - readings.points[k].current;
+    }
+    noise = EstimateNoise(readings, source.dark, residual, bench->used, source.notes,
+                          source.values.grids);
+    bench->sigma = noise.sigma;
+    WidenByRounding(source, noise, bench);
+    const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
+                       10 * kSmallestNoise;  // computed readings: what is left is arithmetic
+    if (exact) bench->least_variance = 1;
+    LawFit again = FitLaw(*bench, fit->law, fit->p);
+    if (again.usable) *fit = std::move(again);
+  }
+  return noise;
+}
 
 Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
                        const DeviceNotes& notes, const std::vector<char>& used,

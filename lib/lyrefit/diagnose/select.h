@@ -19,9 +19,12 @@ struct SelectOptions {
   Calibration calibration;  // of the list's p-values; found where it is empty
   int largest_causes = 4;
   std::uint64_t seed = 1;
-  bool second_diode = false;  // in the base
-  bool trials = true;         // fit every effect on the base model even where none is wanted
+  Law base;                               // a variant that the data prefer may take its place
+  std::vector<double> start;              // of `base`, which is then kept; empty: none is known
+  bool trials = true;                     // fit every effect on the base model, wanted or not, and
+                                          // tell the watch of the stages
   std::vector<const Effect*> candidates;  // allowed by the kind of data
+  Watch* watch = nullptr;
 };
 
 // What is read off the values before any fit.
@@ -29,6 +32,9 @@ struct ValueFindings {
   Grids grids;
   double clip_level = 0;         // in scales; 0: none
   std::vector<int> clipped;      // readings
+  bool limited = false;          // at the lower end too, as by a compliance limit
+  double lower_limit = 0;        // in scales
+  std::vector<int> at_lower;     // readings
   std::vector<double> rounding;  // of each reading: standard deviation of what a coarse grid adds
 };
 
@@ -69,6 +75,16 @@ Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
                        const DeviceNotes& notes, const std::vector<char>& used,
                        const ValueFindings& values, double correlation,
                        const SelectOptions& options);
+
+// What noise is estimated from besides the residuals.
+struct NoiseSource {
+  const std::vector<char>& dark;
+  const DeviceNotes& notes;
+  const ValueFindings& values;
+};
+
+// Noise from the residuals of the present law, which is then fitted anew, twice.
+Noise SettleNoise(const NoiseSource& source, Workbench* bench, LawFit* fit);
 
 // Fills `without` and the `rivals` of every cause: who could stand in its place.
 void FindRivals(const SelectOptions& options, Selection* selection);

@@ -43,6 +43,8 @@ LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorks
   current->resize(count);
   problem.evaluate = [&bench, law, workspace, current, count](const double* p, double* residuals,
                                                               double* jacobian) {
+    // The solver takes a failed step in its stride, a failed derivative it logs.
+    if (jacobian == nullptr && Stopped(bench.watch)) return false;
     if (!EvaluateLaw(law, *bench.readings, p, workspace, current->data(), jacobian)) return false;
     Eigen::Map<Eigen::VectorXd> r(residuals, count);
     for (int k = 0; k < count; ++k) r[k] = (*current)[k] - bench.readings->points[k].current;
@@ -92,6 +94,8 @@ LawFit FitBase(const Workbench& bench, const Law& law) {
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
     std::vector<double> start = BaseStart(*bench.readings, n, resistance);
     if (law.second_diode) start.push_back(0.05);
+    if (law.free_tempco) start.push_back(bench.readings->isc_tempco_per_K);
+    if (law.free_bandgap) start.push_back(bench.readings->bandgap_eV);
     LawFit fit = FitLaw(bench, law, start);
     if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
   }
@@ -102,7 +106,9 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
   const int count = static_cast<int>(bench.readings->points.size()), size = fit.law.size();
   LawWorkspace workspace;
   std::vector<double> current;
-  const LeastSquaresProblem problem = MakeProblem(bench, fit.law, &workspace, &current);
+  Workbench unwatched = bench;  // what was found before a stop is described after it
+  unwatched.watch = nullptr;
+  const LeastSquaresProblem problem = MakeProblem(unwatched, fit.law, &workspace, &current);
   Linearized linear;
   linear.residual.resize(count);
   RowMatrix jacobian = RowMatrix::Zero(count, size);
@@ -156,6 +162,14 @@ int FreeCount(const Workbench& bench, const Law& law) {
   int count = 0;
   for (int k = 0; k < law.size(); ++k) count += Held(*bench.readings, law, k) ? 0 : 1;
   return count;
+}
+
+int Degrees(const Workbench& bench, const Law& law) {
+  return std::max(bench.count() - FreeCount(bench, law), 1);
+}
+
+double NoiseVariance(const Workbench& bench, const LawFit& fit) {
+  return std::max({fit.sum / Degrees(bench, fit.law), bench.least_variance, 1e-300});
 }
 
 }  // namespace lyrefit

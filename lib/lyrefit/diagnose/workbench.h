@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "lyrefit/diagnose/watch.h"
 #include "lyrefit/effects/law.h"
 #include "lyrefit/effects/reading.h"
 #include "lyrefit/refine/least_squares.h"
@@ -18,6 +19,7 @@ struct Workbench {
   // The noise's size follows the residuals, but its variance is not taken below this part of
   // sigma^2: 1 where sigma holds more than noise.
   double least_variance = 0;
+  Watch* watch = nullptr;  // once it says stop, fits end where they are
 
   int count() const;  // of used readings
 };
@@ -38,6 +40,10 @@ struct LawFit {
 LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 
+// The base model of this many readings is fitted even where a stop was asked for already: it takes
+// a fraction of a second, and without it there is nothing to report.
+constexpr std::size_t kQuickToFit = 2500;
+
 // The base model from several starts.
 LawFit FitBase(const Workbench& bench, const Law& law);
 
@@ -56,5 +62,14 @@ std::vector<double> StandardErrors(const Linearized& linear, int parameters);
 
 // Free parameters of a law on this bench.
 int FreeCount(const Workbench& bench, const Law& law);
+
+// What the readings have beyond them, at least 1.
+int Degrees(const Workbench& bench, const Law& law);
+
+// Of whitened residuals: 1 where sigma is the noise.
+double NoiseVariance(const Workbench& bench, const LawFit& fit);
+
+// What a law may have: derivatives are carried for so many.
+constexpr int kMostParameters = 20;
 
 }  // namespace lyrefit

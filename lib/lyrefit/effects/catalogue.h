@@ -11,6 +11,10 @@ namespace lyrefit {
 // function that makes it, and its line in catalogue.cc.
 const std::vector<const Effect*>& Catalogue();
 
+// Values of clip's limits where there is none.
+constexpr double kNoUpperLimit = 1.5;
+constexpr double kNoLowerLimit = -50;
+
 // The effect with this id, nullptr if there is none.
 const Effect* FindEffect(const std::string& id);
 

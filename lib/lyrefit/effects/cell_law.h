@@ -24,6 +24,7 @@ struct Bench {
   std::vector<int> offsets;
 };
 
+// A cell at a temperature, its light still to come.
 template <class S>
 Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   const double k_eV = ThermalVoltage(1.0);
@@ -32,14 +33,12 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   const S* p = bench.p;
   const S ratio = sky.temperature_K * (1 / reference_K);
   const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
-  const S barrier = sky.bandgap_eV * (1 / (k_eV * reference_K)) - sky.bandgap_eV * inverse_vt;
+  const S barrier = DeSotoBarrier(sky.bandgap_eV, S(bench.law.bandgap_slope_per_K), reference_K,
+                                  sky.temperature_K, k_eV);
   const S inverse_n = 1.0 / p[kBaseIdeality];
   const S pivot_exponent = inverse_n * (pivot / (k_eV * reference_K));
   Cell<S> cell;
-  cell.irradiance = sky.irradiance;
   cell.thermal_voltage = sky.temperature_K * k_eV;
-  cell.photocurrent = sky.irradiance * p[kBasePhotocurrent] *
-                      (1.0 + sky.isc_tempco_per_K * (sky.temperature_K - reference_K));
   // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
   cell.saturation = exp(p[kBasePivot] + barrier - pivot_exponent) * (ratio * ratio * ratio) /
                     (1.0 - exp(-pivot_exponent));
@@ -49,9 +48,6 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
       bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
   cell.second = bench.law.second_diode;
   cell.saturation_2 = bench.law.second_diode ? p[kBaseSecond] * cell.saturation_2_unit : S(0.0);
-  // A cell in a string must carry the others' current in reverse, if at a huge voltage.
-  constexpr double kSmallestConductance = 1e-8;
-  cell.conductance = p[kBaseConductance] + kSmallestConductance;
   cell.resistance = p[kBaseResistance];
   cell.share = S(0.0);
   cell.light = S(1.0);
@@ -64,10 +60,29 @@ Cell<S> CellUnder(const Bench<S>& bench, const Sky<S>& sky) {
   return cell;
 }
 
+// What the light decides in a cell whose temperature is settled.
+template <class S>
+void Light(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
+  const double reference_K = bench.readings.reference_temperature_K;
+  const S* p = bench.p;
+  cell->irradiance = sky.irradiance;
+  const S warmer = sky.temperature_K - reference_K;
+  cell->photocurrent =
+      sky.irradiance * (p[kBasePhotocurrent] * (1.0 + sky.isc_tempco_per_K * warmer) +
+                        bench.readings.isc_tempco_scales_per_K * warmer);
+  // A cell in a string must carry the others' current in reverse, if at a huge voltage.
+  constexpr double kSmallestConductance = 1e-8;
+  const bool inverse = bench.law.shunt == ShuntLaw::kInverse;
+  cell->conductance =
+      (inverse ? p[kBaseConductance] * sky.irradiance : p[kBaseConductance]) + kSmallestConductance;
+}
+
 template <class S>
 Sky<S> SkyAt(const Bench<S>& bench, const Reading& reading) {
+  const Law& law = bench.law;
   Sky<S> sky{S(reading.voltage), S(reading.irradiance), S(reading.temperature_K),
-             S(bench.readings.bandgap_eV), S(bench.readings.isc_tempco_per_K)};
+             law.free_bandgap ? bench.p[law.BandgapAt()] : S(bench.readings.bandgap_eV),
+             law.free_tempco ? bench.p[law.TempcoAt()] : S(bench.readings.isc_tempco_per_K)};
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->sky.template For<S>();
     if (stage != nullptr) stage(bench.p + bench.offsets[e], reading, &sky);
@@ -75,9 +90,11 @@ Sky<S> SkyAt(const Bench<S>& bench, const Reading& reading) {
   return sky;
 }
 
+// `warm` holds what the temperature decides: CellUnder of the same one.
 template <class S>
-Cell<S> CellAt(const Bench<S>& bench, const Sky<S>& sky) {
-  Cell<S> cell = CellUnder(bench, sky);
+Cell<S> CellAt(const Bench<S>& bench, const Sky<S>& sky, const Cell<S>& warm) {
+  Cell<S> cell = warm;
+  Light(bench, sky, &cell);
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->cell.template For<S>();
     if (stage != nullptr) stage(bench.p + bench.offsets[e], &cell);

@@ -1,3 +1,4 @@
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
@@ -8,20 +9,31 @@ Effect Clip() {
   e.id = "clip";
   e.title = "clipped current";
   e.where = "instrument";
-  e.equation = "I -> min(I, Ic)";
+  e.equation = "I -> max(Il, min(I, Ic))";
   e.reference = "instrument manual (range, compliance)";
-  e.sentence = "the instrument ran into the end of its range: the top of the curve is flat";
-  e.needs = "any lit curve; exact repeats of the largest current give it away";
-  e.acts = "at the largest currents";
+  e.sentence = "the instrument ran into the end of its range: the curve is flat there";
+  e.needs = "any lit curve; exact repeats of the largest or smallest current give it away";
+  e.acts = "at the largest or smallest currents";
   e.confused_with = {"transient", "collection"};
-  e.separate_by = "repeat with a larger current range";
-  e.parameters = {
-      {"Ic", "limit", "A", "largest current that is recorded", 0.05, 1.5, 1.3, false, 1, 1}};
+  e.separate_by = "repeat with a larger current range or compliance";
+  e.parameters = {{"Ic", "limit", "A", "largest current that is recorded", 0.05, kNoUpperLimit, 1.3,
+                   false, 1, 1},
+                  {"Il", "lower_limit", "A", "smallest current that is recorded", kNoLowerLimit,
+                   0.9, kNoLowerLimit, true, 1, 1}};
+  e.parameters[0].absent_at = kNoUpperLimit;
+  e.parameters[1].absent_at = kNoLowerLimit;
   e.instrument = [](const auto* p, const Reading&, auto* solved) {
-    if (p[0] < solved->current) solved->current = p[0];
+    if (p[0] < solved->current && p[0] < kNoUpperLimit) solved->current = p[0];
+    if (solved->current < p[1] && kNoLowerLimit < p[1]) solved->current = p[1];
   };
   e.why_not = NeedsLight;
-  e.probes = [](const DataTraits&) { return Strengths({0.995, 0.99, 0.98, 0.965, 0.94, 0.9}); };
+  e.probes = [](const DataTraits&) {
+    std::vector<Probe> probes;
+    for (const double limit : {0.995, 0.99, 0.98, 0.965, 0.94, 0.9}) {
+      probes.push_back({limit, kNoLowerLimit});
+    }
+    return probes;
+  };
   return e;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -138,6 +139,8 @@ struct EffectParameter {
   // A fit that ends at such a bound is not this effect but bends to another.
   bool below_upper = false;
   bool above_lower = false;
+  // Where a parameter that can be absent is: there it is not reported.
+  double absent_at = std::numeric_limits<double>::quiet_NaN();
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };

@@ -11,7 +11,7 @@ Effect IscTemperatureCoefficient() {
   e.equation = "alpha -> alpha + c";
   e.reference = "IEC 60891:2021";
   e.sentence = "the short-circuit current follows the temperature otherwise than stated";
-  e.needs = "several temperatures";
+  e.needs = "several temperatures, and a stated coefficient";
   e.acts = "short-circuit current against temperature";
   e.confused_with = {"sensor_nonlin"};
   e.separate_by = "a measurement of the coefficient at constant light";
@@ -19,7 +19,11 @@ Effect IscTemperatureCoefficient() {
   e.sky = [](const auto* p, const Reading&, auto* sky) {
     sky->isc_tempco_per_K = sky->isc_tempco_per_K + p[0];
   };
-  e.why_not = NeedsTemperatures;
+  e.why_not = [](const DataTraits& traits) -> WhyNot {
+    if (auto why = NeedsTemperatures(traits)) return why;
+    if (!traits.tempco_known) return "no coefficient is stated: the base model estimates it";
+    return {};
+  };
   e.probes = [](const DataTraits&) { return Strengths({0.0001}); };
   return e;
 }

@@ -20,6 +20,13 @@ struct Bound {
   double upper;
 };
 constexpr Bound kBaseBounds[] = {{0, 20}, {-60, 40}, {0.2, 8}, {0, 3}, {0, 50}, {0, 20}};
+constexpr Bound kTempcoBound = {-0.01, 0.01}, kBandgapBound = {0.3, 2.5};
+
+Bound BaseBound(const Law& law, int parameter) {
+  if (law.free_bandgap && parameter == law.BandgapAt()) return kBandgapBound;
+  if (law.free_tempco && parameter == law.TempcoAt()) return kTempcoBound;
+  return kBaseBounds[parameter];
+}
 
 struct Root {
   double junction = 0;
@@ -148,7 +155,19 @@ Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
   return bench;
 }
 
-// Cells are the same for readings under the same sky: the last one is kept.
+// Value and all derivatives.
+bool IsSame(double a, double b) { return a == b; }
+template <int N>
+bool IsSame(const Dual<N>& a, const Dual<N>& b) {
+  if (a.a != b.a) return false;
+  for (int k = 0; k < N; ++k) {
+    if (a.v[k] != b.v[k]) return false;
+  }
+  return true;
+}
+
+// Cells are the same for readings under the same sky: the last one is kept, and what its
+// temperature decided for readings under other light.
 template <class S>
 class CellKeeper {
  public:
@@ -157,13 +176,17 @@ class CellKeeper {
   }
   const Cell<S>& At(const Reading& reading, Sky<S>* sky) {
     *sky = SkyAt(bench_, reading);
-    if (varies_ || !known_ || reading.irradiance != irradiance_ ||
-        reading.temperature_K != temperature_) {
-      cell_ = CellAt(bench_, *sky);
-      irradiance_ = reading.irradiance;
-      temperature_ = reading.temperature_K;
-      known_ = true;
+    const bool same = known_ && reading.temperature_K == temperature_;
+    if (!varies_ && same && reading.irradiance == irradiance_) return cell_;
+    if (!same || !IsSame(sky->temperature_K, last_.temperature_K) ||
+        !IsSame(sky->bandgap_eV, last_.bandgap_eV)) {
+      warm_ = CellUnder(bench_, *sky);
+      last_ = *sky;
     }
+    cell_ = CellAt(bench_, *sky, warm_);
+    irradiance_ = reading.irradiance;
+    temperature_ = reading.temperature_K;
+    known_ = true;
     return cell_;
   }
 
@@ -173,6 +196,8 @@ class CellKeeper {
   bool known_ = false;
   double irradiance_ = 0;
   double temperature_ = 0;
+  Sky<S> last_;
+  Cell<S> warm_;  // at that sky's temperature
   Cell<S> cell_;
 };
 
@@ -267,12 +292,12 @@ const EffectParameter* ParameterAt(const Law& law, int parameter) {
 }  // namespace
 
 double Law::Lower(int parameter) const {
-  if (parameter < base_size()) return kBaseBounds[parameter].lower;
+  if (parameter < base_size()) return BaseBound(*this, parameter).lower;
   return ParameterAt(*this, parameter)->lower;
 }
 
 double Law::Upper(int parameter) const {
-  if (parameter < base_size()) return kBaseBounds[parameter].upper;
+  if (parameter < base_size()) return BaseBound(*this, parameter).upper;
   return ParameterAt(*this, parameter)->upper;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/device/translation.h"
 #include "lyrefit/effects/effect.h"
 #include "lyrefit/effects/reading.h"
 
@@ -10,12 +11,13 @@ namespace lyrefit {
 // Base model and causes together: one parameter vector for a whole measurement. Base parameters
 // first, then those of each effect in turn.
 //
-// Base: one diode (a second with n = 2 if asked for), five parameters for all readings,
+// Base: one diode (a second with n = 2 if asked for), five parameters for all readings, translated
+// as device/translation.h does for De Soto, Klein and Beckman 2006
+// (doi:10.1016/j.solener.2005.06.010):
 //   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
-//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg constant
-//   n, Rs and Gsh = 1 / Rsh constant, whatever the light and the temperature
-// that is De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010) with a shunt that
-// does not know the light, so that one that does is a finding. The recombination diode follows
+//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
+//   n and Rs constant, Gsh = 1 / Rsh constant or in proportion to g
+// What nobody stated of alpha and EgRef is a parameter as well. The recombination diode follows
 // (T / Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
 enum BaseParameter {
   kBasePhotocurrent = 0,  // at g = 1 and Tref
@@ -25,13 +27,20 @@ enum BaseParameter {
   kBaseResistance = 3,
   kBaseConductance = 4,
   kBaseSecond = 5,  // dd: the second diode's current at the pivot voltage
+  // Then those of alpha (relative, 1/K) and EgRef (eV) that are free: see Law.
 };
 
 struct Law {
   bool second_diode = false;  // in the base
   std::vector<const Effect*> effects;
+  double bandgap_slope_per_K = 0;        // dEgdT
+  ShuntLaw shunt = ShuntLaw::kConstant;  // or kInverse
+  bool free_tempco = false;              // alpha is a parameter
+  bool free_bandgap = false;             // EgRef is a parameter
 
-  int base_size() const { return second_diode ? 6 : 5; }
+  int TempcoAt() const { return second_diode ? 6 : 5; }                 // where free
+  int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // where free
+  int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
   int size() const;
   int Offset(int effect) const;  // of its first parameter
   // Bounds of all parameters.

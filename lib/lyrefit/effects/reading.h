@@ -16,6 +16,10 @@ struct Reading {
   double rate = 0;           // dV/dt in parts of the measurement's rate scale, signed
   int curve = 0;             // position in the set
   int segment = 0;           // monotone stretches of voltage, counted through the whole set
+  // Of a mean of neighbouring readings: how many, and the mean square of their distances from it
+  // (in current scales, the curve's own slope taken out).
+  double weight = 1;
+  double scatter = 0;
 };
 
 // What the numbers of a measurement are scaled by.
@@ -46,6 +50,8 @@ struct DataTraits {
   int cells = 1;               // as reckoned with
   int stated_cells = 1;        // as stated, or assumed by a reader
   bool cells_known = true;     // stated by somebody
+  bool bandgap_known = true;   // the same
+  bool tempco_known = true;    // of Isc
   double lowest_voltage = 0;   // per cell
   double highest_voltage = 0;  // per cell
   double open_circuit = 0;     // per cell, estimate of Voc; 0 where there is none
@@ -60,8 +66,9 @@ struct Readings {
   DataTraits traits;
   double reference_temperature_K = 298.15;  // where parameters are quoted
   double bandgap_eV = 1.121;
-  double isc_tempco_per_K = 0;  // relative
-  double pivot_voltage = 0;     // per cell: where the diode's current is a parameter
+  double isc_tempco_per_K = 0;         // relative to the photocurrent at 1000 W/m2
+  double isc_tempco_scales_per_K = 0;  // the same where it is stated in ampere; they add up
+  double pivot_voltage = 0;            // per cell: where the diode's current is a parameter
 };
 
 }  // namespace lyrefit

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "lyrefit/device/translation.h"
+
 namespace lyrefit {
 
 // What a joint fit holds where nobody says otherwise.
 constexpr double kHeldBandgap_eV = 1.121;              // crystalline silicon at 25 C (De Soto 2006)
-constexpr double kHeldBandgapSlope_per_K = -2.677e-4;  // De Soto 2006, eq. 10
+constexpr double kHeldBandgapSlope_per_K = kDeSotoBandgapSlope_per_K;
 constexpr double kHeldShuntExponent = 5.5;             // PVsyst's default
 constexpr double kHeldIdeality2 = 2;                   // recombination in the depletion region
 constexpr double kHeldBuiltIn_V = 0.9;                 // a cell, PVsyst's default for thin films

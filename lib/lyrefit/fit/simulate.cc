@@ -169,6 +169,28 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
   return curve;
 }
 
+// An extended model is more than its diodes and its one curve.
+Expected<void> RefuseExtended(const json& fit, const std::string& path) {
+  const json causes = At(fit, "/causes");
+  std::string names;
+  for (const json& cause : causes) {
+    if (cause.is_string()) names += (names.empty() ? "" : ", ") + cause.get<std::string>();
+  }
+  if (!names.empty()) {
+    return Fail("a model extended by " + names +
+                    ", which cannot be simulated yet: expected a report of lyrefit fit",
+                path);
+  }
+  const json curves = At(fit, "/curves");
+  if (curves.is_number() && curves.get<double>() > 1) {
+    return Fail("a model of " + curves.dump() +
+                    " curves under conditions of their own, which cannot be simulated yet: "
+                    "expected a report of lyrefit fit of one curve",
+                path);
+  }
+  return {};
+}
+
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
   const Expected<std::string> text = ReadTextFile(path, kLargestFitFile);
   if (!text) return tl::unexpected(text.error());
@@ -184,6 +206,7 @@ Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
   if (!model || !constants || !parameters.is_object()) {
     return Fail("expected a fit report as lyrefit writes it: model, constants, parameters", path);
   }
+  if (auto plain = RefuseExtended(*fit, path); !plain) return tl::unexpected(plain.error());
   SimulateOptions options;
   options.model = *model;
   options.constants = *constants;

@@ -145,6 +145,8 @@ Json FitJson(const FitReport& report, JsonPoints points) {
   json["objective"] = ToText(report.objective);
   json["constants"] = ToText(report.constants);
   json["bounds"] = report.bounds_name;
+  if (!report.causes.empty()) json["causes"] = report.causes;
+  if (report.curves > 1) json["curves"] = report.curves;
   AddAnswer(report, &json);
   AddEvidence(report, &json);
   json["data"] = DataJson(report, points);

@@ -21,6 +21,8 @@ constexpr int kMostJsonPoints = 2000;
 // null. Every wall-clock time stands under a key named `seconds`; apart from those the same seed
 // gives the same text.
 //
+// `causes` (ids) and `curves` (a number) stand only in extended models of a diagnosis.
+//
 // For the single-diode model `singlediode` holds the five arguments of pvlib.pvsystem.singlediode
 // under pvlib's names; a perfect shunt (infinite resistance) is null there too.
 std::string JsonReport(const FitReport& report, JsonPoints points = JsonPoints::kAll);

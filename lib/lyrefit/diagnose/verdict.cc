@@ -1,0 +1,92 @@
+#include "lyrefit/diagnose/verdict.h"
+
+#include <algorithm>
+
+#include "lyrefit/diagnose/describe.h"
+#include "lyrefit/diagnose/evidence.h"
+#include "lyrefit/effects/catalogue.h"
+
+namespace lyrefit {
+namespace {
+
+Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
+  Cause cause = MakeCause("quantisation", "values", 0);
+  const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
+  const double step = finest * readings.scale.current_A;
+  cause.strength = {{"q", "resolution", "A", step, step, step, false}};
+  cause.sentence += "; " + StrengthText(cause.strength.front());
+  return cause;
+}
+
+Cause UnknownCause(const Selection& selection, double whiteness_after) {
+  Cause cause =
+      MakeCause("unknown_structure", "fit", std::min(selection.unknown_p, whiteness_after));
+  cause.separate_by = {FindEffect(cause.id)->separate_by};
+  return cause;
+}
+
+std::string VerdictSentence(const Verdict& verdict) {
+  if (verdict.unexplained && verdict.causes.front().id == "unknown_structure") {
+    return "Something is there that noise does not explain, and none of the known causes fits.";
+  }
+  if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
+  std::string text = "The data show ";
+  for (std::size_t c = 0; c < verdict.causes.size(); ++c) {
+    if (c > 0) text += c + 1 < verdict.causes.size() ? ", " : " and ";
+    text += verdict.causes[c].title;
+    if (!verdict.causes[c].equivalents.empty()) text += " (or what looks like it)";
+  }
+  if (verdict.unexplained) {
+    text +=
+        "; but structure remains that these do not explain: take the names as the nearest the "
+        "catalogue has";
+  }
+  return text + ".";
+}
+
+// Whether what the causes leave is certainly not noise.
+bool Remains(const Selection& selection, double whiteness_after) {
+  constexpr double kCertain = 1e-3;
+  return selection.unknown_p < kCertain || whiteness_after < kCertain ||
+         selection.bench.correlation >= 0.5;
+}
+
+}  // namespace
+
+bool IsWanted(const std::string& id, const DiagnoseOptions& options) {
+  const std::vector<std::string>& ids = options.effects;
+  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+Verdict Decide(const Measurement& measurement, const Selection& selection,
+               const ValueFindings& values, const DiagnoseOptions& options,
+               double whiteness_after) {
+  const Readings& readings = measurement.readings;
+  Verdict verdict;
+  verdict.causes = DescribeCauses(selection, values);
+  if (IsWanted("quantisation", options) &&
+      IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
+    verdict.causes.push_back(QuantisationCause(readings, values));
+  }
+  if (IsWanted("temperature_or_cells", options)) {
+    for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
+  }
+  std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
+  constexpr double kNeverNoise = 1e-6;
+  const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
+  if (unknown && verdict.causes.empty()) {
+    verdict.unexplained = true;
+    verdict.causes.push_back(UnknownCause(selection, whiteness_after));
+  }
+  verdict.found = !verdict.causes.empty();
+  if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
+  for (const Inseparable& open : InseparableCauses()) {
+    if (!open.applies(readings.traits)) continue;
+    verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
+  }
+  verdict.sentence = VerdictSentence(verdict);
+  return verdict;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,128 @@
+#include "lyrefit/diagnose/average.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/values.h"
+#include "made_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsEmpty;
+
+Recipe Long() {
+  Recipe recipe;
+  recipe.points = 1500;
+  return recipe;
+}
+
+Diagnosis DiagnosedQuickly(const IvCurve& curve) {
+  DiagnoseOptions options;
+  options.draws = 400;
+  options.held_out = false;
+  auto diagnosis = Diagnose(curve, options);
+  EXPECT_TRUE(diagnosis.has_value());
+  return diagnosis ? *diagnosis : Diagnosis();
+}
+
+std::vector<std::string> Named(const Diagnosis& diagnosis) {
+  std::vector<std::string> ids;
+  for (const Cause& cause : diagnosis.verdict.causes) ids.push_back(cause.id);
+  return ids;
+}
+
+// Averages lie on the curve between their readings, however it bends, and every reading counts.
+TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
+  Recipe recipe = Long();
+  recipe.noise_A = 0;
+  const auto made = MakeReadings(SetOf({MadeCurve(recipe)}));
+  ASSERT_TRUE(made && IsLong(made->readings));
+  const DeviceNotes notes;
+  const ValueFindings values = LookAtValues(made->readings, made->dark);
+  const Averaged averaged = Average(made->readings, {made->dark, notes, values},
+                                    StartingLaw(made->readings, false), nullptr);
+  EXPECT_LT(averaged.readings.points.size(), 350U);
+  EXPECT_GT(averaged.readings.points.size(), 250U);
+  std::size_t counted = 0;
+  for (std::size_t k = 0; k < averaged.members.size(); ++k) {
+    counted += averaged.members[k].size();
+    EXPECT_EQ(averaged.readings.points[k].weight, averaged.members[k].size());
+  }
+  EXPECT_EQ(counted, made->readings.points.size());
+  IvCurve exact = MadeCurve(recipe);
+  exact.voltage_V.clear();
+  for (const Reading& r : averaged.readings.points) exact.voltage_V.push_back(r.voltage);
+  const std::vector<double> truth = SolveCurrents(MakeDevice(Model::kSingleDiode, exact.conditions),
+                                                  MadeParameters(recipe).data(), exact.voltage_V);
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_NEAR(averaged.readings.points[k].current * made->readings.scale.current_A, truth[k],
+                1e-6);
+  }
+}
+
+TEST(AverageTest, ALongCleanCurveIsCleanAndItsNoiseThatOfItsReadings) {
+  const Diagnosis d = DiagnosedQuickly(MadeCurve(Long()));
+  EXPECT_THAT(Named(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_EQ(d.points.size(), 1500U);
+  EXPECT_NEAR(d.points[700].sigma_A, 0.004, 0.0004);
+  EXPECT_NEAR(d.gain.rmse_before_A, 0.004, 0.0004);
+}
+
+TEST(AverageTest, HeldOutErrorsAreThoseOfReadings) {
+  DiagnoseOptions options;
+  options.draws = 400;
+  options.folds = 3;
+  const auto d = Diagnose(MadeCurve(Long()), options);
+  ASSERT_TRUE(d.has_value());
+  EXPECT_NEAR(d->gain.held_out_before_A, 0.004, 0.0004);
+}
+
+TEST(AverageTest, OneWrongReadingAmongManyIsFound) {
+  IvCurve curve = MadeCurve(Long());
+  curve.current_A[611] += 0.05;
+  const Diagnosis d = DiagnosedQuickly(curve);
+  ASSERT_THAT(Named(d), Contains("outliers"));
+  EXPECT_THAT(d.verdict.causes.front().points, Contains(611));
+}
+
+TEST(AverageTest, AStepInALongCurveIsFound) {
+  IvCurve curve = MadeCurve(Long());
+  for (std::size_t k = 600; k < curve.size(); ++k) curve.current_A[k] += 0.02;
+  const Diagnosis d = DiagnosedQuickly(curve);
+  ASSERT_THAT(Named(d), Contains("irr_step"));
+  EXPECT_LT(d.gain.rmse_after_A, 0.0043);
+}
+
+// Readings in no order are put in one, and it is said.
+TEST(AverageTest, ReadingsInNoOrderAreOneSweep) {
+  IvCurve curve = MadeCurve({});
+  std::vector<std::pair<double, double>> readings;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    readings.emplace_back(curve.voltage_V[k], curve.current_A[k]);
+  }
+  std::mt19937 shuffler(5);
+  for (std::size_t k = readings.size() - 1; k > 0; --k) {
+    std::swap(readings[k], readings[shuffler() % (k + 1)]);
+  }
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    std::tie(curve.voltage_V[k], curve.current_A[k]) = readings[k];
+  }
+  const Diagnosis d = DiagnosedQuickly(curve);
+  EXPECT_THAT(Named(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_THAT(d.warnings, Contains(testing::HasSubstr("in no order of voltage")));
+  EXPECT_EQ(d.evidence.kind.rfind("one sweep", 0), 0U) << d.evidence.kind;
+}
+
+}  // namespace
+}  // namespace lyrefit

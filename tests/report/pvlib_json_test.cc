@@ -57,12 +57,12 @@ TEST(PvlibJson, ParametersAreTheArgumentsOfTheFunction) {
   const json desoto = written(TranslationLaw::kDeSoto, ShuntLaw::kInverse, false);
   EXPECT_EQ(Keys(desoto["parameters"]),
             (std::set<std::string>{"alpha_sc", "a_ref", "I_L_ref", "I_o_ref", "R_sh_ref", "R_s",
-                                   "EgRef", "dEgdT"}));
+                                   "EgRef", "dEgdT", "irrad_ref", "temp_ref"}));
   EXPECT_EQ(desoto["cells_in_series"], 36);
   EXPECT_FALSE(desoto.contains("bishop88"));
-  const std::set<std::string> pvsyst = {"alpha_sc",        "gamma_ref", "mu_gamma", "I_L_ref",
-                                        "I_o_ref",         "R_sh_ref",  "R_sh_0",   "R_s",
-                                        "cells_in_series", "R_sh_exp",  "EgRef"};
+  const std::set<std::string> pvsyst = {
+      "alpha_sc", "gamma_ref",       "mu_gamma", "I_L_ref", "I_o_ref",   "R_sh_ref", "R_sh_0",
+      "R_s",      "cells_in_series", "R_sh_exp", "EgRef",   "irrad_ref", "temp_ref"};
   const json plain = written(TranslationLaw::kPvsyst, ShuntLaw::kExponential, false);
   EXPECT_EQ(Keys(plain["parameters"]), pvsyst);
   const json thin = written(TranslationLaw::kPvsyst, ShuntLaw::kExponential, true);

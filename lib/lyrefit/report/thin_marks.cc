@@ -5,16 +5,6 @@
 #include <numeric>
 
 namespace lyrefit {
-namespace {
-
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-struct Bin {
-  std::size_t lowest = kNone;
-  std::size_t highest = kNone;
-};
-
-}  // namespace
 
 std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::vector<double>& y,
                                      std::size_t most) {
@@ -31,19 +21,19 @@ std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::ve
   const auto [left, right] = std::minmax_element(places.begin(), places.end(), by_x);
   const double begin = x[*left];
   const double span = x[*right] - begin;
-  std::vector<Bin> bins((most - 2) / 2);
+  // Four points a bin: where it ends, and what is usual in it.
+  std::vector<std::vector<std::size_t>> bins((most - 2) / 4 + 1);
   const auto last = static_cast<double>(bins.size() - 1);
   for (const std::size_t i : places) {
-    const double at = span > 0 ? (x[i] - begin) / span * static_cast<double>(bins.size()) : 0;
-    Bin& bin = bins[static_cast<std::size_t>(std::min(at, last))];
-    if (bin.lowest == kNone || y[i] < y[bin.lowest]) bin.lowest = i;
-    if (bin.highest == kNone || y[i] > y[bin.highest]) bin.highest = i;
+    const double at = span > 0 ? (x[i] - begin) / span * last : 0;
+    bins[static_cast<std::size_t>(at)].push_back(i);
   }
   std::vector<std::size_t> kept = {places.front(), places.back()};
-  for (const Bin& bin : bins) {
-    if (bin.lowest == kNone) continue;
-    kept.push_back(bin.lowest);
-    kept.push_back(bin.highest);
+  const auto by_y = [&y](std::size_t a, std::size_t b) { return y[a] < y[b]; };
+  for (const std::vector<std::size_t>& bin : bins) {
+    if (bin.empty()) continue;
+    const auto [lowest, highest] = std::minmax_element(bin.begin(), bin.end(), by_y);
+    kept.insert(kept.end(), {*lowest, *highest, bin[bin.size() / 3], bin[2 * bin.size() / 3]});
   }
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/plain_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
 #include "lyrefit/curve/table_header.h"
@@ -25,13 +26,6 @@ struct IndexLayout {
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
 };
-
-std::string LowerCase(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
 
 bool Contains(const std::string& text, std::string_view part) {
   return LowerCase(text).find(part) != std::string::npos;

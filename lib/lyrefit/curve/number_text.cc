@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "lyrefit/curve/plain_text.h"
+
 namespace lyrefit {
 namespace {
 
@@ -38,12 +40,6 @@ std::string WithoutThousands(std::string text, bool decimal_comma) {
     plain += digits;
   }
   return plain + text.substr(point);
-}
-
-std::string_view Trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 // Bytes that follow `lead` in its UTF-8 sequence, -1 if none can begin with it.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/plain_text.h"
 #include "lyrefit/curve/source_meter_trace.h"
 #include "lyrefit/curve/table_header.h"
 
@@ -90,9 +91,7 @@ class RowReader {
 bool IsMissingValue(std::string_view field) {
   static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
                                                 "overflow", "ovrflw", "ovf",  "err",  "error"};
-  std::string lower;
-  for (const char c : field) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
+  return std::find(std::begin(kWords), std::end(kWords), LowerCase(field)) != std::end(kWords);
 }
 
 bool HasLetter(std::string_view text) {

@@ -8,6 +8,7 @@
 
 #include "lyrefit/curve/label.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/plain_text.h"
 
 namespace lyrefit {
 namespace {
@@ -17,18 +18,6 @@ constexpr std::string_view kNoReading[] = {
     "sc",  "oc",       "mp",    "mpp",   "pm",   "max",    "min", "x",   "xx",    "pmax",
     "set", "setpoint", "model", "fit",   "stc",  "ref",    "nom", "lim", "limit", "range",
     "src", "source",   "step",  "start", "stop", "offset", "ph",  "d",   "rms",   "nominal"};
-
-std::string LowerCase(std::string_view text) {
-  std::string lower;
-  for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
-
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
 
 bool IsCurrent(ColumnKind kind) {
   return kind == ColumnKind::kCurrent || kind == ColumnKind::kCurrentDensity;

@@ -26,13 +26,6 @@ struct IndexLayout {
   int temperature = kNoColumn;
 };
 
-std::string LowerCase(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 bool Contains(const std::string& text, std::string_view part) {
   return LowerCase(text).find(part) != std::string::npos;
 }

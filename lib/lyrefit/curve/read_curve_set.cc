@@ -183,7 +183,7 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
   return builder.Finish();
 }
 
-Expected<CurveSet> ReadFromJson(const std::string& path, const ReadOptions& options) {
+Expected<CurveSet> ReadSetFromJson(const std::string& path, const ReadOptions& options) {
   const Expected<nlohmann::json> document = ReadJsonFile(path, options);
   if (!document) return tl::unexpected(document.error());
   CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
@@ -214,7 +214,7 @@ Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& opti
         fmt::format("a set is read whole, but curve {} alone was asked for", *options.curve), path);
   }
   if (!IsFolder(path)) {
-    return IsJson(path) ? ReadFromJson(path, options) : ReadSetFromTable(path, path, options);
+    return IsJson(path) ? ReadSetFromJson(path, options) : ReadSetFromTable(path, path, options);
   }
   const fs::path curves = fs::path(path) / kCurvesName;
   if (IsFile(curves)) return ReadSetFromTable(curves.lexically_normal().string(), path, options);

@@ -90,8 +90,7 @@ class RowReader {
 bool IsMissingValue(std::string_view field) {
   static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
                                                 "overflow", "ovrflw", "ovf",  "err",  "error"};
-  std::string lower;
-  for (const char c : field) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string lower = LowerCase(field);
   return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 

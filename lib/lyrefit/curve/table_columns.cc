@@ -18,18 +18,6 @@ constexpr std::string_view kNoReading[] = {
     "set", "setpoint", "model", "fit",   "stc",  "ref",    "nom", "lim", "limit", "range",
     "src", "source",   "step",  "start", "stop", "offset", "ph",  "d",   "rms",   "nominal"};
 
-std::string LowerCase(std::string_view text) {
-  std::string lower;
-  for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
-
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
 bool IsCurrent(ColumnKind kind) {
   return kind == ColumnKind::kCurrent || kind == ColumnKind::kCurrentDensity;
 }
@@ -157,9 +145,9 @@ int SameNumber(const std::vector<Column>& columns, const std::vector<int>& volta
 }  // namespace
 
 std::optional<int> FindColumn(const std::vector<Column>& columns, const std::string& wish) {
-  const std::string name = LowerCase(Trim(wish));
+  const std::string name = LowerCase(TrimBlanks(wish));
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (LowerCase(Trim(columns[i].label)) == name) return static_cast<int>(i);
+    if (LowerCase(TrimBlanks(columns[i].label)) == name) return static_cast<int>(i);
   }
   const auto place = ParseNumber(wish);
   for (std::size_t i = 0; i < columns.size() && place; ++i) {
@@ -228,15 +216,16 @@ Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
                     channels.size(), ListChannels(columns, channels)));
   }
   const auto place = ParseNumber(wish);
-  const std::string name = LowerCase(Trim(wish));
+  const std::string name = LowerCase(TrimBlanks(wish));
   for (std::size_t i = 0; i < channels.size() && place; ++i) {
     if (*place == static_cast<double>(i + 1)) return channels[i];
   }
   const bool own_voltages = channels.size() > 1 && channels[0].voltage != channels[1].voltage;
   for (const Channel& channel : channels) {
     const Column& current = columns[channel.current];
-    const bool called = LowerCase(Trim(current.label)) == name || current.number == wish ||
-                        (own_voltages && LowerCase(Trim(columns[channel.voltage].label)) == name);
+    const bool called =
+        LowerCase(TrimBlanks(current.label)) == name || current.number == wish ||
+        (own_voltages && LowerCase(TrimBlanks(columns[channel.voltage].label)) == name);
     if (called) return channel;
   }
   return Fail(fmt::format("column {} was asked for, but the table has {}", Quoted(wish),

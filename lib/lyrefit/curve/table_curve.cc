@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_table.h"
 #include "lyrefit/curve/select_sweep.h"
 #include "lyrefit/curve/settle_conditions.h"
@@ -14,13 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ExtensionOf(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension;
-}
+std::string ExtensionOf(const fs::path& path) { return LowerCase(path.extension().string()); }
 
 }  // namespace
 

@@ -171,7 +171,8 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
   return statement;
 }
 
-std::string_view Trim(std::string_view text) {
+// Without blanks, quotes and the marks of a comment.
+std::string_view TrimMarks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\"#%");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\"") - begin + 1);
@@ -184,11 +185,11 @@ struct Quantity {
 };
 
 std::optional<Quantity> AsQuantity(std::string_view text) {
-  text = Trim(text);
+  text = TrimMarks(text);
   const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
   if (const auto value = ParseNumber(text.substr(0, end), true)) {
     if (!std::isfinite(*value)) return std::nullopt;
-    const std::string_view rest = Trim(text.substr(end));
+    const std::string_view rest = TrimMarks(text.substr(end));
     const auto words = SplitFields(rest, ' ');
     const bool more =
         words && std::any_of(words->begin(), words->end(), [](const std::string& word) {
@@ -249,7 +250,7 @@ class LineParser {
   bool ReadPart(std::string_view text) {
     const std::size_t at = text.find_first_of(":=");
     if (at == std::string_view::npos || at == 0) return false;
-    const std::string_view value = Trim(text.substr(at + 1));
+    const std::string_view value = TrimMarks(text.substr(at + 1));
     if (value.empty()) return false;
     if (IsDate(text.substr(0, at))) {
       TakeDate(value);
@@ -278,7 +279,7 @@ class LineParser {
     for (std::size_t i = 0; i < words->size(); ++i) {
       if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
     }
-    State(label, {*ParseNumber((*words)[place], true), Trim(rest)});
+    State(label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
   }
 
   void State(std::string_view label, const Quantity& quantity) {
@@ -294,7 +295,7 @@ class LineParser {
   }
 
   void TakeDate(std::string_view text) {
-    const std::string_view date = Trim(text);
+    const std::string_view date = TrimMarks(text);
     constexpr std::size_t kLongest = 40;
     if (!head_->said.notes.date.empty() || date.size() > kLongest) return;
     if (date.find_first_of("0123456789") == std::string_view::npos) return;
@@ -311,9 +312,9 @@ class LineParser {
 }  // namespace
 
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
-  const std::string source = fmt::format("line {} {}", number, Quoted(Trim(line)));
+  const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   LineParser parser(source, head);
-  parser.Read(Trim(line));
+  parser.Read(TrimMarks(line));
   if (kind == HeadLine::kText && parser.holds_number() && !parser.understood()) {
     head->left.push_back(source);
   }

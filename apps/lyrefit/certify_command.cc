@@ -54,6 +54,7 @@ Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
 }
 
 int CertifyCommand::Run() {
+  if (curve_.list_columns) return PrintColumns({curve_.file}, curve_.reading);
   const auto models = ParseModels(models_);
   if (!models) return Refuse(models.error());
   options_.models = *models;

@@ -42,9 +42,11 @@ std::string Stem(const std::string& file) {
 DiagnoseCommand::DiagnoseCommand(CommandLine* line)
     : verb_(line->AddVerb("diagnose",
                           "Say what a diode model gets wrong in a measurement, and why")) {
-  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each").ReadsCurves();
+  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each; - for standard input")
+      .ReadsCurves();
   verb_->AddSwitch("--together", &together_,
                    "all files are one measurement: lit and dark, up and down, a family");
+  AddColumnFlags(verb_, &reading_, &list_columns_);
   AddConditionFlags(verb_, &conditions_);
   AddDiagnosisFlags();
   AddCatalogueFlags();
@@ -128,9 +130,17 @@ Expected<void> DiagnoseCommand::CheckNames() const {
   return {};
 }
 
+Expected<CurveSet> DiagnoseCommand::Read(const std::vector<std::string>& files) const {
+  if (files.size() > 1) return ReadMeasurement(files, reading_);
+  if (files.front() != "-") return ReadMeasurement(files.front(), reading_);
+  Expected<IvCurve> curve = ReadCurveOrInput("-", reading_);
+  if (!curve) return tl::unexpected(curve.error());
+  return SetOfOne(std::move(*curve));
+}
+
 Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string>& files) const {
   const std::string& file = files.front();
-  Expected<CurveSet> set = files.size() > 1 ? ReadMeasurement(files) : ReadMeasurement(file);
+  Expected<CurveSet> set = Read(files);
   if (!set) return tl::unexpected(set.error());
   if (conditions_.irradiance_W_m2 && set->curves.size() > 1) {
     return Fail(fmt::format("--irradiance-Wm2 is for one curve, this measurement has {}",

@@ -22,6 +22,7 @@ class DiagnoseCommand {
   Expected<void> CheckFlags();
   Expected<void> CheckNames() const;
   bool Several() const { return files_.size() > 1 && !together_; }  // measurements
+  Expected<CurveSet> Read(const std::vector<std::string>& files) const;
   Expected<Diagnosis> DiagnoseFiles(const std::vector<std::string>& files) const;
   Expected<void> Write(const std::vector<std::string>& names,
                        const std::vector<Diagnosis>& diagnoses) const;
@@ -30,6 +31,8 @@ class DiagnoseCommand {
   Verb* verb_;
   DiagnoseOptions options_;
   std::vector<std::string> files_;
+  ReadOptions reading_;
+  bool list_columns_ = false;
   ConditionFlags conditions_;
   std::string effects_;
   bool no_held_out_ = false;

@@ -22,20 +22,16 @@
 namespace lyrefit {
 namespace {
 
-Expected<CurveSet> ReadSet(const std::string& path) {
-  if (HoldsCurveSet(path)) return ReadCurveSet(path);
-  Expected<IvCurve> curve = ReadCurve(path);
+Expected<CurveSet> ReadSet(const CurveFlags& flags) {
+  if (HoldsCurveSet(flags.file, flags.reading)) return ReadCurveSet(flags.file, flags.reading);
+  Expected<IvCurve> curve = ReadCurveOrInput(flags.file, flags.reading);
   if (!curve) return tl::unexpected(curve.error());
-  CurveSet set;
-  set.name = curve->name;
-  set.source = curve->source;
-  set.curves.push_back(std::move(*curve));
-  return set;
+  return SetOfOne(std::move(*curve));
 }
 
 // The set with what the flags say of every curve.
 Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
-  Expected<CurveSet> set = ReadSet(flags.file);
+  Expected<CurveSet> set = ReadSet(flags);
   if (!set) return set;
   if (auto applied = ApplyConditionFlags(flags.conditions, &*set); !applied) {
     return tl::unexpected(applied.error());
@@ -120,15 +116,19 @@ int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& fl
 }
 
 Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
-  if (flags.index || !HoldsCurveSet(flags.file)) return found;
-  const Expected<CurveSet> set = ReadCurveSet(flags.file);
+  if (flags.index || !HoldsCurveSet(flags.file, flags.reading)) return found;
+  const Expected<CurveSet> set = ReadCurveSet(flags.file, flags.reading);
   if (!set || set->curves.size() < 2) return found;
   std::error_code error;
   const bool folder = std::filesystem::is_directory(flags.file, error);
+  ReadOptions first = flags.reading;
+  first.column = "1";
+  const char* how = "choose one with --curve INDEX";
+  if (ReadCurve(flags.file, first)) how = "choose one with --column NAME|N (see --list-columns)";
+  if (folder) how = "give one of its files";
   return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
                       "desoto|pvsyst|free|auto",
-                      set->curves.size(),
-                      folder ? "give one of its files" : "choose one with --curve INDEX"),
+                      set->curves.size(), how),
           flags.file};
 }
 

@@ -33,7 +33,8 @@ FitCommand::FitCommand(CommandLine* line)
     : verb_(line->AddVerb("fit", "Fit diode-model parameters to a measured I-V curve")) {
   verb_
       ->AddOption("CURVE", &files_,
-                  "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder; several: a line each")
+                  "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
+                  "input; several: a line each")
       .Required()
       .ReadsCurves();
   AddReadingFlags(verb_, &curve_);
@@ -227,6 +228,7 @@ int FitCommand::RunMany() {
 }
 
 int FitCommand::Run() {
+  if (curve_.list_columns) return PrintColumns(files_, curve_.reading);
   if (auto checked = CheckFamilyFlags(*verb_, family_); !checked) {
     return Refuse(checked.error());
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/plot.h"
@@ -165,8 +166,53 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
   return {};
 }
 
+void AddColumnFlags(Verb* verb, ReadOptions* options, bool* list_columns) {
+  verb->AddOption("--column", &options->column,
+                  "which of several currents, or pairs of voltage and current, side by side")
+      .Type("NAME|N")
+      .Group("Reading");
+  verb->AddOption("--voltage-column", &options->voltage_column,
+                  "the column of the voltage, by name or number, where its name does not tell")
+      .Type("NAME|N")
+      .Group("Reading");
+  verb->AddOption("--current-column", &options->current_column, "the same for the current")
+      .Type("NAME|N")
+      .Group("Reading");
+  verb->AddOption("--area-cm2", &options->area_cm2,
+                  "area of the cell in cm2, which makes currents of current densities")
+      .Between(1e-9, 1e9)
+      .Type("A")
+      .Group("Reading");
+  verb->AddSwitch("--list-columns", list_columns,
+                  "list the columns of the table and what each is read as, and stop")
+      .Group("Reading");
+}
+
+int PrintColumns(const std::vector<std::string>& files, const ReadOptions& options) {
+  std::string text;
+  for (const std::string& file : files) {
+    const auto columns = ListColumns(file, options);
+    if (!columns) return Refuse(columns.error());
+    if (files.size() > 1) text += file + ":\n";
+    for (const ColumnNote& column : *columns) {
+      text += fmt::format("{:>4}  {:<32}  {}\n", column.place, column.name, column.use);
+    }
+  }
+  const auto written = WriteOutput("-", text);
+  return written ? kExitFine : Refuse(written.error());
+}
+
+Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options) {
+  if (file != "-") return ReadCurve(file, options);
+  Expected<std::string> bytes = ReadFileBytes("/dev/stdin", options.largest_file_bytes);
+  if (!bytes) return Fail(bytes.error().message, "standard input");
+  return ReadCurveText(std::move(*bytes), "standard input", options);
+}
+
 void AddCurveFlags(Verb* verb, CurveFlags* flags) {
-  verb->AddOption("CURVE", &flags->file, "CSV, TSV, ivcurves JSON or IV_Swinger file, or a folder")
+  verb->AddOption("CURVE", &flags->file,
+                  "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
+                  "input")
       .Required()
       .ReadsCurves();
   AddReadingFlags(verb, flags);
@@ -175,14 +221,15 @@ void AddCurveFlags(Verb* verb, CurveFlags* flags) {
 void AddReadingFlags(Verb* verb, CurveFlags* flags) {
   verb->AddOption("--curve", &flags->index, "which curve of a file that holds several")
       .Type("INDEX")
-      .Group("Conditions");
+      .Group("Reading");
+  AddColumnFlags(verb, &flags->reading, &flags->list_columns);
   AddConditionFlags(verb, &flags->conditions);
 }
 
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
-  ReadOptions read;
-  read.curve = flags.index;
-  Expected<IvCurve> curve = ReadCurve(flags.file, read);
+  ReadOptions reading = flags.reading;
+  reading.curve = flags.index;
+  Expected<IvCurve> curve = ReadCurveOrInput(flags.file, reading);
   if (!curve) return curve;
   if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) {
     return tl::unexpected(applied.error());

@@ -13,6 +13,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/report/json_report.h"
 
 namespace lyrefit {
@@ -112,8 +113,19 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set);
 struct CurveFlags {
   std::string file;
   std::optional<int> index;
+  ReadOptions reading;  // without the index
+  bool list_columns = false;
   ConditionFlags conditions;
 };
+
+// Which columns of a table are read, and the area that makes currents of densities.
+void AddColumnFlags(Verb* verb, ReadOptions* options, bool* list_columns);
+
+// The columns of every file and what each is read as, on standard output; the exit code.
+int PrintColumns(const std::vector<std::string>& files, const ReadOptions& options);
+
+// A curve from a file or folder, or from standard input where `file` is "-".
+Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options);
 
 void AddCurveFlags(Verb* verb, CurveFlags* flags);
 // The same without the file.

@@ -73,9 +73,8 @@ FileRole RoleOfTable(const fs::path& file, const fs::path& table) {
 }
 
 FileRole RoleInFolder(const fs::path& file, const fs::path& folder) {
-  for (const char* name : {kCurvesName, "curve.csv"}) {
-    if (IsFile(folder / name)) return RoleOfTable(file, folder / name);
-  }
+  if (IsFile(folder / kCurvesName)) return RoleOfTable(file, folder / kCurvesName);
+  if (const fs::path one = CurveInFolder(folder); !one.empty()) return RoleOfTable(file, one);
   for (const fs::path& table : TablesIn(folder)) {
     const FileRole role = RoleOfTable(file, table);
     if (role != FileRole::kNone) return role;

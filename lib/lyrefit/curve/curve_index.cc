@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/plain_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
 #include "lyrefit/curve/table_header.h"

@@ -33,13 +33,17 @@ struct CurveSet {
 //     an index file NAME-index.csv beside it,
 //   - a folder of tables, one curve each, each with its own sidecar or with a row of index.csv
 //     (column `curve` or `file`),
-//   - an ivcurves JSON file with many curves.
+//   - one table with several currents over one voltage, or several pairs, side by side,
+//   - a JSON file with many curves, as ReadCurve knows them.
 // A condition that nobody states is left at its default with irradiance_known or temperature_known
 // false. Ids that occur twice, rows of the index without a curve and the like are errors; a file of
 // a folder or a curve of a table that is broken goes to `rejected`, unless nothing is left.
 Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options = {});
 
-// Whether `path` holds several curves, as ReadCurveSet understands it: a look at names and headers.
-bool HoldsCurveSet(const std::string& path);
+// Whether `path` holds several curves, as ReadCurveSet understands it.
+bool HoldsCurveSet(const std::string& path, const ReadOptions& options = {});
+
+// A curve as a set of its own.
+CurveSet SetOfOne(IvCurve curve);
 
 }  // namespace lyrefit

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/json_curves.h"
@@ -21,24 +22,24 @@ bool FolderHoldsSet(const fs::path& folder) {
   return CurveInFolder(folder).empty() && !TablesIn(folder).empty();
 }
 
-bool JsonHoldsSet(const std::string& text, const std::string& path) {
+bool JsonHoldsSet(const std::string& text, const std::string& path, const ReadOptions& options) {
   const auto document = ParseJson(text, path);
   if (!document) return false;
   if (!IsIvCurves(*document)) {
-    const auto curves = FindJsonCurves(*document, path, {});
+    const auto curves = FindJsonCurves(*document, path, options);
     return curves && curves->size() > 1;
   }
   const auto list = document->find("IV Curves");
   return list->is_array() && list->size() > 1;
 }
 
-bool TableHoldsSet(const std::string& text, const fs::path& path) {
-  ReadOptions first;
-  first.column = "1";
+bool TableHoldsSet(const std::string& text, const fs::path& path, const ReadOptions& options) {
+  ReadOptions first = options;
+  if (first.column.empty()) first.column = "1";
   const auto layout = FindTableLayout(text, path.string(), first);
   if (!layout) return false;
-  if (layout->channels.size() > 1) return true;
-  const auto table = ReadTable(text, path.string(), {}, BrokenRows::kSetAside);
+  if (layout->channels.size() > 1 && options.column.empty()) return true;
+  const auto table = ReadTable(text, path.string(), options, BrokenRows::kSetAside);
   if (!table) return false;
   std::set<int> numbers(table->curve.sweep.begin(), table->curve.sweep.end());
   for (const auto& broken : table->broken) numbers.insert(broken.first);
@@ -49,11 +50,20 @@ bool TableHoldsSet(const std::string& text, const fs::path& path) {
 
 }  // namespace
 
-bool HoldsCurveSet(const std::string& path) {
+bool HoldsCurveSet(const std::string& path, const ReadOptions& options) {
   if (IsFolder(path)) return FolderHoldsSet(path);
-  const auto text = ReadDecodedFile(path, ReadOptions().largest_file_bytes);
+  const auto text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return false;
-  return IsJson(path) ? JsonHoldsSet(text->text, path) : TableHoldsSet(text->text, path);
+  return IsJson(path) ? JsonHoldsSet(text->text, path, options)
+                      : TableHoldsSet(text->text, path, options);
+}
+
+CurveSet SetOfOne(IvCurve curve) {
+  CurveSet set;
+  set.name = curve.name;
+  set.source = curve.source;
+  set.curves.push_back(std::move(curve));
+  return set;
 }
 
 }  // namespace lyrefit

@@ -7,8 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "lyrefit/curve/plain_text.h"
-
 namespace lyrefit {
 namespace {
 
@@ -71,7 +69,7 @@ bool FirstFollowerFits(unsigned char lead, unsigned char next) {
 
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
   if (const auto value = Convert(text)) return value;
-  std::string plain(Trim(text));
+  std::string plain(TrimBlanks(text));
   const std::string_view minus = "\u2212";
   for (std::size_t at; (at = plain.find(minus)) != std::string::npos;) {
     plain.replace(at, minus.size(), "-");
@@ -81,6 +79,20 @@ std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
     if (const std::size_t at = plain.find(','); at != std::string::npos) plain[at] = '.';
   }
   return Convert(plain);
+}
+
+std::string_view TrimBlanks(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
 }
 
 std::string Quoted(std::string_view text) {

@@ -13,6 +13,12 @@ namespace lyrefit {
 // them in its own words.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
+// `text` without the blanks and tabs around it.
+std::string_view TrimBlanks(std::string_view text);
+
+// `text` with the letters of ASCII in lower case.
+std::string LowerCase(std::string_view text);
+
 // `text` in quotes for a message, shortened, control characters replaced.
 std::string Quoted(std::string_view text);
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/plain_text.h"
 #include "lyrefit/curve/source_meter_trace.h"
 #include "lyrefit/curve/table_header.h"
 
@@ -91,7 +90,8 @@ class RowReader {
 bool IsMissingValue(std::string_view field) {
   static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
                                                 "overflow", "ovrflw", "ovf",  "err",  "error"};
-  return std::find(std::begin(kWords), std::end(kWords), LowerCase(field)) != std::end(kWords);
+  const std::string lower = LowerCase(field);
+  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 
 bool HasLetter(std::string_view text) {

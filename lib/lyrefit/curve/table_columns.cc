@@ -8,7 +8,6 @@
 
 #include "lyrefit/curve/label.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/plain_text.h"
 
 namespace lyrefit {
 namespace {
@@ -146,9 +145,9 @@ int SameNumber(const std::vector<Column>& columns, const std::vector<int>& volta
 }  // namespace
 
 std::optional<int> FindColumn(const std::vector<Column>& columns, const std::string& wish) {
-  const std::string name = LowerCase(Trim(wish));
+  const std::string name = LowerCase(TrimBlanks(wish));
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (LowerCase(Trim(columns[i].label)) == name) return static_cast<int>(i);
+    if (LowerCase(TrimBlanks(columns[i].label)) == name) return static_cast<int>(i);
   }
   const auto place = ParseNumber(wish);
   for (std::size_t i = 0; i < columns.size() && place; ++i) {
@@ -217,15 +216,16 @@ Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
                     channels.size(), ListChannels(columns, channels)));
   }
   const auto place = ParseNumber(wish);
-  const std::string name = LowerCase(Trim(wish));
+  const std::string name = LowerCase(TrimBlanks(wish));
   for (std::size_t i = 0; i < channels.size() && place; ++i) {
     if (*place == static_cast<double>(i + 1)) return channels[i];
   }
   const bool own_voltages = channels.size() > 1 && channels[0].voltage != channels[1].voltage;
   for (const Channel& channel : channels) {
     const Column& current = columns[channel.current];
-    const bool called = LowerCase(Trim(current.label)) == name || current.number == wish ||
-                        (own_voltages && LowerCase(Trim(columns[channel.voltage].label)) == name);
+    const bool called =
+        LowerCase(TrimBlanks(current.label)) == name || current.number == wish ||
+        (own_voltages && LowerCase(TrimBlanks(columns[channel.voltage].label)) == name);
     if (called) return channel;
   }
   return Fail(fmt::format("column {} was asked for, but the table has {}", Quoted(wish),

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/curve/current_sign.h"
-#include "lyrefit/curve/plain_text.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_table.h"
 #include "lyrefit/curve/select_sweep.h"
 #include "lyrefit/curve/settle_conditions.h"

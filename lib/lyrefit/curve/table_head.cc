@@ -171,6 +171,7 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
   return statement;
 }
 
+// Without blanks, quotes and the marks of a comment.
 std::string_view TrimMarks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\"#%");
   if (begin == std::string_view::npos) return {};

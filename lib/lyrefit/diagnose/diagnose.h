@@ -49,10 +49,11 @@ Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& option
 
 // Reads what ReadCurve or ReadCurveSet understand, as one measurement: up and down sweeps stay
 // together, sweeps under other conditions (a dark one among them) become curves of the set.
-Expected<CurveSet> ReadMeasurement(const std::string& path);
+Expected<CurveSet> ReadMeasurement(const std::string& path, const ReadOptions& options = {});
 
 // Several files as one measurement: a lit and a dark curve, a family; sweeps up and down under one
 // condition become one curve in the order given.
-Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths);
+Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths,
+                                   const ReadOptions& options = {});
 
 }  // namespace lyrefit

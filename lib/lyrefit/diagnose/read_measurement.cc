@@ -51,21 +51,18 @@ IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
 
 }  // namespace
 
-Expected<CurveSet> ReadMeasurement(const std::string& path) {
-  if (HoldsCurveSet(path)) return ReadCurveSet(path);
-  auto curve = ReadCurve(path);
+Expected<CurveSet> ReadMeasurement(const std::string& path, const ReadOptions& options) {
+  if (HoldsCurveSet(path, options)) return ReadCurveSet(path, options);
+  auto curve = ReadCurve(path, options);
   if (!curve) return tl::unexpected(curve.error());
-  CurveSet set;
-  set.name = curve->name;
-  set.source = curve->source;
-  set.curves = {std::move(*curve)};
-  return set;
+  return SetOfOne(std::move(*curve));
 }
 
-Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths) {
+Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths,
+                                   const ReadOptions& options) {
   CurveSet all;
   for (const std::string& path : paths) {
-    auto set = ReadMeasurement(path);
+    auto set = ReadMeasurement(path, options);
     if (!set) return set;
     all.name += (all.name.empty() ? "" : " + ") + set->name;
     all.source += (all.source.empty() ? "" : ", ") + set->source;

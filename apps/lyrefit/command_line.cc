@@ -71,6 +71,11 @@ Error NoVerb(const CLI::App& app, int argc, char** argv) {
   return {"no verb '" + word + "'; did you mean " + near + "?", {}};
 }
 
+std::string NotNegative(const std::string& text) {
+  return !text.empty() && text.front() == '-' ? "expected a whole number from 0, found " + text
+                                              : std::string();
+}
+
 }  // namespace
 
 struct Flag::Impl {
@@ -171,9 +176,11 @@ Flag Verb::Declare(void* option, FlagTarget target) {
 }
 
 Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
-  return std::visit(
-      [&](auto* value) { return Declare(impl_->app->add_option(name, *value, doc), value); },
-      target);
+  CLI::Option* const option =
+      std::visit([&](auto* value) { return impl_->app->add_option(name, *value, doc); }, target);
+  // The parser would take -1 for the largest number there is.
+  if (std::holds_alternative<std::uint64_t*>(target)) option->check(NotNegative, "");
+  return Declare(option, target);
 }
 
 Flag Verb::AddReader(const std::string& name, FlagReader read, const std::string& doc) {

@@ -51,6 +51,7 @@ DiagnoseCommand::DiagnoseCommand(CommandLine* line)
   AddDiagnosisFlags();
   AddCatalogueFlags();
   AddReportFlags(verb_, "diagnosis", "diagnosis", &output_);
+  AddFullJsonSwitch(verb_, &output_);
   verb_
       ->AddOption("--extend", &extend_file_,
                   "the model with its causes, fitted, as the JSON of fit; - for standard output, "

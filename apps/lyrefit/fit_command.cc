@@ -43,6 +43,7 @@ FitCommand::FitCommand(CommandLine* line)
   AddPolishFlags();
   AddFamilyFlags(verb_, &family_);
   AddReportFlags(verb_, "report", "fit", &output_);
+  AddFullJsonSwitch(verb_, &output_);
   verb_->Footer(kFitFooter);
 }
 

@@ -237,15 +237,18 @@ Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
   return curve;
 }
 
+void AddFullJsonSwitch(Verb* verb, ReportFlags* flags) {
+  verb->AddSwitch("--full-json", &flags->full_json,
+                  fmt::format("repeat every reading of curves of more than {} in JSON files",
+                              kMostJsonPoints))
+      .Group("Output");
+}
+
 void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags) {
   verb->AddOption("--json", &flags->json_file,
                   "the " + what + " as JSON; - for standard output, alone")
       .Writes();
-  verb->AddSwitch("--full-json", &flags->full_json,
-                  fmt::format("repeat every reading of curves of more than {} in JSON files",
-                              kMostJsonPoints))
-      .Group("Output");
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");

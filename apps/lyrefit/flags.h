@@ -141,6 +141,8 @@ struct ReportFlags {
   JsonPoints points() const { return full_json ? JsonPoints::kAll : JsonPoints::kThinned; }
 };
 
+// --full-json, where the JSON of a fit repeats its readings.
+void AddFullJsonSwitch(Verb* verb, ReportFlags* flags);
 // `what` names the report in the help, `picture` the plot.
 void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
                     ReportFlags* flags);

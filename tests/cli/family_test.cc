@@ -81,7 +81,8 @@ TEST(FamilyFlags, NameFilesThatCanBeWritten) {
   ExpectRefused(kRtc + " --family desoto --csv " + folder.Path("no/x.csv"), "cannot write");
   ExpectRefused(kRtc + " --family desoto --pvlib " + folder.Path("no/x.json"), "cannot write");
   ExpectRefused(kRtc + " --family desoto --plot " + folder.Path("x.pdf"), ".svg or .png");
-  ExpectRefused(kRtc + " --family desoto --json - --pvlib -", "only one of --json");
+  ExpectRefused(kRtc + " --family desoto --json - --pvlib -",
+                "only one of --pvlib and --json can have");
 }
 
 TEST(FamilyVerb, SaysThatAFileIsMissing) {

@@ -73,9 +73,14 @@ TEST_F(NothingIsLost, WhereAnOutputIsAnInput) {
     }
   }
   ExpectRefused("audit " + Quoted("module.csv") + " --csv " + Quoted("hard.csv"), reads);
-  ExpectRefused("fit " + Quoted("set") + " --family desoto --against " + Quoted("module.json") +
-                    " --pvlib " + Quoted("module.json"),
+  const std::string other = folder_.Write(
+      "other.json",
+      R"({"a_ref": 1.0, "I_L_ref": 5, "I_o_ref": 1e-9, "R_s": 0.2, "R_sh_ref": 300, "alpha_sc": 0})");
+  const std::string before = FileText(other);
+  ExpectRefused("fit " + Quoted("set") + " --family desoto --against " + Quoted("other.json") +
+                    " --pvlib " + Quoted("other.json"),
                 reads);
+  EXPECT_EQ(FileText(other), before);
 }
 
 TEST_F(NothingIsLost, WhereAnOutputStandsInASidecarsPlace) {
@@ -94,7 +99,7 @@ TEST_F(NothingIsLost, WhereAnOutputStandsInASidecarsPlace) {
 TEST_F(NothingIsLost, WhereTwoOutputsAreOneFile) {
   ExpectRefused("fit " + Quoted("module.csv") + " --json " + Quoted("x.json") + " --csv " +
                     Quoted("./x.json") + " --force",
-                "--json and --csv are to write the same file");
+                "--csv and --json are to write the same file");
   ExpectRefused("diagnose " + Quoted("module.csv") + " --json - --answers -",
                 "only one of --json and --answers can have standard output");
   EXPECT_FALSE(fs::exists(folder_.Path("x.json")));

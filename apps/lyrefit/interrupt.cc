@@ -78,7 +78,7 @@ class ProgressDisplay {
     const bool terminal = OnTerminal();
     std::unique_lock<std::mutex> lock(mutex_);
     while (!wake_.wait_for(lock, kPeriod, [this] { return over_; })) {
-      const std::string notice = text_.LongRun(Seconds());
+      const std::string notice = interrupted != 0 ? "" : text_.LongRun(Seconds());
       if (!notice.empty()) {
         if (drawn_) WipeLine();
         fmt::print(stderr, "lyrefit: {}; {}\n", notice, style_.on_interrupt);

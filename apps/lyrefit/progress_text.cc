@@ -80,7 +80,7 @@ std::string ProgressText::LongRun(double seconds) {
   const double all = seconds + left;
   if (left >= 0 && all > kLong_s) {
     said_ = true;
-    return (stage_ == whole_ ? "this takes " : "this takes at least ") + AboutText(all);
+    return "this takes " + AboutText(all) + (stage_ == whole_ ? "" : " or more");
   }
   if (seconds <= kLong_s) return "";
   said_ = true;

@@ -1,7 +1,5 @@
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -13,8 +11,7 @@
 #include <vector>
 
 #include "run_app.h"
-
-extern char** environ;
+#include "start_app.h"
 
 namespace lyrefit {
 namespace {
@@ -24,30 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Starts the app without a shell, so that the signal reaches it; what the test itself was told to
-// ignore (as under nohup), the app is not.
-pid_t StartApp(std::vector<std::string> arguments, const std::string& out) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t heard;
-  sigemptyset(&heard);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&heard, signal);
-  posix_spawnattr_setsigdefault(&attributes, &heard);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  std::vector<char*> words;
-  arguments.insert(arguments.begin(), LYREFIT_APP);
-  for (std::string& word : arguments) words.push_back(word.data());
-  words.push_back(nullptr);
-  pid_t child = -1;
-  posix_spawn(&child, LYREFIT_APP, &actions, &attributes, words.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return child;
-}
-
 // How long the app may take to end. The command as it ships ends within a second on a quiet
 // machine; the sanitizers make everything several times slower.
 #ifdef __SANITIZE_ADDRESS__
@@ -55,17 +28,6 @@ constexpr double kPatience_s = 20;
 #else
 constexpr double kPatience_s = 5;
 #endif
-
-// Whether the process catches `signal` by now.
-bool Listens(pid_t child, int signal) {
-  std::ifstream status("/proc/" + std::to_string(child) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind("SigCgt:", 0) == 0) {
-      return (std::stoull(line.substr(7), nullptr, 16) & (1ULL << (signal - 1))) != 0;
-    }
-  }
-  return true;  // it has ended
-}
 
 struct Ended {
   int exit_code = -1;  // -1: by a signal
@@ -93,12 +55,6 @@ const std::vector<std::string> kLongCompare = {"compare",      DataFolder("rtc_f
                                                "--population", "10",
                                                "--iterations", "20",
                                                "--runs",       "100000"};
-const std::vector<std::string> kLongCertify = {"certify",     DataFolder("rtc_france"),
-                                               "--n-lower",   "0.3",
-                                               "--n-upper",   "20",
-                                               "--tolerance", "1e-12",
-                                               "--effort",    "1000000000"};
-
 std::vector<std::string> With(std::vector<std::string> arguments,
                               const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -161,7 +117,7 @@ TEST_P(InterruptTest, SaysThatAComparisonIsNotComplete) {
 }
 
 TEST_P(InterruptTest, KeepsWhatIsProved) {
-  const nlohmann::json j = JsonOf(kLongCertify);
+  const nlohmann::json j = JsonOf({"certify", LongCurve(folder_), "--cells", "60"});
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   EXPECT_GT(j["floor"]["rmse_A"], 0);

@@ -45,6 +45,17 @@ inline std::string DataFolder(const std::string& name) {
   return std::string(LYREFIT_DATA_DIR) + "/" + name;
 }
 
+// A made curve with so many points that its proof takes a while; returns its path.
+inline std::string LongCurve(const TempFolder& folder) {
+  const std::string path = folder.Path("long.csv");
+  const AppResult made = RunApp(
+      "simulate --set Iph=8 --set Is1=3e-10 --set n1=1.1 --set Rs=0.3 --set Rsh=300 --cells 60 "
+      "--points 50000 --noise-A 0.008 --out '" +
+      path + "'");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  return path;
+}
+
 inline void RemoveSeconds(nlohmann::json* value) {
   if (value->is_object()) value->erase("seconds");
   for (auto& child : *value) {

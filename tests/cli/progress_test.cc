@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "run_app.h"
+#include "start_app.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+// What a run shows on a terminal until it ends or `seconds` are over, when it hears a Ctrl-C.
+std::string OnTerminal(std::vector<std::string> arguments, double seconds) {
+  arguments.insert(arguments.begin(), LYREFIT_APP);
+  std::vector<char*> words;
+  for (std::string& word : arguments) words.push_back(word.data());
+  words.push_back(nullptr);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execv(LYREFIT_APP, words.data());
+    _exit(127);
+  }
+  std::thread stopper([child, seconds] {
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    kill(child, SIGINT);
+  });
+  std::string shown;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;) shown.append(buffer, n);
+  stopper.join();
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(terminal);
+  return shown;
+}
+
+// What a run says on standard error, which is no terminal, until it hears a Ctrl-C.
+std::string OnStandardError(const std::vector<std::string>& arguments, double seconds) {
+  const TempFolder folder;
+  const pid_t child = StartApp(arguments, folder.Path("out"), folder.Path("err"));
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return FileText(folder.Path("err"));
+}
+
+const std::vector<std::string> kStudy = {"compare",      DataFolder("rtc_france"),
+                                         "--models",     "sd",
+                                         "--algorithms", "mlo,random",
+                                         "--population", "10",
+                                         "--iterations", "20",
+                                         "--runs",       "1000000"};
+
+TEST(Progress, ShowsABarAndTheTimeLeftOnATerminal) {
+  const std::string shown = OnTerminal(kStudy, 4);
+  EXPECT_THAT(shown, HasSubstr("compare [......"));
+  EXPECT_THAT(shown, ContainsRegex("of 2000000, about [0-9]+ (minutes|h [0-9]+ min) left"));
+  EXPECT_THAT(shown, ContainsRegex("lyrefit: this takes about [0-9]+ (minutes|h [0-9]+ min); "
+                                   "Ctrl-C keeps what is done"));
+  EXPECT_THAT(shown, HasSubstr("INTERRUPTED"));
+}
+
+TEST(Progress, LivesInAStageThatTellsNoEnd) {
+  const TempFolder folder;
+  const std::string shown = OnTerminal({"certify", LongCurve(folder), "--cells", "60"}, 3);
+  EXPECT_THAT(shown, ContainsRegex("(floor|sd|dd|td): [0-9]+ done, best [^ ]+, [0-9]+ s"));
+}
+
+TEST(Progress, SaysElsewhereOnceThatARunWillTakeLong) {
+  const std::string said = OnStandardError(kStudy, 4);
+  EXPECT_THAT(said, StartsWith("lyrefit: this takes about "));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
+
+TEST(Progress, IsSilentWhereAsked) {
+  std::vector<std::string> quiet = kStudy;
+  quiet.push_back("--quiet");
+  EXPECT_EQ(OnStandardError(quiet, 3), "");
+  EXPECT_THAT(OnTerminal(quiet, 3), Not(HasSubstr("compare [")));
+}
+
+TEST(Progress, SaysNothingElsewhereOfAShortRun) {
+  EXPECT_EQ(RunApp("fit '" + DataFolder("rtc_france") + "'").err, "");
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -174,7 +174,7 @@ void FillResults(const Job& job, FitReport* report) {
                                      job.free_parameters);
   report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
   report->not_usable_because =
-      WhyNotUsable(*report, job.stopped, job.options.loss != Loss::kSquared);
+      WhyNotUsable(*report, job.watch.stopped(), job.options.loss != Loss::kSquared);
   report->usable = report->not_usable_because.empty();
 }
 

@@ -69,7 +69,6 @@ ReproduceCommand::ReproduceCommand(CommandLine* line)
       .Type("N")
       .Group("Runs");
   AddResumeFlag(verb_, "run", &options_.journal);
-  verb_->AddQuietSwitch();
   verb_->AddOption("--peers", &peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
       .Type("LIST")
       .Group("Runs");

@@ -43,7 +43,6 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
       .Type("N")
       .Group("Runs");
   AddResumeFlag(verb, "run", &flags->options.journal);
-  verb->AddQuietSwitch();
   verb->AddOption("--json", &flags->json_file, "everything as JSON; - for standard output, alone")
       .Writes();
   verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")

@@ -140,6 +140,7 @@ TEST(CertifySound, TakesUglyCurves) {
   for (const Ugly& ugly : curves) {
     IvCurve curve;
     curve.name = ugly.name;
+    curve.as_is = true;
     curve.voltage_V = ugly.voltage_V;
     curve.current_A = ugly.current_A;
     const auto certificate = Certify(curve);

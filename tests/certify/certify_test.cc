@@ -147,6 +147,7 @@ TEST(Certify, TakesCurvesOfFewAndOddPoints) {
   for (const auto& one : odd) {
     IvCurve curve;
     curve.name = "odd";
+    curve.as_is = true;
     curve.voltage_V = one.voltage_V;
     curve.current_A = one.current_A;
     const auto certificate = Certify(curve);

@@ -171,7 +171,7 @@ TEST(MakeReadingsTest, TakesWhatTheNotesState) {
   curve.notes.isc_tempco_A_per_K = 0.004;
   const Readings readings = Make(SetOf({curve})).readings;
   EXPECT_EQ(readings.bandgap_eV, 1.4);
-  EXPECT_NEAR(readings.isc_tempco_per_K * readings.scale.current_A, 0.004, 1e-15);
+  EXPECT_NEAR(readings.isc_tempco_scales_per_K * readings.scale.current_A, 0.004, 1e-15);
 }
 
 TEST(MakeReadingsTest, RefusesWhatIsNoMeasurement) {

@@ -91,7 +91,6 @@ inline Readings MadeReadings(DataKind kind, int cells) {
   const int count = static_cast<int>(readings.points.size());
   for (int k = 0; k < count; ++k) {
     readings.points[k].x = (k + 0.3) / count - 0.5;
-    readings.points[k].gap = k + 1 < count ? 0.5 / count : 0;
   }
   readings.scale.current_A = 8.2;
   readings.scale.cells = cells;

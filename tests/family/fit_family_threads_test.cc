@@ -152,7 +152,7 @@ TEST(FitFamily, RefusesLessThanNoThreads) {
   FamilyOptions options = Small();
   options.threads = -3;
   EXPECT_THAT(FitFamily(SetWithAStranger(), options).error().message,
-              testing::HasSubstr("threads = -3 is below 0"));
+              testing::HasSubstr("threads = -3, expected 0"));
 }
 
 TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {

@@ -157,7 +157,7 @@ TEST_F(RefineJointlyTest, EndsAtTheBestPointSoFarWhenAskedTo) {
   start[law_.n] = 1.45;
   const double best = Total(RefineJointly(problem, PointAt(problem, start)));
   double before = HUGE_VAL;
-  for (const int steps : {0, 2, 4}) {
+  for (const int steps : {0, 1, 2}) {
     JointOptions options;
     int asked = 0;
     options.proceed = [&] { return asked++ < steps; };

@@ -51,7 +51,7 @@ bool DiodesIdentifiable(double simple_rmse, double rich_rmse, int degrees_of_fre
 }
 
 CandidateReport Judge(const FitReport& report, const FitOptions& options, const FitReport* simpler,
-                      Watch* watch) {
+                      FitWatch* watch) {
   CandidateReport candidate;
   candidate.model = report.model;
   candidate.rmse_A = report.rmse.refined.Of(report.objective);
@@ -93,7 +93,7 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
   std::vector<FitReport> fits;
   ModelChoice choice;
   std::string sentence;
-  Watch watch(observer);
+  FitWatch watch(observer);
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     FitOptions own = ForModel(options, model, curve);
     own.polish = true;

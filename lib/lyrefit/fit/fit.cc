@@ -13,6 +13,7 @@
 #include "lyrefit/device/model_points.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/intervals.h"
@@ -22,7 +23,6 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
-#include "lyrefit/fit/watch.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -40,7 +40,7 @@ struct Job {
   int free_parameters = 0;
   RefineProblem problem;
   RefineProblem few;  // the same problem or, of many points, what stands for it in the search
-  Watch watch;
+  FitWatch watch;
 };
 
 Expected<void> Prepare(Job* job, FitReport* report) {
@@ -279,7 +279,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
 
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
-  Job job{curve, options, observer, {}, {}, 0, {}, {}, Watch(observer)};
+  Job job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer)};
   if (auto ready = Prepare(&job, &report); !ready) return tl::unexpected(ready.error());
   report.version = Version();
   report.curve = curve;

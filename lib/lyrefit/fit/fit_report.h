@@ -173,8 +173,8 @@ struct FitReport {
   RefineReport refine;
   double interval_seconds = 0;
   std::optional<ModelChoice> choice;  // of `auto`
-  // Of an extended model: ids of the effects beside the diodes, and how many curves under conditions
-  // of their own it describes. What reads a fit back must know them.
+  // Of an extended model: ids of the effects beside the diodes, and how many curves under
+  // conditions of their own it describes. What reads a fit back must know them.
   std::vector<std::string> causes;
   int curves = 1;
   std::vector<OptionEcho> non_default_options;

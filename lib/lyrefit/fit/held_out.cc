@@ -38,7 +38,7 @@ Split MakeSplit(const IvCurve& curve, int block, int blocks) {
 
 }  // namespace
 
-double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* watch) {
+double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch) {
   const int points = static_cast<int>(report.curve.size());
   const int blocks = std::min(kMostBlocks, (points - 2) / kSmallestBlock);
   if (blocks < 2) return kUnknown;
@@ -50,7 +50,7 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* wa
     upper.push_back(e.bounds.upper);
   }
   const Observer nobody;
-  Watch unobserved(nobody);
+  FitWatch unobserved(nobody);
   if (watch == nullptr) watch = &unobserved;
   std::vector<double> squares(blocks);
   watch->Begin("held out", blocks);

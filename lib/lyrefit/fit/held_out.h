@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/fit/watch.h"
+#include "lyrefit/fit/fit_watch.h"
 
 namespace lyrefit {
 
@@ -12,6 +12,6 @@ namespace lyrefit {
 // alike and single points would be too easy; the first and the last point always stay in, since
 // beyond them every model is guessing. Refits see Thin() of the rest. NaN, too, once `watch` asks
 // to stop.
-double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* watch = nullptr);
+double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch = nullptr);
 
 }  // namespace lyrefit

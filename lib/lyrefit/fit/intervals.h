@@ -4,7 +4,7 @@
 
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/watch.h"
+#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -15,7 +15,7 @@ struct IntervalInput {
   Intervals method = Intervals::kProfile;
   int free_parameters = 0;
   int threads = 0;
-  Watch* watch;
+  FitWatch* watch;
   bool final = false;  // true: the profiles go on where one comes upon a lower optimum
 };
 

@@ -174,7 +174,7 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
 }
 
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
-                          const std::vector<PolishStart>& starts, Watch* watch) {
+                          const std::vector<PolishStart>& starts, FitWatch* watch) {
   const auto begin = std::chrono::steady_clock::now();
   watch->Begin("polish", static_cast<std::int64_t>(starts.size()));
   RefineOptions how;

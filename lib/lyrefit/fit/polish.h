@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/watch.h"
+#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -27,7 +27,7 @@ struct PolishResult {
 // Thin(problem); where that stands for more points, the ends that may be the best are solved once
 // more on all of them. Starts after the first are skipped when `watch` asks to stop.
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
-                          const std::vector<PolishStart>& starts, Watch* watch);
+                          const std::vector<PolishStart>& starts, FitWatch* watch);
 
 // The best bird first, then by turns the separable grid and further elites; for more than one diode
 // also the best single-diode curve, so that a richer model never ends above a poorer one.

@@ -105,8 +105,9 @@ Spread SpreadOf(std::vector<double> values, double reference) {
   const auto unknown = [](double value) { return std::isnan(value); };
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
   spread.median = MedianOf(values);
-  spread.min = values.front();
-  spread.max = values.back();
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  spread.min = *least;
+  spread.max = *most;
   // Rounding must not carry the mean of equal values out of their range.
   spread.mean = std::clamp(Mean(values), spread.min, spread.max);
   double squares = 0;

@@ -12,9 +12,9 @@ namespace lyrefit {
 
 // Tells the observer where the stages of one fit stand and remembers that it asked to stop. Safe
 // to ask from several threads: the observer is called by one at a time.
-class Watch {
+class FitWatch {
  public:
-  explicit Watch(const Observer& observer) : observer_(observer) {}
+  explicit FitWatch(const Observer& observer) : observer_(observer) {}
 
   // `stage` must outlive the watch. `planned`: steps of it, 0 when open.
   void Begin(std::string_view stage, std::int64_t planned) {

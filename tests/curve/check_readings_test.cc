@@ -182,7 +182,7 @@ TEST(CheckReadingsTest, CoarseInstrumentsHaveNoLimit) {
 TEST(JudgeReadingsTest, RefusesWithTheFileAndTheWayOut) {
   IvCurve curve = MadeModule();
   curve.source = "roof.csv";
-  curve.current_A[5] = 9.91e37;
+  curve.conditions.cells_in_series = 600;
   const auto judged = JudgeReadings(curve);
   ASSERT_FALSE(judged);
   EXPECT_EQ(judged.error().file, "roof.csv");
@@ -197,6 +197,19 @@ TEST(JudgeReadingsTest, AsIsTurnsARefusalIntoADoubt) {
   const auto judged = JudgeReadings(curve);
   ASSERT_TRUE(judged);
   EXPECT_THAT(*judged, ElementsAre(HasSubstr("600 stated cells")));
+}
+
+TEST(JudgeReadingsTest, OverflowsAndDeadChannelsAreNeverTaken) {
+  IvCurve overflow = MadeModule();
+  overflow.as_is = true;
+  IvCurve dead = overflow;
+  overflow.current_A[5] = 1e308;
+  dead.current_A.assign(100, 0);
+  for (const IvCurve& curve : {overflow, dead}) {
+    const auto judged = JudgeReadings(curve);
+    ASSERT_FALSE(judged);
+    EXPECT_THAT(judged.error().message, Not(HasSubstr("--as-is")));
+  }
 }
 
 TEST(JudgeReadingsTest, ADoubtAboutManyCurvesIsSaidOnce) {

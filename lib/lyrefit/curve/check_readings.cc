@@ -74,7 +74,7 @@ void LookForOverflow(const IvCurve& curve, Findings* out) {
                                 "an overflow or for no value: leave out such rows",
                                 column.name, points.front() + 1, more,
                                 column.values[points.front()], column.unit),
-                    true, points});
+                    true, points, true});
   }
 }
 
@@ -99,7 +99,7 @@ void LookForNothing(const IvCurve& curve, Findings* out) {
         "its unit right?",
         largest);
   }
-  if (!sentence.empty()) out->push_back({"nothing", sentence, true, {}});
+  if (!sentence.empty()) out->push_back({"nothing", sentence, true, {}, true});
 }
 
 void LookAtSigns(const Examined& look, Findings* out) {
@@ -285,6 +285,7 @@ Expected<std::vector<std::string>> JudgeReadings(const IvCurve& curve) {
   if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
   std::vector<std::string> doubts;
   for (const ReadingFinding& finding : CheckReadings(curve)) {
+    if (finding.always) return Fail(finding.sentence, curve.source);
     if (finding.refuse && !curve.as_is) {
       return Fail(finding.sentence + " (--as-is takes the readings as they are)", curve.source);
     }

@@ -15,6 +15,7 @@ struct ReadingFinding {
   std::string sentence;     // what was seen and what to do; no full stop
   bool refuse = false;      // false: a doubt, the readings can be worked with
   std::vector<int> points;  // positions in the curve it is about; empty: all
+  bool always = false;      // refused even `as_is`: there is nothing that could be fitted
 };
 
 // What is wrong with the readings of a sound curve (see Validate) before anything is fitted, the
@@ -30,7 +31,8 @@ struct ReadingFinding {
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);
 
 // The sentences of what is doubted. Errors: those of Validate, and what has to be refused, unless
-// the curve is to be taken `as_is`; then that is the first of the doubts.
+// the curve is to be taken `as_is`; then that is the first of the doubts. Overflows and dead
+// channels are refused always.
 Expected<std::vector<std::string>> JudgeReadings(const IvCurve& curve);
 
 // The same for curves of one measurement: each doubt once, with the first curve it is about.

@@ -147,12 +147,12 @@ void LookForCurrentLimit(const IvCurve& curve, bool low_end, std::vector<Reading
                              : IsForwardLimit(readings, run);
   if (!limit) return;
   const double from_V = readings.voltage_V[readings.position.size() - run];
-  out->push_back(
-      LimitFinding(readings, run,
-                   fmt::format("{} consecutive readings of exactly the same current {:.6g} A from "
-                               "{:.4g} V {}: a current limit (compliance) of the instrument? leave "
-                               "them out, or fit with a robust loss (--loss huber)",
-                               run, readings.current_A.back(), from_V, low_end ? "down" : "up")));
+  out->push_back(LimitFinding(
+      readings, run,
+      fmt::format("{} consecutive readings of exactly the same current {:.6g} A from "
+                  "{:.4g} V {}: a current limit (compliance) of the instrument? "
+                  "if so, leave them out: no model follows them, and robust losses do not help",
+                  run, readings.current_A.back(), from_V, low_end ? "down" : "up")));
 }
 
 int LongestRunElsewhere(const Ordered& readings, int run) {
@@ -176,7 +176,7 @@ void LookForVoltageLimit(const IvCurve& curve, bool low_end, std::vector<Reading
   out->push_back(LimitFinding(
       readings, run,
       fmt::format("{} readings of exactly the same voltage {:.6g} V at the {} end: a voltage limit "
-                  "of the instrument? leave them out, or fit with a robust loss (--loss huber)",
+                  "of the instrument? if so, leave them out",
                   run, readings.voltage_V.back(), low_end ? "low" : "high")));
 }
 

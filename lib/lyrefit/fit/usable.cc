@@ -69,10 +69,9 @@ std::string WhyNotUsable(const FitReport& report, bool interrupted, bool robust)
           "name the cause (lyrefit diagnose)",
           step->voltage_V, size);
     }
-    return fmt::format(
-        "no diode model within the bounds describes this curve: {}; a diagnosis may name the cause "
-        "(lyrefit diagnose)",
-        size);
+    return fmt::format("no diode model within the bounds describes this curve: {}; {}", size,
+                       report.doubts.empty() ? "a diagnosis may name the cause (lyrefit diagnose)"
+                                             : "look first at what is doubtful about its readings");
   }
   if (rmse >= StraightLineRmse(report.curve)) {
     return "a straight line describes these points as well";

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace lyrefit {
+
+Expected<void> ValidateThreads(int threads) {
+  if (threads >= 0) return {};
+  return Fail("threads = " + std::to_string(threads) + ", expected 0 (all cores) or more");
+}
 
 void ParallelFor(int count, int threads, const std::function<void(int)>& body) {
   if (threads <= 0) threads = std::max(1U, std::thread::hardware_concurrency());

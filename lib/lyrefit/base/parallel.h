@@ -2,7 +2,12 @@
 
 #include <functional>
 
+#include "lyrefit/base/error.h"
+
 namespace lyrefit {
+
+// What every `threads` among options must be: 0, all cores, or more.
+Expected<void> ValidateThreads(int threads);
 
 // Runs body(0) .. body(count - 1) on up to `threads` threads (0: all cores) and returns when all
 // are done. The bodies must be independent and write only to their own slot: then the result does

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/family/held_values.h"
 
 namespace lyrefit {
@@ -233,6 +234,7 @@ class Builder {
 
 Expected<void> CheckOptions(const FamilyOptions& options) {
   if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
+  if (auto valid = ValidateThreads(options.threads); !valid) return valid;
   const auto in_range = [](double value, double lower, double upper) {
     return value >= lower && value <= upper;
   };

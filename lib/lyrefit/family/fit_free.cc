@@ -66,6 +66,7 @@ FamilyCurve DescribeCurve(const IvCurve& curve) {
 
 Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
+  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   FamilyReport report;
   report.version = Version();
   report.name = set.name;

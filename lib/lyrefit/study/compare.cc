@@ -200,6 +200,7 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
   if (auto checked = CheckComparison(curves, contenders, options); !checked) {
     return tl::unexpected(checked.error());
   }
+  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   Study study(curves, contenders, options, observer);
   if (auto tried = study.Try(); !tried) return tl::unexpected(tried.error());
   return study.Run();

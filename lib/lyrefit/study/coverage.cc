@@ -173,6 +173,7 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   if (auto valid = ValidateOptions(options, kCoverageOptionTable); !valid) {
     return tl::unexpected(valid.error());
   }
+  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   if (options.cells_in_series < 1) return Fail("expected at least 1 cell in series");
   // The first set finds whatever is wrong with a module from the command line.
   if (auto tried = SimulateSet(options, 0); !tried) return tl::unexpected(tried.error());

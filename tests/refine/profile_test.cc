@@ -45,6 +45,32 @@ TEST(FindProfileSide, StopsAtTheBoundWhereTheDataDoNotObject) {
   EXPECT_EQ(low.value, 0);
 }
 
+TEST(FindProfileSide, EndsOutsideWhenItIsStopped) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  const RefineEnd best = Refine(problem, kSingleTruth);
+  const ProfileQuery query = {kRs, true, 2.03, 35, 0};
+  const ProfileSide whole = FindProfileSide(problem, best, query);
+  EXPECT_TRUE(whole.settled);
+  const ProfileSide stopped = FindProfileSide(problem, best, query, [] { return true; });
+  EXPECT_FALSE(stopped.settled);
+  EXPECT_GE(stopped.value, whole.value);
+}
+
+// Every optimum that is none, with every refit below it: the profile must reach beyond all it saw.
+TEST(FindProfileSide, IsNeverNarrowerThanWhatItSaw) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  RefineEnd wrong = Refine(problem, kSingleTruth);
+  wrong.mean_square *= 3;
+  for (const bool upper : {false, true}) {
+    const ProfileSide side = FindProfileSide(problem, wrong, {kIph, upper, 2.03, 35, 0});
+    EXPECT_FALSE(side.better.empty());
+    EXPECT_GT(std::fabs(side.value - wrong.p[kIph]), 1e-3);
+    EXPECT_EQ(side.value > wrong.p[kIph], upper);
+  }
+}
+
 TEST(FindSensitivity, IsTheScatterOfRepeatedMeasurements) {
   constexpr int kRepeats = 400;
   std::vector<double> mean(5), square(5), claimed(5);

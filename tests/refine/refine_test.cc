@@ -105,5 +105,57 @@ TEST(SeparableStarts, AreSortedDistinctAndInsideTheBounds) {
   }
 }
 
+// A cell whose current was held at a limit beyond open circuit: no diode does that.
+RefineProblem ClippedProblem() {
+  Conditions conditions;
+  const std::vector<double> truth = {0.038, 4e-10, 1.2, 0.3, 2900};
+  std::vector<double> voltage;
+  for (int k = 0; k < 83; ++k) voltage.push_back(-0.1 + 0.01 * k);
+  const Device device = MakeDevice(Model::kSingleDiode, conditions);
+  std::vector<double> current = SolveCurrents(device, truth.data(), voltage);
+  for (double& i : current) i = std::max(i, -0.05);
+  return MakeRefineProblem(device, Objective::kSolvedCurrent, voltage, current, {},
+                           {0, 0, 1, 0, 0.5}, {0.1, 1e-4, 2, 11, 1e13});
+}
+
+TEST(RefineFrom, NeverEndsAboveItsStart) {
+  const RefineProblem problem = ClippedProblem();
+  int astray = 0;
+  for (const double is : {8e-12, 1.6e-11, 3e-11}) {
+    for (const double rs : {1.0, 1.5, 1.85, 2.0}) {
+      const std::vector<double> start = {0.041, is, 1.01, rs, 175};
+      const double before = MeanSquare(problem, start);
+      EXPECT_LE(RefineFrom(problem, start).mean_square, before * (1 + 1e-9)) << is << ' ' << rs;
+      EXPECT_LE(Refine(problem, start).mean_square, before * (1 + 1e-9)) << is << ' ' << rs;
+      astray += Refine(problem, SeparableDescent(problem, start)).mean_square > before;
+    }
+  }
+  EXPECT_GT(astray, 0);  // else this curve shows nothing
+}
+
+TEST(Refine, HandsNothingToTheSolverThatIsNotFinite) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 5; ++i) {
+    std::vector<double> start = kSingleTruth;
+    start[i] = std::nan("");
+    EXPECT_FALSE(Refine(problem, start).converged) << i;
+    EXPECT_FALSE(RefinePlainly(problem, start).converged) << i;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Refine, StopsWithinAnIteration) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  RefineOptions how;
+  int asked = 0;
+  how.stop = [&] { return ++asked > 2; };
+  const RefineEnd end = Refine(problem, {3.7, 1e-7, 1.3, 0.2, 200}, how);
+  EXPECT_FALSE(end.converged);
+  EXPECT_EQ(asked, 3);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -10,13 +10,15 @@
 
 namespace lyrefit {
 
-// A 36-cell module measured at 40 points from 0 to a little past Voc, with noise of `noise_A`.
+// A 36-cell module measured at `points` points from 0 to a little past Voc, with noise of
+// `noise_A`.
 inline RefineProblem ModuleProblem(Model truth, Model fitted, const std::vector<double>& p,
-                                   double noise_A, Objective objective, std::uint64_t seed = 1) {
+                                   double noise_A, Objective objective, std::uint64_t seed = 1,
+                                   int points = 40) {
   Conditions conditions;
   conditions.cells_in_series = 36;
   std::vector<double> voltage;
-  for (int k = 0; k < 40; ++k) voltage.push_back(21.6 * k / 39);
+  for (int k = 0; k < points; ++k) voltage.push_back(21.6 * k / (points - 1));
   std::vector<double> current = SolveCurrents(MakeDevice(truth, conditions), p.data(), voltage);
   RandomStream random(seed);
   for (double& i : current) i += noise_A * random.Normal();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lyrefit/refine/finite.h"
 #include "lyrefit/refine/joint_residuals.h"
 
 namespace lyrefit {
@@ -35,6 +36,8 @@ class CurveCost : public ceres::CostFunction {
                             want_shared ? &shared : nullptr, want_local ? &local : nullptr)) {
       return false;
     }
+    if (want_shared && !AllFinite(shared.data(), shared.size())) return false;
+    if (want_local && !AllFinite(local.data(), local.size())) return false;
     if (want_shared) std::copy(shared.data(), shared.data() + shared.size(), jacobians[0]);
     if (want_local) std::copy(local.data(), local.data() + local.size(), jacobians[own]);
     return true;
@@ -108,6 +111,10 @@ JointStep SolveJointly(const JointProblem& problem, const JointCoordinates& coor
   }
   JointStep step;
   step.point = start;
+  for (const JointLocal& local : locals) {
+    if (!AllFinite(local.data(), local.size())) return step;
+  }
+  if (!AllFinite(theta.data(), theta.size())) return step;
   step.converged = theta.empty() && !any_local;  // nothing to find
   if (step.converged) return step;
   if (!theta.empty()) order->AddElementToGroup(theta.data(), 1);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/refine/finite.h"
+
 namespace lyrefit {
 namespace {
 
@@ -23,8 +25,10 @@ class Cost : public ceres::CostFunction {
     for (std::size_t k = 0; k < moving_.size(); ++k) p_[moving_[k]] = x[0][k];
     const bool slopes = jacobians != nullptr && jacobians[0] != nullptr;
     if (!problem_.evaluate(p_.data(), residuals, slopes ? jacobian_.data() : nullptr)) return false;
+    if (!AllFinite(residuals, problem_.residuals)) return false;
     if (!slopes) return true;
     double* to = jacobians[0];
+    if (!AllFinite(jacobian_.data(), jacobian_.size())) return false;
     for (int i = 0; i < problem_.residuals; ++i) {
       const double* row = jacobian_.data() + static_cast<std::size_t>(i) * p_.size();
       for (const int k : moving_) *to++ = row[k];
@@ -100,6 +104,7 @@ LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
     x.push_back(end.p[k]);
   }
   std::vector<double> residuals(problem.residuals);
+  if (!AllFinite(end.p.data(), end.p.size())) return end;
   if (!problem.evaluate(end.p.data(), residuals.data(), nullptr)) return end;
   end.usable = true;
   for (const double r : residuals) end.sum_of_squares += r * r;

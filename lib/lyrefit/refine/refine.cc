@@ -7,8 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/refine/finite.h"
 #include "lyrefit/refine/jacobian.h"
 #include "lyrefit/refine/residuals.h"
+#include "lyrefit/refine/separable.h"
+#include "lyrefit/refine/stop_asked.h"
+#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 namespace {
@@ -17,6 +21,8 @@ namespace {
 constexpr double kFaded = 1e-9;
 // Cosine below which a gradient counts as zero when a bound is released or a diode let in.
 constexpr double kFlat = 1e-8;
+// Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
+constexpr double kWorse = 1e-9;
 
 class Polish {
  public:
@@ -27,16 +33,20 @@ class Polish {
       p_[i] = std::min(std::max(p_[i], problem.lower[i]), problem.upper[i]);
       held_[i] = problem.fixed(i);
     }
+    mean_square_ = MeanSquare(problem_, p_);
+    Remember();
     RemoveFadedDiodes();
     mean_square_ = MeanSquare(problem_, p_);
   }
 
   RefineEnd Run() {
-    Solve(/*bounded=*/true, 1e-9, 40);
+    if (!Ended()) Solve(/*bounded=*/true, std::max(options_.function_tolerance, 1e-9), 40);
+    Remember();
     bool settled = false;
-    for (int round = 0; round < options_.max_rounds && !settled; ++round) {
+    for (int round = 0; round < options_.max_rounds && !settled && !Ended(); ++round) {
       HoldWhatPresses();
       settled = SolveFree() && !ReleaseOne() && !LetDiodeIn();
+      Remember();
     }
     return End(settled && solver_converged_);
   }
@@ -47,7 +57,23 @@ class Polish {
   }
 
  private:
-  RefineEnd End(bool converged) const {
+  bool Ended() const { return stop_.stopped() || mean_square_ <= options_.enough; }
+
+  // Holding and letting go may lead uphill on a curve that the model does not describe.
+  void Remember() {
+    if (!best_p_.empty() && !(mean_square_ < best_mean_square_)) return;
+    best_p_ = p_;
+    best_held_ = held_;
+    best_mean_square_ = mean_square_;
+  }
+
+  RefineEnd End(bool converged) {
+    if (!(mean_square_ <= best_mean_square_ * (1 + kWorse))) {
+      p_ = best_p_;
+      held_ = best_held_;
+      mean_square_ = best_mean_square_;
+      converged = false;
+    }
     RefineEnd end;
     end.p = p_;
     end.held = held_;
@@ -70,7 +96,9 @@ class Polish {
     }
     std::vector<double> theta = coordinates.Start();
     solver_converged_ = false;
-    if (!coordinates.Sane(theta.data())) return;  // no place to take a step from
+    // No place to take a step from.
+    if (!AllFinite(theta.data(), theta.size()) || !std::isfinite(mean_square_)) return;
+    if (!coordinates.Sane(theta.data())) return;
     const double unit_A = std::max(std::sqrt(mean_square_), 1e-13 * problem_.current_scale_A);
     auto* cost = new ceres::DynamicAutoDiffCostFunction<CurveResiduals, kJetWidth>(
         new CurveResiduals(problem_, coordinates, unit_A));
@@ -96,6 +124,9 @@ class Polish {
     options.initial_trust_region_radius = 1e10;  // starts are good: close to Gauss-Newton steps
     options.logging_type = ceres::SILENT;
     options.max_num_consecutive_invalid_steps = 20;
+    options.callbacks.push_back(&stop_);
+    stop_.set_enough(0.5 * options_.enough / (unit_A * unit_A) *
+                     static_cast<double>(problem_.voltage_V.size()));
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_problem, &summary);
     iterations_ += static_cast<int>(summary.iterations.size());
@@ -250,9 +281,17 @@ class Polish {
     return true;
   }
 
-  // If the residuals correlate with the column of a vanished diode anywhere in the range of its n,
-  // puts the diode there and solves on; keeps it only if that pays.
+  // If the residuals correlate with the column of a vanished diode anywhere in the range of its n
+  // (looked for on the few points that stand for many), puts the diode there and solves on; keeps
+  // it only if that pays.
   bool LetDiodeIn();
+
+  // A trial diode that is far too weak to matter, to read off the direction its current would pull.
+  struct Pull {
+    double cosine = 0;
+    double current = 0;  // the least-squares size of the diode alone
+  };
+  Pull PullOf(const RefineProblem& problem, int d, double n) const;
 
   const RefineProblem& problem_;
   const RefineOptions& options_;
@@ -263,44 +302,57 @@ class Polish {
   int iterations_ = 0;
   int released_ = 0;
   int let_in_ = 0;
+  StopAsked stop_{options_.stop};
+  RefineProblem few_;  // filled where needed
+  std::vector<double> best_p_;
+  std::vector<bool> best_held_;
+  double best_mean_square_ = 0;
 };
 
+Polish::Pull Polish::PullOf(const RefineProblem& problem, int d, double n) const {
+  const int is = SaturationCurrentIndex(d);
+  std::vector<double> trial = p_;
+  std::vector<bool> held(held_.size(), true);
+  held[is] = false;
+  trial[IdealityIndex(d)] = n;
+  const double exponent = problem.voltage_scale_V / (n * problem.device.module_thermal_voltage_V);
+  trial[is] = 1e-9 * problem.current_scale_A * std::exp(-std::min(exponent, 600.0));
+  const Linearization now = Linearize(problem, trial, held);
+  const double norm = now.jacobian.col(0).norm();
+  const double slope = now.jacobian.col(0).dot(now.residual);
+  return {-slope / (norm * now.residual.norm()), trial[is] * -slope / (norm * norm)};
+}
+
 bool Polish::LetDiodeIn() {
+  if (!options_.let_diodes_in || Ended()) return false;
   constexpr int kSteps = 24;
   for (int d = 0; d < DiodeCount(problem_.device); ++d) {
     const int is = SaturationCurrentIndex(d);
     const int n = IdealityIndex(d);
     if (!vanished(is) || problem_.fixed(is) || let_in_ > 3 * DiodeCount(problem_.device)) continue;
-    // A trial diode that is far too weak to matter, to read off the direction its current would
-    // pull.
-    double best_cosine = kFlat;
+    if (few_.voltage_V.empty()) few_ = Thin(problem_);
+    Pull best{kFlat, 0};
     double best_n = 0;
-    double best_is = 0;
-    std::vector<double> trial = p_;
-    std::vector<bool> held(held_.size(), true);
-    held[is] = false;
     for (int step = 0; step <= kSteps; ++step) {
       const double t = static_cast<double>(step) / kSteps;
-      trial[n] = 1 / ((1 - t) / problem_.lower[n] + t / problem_.upper[n]);
-      if (problem_.fixed(n)) trial[n] = problem_.lower[n];
-      const double exponent =
-          problem_.voltage_scale_V / (trial[n] * problem_.device.module_thermal_voltage_V);
-      trial[is] = 1e-9 * problem_.current_scale_A * std::exp(-std::min(exponent, 600.0));
-      const Linearization now = Linearize(problem_, trial, held);
-      const double norm = now.jacobian.col(0).norm();
-      const double slope = now.jacobian.col(0).dot(now.residual);
-      const double cosine = -slope / (norm * now.residual.norm());
-      if (cosine <= best_cosine) continue;
-      best_cosine = cosine;
-      best_n = trial[n];
-      best_is = trial[is] * -slope / (norm * norm);  // the least-squares size of the diode alone
+      const double trial = problem_.fixed(n)
+                               ? problem_.lower[n]
+                               : 1 / ((1 - t) / problem_.lower[n] + t / problem_.upper[n]);
+      const Pull pull = PullOf(few_, d, trial);
+      if (pull.cosine <= best.cosine) continue;
+      best = pull;
+      best_n = trial;
+    }
+    if (best_n > 0 && few_.points.size < problem_.points.size) {
+      best = PullOf(problem_, d, best_n);
+      if (best.cosine <= kFlat) best_n = 0;
     }
     if (best_n <= 0) continue;
     ++let_in_;
     const std::vector<double> before = p_;
     const std::vector<bool> held_before = held_;
     const double mean_square_before = mean_square_;
-    p_[is] = std::min(best_is, problem_.upper[is]);
+    p_[is] = std::min(best.current, problem_.upper[is]);
     p_[n] = best_n;
     held_[is] = false;
     held_[n] = problem_.fixed(n);
@@ -319,6 +371,15 @@ bool Polish::LetDiodeIn() {
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
   return Polish(problem, std::move(start), options).Run();
+}
+
+RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,
+                     const RefineOptions& options) {
+  const double tolerance = std::max(options.function_tolerance, 1e-11);
+  RefineEnd end = Refine(problem, SeparableDescent(problem, start, tolerance), options);
+  if (end.mean_square <= MeanSquare(problem, start) * (1 + kWorse)) return end;
+  RefineEnd own = Refine(problem, start, options);
+  return own.mean_square < end.mean_square ? own : end;
 }
 
 RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,

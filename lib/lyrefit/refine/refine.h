@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "lyrefit/refine/problem.h"
@@ -11,6 +11,9 @@ struct RefineOptions {
   int max_iterations = 2000;          // of one least-squares solve
   double function_tolerance = 1e-15;  // relative decrease of the sum of squares that ends a solve
   int max_rounds = 30;                // of settling which bounds are active
+  bool let_diodes_in = true;          // whether a diode that has vanished may come back
+  double enough = 0;                  // A^2: a mean square at or below which nothing more is done
+  std::function<bool()> stop;         // asked once an iteration; true: end where it stands
 };
 
 // Where a polish ended.
@@ -30,9 +33,14 @@ struct RefineEnd {
 // is left, release what wants back in), since the bounded solver alone stalls 1e-7 to 1e-5 above
 // the optimum when a bound is active. A diode whose saturation current may be 0 and which has faded
 // from the data is taken out, and let in again wherever in the range of n the residuals ask for
-// one.
+// one. Never ends above its start. A start that is not finite comes back as it is.
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options = {});
+
+// SeparableDescent, with the tolerance of `options` but no finer than its own, then Refine. Never
+// ends above `start`: where the descent led astray, Refine goes from the start itself.
+RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,
+                     const RefineOptions& options = {});
 
 // One bounded Ceres solve in all parameters at once and nothing more: what a metaheuristic followed
 // by least squares usually means, and the yardstick for Refine. `max_rounds` is not used.

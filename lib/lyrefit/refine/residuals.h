@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/device/solve.h"
 #include "lyrefit/refine/coordinates.h"
 
 namespace lyrefit {
@@ -30,12 +30,13 @@ class CurveResiduals {
     const std::vector<double> root =
         measured ? problem_.current_A
                  : SolveCurrents(problem_.device, value.data(), problem_.points, *problem_.kernel);
+    const Prepared<T> model(problem_.device, p.data());
+    const Prepared<double> numbers(problem_.device, value.data());
     for (std::size_t k = 0; k < problem_.voltage_V.size(); ++k) {
-      const T current = measured ? ExplicitCurrent(problem_.device, p.data(), problem_.voltage_V[k],
-                                                   problem_.current_A[k])
-                                 : Solved(p.data(), value.data(), problem_.voltage_V[k], root[k]);
+      const T current = measured ? model.Explicit(problem_.voltage_V[k], problem_.current_A[k])
+                                 : Solved(model, numbers, problem_.voltage_V[k], root[k]);
       residuals[k] = (current - problem_.current_A[k]) * (std::sqrt(problem_.weights[k]) / unit_A_);
-      if (!std::isfinite(Scalar(residuals[k]))) return false;
+      if (!Finite(residuals[k])) return false;
     }
     return true;
   }
@@ -47,16 +48,46 @@ class CurveResiduals {
     return x.a;
   }
 
-  double Solved(const double* /*p*/, const double* /*value*/, double /*voltage_V*/,
-                double root) const {
+  static bool Finite(double x) { return std::isfinite(x); }
+  template <class Jet>
+  static bool Finite(const Jet& x) {
+    return std::isfinite(x.a) && x.v.allFinite();
+  }
+
+  // ExplicitCurrent with what does not depend on the point computed once.
+  template <class S>
+  struct Prepared {
+    Prepared(const Device& device, const S* p)
+        : rs(p[device.resistance_series]), terms(device.terms.size()) {
+      for (std::size_t t = 0; t < terms.size(); ++t) {
+        PrepareTerm(device.terms[t], p, device.module_thermal_voltage_V, &terms[t]);
+      }
+    }
+    template <class T>
+    T Junction(const T& vd) const {
+      T current = T(0.0);
+      for (const PreparedTerm<S>& term : terms) current = current + TermCurrent(term, vd);
+      return current;
+    }
+    S Explicit(double voltage_V, double current_A) const {
+      return Junction(S(voltage_V + current_A * rs));
+    }
+    S rs;
+    std::vector<PreparedTerm<S>> terms;
+  };
+
+  static double Solved(const Prepared<double>& /*model*/, const Prepared<double>& /*numbers*/,
+                       double /*voltage_V*/, double root) {
     return root;
   }
   template <class Jet>
-  Jet Solved(const Jet* p, const double* value, double voltage_V, double root) const {
-    const OperatingPoint point = KnownOperatingPoint(problem_.device, value, voltage_V, root);
-    Jet current = ExplicitCurrent(problem_.device, p, voltage_V, root);
+  static Jet Solved(const Prepared<Jet>& model, const Prepared<double>& numbers, double voltage_V,
+                    double root) {
+    Jet current = model.Explicit(voltage_V, root);
+    const double vd = voltage_V + root * numbers.rs;
+    const double conductance = numbers.Junction(Slope<double>(vd, 1.0)).slope;
     current.a = root;
-    current.v *= ImplicitFactor(problem_.device, value, point);
+    current.v *= 1.0 / (1.0 - numbers.rs * conductance);
     return current;
   }
 

@@ -27,8 +27,10 @@ std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double
 // valleys of sums of diodes in a few steps where the full problem needs hundreds. A diode whose
 // current comes out 0 is moved to the n where the residuals ask for one, if there is such an n. For
 // the solved-current objective the points are weighted by 1 / (1 - Rs F')^2, which makes both
-// residuals agree to first order, so the end lies next to the optimum, not on it.
-std::vector<double> SeparableDescent(const RefineProblem& problem,
-                                     const std::vector<double>& start);
+// residuals agree to first order, so the end lies next to the optimum, not on it; on a curve that
+// the model does not describe it may lie anywhere, see RefineFrom. `tolerance` is the relative
+// decrease of the sum of squares by which a descent goes on.
+std::vector<double> SeparableDescent(const RefineProblem& problem, const std::vector<double>& start,
+                                     double tolerance = 1e-11);
 
 }  // namespace lyrefit

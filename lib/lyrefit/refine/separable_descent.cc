@@ -10,13 +10,12 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMaxSteps = 60;
-constexpr double kTolerance = 1e-11;  // relative decrease that ends the descent
 
 // The reduced problem in theta = (Rs / R0, 1/n of each diode).
 class Descent {
  public:
-  Descent(const RefineProblem& problem, const std::vector<double>& start)
-      : problem_(problem), weights_(problem.weights) {
+  Descent(const RefineProblem& problem, const std::vector<double>& start, double tolerance)
+      : problem_(problem), tolerance_(tolerance), weights_(problem.weights) {
     const int diodes = DiodeCount(problem.device);
     theta_.resize(1 + diodes);
     lower_.resize(1 + diodes);
@@ -135,7 +134,7 @@ class Descent {
         theta_ = trial;
         linear_ = std::move(linear);
         *damping = std::max(*damping * 0.1, 1e-12);
-        return before - after > kTolerance * before;
+        return before - after > tolerance_ * before;
       }
       *damping *= 10;
     }
@@ -175,6 +174,7 @@ class Descent {
   }
 
   const RefineProblem& problem_;
+  const double tolerance_;
   std::vector<double> weights_;
   Eigen::VectorXd theta_;
   Eigen::VectorXd lower_;
@@ -184,9 +184,9 @@ class Descent {
 
 }  // namespace
 
-std::vector<double> SeparableDescent(const RefineProblem& problem,
-                                     const std::vector<double>& start) {
-  Descent descent(problem, start);
+std::vector<double> SeparableDescent(const RefineProblem& problem, const std::vector<double>& start,
+                                     double tolerance) {
+  Descent descent(problem, start, tolerance);
   if (problem.objective == Objective::kMeasuredCurrent) {
     descent.Run();
     return descent.Parameters();

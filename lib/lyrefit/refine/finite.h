@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace lyrefit {
+
+// Ceres writes to the log when it is handed a number that is not finite; what goes to it passes
+// here first.
+inline bool AllFinite(const double* x, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!std::isfinite(x[k])) return false;
+  }
+  return true;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,110 @@
+#include "lyrefit/refine/thin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/sensitivity.h"
+#include "refine/test_curves.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kMany = 1000;
+
+TEST(Thin, LeavesFewPointsAsTheyAre) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  const RefineProblem thin = Thin(problem);
+  EXPECT_EQ(thin.voltage_V, problem.voltage_V);
+  EXPECT_EQ(thin.current_A, problem.current_A);
+}
+
+TEST(Thin, KeepsTheSumOfSquaresAroundTheOptimum) {
+  for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
+    const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
+                                                kDoubleTruth, 3e-3, objective, 1, kMany);
+    const RefineProblem thin = Thin(problem);
+    EXPECT_LE(thin.points.size, 256);
+    EXPECT_EQ(thin.resistance_scale(), problem.resistance_scale());
+    const RefineEnd best = Refine(problem, kDoubleTruth);
+    EXPECT_NEAR(MeanSquare(thin, best.p) / best.mean_square, 1, 0.01);
+    for (int i = 0; i < problem.device.size(); ++i) {
+      std::vector<double> moved = best.p;
+      moved[i] *= i == kRsh ? 1.1 : 1.01;
+      const double rise = MeanSquare(problem, moved) - best.mean_square;
+      const double thin_rise = MeanSquare(thin, moved) - MeanSquare(thin, best.p);
+      EXPECT_NEAR(thin_rise, rise, 0.01 * rise + 1e-4 * best.mean_square) << i;
+    }
+  }
+}
+
+TEST(Thin, CountsEveryPointWithItsWeight) {
+  RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
+                                        3e-3, Objective::kSolvedCurrent, 1, kMany);
+  std::vector<double> weights(kMany, 1);
+  std::vector<double> spoiled = problem.current_A;
+  for (int k = 300; k < 600; ++k) weights[k] = 1e-12, spoiled[k] += 1;
+  const RefineProblem weighted =
+      MakeRefineProblem(problem.device, problem.objective, problem.voltage_V, spoiled, weights,
+                        problem.lower, problem.upper);
+  const RefineEnd all = Refine(weighted, kSingleTruth);
+  const RefineEnd few = Refine(Thin(weighted), kSingleTruth);
+  EXPECT_NEAR(few.p[kIph] / all.p[kIph], 1, 1e-5);
+  EXPECT_NEAR(few.p[2] / all.p[2], 1, 1e-3);
+}
+
+struct Case {
+  const char* name;
+  Model truth;
+  Model fitted;
+  std::vector<double> p;
+};
+
+// The interval on the few points is that on all to 1 % of its half width, where the profile ends
+// inside the bounds, and ends at the bound where the other does.
+TEST(Thin, GivesTheProfileOfAllPoints) {
+  const Case cases[] = {
+      {"sd", Model::kSingleDiode, Model::kSingleDiode, kSingleTruth},
+      {"dd", Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth},
+      {"dd at its bounds", Model::kSingleDiode, Model::kDoubleDiode, kSingleTruth},
+      {"td", Model::kDoubleDiode, Model::kTripleDiode, kDoubleTruth},
+  };
+  for (const Case& c : cases) {
+    for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
+      const RefineProblem all = ModuleProblem(c.truth, c.fitted, c.p, 3e-3, objective, 2, kMany);
+      std::vector<double> start = c.p;
+      for (int i = static_cast<int>(start.size()); i < all.device.size(); ++i) {
+        start.push_back(i % 2 == 1 ? 1e-8 : 1.5);
+      }
+      const RefineEnd best = RefineFrom(all, start);
+      const RefineProblem few = Thin(all);
+      const RefineEnd few_best = Refine(few, best.p);
+      const int degrees = kMany - all.device.size();
+      const Sensitivity sensitivity = FindSensitivity(all, best, degrees);
+      for (const int i : {kIph + 0, kRs + 0, kRsh + 0}) {
+        const double error = sensitivity.standard_error[i];
+        double value[2][2];
+        for (const bool upper : {false, true}) {
+          const ProfileQuery query = {i, upper, 1.962, degrees, error, false};
+          const ProfileSide full = FindProfileSide(all, best, query);
+          const ProfileSide thin = FindProfileSide(few, few_best, query);
+          EXPECT_TRUE(full.settled && thin.settled) << c.name << ' ' << i;
+          EXPECT_EQ(thin.at_bound, full.at_bound) << c.name << ' ' << i;
+          value[0][upper] = full.value;
+          value[1][upper] = thin.value;
+        }
+        const double half = 0.5 * (value[0][1] - value[0][0]);
+        EXPECT_NEAR(value[1][0], value[0][0], 0.01 * half)
+            << c.name << ' ' << i << ' ' << ToText(objective);
+        EXPECT_NEAR(value[1][1], value[0][1], 0.01 * half)
+            << c.name << ' ' << i << ' ' << ToText(objective);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -281,5 +281,58 @@ TEST(Fit, EchoesEveryOptionThatDiffersFromItsDefault) {
   EXPECT_EQ(echo, "bound=Rs=0:0.5;seed=7;intervals=none;");
 }
 
+// A source-meter that held the current at its limit beyond open circuit: no diode does that, and
+// the linear stand-in of the descent leads astray.
+IvCurve Clipped() {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 1;
+  for (int k = 0; k < 83; ++k) curve.voltage_V.push_back(-0.1 + 0.01 * k);
+  const std::vector<double> truth = {0.038, 4e-10, 1.2, 0.3, 2900};
+  curve.current_A = SolveCurrents(MakeDevice(Model::kSingleDiode, curve.conditions), truth.data(),
+                                  curve.voltage_V);
+  RandomStream random(4);
+  for (double& i : curve.current_A) i = std::max(i + 1e-5 * random.Normal(), -0.05);
+  return curve;
+}
+
+TEST(Fit, NeverPolishesABirdIntoSomethingWorse) {
+  for (int seed = 0; seed < 4; ++seed) {
+    FitOptions options;
+    options.search.seed = seed;
+    options.intervals = Intervals::kNone;
+    const RmseTable rmse = Fit(Clipped(), options)->rmse;
+    EXPECT_LE(rmse.best_bird_polished.solved_current_A,
+              rmse.searched.solved_current_A * (1 + 1e-9));
+  }
+}
+
+TEST(Fit, HasTheSameParametersWithAndWithoutIntervals) {
+  for (int seed = 0; seed < 3; ++seed) {
+    FitOptions options;
+    options.search.seed = seed;
+    const FitReport with = *Fit(Clipped(), options);
+    options.intervals = Intervals::kNone;
+    EXPECT_EQ(Fit(Clipped(), options)->refined, with.refined) << seed;
+  }
+}
+
+TEST(Fit, GivesNoIntervalNarrowerThanItsProfileSaw) {
+  const FitReport report = *Fit(Clipped(), {});
+  for (const Estimate& e : report.estimates) {
+    EXPECT_LT(e.low_95, e.high_95) << e.info.symbol;
+    const bool inside = e.at_bound == BoundSide::kNone;
+    if (inside) EXPECT_LT(e.low_95, e.refined) << e.info.symbol;
+    if (inside) EXPECT_LT(e.refined, e.high_95) << e.info.symbol;
+    if (!std::isfinite(e.standard_error)) continue;
+    EXPECT_GT(e.high_95 - e.low_95, 0.5 * e.standard_error) << e.info.symbol;
+  }
+}
+
+TEST(Fit, RefusesANegativeNumberOfThreads) {
+  FitOptions options;
+  options.threads = -3;
+  EXPECT_EQ(ErrorOf(Rtc(), options), "threads = -3, expected 0 (all cores) or more");
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/device/current.h"
 #include "lyrefit/device/model_points.h"
+#include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/floor.h"
@@ -19,6 +21,8 @@
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/warnings.h"
+#include "lyrefit/fit/watch.h"
+#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 namespace {
@@ -34,12 +38,8 @@ struct Job {
   std::vector<double> fixed;
   int free_parameters = 0;
   RefineProblem problem;
-  bool stopped = false;
-
-  bool Stop(std::string_view stage) {
-    if (!stopped && StopRequested(observer, {stage, 0, 0, 0, 0, 0})) stopped = true;
-    return stopped;
-  }
+  RefineProblem few;  // the same problem or, of many points, what stands for it in the search
+  Watch watch;
 };
 
 Expected<void> Prepare(Job* job, FitReport* report) {
@@ -47,6 +47,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   const FitOptions& options = job->options;
   if (auto valid = Validate(curve); !valid) return valid;
   if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
+  if (auto valid = ValidateThreads(options.threads); !valid) return valid;
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
   report->device = MakeDevice(options.model, curve.conditions, options.constants);
   auto bounds = MakeBounds(options.bounds, report->device, curve);
@@ -79,6 +80,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
       MakeRefineProblem(report->device, options.objective, curve.voltage_V, curve.current_A,
                         std::move(weights), std::move(lower), std::move(upper));
   if (options.kernel != nullptr) job->problem.kernel = options.kernel;
+  job->few = Thin(job->problem);
   return {};
 }
 
@@ -87,29 +89,43 @@ RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCu
           Rmse(device, Objective::kSolvedCurrent, p.data(), curve.voltage_V, curve.current_A)};
 }
 
+// The best of as many random points as the search evaluated.
+void RunRandomBaseline(Job* job, const SearchSpace& space, const ObjectiveFunction& objective,
+                       FitReport* report) {
+  SearchOptions random = job->options.search;
+  random.algorithm = Algorithm::kRandom;
+  random.max_evaluations = std::max<std::int64_t>(report->search.evaluations, 4);
+  random.target = -kInfinity;
+  random.patience = 0;
+  const SearchSummary baseline = Search(objective, space.box(), random, job->observer);
+  if (baseline.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
+  std::vector<double> p(report->device.size());
+  space.ToParameters(baseline.best.x.data(), p.data());
+  report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
+}
+
 // Runs the search; returns the elites as parameter vectors.
-std::vector<std::vector<double>> RunSearch(Job* job, FitReport* report) {
+Expected<std::vector<std::vector<double>>> RunSearch(Job* job, FitReport* report) {
   const SearchSpace space(job->bounds, job->fixed);
   std::vector<double> p(report->device.size());
-  const ObjectiveFunction objective = [&](const double* x) {
-    space.ToParameters(x, p.data());
-    return std::sqrt(MeanSquare(job->problem, p));
+  const auto rmse_of = [&](const RefineProblem& problem) -> ObjectiveFunction {
+    return [&](const double* x) {
+      space.ToParameters(x, p.data());
+      return std::sqrt(MeanSquare(problem, p));
+    };
   };
+  const ObjectiveFunction objective = rmse_of(job->few);
   const SearchFunction& searcher = job->options.searcher;
   report->search = searcher ? searcher(objective, space.box(), job->options.search, job->observer)
                             : Search(objective, space.box(), job->options.search, job->observer);
-  job->stopped = report->search.termination == SearchTermination::kInterrupted;
+  if (searcher || job->few.points.size < job->problem.points.size) {
+    const auto valid = CheckBirds(rmse_of(job->problem), space.box(), &report->search);
+    if (!valid) return tl::unexpected(valid.error());
+  }
+  if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
-  if (job->options.random_baseline && !is_random && !job->stopped) {
-    SearchOptions random = job->options.search;
-    random.algorithm = Algorithm::kRandom;
-    random.max_evaluations = std::max<std::int64_t>(report->search.evaluations, 4);
-    random.target = -kInfinity;
-    random.patience = 0;
-    const SearchSummary baseline = Search(objective, space.box(), random, job->observer);
-    job->stopped = baseline.termination == SearchTermination::kInterrupted;
-    space.ToParameters(baseline.best.x.data(), p.data());
-    report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
+  if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
+    RunRandomBaseline(job, space, objective, report);
   }
   std::vector<std::vector<double>> elites;
   for (const Bird& bird : report->search.elites) {
@@ -176,7 +192,7 @@ void FillResults(const Job& job, FitReport* report) {
 
 // How far the answer lies above what any number of diodes could reach.
 void FindFloor(Job* job, FitReport* report) {
-  if (!job->options.floor || job->Stop("floor")) return;
+  if (!job->options.floor || job->watch.Stop()) return;
   const CertifyOptions options = RangesOf(job->bounds, job->options.constants, {});
   const Expected<Certificate> certificate = Certify(job->curve, options, job->observer);
   if (!certificate) {
@@ -192,7 +208,7 @@ void FindFloor(Job* job, FitReport* report) {
                     certificate->floor.rmse_A -
                 1;
   report->floor = floor;
-  job->stopped = job->stopped || certificate->interrupted;
+  if (certificate->interrupted) job->watch.MarkStopped();
 }
 
 void EchoOptions(const FitOptions& options, FitReport* report) {
@@ -221,41 +237,51 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
 }
 
-// Polishes, finds intervals, and starts over from a lower optimum if a profile comes upon one.
+// Takes `better` as the end of the polish.
+void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& better,
+               RefineReport* report) {
+  for (StartReport& start : report->starts) start.agrees = false;
+  report->starts.push_back(
+      {"profile", std::sqrt(MeanSquare(job.problem, better)), std::sqrt(end.mean_square), true});
+  report->winner = static_cast<int>(report->starts.size()) - 1;
+  report->agreeing = 1;
+}
+
+// Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
+void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
+  const FitOptions& options = job->options;
+  constexpr int kRestarts = 3;
+  for (int round = 0; round <= kRestarts; ++round) {
+    OrderDiodes(job->bounds, &end->p, &end->held);
+    report->refined = end->p;
+    FillEstimates(*job, report);
+    report->correlations.clear();
+    const IntervalInput input{job->problem,    *end,        options.intervals, job->free_parameters,
+                              options.threads, &job->watch, round == kRestarts};
+    const std::vector<double> better =
+        FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
+    if (better.empty() || round == kRestarts) break;
+    RefineOptions how;
+    how.stop = job->watch.stop();
+    *end = Refine(job->problem, better, how);
+    StartOver(*job, *end, better, &report->refine);
+  }
+}
+
+// Polishes, finds intervals, and says where the polish ended.
 void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, FitReport* report) {
   const FitOptions& options = job->options;
-  const auto stop = [&] { return job->Stop("polish"); };
-  const auto starts = CollectStarts(job->problem, elites, kGridStarts);
-  PolishResult polish = PolishStarts(job->problem, starts, stop);
+  const auto starts = CollectStarts(job->few, elites, kGridStarts);
+  PolishResult polish = PolishStarts(job->problem, job->few, starts, &job->watch);
   report->polished = true;
   report->refine = polish.report;
   report->best_bird_polished = polish.first.p;
   OrderDiodes(job->bounds, &report->best_bird_polished, nullptr);
   RefineEnd end = polish.best;
-  if (options.loss != Loss::kSquared) Robustify(options, &job->problem, &end);
+  if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
   const auto begin = std::chrono::steady_clock::now();
-  constexpr int kRestarts = 3;
-  for (int round = 0; round <= kRestarts; ++round) {
-    OrderDiodes(job->bounds, &end.p, &end.held);
-    report->refined = end.p;
-    FillEstimates(*job, report);
-    report->correlations.clear();
-    const IntervalInput input{job->problem,      end,
-                              options.intervals, job->free_parameters,
-                              options.threads,   [&] { return job->Stop("intervals"); }};
-    const std::vector<double> better =
-        FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
-    if (better.empty() || round == kRestarts) break;
-    end = Refine(job->problem, better);
-    report->refine.starts.push_back(
-        {"profile", std::sqrt(MeanSquare(job->problem, better)), std::sqrt(end.mean_square), true});
-    report->refine.winner = static_cast<int>(report->refine.starts.size()) - 1;
-    report->refine.agreeing = 1;
-    for (std::size_t s = 0; s + 1 < report->refine.starts.size(); ++s) {
-      report->refine.starts[s].agrees = false;
-    }
-  }
+  JudgeAndImprove(job, &end, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -265,7 +291,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
 
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
-  Job job{curve, options, observer, {}, {}, 0, {}, false};
+  Job job{curve, options, observer, {}, {}, 0, {}, {}, Watch(observer)};
   if (auto ready = Prepare(&job, &report); !ready) return tl::unexpected(ready.error());
   report.version = Version();
   report.curve = curve;
@@ -276,7 +302,9 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   EchoOptions(options, &report);
 
-  const std::vector<std::vector<double>> elites = RunSearch(&job, &report);
+  auto searched = RunSearch(&job, &report);
+  if (!searched) return tl::unexpected(searched.error());
+  const std::vector<std::vector<double>>& elites = *searched;
   report.searched = report.refined = elites[0];
   OrderDiodes(job.bounds, &report.searched, nullptr);
   if (options.plain_polish) {
@@ -290,10 +318,10 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     FillEstimates(job, &report);
   }
   FillResults(job, &report);
-  report.interrupted = job.stopped;
+  report.interrupted = job.watch.stopped();
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);
-  report.interrupted = job.stopped;
+  report.interrupted = job.watch.stopped();
   return report;
 }
 

@@ -28,13 +28,16 @@ enum class IntervalMethod {
   kNone,       // fixed, or not asked for
   kSymmetric,  // estimate -+ t x standard error on the parameter's own scale, cut at the bounds
   kProfile,    // where the refitted sum of squares crosses the F threshold, or a bound
+  kUnsettled,  // a profile that did not meet the threshold on a side: its ends lie outside of it
 };
 
 template <>
 struct EnumTable<IntervalMethod> {
-  static constexpr EnumText<IntervalMethod> kRows[] = {{IntervalMethod::kNone, "none"},
-                                                       {IntervalMethod::kSymmetric, "symmetric"},
-                                                       {IntervalMethod::kProfile, "profile"}};
+  static constexpr EnumText<IntervalMethod> kRows[] = {
+      {IntervalMethod::kNone, "none"},
+      {IntervalMethod::kSymmetric, "symmetric"},
+      {IntervalMethod::kProfile, "profile"},
+      {IntervalMethod::kUnsettled, "unsettled profile"}};
 };
 
 // One parameter, searched and refined side by side. NaN: not known (no polish, or no spread to be

@@ -8,6 +8,7 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
+#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 namespace {
@@ -37,7 +38,7 @@ Split MakeSplit(const IvCurve& curve, int block, int blocks) {
 
 }  // namespace
 
-double HeldOutRmse(const FitReport& report, const FitOptions& options) {
+double HeldOutRmse(const FitReport& report, const FitOptions& options, Watch* watch) {
   const int points = static_cast<int>(report.curve.size());
   const int blocks = std::min(kMostBlocks, (points - 2) / kSmallestBlock);
   if (blocks < 2) return kUnknown;
@@ -48,23 +49,31 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options) {
     lower.push_back(e.bounds.lower);
     upper.push_back(e.bounds.upper);
   }
+  const Observer nobody;
+  Watch unobserved(nobody);
+  if (watch == nullptr) watch = &unobserved;
   std::vector<double> squares(blocks);
+  watch->Begin("held out", blocks);
   ParallelFor(blocks, options.threads, [&](int block) {
     const Split split = MakeSplit(report.curve, block, blocks);
     std::vector<double> weights;
     for (const double sigma : split.kept.sigma_A) weights.push_back(1 / (sigma * sigma));
     const RefineProblem problem =
-        MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
-                          split.kept.current_A, std::move(weights), lower, upper);
-    RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined));
+        Thin(MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
+                               split.kept.current_A, std::move(weights), lower, upper));
+    RefineOptions how;
+    how.stop = watch->stop();
+    if (watch->Next()) return;
+    RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined), how);
     for (const SeparableStart& start : SeparableStarts(problem, report.refined[kRs], 1)) {
-      RefineEnd other = Refine(problem, SeparableDescent(problem, start.p));
+      RefineEnd other = Refine(problem, SeparableDescent(problem, start.p), how);
       if (other.mean_square < end.mean_square) end = std::move(other);
     }
     const double rmse = Rmse(report.device, report.objective, end.p.data(),
                              split.left_out.voltage_V, split.left_out.current_A);
     squares[block] = rmse * rmse * static_cast<double>(split.left_out.size());
   });
+  if (watch->stopped()) return kUnknown;
   double sum = 0;
   for (const double square : squares) sum += square;
   return std::sqrt(sum / (points - 2));

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/refine/coordinates.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/sensitivity.h"
+#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 namespace {
@@ -100,41 +100,69 @@ class IntervalFinder {
     return relative > kLinearReach;
   }
 
-  void ProfileWhereNeeded(bool saturation_currents) {
+  std::vector<ProfileQuery> Queries(bool saturation_currents) const {
     std::vector<ProfileQuery> queries;
     for (int i = 0; i < size_; ++i) {
       if (Coordinates::IsSaturation(i) != saturation_currents || !NeedsProfile(i)) continue;
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, degrees_, estimates_[i].standard_error});
+        queries.push_back({i, upper, t_, degrees_, estimates_[i].standard_error,
+                           /*end_at_better=*/!input_.final && !Thinned()});
       }
     }
+    return queries;
+  }
+
+  void ProfileWhereNeeded(bool saturation_currents) {
+    PrepareFew();
+    const std::vector<ProfileQuery> queries = Queries(saturation_currents);
     const int count = static_cast<int>(queries.size());
+    if (count == 0) return;
     std::vector<ProfileSide> sides(count);
     std::vector<char> done(count, 0);
-    std::mutex asking;
+    input_.watch->Begin("intervals", count);
     ParallelFor(count, input_.threads, [&](int q) {
-      {
-        const std::lock_guard<std::mutex> lock(asking);
-        if (input_.stop()) return;
-      }
-      sides[q] = FindProfileSide(input_.problem, input_.end, queries[q]);
-      done[q] = 1;
+      if (input_.watch->Next()) return;
+      sides[q] = FindProfileSide(few_, few_end_, queries[q], input_.watch->stop());
+      done[q] = sides[q].settled || !input_.watch->stopped() ? 1 : 0;
     });
     for (int q = 0; q + 1 < count; q += 2) {
       if (!done[q] || !done[q + 1]) continue;
       Estimate& e = estimates_[queries[q].parameter];
-      e.interval = IntervalMethod::kProfile;
+      const bool settled = sides[q].settled && sides[q + 1].settled;
+      e.interval = settled ? IntervalMethod::kProfile : IntervalMethod::kUnsettled;
       e.low_95 = sides[q].value;
       e.high_95 = sides[q + 1].value;
-      for (const ProfileSide* side : {&sides[q], &sides[q + 1]}) {
-        if (side->better.empty()) continue;
-        if (better_.empty() ||
-            MeanSquare(input_.problem, side->better) < MeanSquare(input_.problem, better_)) {
-          better_ = side->better;
-        }
-      }
+      for (const ProfileSide* side : {&sides[q], &sides[q + 1]}) TakeIfBetter(side->better);
     }
+  }
+
+  bool Thinned() const { return few_.points.size < input_.problem.points.size; }
+
+  // The few points that stand for many, and the optimum on them.
+  void PrepareFew() {
+    if (!few_end_.p.empty()) return;
+    few_ = Thin(input_.problem);
+    few_end_ = Thinned() ? Refine(few_, input_.end.p, HowToRefine()) : input_.end;
+  }
+
+  RefineOptions HowToRefine() const {
+    RefineOptions how;
+    how.stop = input_.watch->stop();
+    return how;
+  }
+
+  // What is better on few points must be better on all.
+  void TakeIfBetter(const std::vector<double>& p) {
+    if (p.empty()) return;
+    constexpr double kLower = 1e-7;  // relative
+    RefineEnd end;
+    end.p = p;
+    end.mean_square = MeanSquare(input_.problem, p);
+    if (Thinned()) end = Refine(input_.problem, p, HowToRefine());
+    const double lowest = better_.empty() ? input_.end.mean_square * (1 - kLower)
+                                          : MeanSquare(input_.problem, better_);
+    if (end.mean_square < lowest) better_ = end.p;
   }
 
   // A diode that the data allow to be absent says nothing about its n.
@@ -163,7 +191,8 @@ class IntervalFinder {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
       if (e.fixed || !e.identifiable) continue;
-      const bool profiled = e.interval == IntervalMethod::kProfile;
+      const bool profiled =
+          e.interval == IntervalMethod::kProfile || e.interval == IntervalMethod::kUnsettled;
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "the data allow its whole range";
@@ -195,6 +224,8 @@ class IntervalFinder {
   const int size_;
   int degrees_ = 1;
   double t_ = 2;
+  RefineProblem few_;
+  RefineEnd few_end_;
   std::vector<double> better_;
 };
 

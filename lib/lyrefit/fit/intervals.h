@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/fit/watch.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -15,12 +15,13 @@ struct IntervalInput {
   Intervals method = Intervals::kProfile;
   int free_parameters = 0;
   int threads = 0;
-  std::function<bool()> stop;
+  Watch* watch;
+  bool final = false;  // true: the profiles go on where one comes upon a lower optimum
 };
 
 // Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and
-// condition. Returns parameters of a lower optimum if a profile came upon one, else an empty
-// vector.
+// condition. The profiles are those of Thin(problem). Returns parameters of a lower optimum if a
+// profile came upon one, else an empty vector.
 std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
                                   std::vector<Correlation>* correlations, double* condition);
 

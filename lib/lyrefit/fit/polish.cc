@@ -13,6 +13,8 @@ namespace {
 constexpr double kAgree = 1e-9;      // relative, of RMSE: two ends are the same
 constexpr double kBetter = 1e-12;    // relative, of RMSE: one end is better than another
 constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents have come to the same curve
+// Of the RMSE: ends on few points so close to the best may be the best on all points.
+constexpr double kMayBeBest = 1e-3;
 
 std::vector<double> ExplicitCurve(const RefineProblem& problem, const std::vector<double>& p) {
   std::vector<double> current;
@@ -50,6 +52,18 @@ class Groups {
   }
 
   int Leader(int s) const { return leader_[s]; }
+
+  // Start s leads a group of its own from now on; who followed it follow the next of them.
+  void LeaveGroup(int s, std::vector<RefineEnd>* ends) {
+    int heir = -1;
+    for (int other = s + 1; other < static_cast<int>(leader_.size()); ++other) {
+      if (leader_[s] != s || leader_[other] != s) continue;
+      if (heir < 0) (*ends)[other] = (*ends)[s];
+      if (heir < 0) heir = other;
+      leader_[other] = heir;
+    }
+    leader_[s] = s;
+  }
 
   // Members of the group with the lowest error.
   int BestGroupSize() const {
@@ -89,16 +103,17 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
 
 // A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with
 // each diode taken out, as long as that helps.
-RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
+RefineEnd SecondWind(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
   constexpr int kAttempts = 3;
   for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
-    std::vector<RefineEnd> others = {Refine(problem, end.p)};
+    if (how.stop()) break;
+    std::vector<RefineEnd> others = {Refine(problem, end.p, how)};
     for (int d = 0; d < DiodeCount(problem.device); ++d) {
       const int is = SaturationCurrentIndex(d);
       if (problem.lower[is] > 0 || end.p[is] <= 0) continue;
       std::vector<double> without = end.p;
       without[is] = 0;
-      others.push_back(Refine(problem, SeparableDescent(problem, without)));
+      others.push_back(Refine(problem, SeparableDescent(problem, without), how));
     }
     for (RefineEnd& other : others) {
       const bool level = other.mean_square <= end.mean_square * (1 + kBetter);
@@ -111,6 +126,33 @@ RefineEnd SecondWind(const RefineProblem& problem, RefineEnd end) {
 
 // So many starts at the same best curve end the polish: one diode leaves hardly a choice.
 int Enough(const RefineProblem& problem) { return DiodeCount(problem.device) == 1 ? 2 : 3; }
+
+// Solves the ends on a few points that may be the best, and the first one, on all points; the
+// others are counted there as they are.
+void FinishOnAll(const RefineProblem& problem, const RefineOptions& how, const Groups& groups,
+                 std::vector<RefineEnd>* ends) {
+  double lowest = HUGE_VAL;
+  for (std::size_t s = 0; s < ends->size(); ++s) {
+    if (groups.Leader(static_cast<int>(s)) != static_cast<int>(s)) continue;
+    lowest = std::min(lowest, std::sqrt((*ends)[s].mean_square));
+  }
+  for (std::size_t s = 0; s < ends->size(); ++s) {
+    if (groups.Leader(static_cast<int>(s)) != static_cast<int>(s)) continue;
+    RefineEnd& end = (*ends)[s];
+    if (s == 0 || std::sqrt(end.mean_square) <= lowest * (1 + kMayBeBest)) {
+      end = Refine(problem, end.p, how);
+    } else {
+      end.mean_square = MeanSquare(problem, end.p);
+    }
+  }
+}
+
+void Conclude(bool stopped, bool converged, RefineReport* report) {
+  report->termination = stopped ? "interrupted" : converged ? "converged" : "no convergence";
+  report->message = stopped     ? "not every start was polished"
+                    : converged ? "bounds settled and least squares converged"
+                                : "least squares stopped before its tolerance was reached";
+}
 
 }  // namespace
 
@@ -131,24 +173,34 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
   return starts;
 }
 
-PolishResult PolishStarts(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                          const std::function<bool()>& stop) {
+PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
+                          const std::vector<PolishStart>& starts, Watch* watch) {
   const auto begin = std::chrono::steady_clock::now();
+  watch->Begin("polish", static_cast<std::int64_t>(starts.size()));
+  RefineOptions how;
+  how.stop = watch->stop();
   std::vector<std::vector<double>> descended;
-  Groups groups(problem);
+  Groups groups(few);
   bool stopped = false;
   for (const PolishStart& start : starts) {
-    descended.push_back(SeparableDescent(problem, start.p));
+    descended.push_back(SeparableDescent(few, start.p));
     groups.Add(descended.back());
-    if (groups.BestGroupSize() >= Enough(problem)) break;
-    stopped = stop();
+    if (groups.BestGroupSize() >= Enough(few)) break;
+    stopped = watch->Next();
     if (stopped) break;
   }
   const int count = static_cast<int>(descended.size());
   std::vector<RefineEnd> ends(count);
   for (int s = 0; s < count; ++s) {
-    if (groups.Leader(s) == s) ends[s] = SecondWind(problem, Refine(problem, descended[s]));
+    if (groups.Leader(s) == s) ends[s] = SecondWind(few, how, Refine(few, descended[s], how));
+    // Where the descent led astray: the start itself.
+    if (ends[groups.Leader(s)].mean_square <= MeanSquare(few, starts[s].p) * (1 + kAgree)) continue;
+    RefineEnd own = SecondWind(few, how, Refine(few, starts[s].p, how));
+    if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;
+    groups.LeaveGroup(s, &ends);
+    ends[s] = std::move(own);
   }
+  if (few.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
 
   PolishResult result;
   RefineReport& report = result.report;
@@ -168,11 +220,8 @@ PolishResult PolishStarts(const RefineProblem& problem, const std::vector<Polish
     report.agreeing += start.agrees;
   }
   report.projected_gradient = result.best.projected_gradient;
-  const bool converged = result.best.converged;
-  report.termination = stopped ? "interrupted" : converged ? "converged" : "no convergence";
-  report.message = stopped     ? "not every start was polished"
-                   : converged ? "bounds settled and least squares converged"
-                               : "least squares stopped before its tolerance was reached";
+  stopped = stopped || watch->stopped();
+  Conclude(stopped, result.best.converged, &report);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

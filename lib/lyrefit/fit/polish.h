@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/fit/watch.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -23,10 +23,11 @@ struct PolishResult {
 
 // Separable descent from one start after the other, until three (of a single diode: two) have come
 // to the same best curve or no start is left; then one bounded least-squares solve for each curve
-// that was found, so starts that came to the same curve share an end. Starts after the first are
-// skipped when `stop` asks.
-PolishResult PolishStarts(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                          const std::function<bool()>& stop);
+// that was found, so starts that came to the same curve share an end. All this on `few`, which is
+// Thin(problem); where that stands for more points, the ends that may be the best are solved once
+// more on all of them. Starts after the first are skipped when `watch` asks to stop.
+PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
+                          const std::vector<PolishStart>& starts, Watch* watch);
 
 // The best bird first, then by turns the separable grid and further elites; for more than one diode
 // also the best single-diode curve, so that a richer model never ends above a poorer one.

@@ -8,10 +8,13 @@
 
 namespace lyrefit {
 
-void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end) {
+void Robustify(const FitOptions& options, const std::function<bool()>& stop, RefineProblem* problem,
+               RefineEnd* end) {
   constexpr int kRounds = 50;
   const std::vector<double> given = problem->weights;
-  for (int round = 0; round < kRounds; ++round) {
+  RefineOptions how;
+  how.stop = stop;
+  for (int round = 0; round < kRounds && !stop(); ++round) {
     std::vector<double> residual;
     for (std::size_t k = 0; k < given.size(); ++k) {
       const double model =
@@ -36,7 +39,7 @@ void Robustify(const FitOptions& options, RefineProblem* problem, RefineEnd* end
                           problem->current_A, std::move(weights), problem->lower, problem->upper);
     problem->kernel = kernel;
     const std::vector<double> before = end->p;
-    *end = Refine(*problem, end->p);
+    *end = Refine(*problem, end->p, how);
     double moved = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
       moved = std::max(moved, std::fabs(end->p[i] - before[i]) / (std::fabs(before[i]) + 1e-300));

@@ -57,6 +57,24 @@ void WarnOfRichModel(const FitReport& report, Sentences* out) {
       "{} may be 0: the data do not support this many diodes; --model auto decides", absent));
 }
 
+void WarnOfProfiles(const FitReport& report, Sentences* out) {
+  const RefineReport& refine = report.refine;
+  if (refine.winner >= 0 && refine.starts[refine.winner].origin == "profile") {
+    out->push_back(
+        "a profile came upon a lower optimum than the polish had found, which is reported here; "
+        "without profiles (--intervals none or symmetric) the parameters differ");
+  }
+  std::string unsettled;
+  for (const Estimate& e : report.estimates) {
+    if (e.interval != IntervalMethod::kUnsettled) continue;
+    unsettled += (unsettled.empty() ? "" : ", ") + e.info.symbol;
+  }
+  if (unsettled.empty()) return;
+  out->push_back(fmt::format(
+      "the profile of {} did not settle: the interval ends where it is known to be too wide",
+      unsettled));
+}
+
 void WarnOfData(const FitReport& report, Sentences* out) {
   const int spare = report.criteria.points - report.criteria.parameters;
   if (spare < 3) {
@@ -109,6 +127,7 @@ std::vector<std::string> FindWarnings(const FitReport& report) {
   WarnOfStops(report, &warnings);
   WarnOfBounds(report, &warnings);
   WarnOfRichModel(report, &warnings);
+  WarnOfProfiles(report, &warnings);
   WarnOfRisingCurrent(report, &warnings);
   WarnOfResiduals(report, &warnings);
   WarnOfData(report, &warnings);

@@ -1,0 +1,53 @@
+#include "lyrefit/fit/check_birds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a side: a bird so little outside is moved inside
+
+Expected<void> CheckBird(const std::string& name, const Box& box, Bird* bird) {
+  if (bird->x.size() != box.lower.size()) {
+    return Fail(
+        fmt::format("the searcher's {} has {} coordinates, expected {}: one for each side "
+                    "of the box",
+                    name, bird->x.size(), box.lower.size()));
+  }
+  for (std::size_t j = 0; j < box.lower.size(); ++j) {
+    const double slack = kRounding * (box.upper[j] - box.lower[j]);
+    double& x = bird->x[j];
+    if (!(x >= box.lower[j] - slack && x <= box.upper[j] + slack)) {
+      return Fail(
+          fmt::format("the searcher's {} is {:g} in coordinate {}, expected a number in "
+                      "[{:g}, {:g}]",
+                      name, x, j + 1, box.lower[j], box.upper[j]));
+    }
+    x = std::clamp(x, box.lower[j], box.upper[j]);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> CheckBirds(const ObjectiveFunction& objective, const Box& box,
+                          SearchSummary* summary) {
+  if (summary->best.x.empty() && summary->elites.empty()) {
+    return Fail("the searcher came back without a best bird: set `best` to the best point it met");
+  }
+  if (summary->best.x.empty()) summary->best = summary->elites.front();
+  if (summary->elites.empty()) summary->elites = {summary->best};
+  if (auto valid = CheckBird("best bird", box, &summary->best); !valid) return valid;
+  for (std::size_t e = 0; e < summary->elites.size(); ++e) {
+    const std::string name = fmt::format("elite {}", e + 1);
+    if (auto valid = CheckBird(name, box, &summary->elites[e]); !valid) return valid;
+    summary->elites[e].objective = objective(summary->elites[e].x.data());
+  }
+  summary->best.objective = objective(summary->best.x.data());
+  return {};
+}
+
+}  // namespace lyrefit

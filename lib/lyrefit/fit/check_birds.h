@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/search/search.h"
+
+namespace lyrefit {
+
+// Makes what a search of the user's own came back with fit for the polish: `best` stands in for
+// missing elites and the first elite for a missing `best`, objective values are computed anew.
+// Error: no bird at all, a bird with another number of coordinates than the box has sides, one that
+// is not finite or outside the box.
+Expected<void> CheckBirds(const ObjectiveFunction& objective, const Box& box,
+                          SearchSummary* summary);
+
+}  // namespace lyrefit

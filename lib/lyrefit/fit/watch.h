@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string_view>
+
+#include "lyrefit/base/observer.h"
+
+namespace lyrefit {
+
+// Tells the observer where the stages of one fit stand and remembers that it asked to stop. Safe
+// to ask from several threads: the observer is called by one at a time.
+class FitWatch {
+ public:
+  explicit FitWatch(const Observer& observer) : observer_(observer) {}
+
+  // `stage` must outlive the watch. `planned`: steps of it, 0 when open.
+  void Begin(std::string_view stage, std::int64_t planned) {
+    const std::lock_guard<std::mutex> lock(asking_);
+    progress_ = {};
+    progress_.stage = stage;
+    progress_.iterations = planned;
+    begin_ = std::chrono::steady_clock::now();
+  }
+
+  // One more step begins. True: stop.
+  bool Next() { return Ask(1); }
+  // True: stop.
+  bool Stop() { return Ask(0); }
+  std::function<bool()> stop() {
+    return [this] { return Stop(); };
+  }
+  void MarkStopped() { stopped_ = true; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  bool Ask(int steps) {
+    const std::lock_guard<std::mutex> lock(asking_);
+    progress_.iteration += steps;
+    progress_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (!stopped_ && StopRequested(observer_, progress_)) stopped_ = true;
+    return stopped_;
+  }
+
+  const Observer& observer_;
+  std::mutex asking_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  bool stopped_ = false;
+};
+
+}  // namespace lyrefit

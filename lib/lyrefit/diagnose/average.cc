@@ -20,7 +20,8 @@ struct FittedBase {
   Noise noise;
 };
 
-FittedBase FitAllReadings(const Readings& readings, const NoiseSource& source, const Law& base, Watch* watch) {
+FittedBase FitAllReadings(const Readings& readings, const NoiseSource& source, const Law& base,
+                          Watch* watch) {
   const std::size_t count = readings.points.size();
   FittedBase shape{
       {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, watch},

@@ -126,7 +126,7 @@ double Whiteness(const Workbench& bench, const LawFit& fit) {
   for (int k = 0; k < count; ++k) r[k] = fit.current[k] - points[k].current;
   r = Whiten(bench, r);
   const double total = r.squaredNorm();
-  if (count < 3 * kLags || !(total > 0)) return 1;
+  if (count < 3 * kLags || !(total > 0) || !std::isfinite(total)) return 1;
   double statistic = 0;
   for (int lag = 1; lag <= kLags; ++lag) {
     double product = 0;

@@ -47,6 +47,9 @@ class Judge {
   std::vector<int> held_;
 };
 
+// A repeated selection need not look at those that stand behind so many others.
+constexpr int kRivals = 4;
+
 // From the fit to all readings it is not far.
 const LeastSquaresOptions kNearby = {20, 1e-6};
 
@@ -84,6 +87,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
     SelectOptions inner = options;
     inner.trials = false;
+    inner.most_rivals = kRivals;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.calibration = selection.calibration;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <set>
 
 #include "lyrefit/diagnose/choose_base.h"
@@ -129,13 +130,25 @@ class Selector {
 
   double Variance(const LawFit& fit) const { return NoiseVariance(bench_, fit); }
 
+  // Statistic of the last effect that is fitted where not all are.
+  double LeastOfTheBest(const std::vector<Score>& scores) const {
+    std::vector<double> statistics;
+    for (const Score& score : scores) {
+      if (score.testable && score.effect->probes != nullptr) statistics.push_back(score.statistic);
+    }
+    const std::size_t most = options_.most_rivals;
+    if (most == 0 || statistics.size() <= most) return 0;
+    std::sort(statistics.begin(), statistics.end(), std::greater<double>());
+    return statistics[most - 1];
+  }
+
   // Fits the effects that stand a chance; with `all` the others as well, in passing. Where nothing
   // `is_there` all are fitted in passing: it is for the record.
   std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false,
                             bool is_there = true) const {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
-    const double hopeless = HopelessStatistic(scores);
+    const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
     for (const Score& score : scores) {
       CountStep();
       const bool fits = score.testable && (all || score.statistic >= hopeless) &&

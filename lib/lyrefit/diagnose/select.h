@@ -23,6 +23,7 @@ struct SelectOptions {
   std::vector<double> start;              // of `base`, which is then kept; empty: none is known
   bool trials = true;                     // fit every effect on the base model, wanted or not, and
                                           // tell the watch of the stages
+  int most_rivals = 0;                    // fitted at a step, the best by score; 0: all
   std::vector<const Effect*> candidates;  // allowed by the kind of data
   Watch* watch = nullptr;
 };

@@ -30,6 +30,30 @@ void WhitenRows(const Workbench& bench, Matrix* rows) {
   }
 }
 
+// The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,
+// so those that are not become 0.
+bool EvaluateWhitened(const Workbench& bench, const Law& law, const double* p,
+                      LawWorkspace* workspace, std::vector<double>* current, double* residuals,
+                      double* jacobian) {
+  const Readings& readings = *bench.readings;
+  const int count = static_cast<int>(readings.points.size());
+  if (jacobian == nullptr && Stopped(bench.watch)) return false;
+  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian)) {
+    if (jacobian == nullptr) return false;
+    if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
+    std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * law.size(), 0.0);
+  }
+  Eigen::Map<Eigen::VectorXd> r(residuals, count);
+  for (int k = 0; k < count; ++k) r[k] = (*current)[k] - readings.points[k].current;
+  WhitenRows(bench, &r);
+  if (!std::isfinite(r.squaredNorm())) return false;
+  if (jacobian == nullptr) return true;
+  Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
+  WhitenRows(bench, &rows);
+  if (!std::isfinite(rows.squaredNorm())) rows.setZero();
+  return true;
+}
+
 LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorkspace* workspace,
                                 std::vector<double>* current) {
   LeastSquaresProblem problem;
@@ -41,19 +65,9 @@ LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorks
     problem.held.push_back(Held(*bench.readings, law, k) ? 1 : 0);
   }
   current->resize(count);
-  problem.evaluate = [&bench, law, workspace, current, count](const double* p, double* residuals,
-                                                              double* jacobian) {
-    // The solver takes a failed step in its stride, a failed derivative it logs.
-    if (jacobian == nullptr && Stopped(bench.watch)) return false;
-    if (!EvaluateLaw(law, *bench.readings, p, workspace, current->data(), jacobian)) return false;
-    Eigen::Map<Eigen::VectorXd> r(residuals, count);
-    for (int k = 0; k < count; ++k) r[k] = (*current)[k] - bench.readings->points[k].current;
-    WhitenRows(bench, &r);
-    if (jacobian != nullptr) {
-      Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
-      WhitenRows(bench, &rows);
-    }
-    return true;
+  problem.evaluate = [&bench, law, workspace, current](const double* p, double* residuals,
+                                                       double* jacobian) {
+    return EvaluateWhitened(bench, law, p, workspace, current, residuals, jacobian);
   };
   return problem;
 }

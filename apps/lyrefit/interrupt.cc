@@ -108,8 +108,10 @@ class ProgressDisplay {
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
   for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-    ignored[i] = std::signal(kSignals[i], OnInterrupt) == SIG_IGN ? 1 : 0;
-    if (ignored[i] != 0) std::signal(kSignals[i], SIG_IGN);
+    struct sigaction before = {};
+    sigaction(kSignals[i], nullptr, &before);
+    ignored[i] = before.sa_handler == SIG_IGN ? 1 : 0;
+    if (ignored[i] == 0) std::signal(kSignals[i], OnInterrupt);
   }
 }
 

@@ -14,7 +14,7 @@
 namespace lyrefit {
 
 struct AppResult {
-  int exit_code = -1;  // -1: ended by a signal
+  int exit_code = -1;  // -1: ended by a signal; 130 is what an interrupted run ends with itself
   std::string out;
   std::string err;
 };
@@ -33,7 +33,8 @@ inline AppResult RunApp(const std::string& arguments) {
                               ".out' 2>'" + base + ".err' </dev/null";
   const int status = std::system(command.c_str());
   AppResult result;
-  if (WIFEXITED(status) && WEXITSTATUS(status) < 126) result.exit_code = WEXITSTATUS(status);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 127;
+  if (code < 126 || code == 130) result.exit_code = code;
   result.out = FileText(base + ".out");
   result.err = FileText(base + ".err");
   std::filesystem::remove(base + ".out");

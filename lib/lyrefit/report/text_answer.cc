@@ -28,7 +28,8 @@ std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
 // "95 % intervals: profile (Rs, n2), symmetric (Iph)".
 std::string IntervalNote(const std::vector<Estimate>& estimates) {
   std::string note;
-  for (const IntervalMethod method : {IntervalMethod::kSymmetric, IntervalMethod::kProfile}) {
+  for (const IntervalMethod method :
+       {IntervalMethod::kSymmetric, IntervalMethod::kProfile, IntervalMethod::kUnsettled}) {
     std::string symbols;
     for (const Estimate& e : estimates) {
       if (e.interval == method) symbols += (symbols.empty() ? "" : ", ") + e.info.symbol;

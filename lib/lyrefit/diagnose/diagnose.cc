@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/diagnose/average.h"
@@ -228,6 +229,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   if (auto valid = ValidateOptions(options, kDiagnoseOptionRows); !valid) {
     return tl::unexpected(valid.error());
   }
+  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
   auto doubts = JudgeReadings(taken.curves);
   if (!doubts) return tl::unexpected(doubts.error());

@@ -14,7 +14,6 @@
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fit_watch.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/intervals.h"

@@ -186,6 +186,15 @@ TEST(ReadCurveTest, BrokenSidecarsGiveACurveOrAnError) {
   }
 }
 
+TEST(ReadCurveTest, AMillionNumbersInOneLineAreRefusedAtOnce) {
+  std::string line;
+  for (int i = 0; i < 1000000; ++i) line += std::to_string(i % 10) + ',';
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(ReadCurveText(line, "line"));
+  EXPECT_FALSE(ReadCurveText("title\n" + line + "\n", "line"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
 TEST(ReadCurveTest, HalfAMillionRowsAreReadAtOnce) {
   const TempFolder folder;
   std::string text = "voltage_V,current_A\n";

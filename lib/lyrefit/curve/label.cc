@@ -65,7 +65,9 @@ std::optional<std::pair<std::string_view, std::string_view>> Symbol(std::string_
 }  // namespace
 
 std::vector<LabelWord> SplitLabel(std::string_view label) {
+  constexpr std::size_t kLongestLabel = 300;
   std::vector<LabelWord> words;
+  if (label.size() > kLongestLabel) return words;
   bool inside = false;
   bool marked = false;
   const auto add = [&](std::string_view letters) {

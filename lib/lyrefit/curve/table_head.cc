@@ -312,6 +312,8 @@ class LineParser {
 }  // namespace
 
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
+  constexpr std::size_t kLongestLine = 1000;
+  if (line.size() > kLongestLine) return;  // no statement
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   LineParser parser(source, head);
   parser.Read(TrimMarks(line));

@@ -10,6 +10,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr std::size_t kMostColumns = 5000;  // a line of more is no header
+
 // In a header separated by blanks "Voltage (V)" is one name.
 Fields JoinBrackets(const Fields& fields) {
   Fields joined;
@@ -105,6 +107,7 @@ TableLine AsHeader(std::string_view line, std::string_view next_line, const Head
   for (const char delimiter : kDelimiters) {
     auto fields = SplitFields(line, delimiter);
     if (!fields) continue;
+    if (fields->size() > kMostColumns) continue;
     if (delimiter == ' ') fields = JoinBrackets(*fields);
     std::vector<Column> columns = ColumnsOf(*fields, next_line, delimiter, rules);
     if (!LooksLikeHeader(columns)) continue;

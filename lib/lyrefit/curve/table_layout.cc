@@ -15,8 +15,12 @@ namespace {
 constexpr int kLargestPreamble = 200;  // lines of text before the header
 
 std::string ListOf(const Fields& names) {
+  constexpr std::size_t kShown = 40;
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + Quoted(name);
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) {
+    list += (i == 0 ? "" : ", ") + Quoted(names[i]);
+  }
+  if (names.size() > kShown) list += fmt::format(" and {} more", names.size() - kShown);
   return list;
 }
 

@@ -1,0 +1,8 @@
+#include "fuzz_file.h"
+#include "lyrefit/study/read_audit_rows.h"
+
+// Rows of published parameters.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  lyrefit::ReadAuditRows(lyrefit::FuzzFile("rows.csv", lyrefit::Bytes(data, size)));
+  return 0;
+}

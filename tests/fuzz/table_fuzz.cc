@@ -1,0 +1,24 @@
+// A table, a curve of JSON, whatever standard input may bring. What is read has to be sound.
+
+#include <cstdlib>
+
+#include "fuzz_file.h"
+#include "lyrefit/curve/read_curve.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lyrefit;
+  const std::string text = Bytes(data, size);
+  ReadOptions chosen;
+  chosen.column = "2";
+  chosen.curve = 1;
+  chosen.area_cm2 = 4;
+  ReadOptions named;
+  named.voltage_column = "2";
+  named.current_column = "1";
+  for (const ReadOptions& options : {ReadOptions(), chosen, named}) {
+    const auto curve = ReadCurveText(text, "input", options);
+    if (curve && !Validate(*curve)) std::abort();
+    if (!curve && curve.error().message.empty()) std::abort();
+  }
+  return 0;
+}

@@ -51,7 +51,7 @@ class Judge {
 constexpr int kRivals = 4;
 
 // From the fit to all readings it is not far.
-const LeastSquaresOptions kNearby = {20, 1e-6};
+const LeastSquaresOptions kNearby = {8, 1e-5};
 
 void AddSquares(const Squares& from, Squares* to) {
   to->sum += from.sum;
@@ -88,6 +88,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     SelectOptions inner = options;
     inner.trials = false;
     inner.most_rivals = kRivals;
+    inner.in_passing = true;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.calibration = selection.calibration;

@@ -268,6 +268,19 @@ void TakeNotes(const CurveSet& set, Readings* readings) {
   }
 }
 
+// No device or meter goes as far: such numbers are codes, and squares of them are no numbers.
+Expected<void> CheckSizes(const IvCurve& curve) {
+  constexpr double kLargest = 1e6;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const bool voltage = std::fabs(curve.voltage_V[k]) > kLargest;
+    if (!voltage && !(std::fabs(curve.current_A[k]) > kLargest)) continue;
+    return Fail(curve.name + ": reading " + std::to_string(k + 1) + " is " +
+                NumberText(voltage ? curve.voltage_V[k] : curve.current_A[k]) +
+                (voltage ? " V" : " A") + ", which no device gives: leave it out");
+  }
+  return {};
+}
+
 template <class T>
 void Permute(const std::vector<std::size_t>& order, std::vector<T>* values) {
   if (values->size() != order.size()) return;
@@ -347,6 +360,7 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
   Readings& readings = measurement.readings;
   for (const IvCurve& curve : set.curves) {
     if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
+    if (auto possible = CheckSizes(curve); !possible) return tl::unexpected(possible.error());
   }
   readings.scale.cells = CountCells(set, &readings.traits, &measurement.warnings);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {

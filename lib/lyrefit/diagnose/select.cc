@@ -155,8 +155,9 @@ class Selector {
                         score.effect->probes != nullptr &&
                         fit_.law.size() + score.effect->size() <= kMostParameters;
       if (!fits || Stopped(bench_.watch)) continue;
-      const Effort effort =
-          is_there && score.statistic >= hopeless ? Effort::kFull : Effort::kInPassing;
+      const Effort effort = is_there && !options_.in_passing && score.statistic >= hopeless
+                                ? Effort::kFull
+                                : Effort::kInPassing;
       Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }

@@ -104,10 +104,11 @@ Spread SpreadOf(std::vector<double> values, double reference) {
   Spread spread;
   const auto unknown = [](double value) { return std::isnan(value); };
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
+  // Sums have the same bits whatever the order of the runs.
+  std::sort(values.begin(), values.end());
   spread.median = MedianOf(values);
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  spread.min = *least;
-  spread.max = *most;
+  spread.min = values.front();
+  spread.max = values.back();
   // Rounding must not carry the mean of equal values out of their range.
   spread.mean = std::clamp(Mean(values), spread.min, spread.max);
   double squares = 0;

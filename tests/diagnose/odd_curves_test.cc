@@ -104,16 +104,15 @@ TEST(OddCurvesTest, NothingButShortCircuit) {
   DiagnoseOdd(MadeCurve(recipe));
 }
 
-TEST(OddCurvesTest, ConstantCurrent) {
-  IvCurve curve = MadeCurve({});
-  for (double& i : curve.current_A) i = 5;
-  DiagnoseOdd(curve);
-}
-
-TEST(OddCurvesTest, NoCurrentAtAll) {
-  IvCurve curve = MadeCurve({});
-  for (double& i : curve.current_A) i = 0;
-  DiagnoseOdd(curve);
+TEST(OddCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
+  for (const double current : {0.0, 5.0}) {
+    IvCurve curve = MadeCurve({});
+    curve.as_is = true;
+    for (double& i : curve.current_A) i = current;
+    const auto diagnosis = Diagnose(SetOf({curve}), {});
+    ASSERT_FALSE(diagnosis);
+    EXPECT_THAT(diagnosis.error().message, HasSubstr("is this the column of the current"));
+  }
 }
 
 TEST(OddCurvesTest, NothingButNoise) {

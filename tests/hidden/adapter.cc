@@ -11,6 +11,7 @@ namespace {
 lyrefit::IvCurve Bare(const Measurement& from, std::size_t first, int number) {
   lyrefit::IvCurve curve;
   curve.name = "case " + std::to_string(number) + " curve " + std::to_string(from.curve[first]);
+  curve.as_is = true;  // whether the diagnosis sees it, not the checks before it
   curve.conditions.cells_in_series = from.cells;
   curve.conditions.irradiance_W_m2 = from.irradiance[first];
   curve.conditions.cell_temperature_K = from.temperature[first] + 273.15;

@@ -118,9 +118,10 @@ TEST(Simulate, RefusesWhatItCannotSimulate) {
   ExpectRefused("simulate --from " + folder.Write("odd.json", R"({"model":"sd","constants":"codata",
       "parameters":{},"curve":[],"rmse":[1]})"),
                 "curve.conditions");
-  ExpectRefused("simulate --from " + folder.Write("many.json", R"({"model":"sd","constants":"codata",
+  ExpectRefused(
+      "simulate --from " + folder.Write("many.json", R"({"model":"sd","constants":"codata",
       "parameters":{},"curves":3})"),
-                "a model of 3 curves");
+      "a model of 3 curves");
   EXPECT_FALSE(std::filesystem::exists(folder.Path("x.json")));
 }
 

@@ -16,8 +16,8 @@ namespace lyrefit {
 inline const std::filesystem::path& FuzzFolder() {
   static const std::filesystem::path folder = [] {
     const std::filesystem::path memory("/dev/shm");
-    const auto base = ::access(memory.c_str(), W_OK) == 0 ? memory
-                                                          : std::filesystem::temp_directory_path();
+    const auto base =
+        ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
     const auto path = base / ("lyrefit-fuzz-" + std::to_string(::getpid()));
     std::filesystem::create_directories(path);
     std::atexit([] {

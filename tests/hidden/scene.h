@@ -42,7 +42,7 @@ struct Measurement {
   std::vector<double> irradiance;   // W/m2
   std::vector<double> temperature;  // deg C
   int cells = 1;
-  int bypass_diodes = 0;  // 0: not stated
+  int bypass_diodes = 0;        // 0: not stated
   double bandgap_eV = 1.121;    // 0: not stated
   double isc_tempco_per_K = 0;  // 0: not stated
   bool thin_film = false;

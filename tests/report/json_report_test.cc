@@ -22,32 +22,14 @@ json Parsed(const FitReport& report) { return json::parse(JsonReport(report)); }
 
 TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
   const json j = Parsed(SampleReport());
-  const std::set<std::string> top = {"lyrefit_version",
-                                     "curve",
-                                     "model",
-                                     "objective",
-                                     "constants",
-                                     "bounds",
-                                     "floor",
-                                     "parameters",
-                                     "nNsVth",
-                                     "singlediode",
-                                     "rmse",
-                                     "largest_error",
-                                     "key_points",
-                                     "information",
-                                     "residuals",
-                                     "correlations",
-                                     "search",
-                                     "refine",
-                                     "intervals",
-                                     "model_choice",
-                                     "options",
-                                     "interrupted",
-                                     "usable",
-                                     "not_usable_because",
-                                     "warnings",
-                                     "data"};
+  const std::set<std::string> top = {
+      "lyrefit_version", "curve",       "model",     "objective",
+      "constants",       "bounds",      "floor",     "parameters",
+      "nNsVth",          "singlediode", "rmse",      "largest_error",
+      "key_points",      "information", "residuals", "correlations",
+      "search",          "refine",      "intervals", "model_choice",
+      "options",         "interrupted", "usable",    "not_usable_because",
+      "warnings",        "data"};
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
                                         "iterations", "evaluations", "termination", "message",

@@ -15,8 +15,8 @@ struct Progress {
   double best = 0;               // best objective value so far, in the objective's own unit
   double seconds = 0;            // since the stage began
   double lower_bound = 0;        // proved for `best`, where the stage proves one
-  double part = 0;  // of the stage's work that is done, where iterations differ in size; 0: they are
-                    // alike
+  double part = 0;  // of the stage's work that is done, where iterations differ in size; 0: they
+                    // are alike
 };
 
 enum class ObserverAction { kContinue, kStop };

@@ -15,7 +15,8 @@ struct LabelWord {
   bool marked_as_unit;   // behind a bracket, slash or comma
 };
 
-// The words of a label, none of a text too long to be one; what stands behind "vs." (the reference of a potential) is left out.
+// The words of a label, none of a text too long to be one; what stands behind "vs." (the reference
+// of a potential) is left out.
 std::vector<LabelWord> SplitLabel(std::string_view label);
 
 // The words from `from` up to `to`, one behind the other.

@@ -49,7 +49,7 @@ void Watch::Step() {
 bool Watch::Stopped() {
   if (state_->stopped || !state_->observer) return state_->stopped;
   const std::unique_lock<std::mutex> lock(state_->mutex, std::try_to_lock);
-  if (!lock.owns_lock()) return state_->stopped;  // another thread is asking
+  if (!lock.owns_lock()) return state_->stopped;     // another thread is asking
   if (state_->progress.stage.empty()) return false;  // nothing has begun
   const Clock::time_point now = Clock::now();
   if (now - state_->asked >= kPeriod) state_->Ask(now);

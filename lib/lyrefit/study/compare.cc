@@ -24,7 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-
 // One curve with one model, while its runs are under way.
 struct Problem {
   Problem(const CompareCurve& subject_, Model model, int runs)

@@ -17,7 +17,7 @@ TEST(ReadSidecarTest, ReadsEveryKey) {
   const auto sidecar = ReadSidecar(folder.Write("a.json", R"({
     "name": "m1", "technology": "mono-Si", "cells_in_series": 60, "strings_in_parallel": 2,
     "nominal_temperature_C": 30, "nominal_irradiance_Wm2": 800, "bypass_diodes": 3,
-    "bandgap_eV": 1.121, "isc_tempco_per_K": -0.0005, "isc_tempco_A_per_K": 0.004,
+    "bandgap_eV": 1.121, "bandgap_slope_per_K": -0.00027, "isc_tempco_per_K": -0.0005, "isc_tempco_A_per_K": 0.004,
     "current_noise": {"constant_A": 0.001, "relative": 0.0002}, "current_resolution_A": 0.01,
     "anything": {"else": [1, 2]}})"),
                                    kLimit);
@@ -30,6 +30,7 @@ TEST(ReadSidecarTest, ReadsEveryKey) {
   EXPECT_EQ(sidecar->irradiance_W_m2, 800);
   EXPECT_EQ(sidecar->notes.bypass_diodes, 3);
   EXPECT_EQ(sidecar->notes.bandgap_eV, 1.121);
+  EXPECT_EQ(sidecar->notes.bandgap_slope_per_K, -0.00027);
   EXPECT_EQ(sidecar->notes.isc_tempco_per_K, -0.0005);
   EXPECT_EQ(sidecar->notes.isc_tempco_A_per_K, 0.004);
   EXPECT_EQ(sidecar->notes.current_noise_constant_A, 0.001);

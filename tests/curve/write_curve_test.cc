@@ -73,6 +73,7 @@ TEST(CurveSidecarJsonTest, CarriesEveryNote) {
   curve.notes.technology = "multi-Si \"new\"";
   curve.notes.bypass_diodes = 3;
   curve.notes.bandgap_eV = 1.121;
+  curve.notes.bandgap_slope_per_K = -0.00027;
   curve.notes.isc_tempco_per_K = 0.0005;
   curve.notes.isc_tempco_A_per_K = 0.004;
   curve.notes.current_noise_constant_A = 0.001;
@@ -84,6 +85,7 @@ TEST(CurveSidecarJsonTest, CarriesEveryNote) {
   EXPECT_EQ(back->notes.technology, curve.notes.technology);
   EXPECT_EQ(back->notes.bypass_diodes, curve.notes.bypass_diodes);
   EXPECT_EQ(back->notes.bandgap_eV, curve.notes.bandgap_eV);
+  EXPECT_EQ(back->notes.bandgap_slope_per_K, curve.notes.bandgap_slope_per_K);
   EXPECT_EQ(back->notes.isc_tempco_per_K, curve.notes.isc_tempco_per_K);
   EXPECT_EQ(back->notes.isc_tempco_A_per_K, curve.notes.isc_tempco_A_per_K);
   EXPECT_EQ(back->notes.current_noise_constant_A, curve.notes.current_noise_constant_A);

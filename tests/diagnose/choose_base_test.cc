@@ -156,6 +156,17 @@ TEST(ChooseBaseTest, WhatIsStatedWronglyIsStillFound) {
   EXPECT_THAT(Named(Diagnosed(family)), ElementsAre("bandgap"));
 }
 
+TEST(ChooseBaseTest, ASlopeOfTheGapThatIsStatedIsBelieved) {
+  Family family;
+  family.stated = Stated(1.121, 5e-4);
+  family.stated.bandgap_slope_per_K = family.bandgap_slope;
+  EXPECT_THAT(Named(Diagnosed(family)), IsEmpty());
+  family.stated.bandgap_slope_per_K = 0;
+  const Diagnosis d = Diagnosed(family);
+  EXPECT_THAT(Named(d), ElementsAre("bandgap"));
+  EXPECT_THAT(d.base_sentence, HasSubstr("constant band gap"));
+}
+
 // Ampere per kelvin are those of 1000 W/m2 and 25 C, whatever the brightest curve.
 TEST(ChooseBaseTest, ACoefficientInAmpereIsTakenAsItIs) {
   Family family;

@@ -18,6 +18,7 @@ lyrefit::IvCurve Bare(const Measurement& from, std::size_t first, int number) {
   curve.notes.technology = from.thin_film ? "thin film" : "crystalline silicon";
   if (from.bypass_diodes > 0) curve.notes.bypass_diodes = from.bypass_diodes;
   if (from.bandgap_eV > 0) curve.notes.bandgap_eV = from.bandgap_eV;
+  curve.notes.bandgap_slope_per_K = 0;  // the generator's cells have a constant gap
   if (from.isc_tempco_per_K > 0) curve.notes.isc_tempco_per_K = from.isc_tempco_per_K;
   if (from.noise_constant_A > 0) {
     curve.notes.current_noise_constant_A = from.noise_constant_A;

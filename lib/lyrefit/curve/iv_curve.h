@@ -28,6 +28,7 @@ struct DeviceNotes {
   std::string technology;
   std::optional<int> bypass_diodes;
   std::optional<double> bandgap_eV;
+  std::optional<double> bandgap_slope_per_K;       // relative to the gap at 25 C, as pvlib's dEgdT
   std::optional<double> isc_tempco_per_K;          // relative, per kelvin
   std::optional<double> isc_tempco_A_per_K;        // absolute, where only that is stated
   std::optional<double> current_noise_constant_A;  // standard deviation, constant part

@@ -44,8 +44,8 @@ struct ReadOptions {
 //     and ivcurves files (github.com/cwhanse/ivcurves: numbers may be strings, kelvin),
 //   - a folder that holds curve.csv, or a table of the folder's own name, as IV_Swinger writes it.
 // A sidecar NAME.json beside NAME.csv gives cells_in_series, nominal_temperature_C,
-// nominal_irradiance_Wm2, area_cm2, bypass_diodes, technology, bandgap_eV, isc_tempco_per_K,
-// isc_tempco_A_per_K, current_noise {constant_A, relative}, current_resolution_A; a report of
+// nominal_irradiance_Wm2, area_cm2, bypass_diodes, technology, bandgap_eV, bandgap_slope_per_K,
+// isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A, relative}, current_resolution_A; a report of
 // `lyrefit fit` in its place gives its conditions. Whatever was not said is a sentence in
 // `assumptions`. Every point in every quadrant is kept, in file order. Errors carry file, line and
 // column.

@@ -27,6 +27,7 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "strings_in_parallel",
                                       "bypass_diodes",
                                       "bandgap_eV",
+                                      "bandgap_slope_per_K",
                                       "isc_tempco_per_K",
                                       "isc_tempco_A_per_K",
                                       "alpha_Isc_A_per_K",
@@ -51,6 +52,7 @@ class SidecarReader {
     DeviceNotes& notes = sidecar_.notes;
     ReadWhole({"bypass_diodes"}, 0, "a number from 0 up", &notes.bypass_diodes);
     ReadNumber({"bandgap_eV"}, Sign::kPositive, &notes.bandgap_eV);
+    ReadNumber({"bandgap_slope_per_K"}, Sign::kAny, &notes.bandgap_slope_per_K);
     ReadNumber({"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
     ReadNumber({"isc_tempco_A_per_K", "alpha_Isc_A_per_K"}, Sign::kAny, &notes.isc_tempco_A_per_K);
     ReadNumber({"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
@@ -251,6 +253,7 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   if (notes.technology.empty()) notes.technology = common.notes.technology;
   fill(&notes.bypass_diodes, common.notes.bypass_diodes);
   fill(&notes.bandgap_eV, common.notes.bandgap_eV);
+  fill(&notes.bandgap_slope_per_K, common.notes.bandgap_slope_per_K);
   fill(&notes.isc_tempco_per_K, common.notes.isc_tempco_per_K);
   fill(&notes.isc_tempco_A_per_K, common.notes.isc_tempco_A_per_K);
   fill(&notes.current_noise_constant_A, common.notes.current_noise_constant_A);

@@ -26,6 +26,7 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
   if (!notes.technology.empty()) (*sidecar)["technology"] = notes.technology;
   add("bypass_diodes", notes.bypass_diodes);
   add("bandgap_eV", notes.bandgap_eV);
+  add("bandgap_slope_per_K", notes.bandgap_slope_per_K);
   add("isc_tempco_per_K", notes.isc_tempco_per_K);
   add("isc_tempco_A_per_K", notes.isc_tempco_A_per_K);
   if (notes.current_noise_constant_A) {

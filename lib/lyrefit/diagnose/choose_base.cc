@@ -51,7 +51,7 @@ Law StartingLaw(const Readings& readings, bool second_diode) {
   const bool temperatures = traits.temperature_levels > 1;
   Law law;
   law.second_diode = second_diode;
-  law.bandgap_slope_per_K = kDeSotoBandgapSlope_per_K;
+  law.bandgap_slope_per_K = readings.bandgap_slope_per_K.value_or(kDeSotoBandgapSlope_per_K);
   law.free_tempco = temperatures && !traits.tempco_known;
   law.free_bandgap = temperatures && !traits.bandgap_known;
   return law;
@@ -60,7 +60,8 @@ Law StartingLaw(const Readings& readings, bool second_diode) {
 Law ChooseLaw(const Workbench& bench, const Law& law) {
   const DataTraits& traits = bench.readings->traits;
   Law chosen = law;
-  if (traits.temperature_levels > 1 && !law.free_bandgap) {
+  const bool slope_stated = bench.readings->bandgap_slope_per_K.has_value();
+  if (traits.temperature_levels > 1 && !law.free_bandgap && !slope_stated) {
     Law level = law;
     level.bandgap_slope_per_K = 0;
     const LawFit sloping = FitBase(bench, law);

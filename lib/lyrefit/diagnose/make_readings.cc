@@ -256,6 +256,9 @@ void TakeNotes(const CurveSet& set, Readings* readings) {
       readings->bandgap_eV = *notes.bandgap_eV;
       readings->traits.bandgap_known = true;
     }
+    if (notes.bandgap_slope_per_K && !readings->bandgap_slope_per_K) {
+      readings->bandgap_slope_per_K = notes.bandgap_slope_per_K;
+    }
     if (readings->traits.tempco_known) continue;
     if (notes.isc_tempco_per_K) {
       readings->isc_tempco_per_K = *notes.isc_tempco_per_K;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace lyrefit {
@@ -66,9 +67,10 @@ struct Readings {
   DataTraits traits;
   double reference_temperature_K = 298.15;  // where parameters are quoted
   double bandgap_eV = 1.121;
-  double isc_tempco_per_K = 0;         // relative to the photocurrent at 1000 W/m2
-  double isc_tempco_scales_per_K = 0;  // the same where it is stated in ampere; they add up
-  double pivot_voltage = 0;            // per cell: where the diode's current is a parameter
+  std::optional<double> bandgap_slope_per_K;  // as stated
+  double isc_tempco_per_K = 0;                // relative to the photocurrent at 1000 W/m2
+  double isc_tempco_scales_per_K = 0;         // the same where it is stated in ampere; they add up
+  double pivot_voltage = 0;                   // per cell: where the diode's current is a parameter
 };
 
 }  // namespace lyrefit

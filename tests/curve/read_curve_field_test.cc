@@ -23,7 +23,8 @@ std::vector<fs::path> TablesUnder(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (path.extension() != ".csv") continue;
-    if (path.filename() == "curves.csv" || path.filename() == "index.csv") continue;
+    const std::string name = path.filename().string();
+    if (name == "curves.csv" || name == "index.csv" || name == "labels.csv") continue;
     tables.push_back(path);
   }
   std::sort(tables.begin(), tables.end());

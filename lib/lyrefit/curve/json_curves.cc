@@ -18,6 +18,11 @@
 namespace lyrefit {
 namespace {
 
+// The name of what stands in `id` under `key`.
+std::string Below(const std::string& id, const std::string& key) {
+  return id.empty() ? key : fmt::format("{}.{}", id, key);
+}
+
 using nlohmann::json;
 
 // A table in whatever form JSON gave it.
@@ -110,9 +115,7 @@ class JsonCurveFinder {
     for (auto item = node.begin(); item != node.end(); ++item, ++place) {
       if (!item->is_structured()) continue;
       const std::string key = node.is_object() ? item.key() : std::to_string(place);
-      if (auto visited =
-              Visit(*item, NameOf(*item, id.empty() ? key : id + "." + key), around, nomad);
-          !visited) {
+      if (auto visited = Visit(*item, NameOf(*item, Below(id, key)), around, nomad); !visited) {
         return visited;
       }
     }
@@ -144,7 +147,7 @@ class JsonCurveFinder {
       const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
       if (!number) continue;
       const std::string label = nomad ? LabelInNomad(key) : key;
-      TakeStatement(label, *number, Quoted(id.empty() ? key : id + "." + key), &head);
+      TakeStatement(label, *number, Quoted(Below(id, key)), &head);
     }
     head.said.assumptions = HeadSentences(head);
     return head.said;
@@ -165,7 +168,7 @@ class JsonCurveFinder {
     }
     for (const Channel& channel : chosen) {
       const std::string& label = columns[channel.current].label;
-      const std::string own = id.empty() ? label : id + "." + label;
+      const std::string own = Below(id, label);
       RawCurve raw;
       raw.stated = around;
       raw.per_area = columns[channel.current].kind == ColumnKind::kCurrentDensity;

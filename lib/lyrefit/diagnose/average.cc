@@ -96,6 +96,7 @@ Reading Mean(const Readings& readings, const std::vector<int>& lot,
 // Positions of the averages that stand for the given readings.
 std::vector<int> Translated(const std::vector<int>& of, const std::vector<int>& readings) {
   std::vector<int> result;
+  result.reserve(readings.size());
   for (const int k : readings) result.push_back(of[k]);
   return result;
 }

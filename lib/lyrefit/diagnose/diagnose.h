@@ -42,7 +42,7 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
 //
 // Errors: an unusable curve, options outside their ranges, unknown effect ids, fewer points than
 // parameters.
-Expected<Diagnosis> Diagnose(const CurveSet& set, const DiagnoseOptions& options = {},
+Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options = {},
                              const Observer& observer = {});
 Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& options = {},
                              const Observer& observer = {});

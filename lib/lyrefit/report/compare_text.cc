@@ -128,7 +128,7 @@ std::string RunsText(const Comparison& comparison, const ProblemResult& problem)
 }
 
 std::string InterruptedLine(const Comparison& comparison) {
-  const std::string doubts = DoubtLines(comparison.doubts);
+  std::string doubts = DoubtLines(comparison.doubts);
   if (!comparison.interrupted) return doubts;
   return doubts +
          "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.\n";

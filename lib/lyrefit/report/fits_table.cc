@@ -28,7 +28,7 @@ std::string Header(const std::vector<ParameterInfo>& parameters) {
   for (const ParameterInfo& info : parameters) {
     const std::string column =
         std::string(info.symbol) + (info.unit.empty() ? "" : "_" + std::string(info.unit));
-    line += "," + column + "," + column + "_se";
+    line.append(",").append(column).append(",").append(column).append("_se");
   }
   for (const char* stage : {"searched", "refined"}) {
     for (const char* objective : {"measured", "solved"}) {

@@ -141,7 +141,7 @@ Expected<void> Journal::CheckHead(const JournalLine& found, int number,
   return {};
 }
 
-void Journal::Append(JournalLine record) {
+void Journal::Append(const JournalLine& record) {
   JournalLine line = {{"of", section_}};
   line.update(record);
   const std::string text = Dump(line);

@@ -40,7 +40,7 @@ class Journal {
   bool torn() const { return torn_; }  // a last line was cut off
 
   // Writes a record before it returns, from any thread. After a failure nothing more is written.
-  void Append(JournalLine record);
+  void Append(const JournalLine& record);
   // Why not all records were written; empty: all were.
   std::string failure() const;
 

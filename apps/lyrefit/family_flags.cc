@@ -33,8 +33,8 @@ void AddLawFlags(Verb* verb, FamilyFlags* flags) {
       .Group(kGroup);
 }
 
-void AddCountFlag(Verb* verb, const char* flag, const std::string& doc, int least, int* target) {
-  verb->AddOption(flag, target, doc + " (default " + NumberText(*target) + ")")
+void AddCountFlag(Verb* verb, const char* flag, const std::string& doc, int least, int& target) {
+  verb->AddOption(flag, &target, doc + " (default " + NumberText(target) + ")")
       .Between(least, 1000000)
       .Type("N")
       .Group(kGroup);
@@ -43,12 +43,12 @@ void AddCountFlag(Verb* verb, const char* flag, const std::string& doc, int leas
 void AddCurveChoiceFlags(Verb* verb, FamilyFlags* flags) {
   FamilyOptions& options = flags->options;
   AddCountFlag(verb, "--search-curves", "well-spread curves that the search sees", 2,
-               &options.search_curves);
+               options.search_curves);
   AddCountFlag(verb, "--fit-curves",
                "well-spread curves that are fitted, the others are tested; 0: all", 0,
-               &options.fit_curves);
+               options.fit_curves);
   AddCountFlag(verb, "--folds", "whole curves left out in turn, to test the answer; 0: none", 0,
-               &options.folds);
+               options.folds);
   AddListFlag(verb, "--leave-out", "curves that are not fitted", &flags->leave_out)
       .Type("ID[,ID]")
       .Group(kGroup);

@@ -255,6 +255,7 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
     return tl::unexpected(checked.error());
   }
   std::vector<IvCurve> readings;
+  readings.reserve(curves.size());
   for (const CompareCurve& curve : curves) readings.push_back(curve.curve);
   auto doubts = JudgeReadings(readings);
   if (!doubts) return tl::unexpected(doubts.error());

@@ -54,7 +54,9 @@ void AddNoise(std::mt19937* random, double part, std::vector<double>* values) {
 }
 
 void ConstantRun(std::mt19937* random, bool at_end, std::vector<double>* values) {
-  const std::size_t length = values->size() / 3 + Index(random, values->size() / 3);
+  // Near short circuit a short run is no more than a coarse meter: there it reaches into the knee.
+  const std::size_t part = at_end ? values->size() / 3 : values->size() * 3 / 5;
+  const std::size_t length = part + Index(random, values->size() / 4);
   const std::size_t begin = at_end ? values->size() - length : 0;
   const double level = (*values)[at_end ? begin : length];
   std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(begin), length, level);

@@ -25,8 +25,8 @@ struct Proof {
   BranchLimits limits;
   double thermal_voltage_V = 0;
   double beyond = std::numeric_limits<double>::infinity();  // half sum of squares at larger Rs
-  double rounding_A = 0;            // RMSEs no further apart than this are equal
-  std::vector<std::string> doubts;  // of the readings
+  double rounding_A = 0;                 // RMSEs no further apart than this are equal
+  std::vector<std::string> doubts = {};  // of the readings
   bool stopped = false;
 
   double Rmse(double half_sum_of_squares) const {

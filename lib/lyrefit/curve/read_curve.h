@@ -45,10 +45,10 @@ struct ReadOptions {
 //   - a folder that holds curve.csv, or a table of the folder's own name, as IV_Swinger writes it.
 // A sidecar NAME.json beside NAME.csv gives cells_in_series, nominal_temperature_C,
 // nominal_irradiance_Wm2, area_cm2, bypass_diodes, technology, bandgap_eV, bandgap_slope_per_K,
-// isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A, relative}, current_resolution_A; a report of
-// `lyrefit fit` in its place gives its conditions. Whatever was not said is a sentence in
-// `assumptions`. Every point in every quadrant is kept, in file order. Errors carry file, line and
-// column.
+// isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A, relative}, current_resolution_A;
+// a report of `lyrefit fit` in its place gives its conditions. Whatever was not said is a sentence
+// in `assumptions`. Every point in every quadrant is kept, in file order. Errors carry file, line
+// and column.
 Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options = {});
 
 // The same from a text that is no file, such as standard input: JSON where it is that, else a table

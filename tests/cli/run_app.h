@@ -24,13 +24,14 @@ inline std::string FileText(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Runs the lyrefit command with `arguments`, as the shell reads them, in a folder of its own.
-inline AppResult RunApp(const std::string& arguments) {
+// Runs the lyrefit command with `arguments`, as the shell reads them, in a folder of its own; its
+// standard input is the file `input`.
+inline AppResult RunApp(const std::string& arguments, const std::string& input = "/dev/null") {
   const std::string base =
       (std::filesystem::path(::testing::TempDir()) / ("lyrefit-run-" + std::to_string(getpid())))
           .string();
   const std::string command = std::string("'") + LYREFIT_APP + "' " + arguments + " >'" + base +
-                              ".out' 2>'" + base + ".err' </dev/null";
+                              ".out' 2>'" + base + ".err' <'" + input + "'";
   const int status = std::system(command.c_str());
   AppResult result;
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 127;

@@ -167,6 +167,13 @@ TEST(FindTableLayoutTest, PairsSideBySideAreChosenByColumn) {
   }
 }
 
+TEST(FindTableLayoutTest, PercentBeginsACommentToo) {
+  const auto layout = FindTableLayout("% I_mA V_mV\n1 0\n", "");
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->current, 0);
+  EXPECT_EQ(layout->voltage, 1);
+}
+
 TEST(FindTableLayoutTest, RefusalsNameTheColumn) {
   const struct {
     const char* text;
@@ -176,6 +183,7 @@ TEST(FindTableLayoutTest, RefusalsNameTheColumn) {
   } kCases[] = {
       {"V,voltage,I\n0,0,1\n", 1, 3, "found two: 'V' and 'voltage'"},
       {"V,I,Amps\n0,0,1\n", 1, 5, "expected one current column"},
+      {",i_sc,v_oc,i_mp,v_mp\n0,8,36,7,29\n", 1, 1, "`lyrefit datasheet` makes parameters of them"},
       {"V,J (%)\n0,1\n", 1, 3, "expected mA/cm2"},
       {"V1,I1,V2,I2\n0,1,0,1\n", 1, 10, "found 2: 1 'I1', 2 'I2'; choose one with --column"},
       {"Bias;Reading one\n0;1\n", 1, 1, "among 'Bias', 'Reading one'; name the columns with"},

@@ -30,11 +30,11 @@ struct ReadOptions {
 // Reads one measured curve from
 //   - a table (.csv, .tsv, .txt, .dat, .asc, .dta, .mpt or any other name): comma, semicolon, tab
 //     or blanks between the columns, decimal comma with semicolon or tab, lines that start with '#'
-//     are comments, UTF-8, UTF-16 or Windows-1252. Headers are matched without case or punctuation:
-//     V, voltage, Volts, voltage_V, voltage (mV), Potential, Ewe, Vf, Vmeas, I, current, Amps,
-//     current_A, "I [mA]", Im, Idc, J, "Current density (mA/cm2)", optional sigma, time, sweep,
-//     irradiance, temperature; where no name is known, the only columns in volt and in ampere
-//     count. Without a header the first two columns are taken as volt and ampere. Load sign
+//     or '%' are comments, UTF-8, UTF-16 or Windows-1252. Headers are matched without case or
+//     punctuation: V, voltage, Volts, voltage_V, voltage (mV), Potential, Ewe, Vf, Vmeas, I,
+//     current, Amps, current_A, "I [mA]", Im, Idc, J, "Current density (mA/cm2)", optional sigma,
+//     time, sweep, irradiance, temperature; where no name is known, the only columns in volt and in
+//     ampere count. Without a header the first two columns are taken as volt and ampere. Load sign
 //     (current of the other sign) is turned. Current densities need the cell's area. Lines before
 //     the header that clearly state irradiance, cell temperature, number of cells, area, compliance
 //     or date are read, others that hold a number are shown in `assumptions`. A second table below

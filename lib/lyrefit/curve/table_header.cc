@@ -159,7 +159,7 @@ TableLine AsRow(std::string_view line) {
 
 TableLine HeaderInComment(std::string_view comment, std::string_view row,
                           const HeaderRules& rules) {
-  const std::size_t text = comment.find_first_not_of("# \t");
+  const std::size_t text = comment.find_first_not_of("#% \t");
   if (text == std::string_view::npos) return {};
   TableLine candidate = AsHeader(comment.substr(text), row, rules);
   const TableLine numbers = AsRow(row);

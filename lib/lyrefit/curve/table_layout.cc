@@ -248,6 +248,17 @@ Expected<TableLayout> WithoutHeader(const TableLine& row, const Place& place,
   return layout;
 }
 
+// Isc, Voc and the like alone: what some call a curve.
+bool AreKeyPoints(const Fields& names) {
+  static constexpr std::string_view kPoints[] = {"isc", "voc", "imp", "vmp", "impp", "vmpp", "pmp"};
+  const auto found = std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    std::string letters;
+    for (const char c : LowerCase(name)) letters += c >= 'a' && c <= 'z' ? std::string(1, c) : "";
+    return std::find(std::begin(kPoints), std::end(kPoints), letters) != std::end(kPoints);
+  });
+  return found >= 3;
+}
+
 // Why nothing could be made of the file, at the line that comes nearest to a header. Its fields are
 // shown as the delimiter separates them that is really there.
 Error NoLayout(std::string_view line, int number, const std::string& file) {
@@ -264,6 +275,12 @@ Error NoLayout(std::string_view line, int number, const std::string& file) {
   if (best.delimiter == 0) {
     const char* what = ParseNumber(line, true) ? "a table of one column" : "one field";
     return Error{fmt::format("{}, found {}: {}", expected, what, Quoted(line)), file, number, 1};
+  }
+  if (AreKeyPoints(best.fields)) {
+    return Error{fmt::format("expected the points of a curve, found its key points alone ({}): "
+                             "`lyrefit datasheet` makes parameters of them",
+                             ListOf(best.fields)),
+                 file, number, 1};
   }
   std::string missing = "neither";
   if (HasKind(best.columns, ColumnKind::kVoltage)) missing = "no current";
@@ -359,7 +376,7 @@ class LayoutSearch {
       if (!lines_.Next(&line_)) return false;
       const std::size_t first = line_.find_first_not_of(" \t");
       if (first == std::string_view::npos) continue;
-      if (line_[first] != '#') return true;
+      if (!BeginsComment(line_[first])) return true;
       comment_ = line_;
       ReadHeadLine(line_, lines_.number(), HeadLine::kComment, &head_);
     }

@@ -36,7 +36,7 @@ bool LineReader::NextContent(std::string_view* line) {
 bool LineReader::NextContent(std::string_view* line, std::size_t* offset) {
   for (*offset = at_; Next(line); *offset = at_) {
     const auto first = std::find_if_not(line->begin(), line->end(), IsBlank);
-    if (first != line->end() && *first != '#') return true;
+    if (first != line->end() && !BeginsComment(*first)) return true;
   }
   return false;
 }

@@ -8,6 +8,9 @@
 
 namespace lyrefit {
 
+// Whether a line that begins with this character is a comment.
+constexpr bool BeginsComment(char c) { return c == '#' || c == '%'; }
+
 // The lines of a text, counted from 1; ends of line may be LF, CRLF or, without any LF, CR.
 class LineReader {
  public:
@@ -17,7 +20,7 @@ class LineReader {
   // The next line without its end; false at the end of the text.
   bool Next(std::string_view* line);
 
-  // The next line that is neither blank nor a comment ('#').
+  // The next line that is neither blank nor a comment ('#' or '%').
   bool NextContent(std::string_view* line);
 
   // The same; `offset` becomes where it began.

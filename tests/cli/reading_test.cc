@@ -1,0 +1,74 @@
+// What the flags for reading do with files of data/formats.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "../temp_folder.h"
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kFormats = std::string(LYREFIT_DATA_DIR) + "/formats/";
+const std::string kQuick = " --brief --no-polish --intervals none --population 5 --iterations 2";
+
+TEST(ReadingFlags, ChooseColumnsAndArea) {
+  for (const char* line :
+       {"wide.csv --column 2", "pairs.csv --column I2", "two_tables.csv --curve 1",
+        "other_names.csv --voltage-column 2 --current-column Proud", "density.txt --area-cm2 4"}) {
+    const AppResult result = RunApp("fit " + kFormats + line + kQuick);
+    EXPECT_NE(result.exit_code, 1) << line << ": " << result.err;
+    EXPECT_THAT(result.out, HasSubstr("RMSE")) << line;
+  }
+}
+
+TEST(ReadingFlags, RefusalsNameThem) {
+  const struct {
+    const char* file;
+    const char* phrase;
+  } kCases[] = {
+      {"wide.csv", "choose one with --column NAME|N (see --list-columns)"},
+      {"density.txt", "give the area of the cell with --area-cm2"},
+      {"other_names.csv", "name the columns with --voltage-column and --current-column"},
+  };
+  for (const auto& c : kCases) {
+    const AppResult result = RunApp("fit " + kFormats + c.file);
+    EXPECT_EQ(result.exit_code, 1) << c.file;
+    EXPECT_THAT(result.err, HasSubstr(c.phrase)) << c.file;
+  }
+}
+
+TEST(ReadingFlags, ColumnsAreListed) {
+  const AppResult result = RunApp("fit --list-columns " + kFormats + "wide.csv");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("   1  Voltage (V)                       voltage\n"));
+  EXPECT_THAT(result.out, HasSubstr("   3  Current 2 (A)                     current 2\n"));
+}
+
+TEST(ReadingFlags, StandardInputIsRead) {
+  for (const char* file : {"ec_lab.mpt", "utf16le.csv", "lists.json"}) {
+    const AppResult result = RunApp("fit -" + kQuick, kFormats + file);
+    EXPECT_NE(result.exit_code, 1) << file << ": " << result.err;
+    EXPECT_THAT(result.out, HasSubstr("standard input: sd")) << file;
+  }
+}
+
+TEST(ReadingFlags, AReportInThePlaceOfTheSidecarIsUnderstood) {
+  const TempFolder folder;
+  const std::string curve = folder.Path("module.csv");
+  std::filesystem::copy_file(kFormats + "plain.csv", curve);
+  const std::string report = folder.Path("module.json");
+  const std::string fit = "fit " + curve + " --cells 60 --temperature-C 47" + kQuick;
+  ASSERT_NE(RunApp(fit + " --json " + report + " --force").exit_code, 1);
+  const AppResult again = RunApp("fit " + curve + " --no-polish --intervals none");
+  EXPECT_THAT(again.out, HasSubstr("module.json is a report of lyrefit, not a sidecar"));
+  EXPECT_THAT(again.out, HasSubstr("60 cells"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -178,6 +178,17 @@ void AddColumnFlags(Verb* verb, ReadOptions* options, bool* list_columns) {
   verb->AddOption("--current-column", &options->current_column, "the same for the current")
       .Type("NAME|N")
       .Group("Reading");
+  verb->AddOption("--voltage-unit", &options->voltage_unit,
+                  "its unit, where the file names none: V, mV, uV or kV")
+      .Type("UNIT")
+      .Group("Reading");
+  verb->AddOption("--current-unit", &options->current_unit,
+                  "that of the current: A, mA, uA, nA, kA, mA/cm2, A/m2, ...")
+      .Type("UNIT")
+      .Group("Reading");
+  verb->AddSwitch("--skip-missing", &options->skip_missing,
+                  "leave out rows whose voltage or current is empty, NaN or an overflow code")
+      .Group("Reading");
   verb->AddOption("--area-cm2", &options->area_cm2,
                   "area of the cell in cm2, which makes currents of current densities")
       .Between(1e-9, 1e9)

@@ -98,7 +98,7 @@ TEST(Implausible, OverflowCodes) {
   for (const double code : {9.9e37, 9.91e37, 1e38, 1e300, 1e308}) {
     IvCurve curve = MadeModule();
     curve.current_A[5] = code;
-    ExpectRefused(Csv(curve), "--cells 60", {"reading 6", "overflow", "leave out"});
+    ExpectRefused(Csv(curve), "--cells 60", {"reading 6", "overflow", "--skip-missing"});
   }
 }
 
@@ -110,13 +110,13 @@ TEST(Implausible, VoltageOfTheWrongSign) {
 TEST(Implausible, ExchangedColumns) {
   const IvCurve exchanged = Changed(MadeModule(), [](double* v, double* i) { std::swap(*v, *i); });
   ExpectRefused(Csv(exchanged), "", {"columns are exchanged"});
-  ExpectRefused(Csv(exchanged, ""), "", {"columns are exchanged", "header"});
+  ExpectRefused(Csv(exchanged, ""), "", {"columns are exchanged", "--voltage-column"});
   ExpectRefused(Csv(exchanged, "voltage_V,current_A\n"), "--cells 60", {"columns are exchanged"});
 }
 
 TEST(Implausible, UnitsNobodyNamed) {
   const IvCurve in_mA = Changed(MadeModule(), [](double*, double* i) { *i *= 1e3; });
-  ExpectRefused(Csv(in_mA), "--cells 60", {"milliampere?", "current_mA"});
+  ExpectRefused(Csv(in_mA), "--cells 60", {"milliampere?", "--current-unit mA"});
   ExpectRefused(Csv(in_mA, ""), "--cells 60", {"milliampere?"});
   const TempFolder folder;
   const AppResult named = RunApp("fit --intervals none --cells 60 " +

@@ -35,7 +35,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
       {"Keithley's overflow",
        "overflow",
        true,
-       {"reading 6 ", "9.91e+37 A", "leave out"},
+       {"reading 6 ", "9.91e+37 A", "--skip-missing"},
        [](IvCurve* c) { c->current_A[5] = 9.91e37; }},
       {"two overflows",
        "overflow",
@@ -69,7 +69,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
       {"milliampere",
        "unit",
        true,
-       {"A and the file names no unit: milliampere?", "current_mA"},
+       {"A and the file names no unit: milliampere?", "--current-unit mA"},
        [](IvCurve* c) {
          for (double& i : c->current_A) i *= 1e3;
          c->current_unit_known = false;
@@ -77,7 +77,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
       {"millivolt",
        "unit",
        true,
-       {"3.9e+04 V", "millivolt?", "voltage_mV"},
+       {"3.9e+04 V", "millivolt?", "--voltage-unit mV"},
        [](IvCurve* c) {
          for (double& v : c->voltage_V) v *= 1e3;
          c->voltage_unit_known = false;
@@ -92,7 +92,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
       {"columns exchanged, no units",
        "exchanged",
        true,
-       {"columns are exchanged", "header"},
+       {"columns are exchanged", "--voltage-column"},
        [](IvCurve* c) {
          std::swap(c->voltage_V, c->current_A);
          c->current_unit_known = c->voltage_unit_known = c->cells_known = false;

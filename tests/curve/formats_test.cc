@@ -54,6 +54,9 @@ ReadOptions ParseOptions(const std::string& text) {
     if (key == "voltage_column") options.voltage_column = value;
     if (key == "current_column") options.current_column = value;
     if (key == "curve") options.curve = std::stoi(value);
+    if (key == "voltage_unit") options.voltage_unit = value;
+    if (key == "current_unit") options.current_unit = value;
+    if (key == "skip_missing") options.skip_missing = true;
     if (key == "area_cm2") options.area_cm2 = std::stod(value);
   }
   return options;
@@ -121,13 +124,41 @@ std::string NameOf(const ::testing::TestParamInfo<Format>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, FormatTest, ::testing::ValuesIn(ReadFormats()), NameOf);
 
+TEST(FormatsTest, MissingReadingsAreRefusedOrCounted) {
+  for (const auto& [file, sentence] :
+       {std::pair("missing.csv", "4 of 28 rows without a reading left out: lines 6, 12, 17, 21"),
+        std::pair("missing_records.json", "2 of 26 rows without a reading left out")}) {
+    const std::string path = (kFormats / file).string();
+    const auto refused = ReadCurve(path);
+    ASSERT_FALSE(refused) << file;
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("--skip-missing")) << file;
+    ReadOptions options;
+    options.skip_missing = true;
+    const auto curve = ReadCurve(path, options);
+    ASSERT_TRUE(curve) << curve.error().ToString();
+    EXPECT_THAT(curve->assumptions, ::testing::Contains(sentence)) << file;
+  }
+}
+
+TEST(FormatsTest, UnknownUnitsAreRefused) {
+  ReadOptions options;
+  options.current_unit = "horsepower";
+  for (const char* file : {"plain.csv", "no_header.txt", "records.json"}) {
+    const auto curve = ReadCurve((kFormats / file).string(), options);
+    ASSERT_FALSE(curve) << file;
+    EXPECT_EQ(curve.error().message,
+              "--current-unit: expected A, mA, uA, nA or kA, found 'horsepower'");
+  }
+}
+
 TEST(FormatsTest, EveryFileHasItsLine) {
   std::vector<std::string> listed;
   for (const Format& format : ReadFormats()) listed.push_back(format.file);
   EXPECT_GE(listed.size(), 40U);
   for (const fs::directory_entry& entry : fs::directory_iterator(kFormats)) {
     const std::string name = entry.path().filename().string();
-    if (name != "README.md") EXPECT_THAT(listed, ::testing::Contains(name));
+    if (name == "README.md") continue;
+    EXPECT_THAT(listed, ::testing::Contains(name));
   }
 }
 

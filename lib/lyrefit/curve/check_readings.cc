@@ -9,13 +9,13 @@
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
 namespace {
 
 using Findings = std::vector<ReadingFinding>;
 
-constexpr double kOverflow = 1e30;       // beyond anything measured, below every overflow code
 constexpr double kSmallest_A = 1e-18;    // below any instrument
 constexpr double kLargestString_A = 30;  // of one string, where nobody named a unit
 constexpr double kLargestVoltage_V = 2000;
@@ -64,17 +64,18 @@ void LookForOverflow(const IvCurve& curve, Findings* out) {
   for (const auto& column : columns) {
     std::vector<int> points;
     for (std::size_t k = 0; k < curve.size(); ++k) {
-      if (std::fabs(column.values[k]) >= kOverflow) points.push_back(static_cast<int>(k));
+      if (std::fabs(column.values[k]) >= kOverflowCode) points.push_back(static_cast<int>(k));
     }
     if (points.empty()) continue;
     const std::string more =
         points.size() > 1 ? fmt::format(" and of {} more", points.size() - 1) : "";
-    out->push_back({"overflow",
-                    fmt::format("the {} of reading {}{} is {:.6g} {}, which instruments write for "
-                                "an overflow or for no value: leave out such rows",
-                                column.name, points.front() + 1, more,
-                                column.values[points.front()], column.unit),
-                    true, points, true});
+    out->push_back(
+        {"overflow",
+         fmt::format("the {} of reading {}{} is {:.6g} {}, which instruments write for "
+                     "an overflow or for no value: leave such rows out with --skip-missing",
+                     column.name, points.front() + 1, more, column.values[points.front()],
+                     column.unit),
+         true, points, true});
   }
 }
 
@@ -187,8 +188,8 @@ void LookForExchange(const Examined& look, Findings* out) {
   const bool units = curve.current_unit_known && curve.voltage_unit_known;
   out->push_back({"exchanged",
                   fmt::format("Voc would be {:.4g} V and Isc {:.4g} A, with the knee of a curve "
-                              "whose columns are exchanged: name the columns in a header line, "
-                              "'voltage_V' and 'current_A'",
+                              "whose columns are exchanged: say which is which with "
+                              "--voltage-column and --current-column",
                               voc, isc),
                   fits_exchanged || !units,
                   {}});
@@ -202,8 +203,8 @@ void LookAtUnits(const Examined& look, Findings* out) {
     out->push_back(
         {"unit",
          fmt::format("the largest current is {:.4g} A and the file names no unit: "
-                     "milliampere{}? name the column 'current_mA', or 'current_A' if it "
-                     "is ampere",
+                     "milliampere{}? say so with --current-unit mA, or A if it is "
+                     "ampere",
                      current_A, look.largest_V < kLargestString_A ? ", or columns exchanged" : ""),
          true,
          {}});
@@ -217,8 +218,7 @@ void LookAtUnits(const Examined& look, Findings* out) {
   if (!curve.voltage_unit_known && look.largest_V > kLargestVoltage_V) {
     out->push_back({"unit",
                     fmt::format("the largest voltage is {:.4g} V and the file names no unit: "
-                                "millivolt? name the column 'voltage_mV', or 'voltage_V' if it is "
-                                "volt",
+                                "millivolt? say so with --voltage-unit mV, or V if it is volt",
                                 look.largest_V),
                     true,
                     {}});

@@ -74,6 +74,7 @@ Expected<void> PickChannel(const ReadOptions& options, const HeaderPlace& place,
     const std::size_t blamed = options.column.empty() ? 1 : 0;
     return place.Refuse(chosen.error().message, layout->channels[blamed].current);
   }
+  if (auto applied = ApplyUnitWishes(options, *chosen, &layout->columns); !applied) return applied;
   layout->voltage = chosen->voltage;
   layout->current = chosen->current;
   return {};
@@ -209,12 +210,16 @@ Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlac
   layout.columns.resize(row.fields.size());
   const Expected<Channel> channel = PlacesWithoutHeader(layout.columns, place, options);
   if (!channel) return tl::unexpected(channel.error());
+  if (auto applied = ApplyUnitWishes(options, *channel, &layout.columns); !applied) {
+    return tl::unexpected(applied.error());
+  }
   layout.channels = {*channel};
   layout.voltage = channel->voltage;
   layout.current = channel->current;
   layout.assumptions.push_back(fmt::format(
-      "no header line: column {} taken as the voltage in V, column {} as the current in A",
-      layout.voltage + 1, layout.current + 1));
+      "no header line: column {} taken as the voltage in {}, column {} as the current in {}",
+      layout.voltage + 1, options.voltage_unit.empty() ? "V" : options.voltage_unit,
+      layout.current + 1, options.current_unit.empty() ? "A" : options.current_unit));
   if (row.fields.size() > 2) {
     layout.assumptions.push_back(fmt::format("{} further columns not used", row.fields.size() - 2));
   }

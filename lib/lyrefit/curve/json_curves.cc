@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -95,6 +96,33 @@ JsonTable FromSplit(const json& object) {
   return table;
 }
 
+bool IsMissing(const json& value) {
+  if (value.is_null()) return true;
+  if (value.is_string()) return IsMissingReading(value.get_ref<const std::string&>());
+  return value.is_number() && !(std::fabs(value.get<double>()) < kOverflowCode);
+}
+
+// Leaves out the rows without a voltage or a current; returns how many.
+std::size_t DropMissing(const Channel& channel, JsonTable* table) {
+  const std::size_t rows = table->columns[channel.voltage].size();
+  if (table->columns[channel.current].size() != rows) return 0;
+  std::vector<bool> missing(rows);
+  for (const int side : {channel.voltage, channel.current}) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      if (IsMissing(*table->columns[side][i])) missing[i] = true;
+    }
+  }
+  for (std::vector<const json*>& column : table->columns) {
+    if (column.size() != rows) continue;
+    std::vector<const json*> kept;
+    for (std::size_t i = 0; i < rows; ++i) {
+      if (!missing[i]) kept.push_back(column[i]);
+    }
+    column = std::move(kept);
+  }
+  return std::count(missing.begin(), missing.end(), true);
+}
+
 class JsonCurveFinder {
  public:
   JsonCurveFinder(const std::string& path, const ReadOptions& options)
@@ -167,13 +195,22 @@ class JsonCurveFinder {
       chosen = {*one};
     }
     for (const Channel& channel : chosen) {
+      if (auto applied = ApplyUnitWishes(options_, channel, &columns); !applied) {
+        return tl::unexpected(applied.error());
+      }
       const std::string& label = columns[channel.current].label;
       const std::string own = Below(id, label);
       RawCurve raw;
       raw.stated = around;
       raw.per_area = columns[channel.current].kind == ColumnKind::kCurrentDensity;
-      if (auto filled = Fill(table, columns, channel, &raw.curve); !filled) {
+      JsonTable rows = table;
+      const std::size_t skipped = options_.skip_missing ? DropMissing(channel, &rows) : 0;
+      if (auto filled = Fill(rows, columns, channel, &raw.curve); !filled) {
         return tl::unexpected(filled.error());
+      }
+      if (skipped > 0) {
+        raw.curve.assumptions.push_back(fmt::format("{} of {} rows without a reading left out",
+                                                    skipped, skipped + raw.curve.size()));
       }
       raw.curve.name = Unique(channels.size() > 1 ? own : id);
       raw.curve.source = path_;
@@ -207,7 +244,9 @@ class JsonCurveFinder {
         const double value = number ? *number * column.factor + column.offset : 0;
         if (!number) {
           return Fail(
-              fmt::format("expected a finite number in \"{}\"[{}], found {}", column.label, i,
+              fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
+                          "missing, leave them out with --skip-missing",
+                          column.label, i,
                           Quoted(table.columns[place][i]->dump(-1, ' ', false,
                                                                json::error_handler_t::replace))),
               path_);

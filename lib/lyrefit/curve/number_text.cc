@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -79,6 +81,19 @@ std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
     if (const std::size_t at = plain.find(','); at != std::string::npos) plain[at] = '.';
   }
   return Convert(plain);
+}
+
+bool IsMissingWord(std::string_view text) {
+  static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
+                                                "overflow", "ovrflw", "ovf",  "err",  "error"};
+  const std::string lower = LowerCase(text);
+  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
+}
+
+bool IsMissingReading(std::string_view text, bool decimal_comma) {
+  if (TrimBlanks(text).empty() || IsMissingWord(TrimBlanks(text))) return true;
+  const std::optional<double> number = ParseNumber(text, decimal_comma);
+  return number && !(std::fabs(*number) < kOverflowCode);
 }
 
 std::string_view TrimBlanks(std::string_view text) {

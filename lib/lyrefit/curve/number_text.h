@@ -13,6 +13,17 @@ namespace lyrefit {
 // them in its own words.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
+// What instruments write for an overflow or for no value lies beyond this, what anybody measures
+// below.
+inline constexpr double kOverflowCode = 1e30;
+
+// Whether a field stands for a reading that is missing: empty, NaN, a word such as "NA" or "ovf", or
+// an overflow code.
+bool IsMissingReading(std::string_view text, bool decimal_comma = false);
+
+// A word that stands for a missing reading.
+bool IsMissingWord(std::string_view text);
+
 // `text` without the blanks and tabs around it.
 std::string_view TrimBlanks(std::string_view text);
 

@@ -26,8 +26,11 @@ struct Slot {
 
 class RowReader {
  public:
-  RowReader(const TableLayout& layout, const std::string& file, Table* table)
-      : layout_(layout), row_(layout.columns, layout.delimiter, file), table_(table) {
+  RowReader(const TableLayout& layout, const std::string& file, bool skip_missing, Table* table)
+      : layout_(layout),
+        row_(layout.columns, layout.delimiter, file),
+        skip_missing_(skip_missing),
+        table_(table) {
     IvCurve* curve = &table->curve;
     slots_ = {{layout.voltage, &curve->voltage_V}, {layout.current, &curve->current_A}};
     if (layout.sigma != kNoColumn) slots_.push_back({layout.sigma, &curve->sigma_A});
@@ -41,10 +44,14 @@ class RowReader {
     values_.resize(slots_.size());
   }
 
-  // Appends the row, or nothing of it.
+  // Appends the row, or nothing of it: one without a reading may be left out.
   Expected<void> Read(std::string_view line, int number) {
     if (layout_.channels.size() > 1 && IsPastEnd(line)) return {};
     if (auto taken = row_.Take(line, number); !taken) return taken;
+    if (skip_missing_ && (IsMissing(layout_.voltage) || IsMissing(layout_.current))) {
+      table_->skipped.push_back(number);
+      return {};
+    }
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       const Expected<double> value = row_.Value(slots_[i].field);
       if (!value) return tl::unexpected(value.error());
@@ -69,6 +76,10 @@ class RowReader {
   }
 
  private:
+  bool IsMissing(int field) const {
+    return IsMissingReading(row_[field], layout_.delimiter != ',');
+  }
+
   // Of pairs side by side some may end before the others.
   bool IsPastEnd(std::string_view line) const {
     const auto fields = SplitFields(line, layout_.delimiter);
@@ -81,18 +92,11 @@ class RowReader {
 
   const TableLayout& layout_;
   TableRow row_;
+  const bool skip_missing_;
   Table* table_;
   std::vector<Slot> slots_;
   std::vector<double> values_;
 };
-
-// Words for a reading that is missing: no text below a table.
-bool IsMissingValue(std::string_view field) {
-  static constexpr std::string_view kWords[] = {"na",       "n/a",    "#n/a", "null", "none",
-                                                "overflow", "ovrflw", "ovf",  "err",  "error"};
-  const std::string lower = LowerCase(field);
-  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
-}
 
 bool HasLetter(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) {
@@ -109,7 +113,7 @@ bool IsText(std::string_view line, const TableLayout& layout) {
   if (fields->empty()) return true;
   const bool decimal_comma = layout.delimiter != ',';
   const std::string& first = fields->front();
-  if (ParseNumber(first, decimal_comma) || IsMissingValue(first) || !HasLetter(first)) return false;
+  if (ParseNumber(first, decimal_comma) || IsMissingWord(first) || !HasLetter(first)) return false;
   if (layout.voltage == 0 || layout.current == 0) return true;
   const std::size_t voltage = layout.voltage;
   return voltage >= fields->size() || !ParseNumber((*fields)[voltage], decimal_comma);
@@ -144,6 +148,7 @@ class TableReader {
       return Fail("expected rows of numbers below the header, found none", file_,
                   layout->first_row_line);
     }
+    SayWhatWasSkipped();
     TakeUnitOfShortCircuit(*layout);
     NumberTables();
     return std::move(table_);
@@ -152,7 +157,7 @@ class TableReader {
  private:
   // Until the text ends, or the next table begins.
   Expected<std::optional<TableLayout>> ReadRows(const TableLayout& layout) {
-    RowReader reader(layout, file_, &table_);
+    RowReader reader(layout, file_, options_.skip_missing, &table_);
     LineReader lines(text_, layout.first_row_offset, layout.first_row_line);
     std::size_t offset = lines.offset();
     for (std::string_view line; lines.NextContent(&line, &offset);) {
@@ -182,6 +187,20 @@ class TableReader {
       if (!IsText(line, layout)) return false;
     }
     return true;
+  }
+
+  void SayWhatWasSkipped() {
+    constexpr std::size_t kShown = 10;
+    const std::vector<int>& skipped = table_.skipped;
+    if (skipped.empty()) return;
+    std::string shown;
+    for (std::size_t i = 0; i < skipped.size() && i < kShown; ++i) {
+      shown += fmt::format("{}{}", i == 0 ? "" : ", ", skipped[i]);
+    }
+    table_.curve.assumptions.push_back(
+        fmt::format("{} of {} rows without a reading left out: line{} {}{}", skipped.size(),
+                    skipped.size() + table_.curve.size(), skipped.size() == 1 ? "" : "s", shown,
+                    skipped.size() > kShown ? ", ..." : ""));
   }
 
   void SayWhatWasLeft(LineReader lines) {

@@ -18,6 +18,7 @@ struct Table {
   IvCurve curve;                // columns and assumptions only
   bool holds_curves = false;    // `sweep` comes from a column named curve
   std::vector<int> lines;       // where each row stands
+  std::vector<int> skipped;     // lines without a reading that were left out
   std::map<int, Error> broken;  // sweeps with a row that could not be read: their first error
   Sidecar head;                 // what the lines before the header state
   bool per_area = false;        // the currents are in A/cm2

@@ -170,6 +170,40 @@ void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns)
   }
 }
 
+Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channel,
+                               std::vector<Column>* columns) {
+  const struct {
+    int place;
+    const std::string& wish;
+    ColumnKind kinds[2];
+    const char* flag;
+  } wishes[] = {{channel.voltage,
+                 options.voltage_unit,
+                 {ColumnKind::kVoltage, ColumnKind::kVoltage},
+                 "--voltage-unit"},
+                {channel.current,
+                 options.current_unit,
+                 {ColumnKind::kCurrent, ColumnKind::kCurrentDensity},
+                 "--current-unit"}};
+  for (const auto& [place, wish, kinds, flag] : wishes) {
+    if (wish.empty()) continue;
+    const std::vector<LabelWord> words = SplitLabel(wish);
+    const std::string text = JoinWords(words, 0, words.size());
+    const Unit* unit = FindUnit(kinds[0], text);
+    if (unit == nullptr) unit = FindUnit(kinds[1], text);
+    if (unit == nullptr) {
+      return Fail(
+          fmt::format("{}: expected {}, found {}", flag, ExpectedUnits(kinds[0]), Quoted(wish)));
+    }
+    Column& column = (*columns)[place];
+    column.kind = unit->kind;
+    column.unit = unit->text;
+    column.factor = unit->factor;
+    column.offset = unit->offset;
+  }
+  return {};
+}
+
 bool GuessColumns(std::vector<Column>* columns) {
   std::vector<Guess> guesses;
   for (const Column& column : *columns) guesses.push_back(GuessAt(column.label));

@@ -23,6 +23,10 @@ std::optional<int> FindColumn(const std::vector<Column>& columns, const std::str
 // not used then. Names that are not there change nothing.
 void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns);
 
+// Gives the voltage and the current of a channel the units that the options name.
+Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channel,
+                               std::vector<Column>* columns);
+
 // Where the names tell no voltage and current: the only pair of a letter and a common suffix
 // ("Vx", "Ix"), else the only columns in volt and in ampere. False if there is no such thing.
 bool GuessColumns(std::vector<Column>* columns);

@@ -35,7 +35,7 @@ tl::unexpected<Error> TableRow::RefuseField(int field, std::string_view expected
 
 tl::unexpected<Error> TableRow::RefuseMissing(int field, std::string_view expected) const {
   Error error = RefuseField(field, expected).value();
-  error.message += ": delete the line if the reading is missing";
+  error.message += ": if readings are missing, leave their rows out with --skip-missing";
   return tl::unexpected(std::move(error));
 }
 

@@ -4,6 +4,13 @@ add_compile_options(-Wall -Wextra -Wshadow -ffp-contract=off)
 if(LYREFIT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(LYREFIT_SANITIZED)
+  # The headers of the system are checked by their own assertions: the sanitizers' checks in Eigen's and the
+  # standard library's templates are two thirds of the code and find what an assertion says better.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    add_compile_options(-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitize.ignore)
+  endif()
   # Eigen changes its own allocation under the address sanitizer; libraries built without it, which hand
   # matrices over, do not.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)

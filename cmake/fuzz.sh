@@ -5,7 +5,7 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-InstallPackages build test fuzz
+InstallPackages build test clang
 cd -- "$LYREFIT_ROOT"
 seconds=${1:-600}
 targets=("${@:2}")

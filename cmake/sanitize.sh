@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Builds with the address and undefined-behaviour sanitizers in build-sanitize/ and runs the tests there, all
-# but those labelled `rate`, which do the same thing many hundred times over to learn one.
+# Builds with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs the tests
+# there, all but those labelled `rate`, which do the same thing many hundred times over to learn one.
 # -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
 
-InstallPackages build test
+InstallPackages build test clang
 cd -- "$LYREFIT_ROOT"
-Configure build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+Configure build-sanitize -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
   -DLYREFIT_SANITIZE=ON -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build-sanitize
 RunTests build-sanitize -LE rate

@@ -20,7 +20,7 @@ PackagesFor() {
     test) echo libgtest-dev libgmock-dev ;;
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;
-    fuzz) echo clang libclang-rt-14-dev ;;
+    clang) echo clang libclang-rt-14-dev ;;
     benchmark) echo libbenchmark-dev libnlopt-dev libnlopt-cxx-dev libpagmo-dev ;;
     *) Die "no package list named '$1'" ;;
   esac

@@ -4,6 +4,7 @@
 #include "lyrefit/report/audit_csv.h"
 #include "lyrefit/report/audit_json.h"
 #include "lyrefit/report/audit_text.h"
+#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {
@@ -49,6 +50,7 @@ AuditCommand::AuditCommand(CommandLine* line)
 }
 
 int AuditCommand::Run() {
+  EndOnSignals();
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<AuditReport> report = Audit(rows_file_, options_);
   if (!report) return Refuse(report.error());

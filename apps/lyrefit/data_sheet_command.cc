@@ -10,6 +10,7 @@
 #include "lyrefit/report/data_sheet_json.h"
 #include "lyrefit/report/data_sheet_text.h"
 #include "lyrefit/report/pvlib_json.h"
+#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {
@@ -145,6 +146,7 @@ Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
 }
 
 int DataSheetCommand::Run() {
+  EndOnSignals();
   if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
   const Expected<DataSheet> sheet = Sheet();
   if (!sheet) return Refuse(sheet.error());

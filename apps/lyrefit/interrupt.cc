@@ -8,12 +8,12 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "output.h"
 #include "progress_text.h"
 
 namespace lyrefit {
@@ -25,18 +25,22 @@ constexpr std::chrono::milliseconds kPeriod(200);  // between two lines
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupted = 0;
-volatile std::sig_atomic_t ignored[std::size(kSignals)];  // by whoever started the program
 std::atomic<bool> silent{false};
 
-void LetGo() {
-  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-    if (ignored[i] == 0) std::signal(kSignals[i], SIG_DFL);
+void EndNow(int /*signal*/) { _exit(kExitInterrupted); }
+
+// What the caller had set to be ignored stays so.
+void Catch(void (*handler)(int)) {
+  for (const int signal : kSignals) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) std::signal(signal, handler);
   }
 }
 
 void OnInterrupt(int /*signal*/) {
   interrupted = 1;
-  LetGo();
+  Catch(EndNow);
 }
 
 bool OnTerminal() { return isatty(STDERR_FILENO) != 0; }
@@ -107,15 +111,12 @@ class ProgressDisplay {
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-    struct sigaction before = {};
-    sigaction(kSignals[i], nullptr, &before);
-    ignored[i] = before.sa_handler == SIG_IGN ? 1 : 0;
-    if (ignored[i] == 0) std::signal(kSignals[i], OnInterrupt);
-  }
+  Catch(OnInterrupt);
 }
 
-InterruptGuard::~InterruptGuard() { LetGo(); }
+InterruptGuard::~InterruptGuard() { EndOnSignals(); }
+
+void EndOnSignals() { Catch(EndNow); }
 
 Observer TerminalObserver(ProgressStyle style) {
   return [display = std::make_shared<ProgressDisplay>(std::move(style))](const Progress& progress) {

@@ -16,6 +16,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
+// Lets those signals end the program with exit code 130 from here on: for what takes a moment.
+void EndOnSignals();
+
 struct ProgressStyle {
   // The stage that is the whole run: what is left of it is left of all. Empty: none is.
   std::string whole;

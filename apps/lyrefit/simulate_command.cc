@@ -7,6 +7,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
+#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {
@@ -127,6 +128,7 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
 }
 
 int SimulateCommand::Run() {
+  EndOnSignals();
   const Expected<SimulateOptions> options = Options();
   if (!options) return Refuse(options.error());
   if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());

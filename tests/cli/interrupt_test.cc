@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ using ::testing::StartsWith;
 
 // How long the app may take to end. The command as it ships ends within a second on a quiet
 // machine; the sanitizers make everything several times slower.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LYREFIT_SANITIZED
 constexpr double kPatience_s = 20;
 #else
 constexpr double kPatience_s = 5;
@@ -137,6 +138,13 @@ TEST_P(InterruptTest, KeepsTheSetsOfACoverageStudy) {
       JsonOf({"coverage", "--sets", "100000", "--curves", "5", "--points", "10"});
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
+}
+
+TEST_P(InterruptTest, EndsWhatTakesAMomentToo) {
+  const std::string pipe = folder_.Path("pipe");  // nobody writes into it
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(OutputOf({"simulate", "--from", pipe}), "");
+  EXPECT_EQ(OutputOf({"audit", pipe}), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptTest, testing::Values(SIGINT, SIGTERM, SIGHUP),

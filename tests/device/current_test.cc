@@ -3,7 +3,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/float128.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "lyrefit/base/random.h"
@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-using Quad = boost::multiprecision::float128;
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 constexpr int kMost = 9;
 using Jet = ceres::Jet<double, kMost>;

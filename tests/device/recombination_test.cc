@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/multiprecision/float128.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-using Quad = boost::multiprecision::float128;
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 constexpr int kMost = 9;
 using Jet = ceres::Jet<double, kMost>;
 

@@ -30,7 +30,7 @@ TEST(FitAuto, FindsASecondDiodeThatIsThere) {
 }
 
 TEST(FitAuto, IsRarelyFooledByASingleDiode) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LYREFIT_SANITIZED
   constexpr int kCurves = 2;
 #else
   constexpr int kCurves = 40;

@@ -1,10 +1,9 @@
 #include "lyrefit/certify/mixture.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/non_negative.h"
 
@@ -141,7 +140,7 @@ void Solver::SolveLinear() {
     if (x[2 + j] > 0) left.push_back({state_.atoms[j].u, x[2 + j]});
   }
   state_.atoms = left;
-  state_.y = data_.current_A - a * x;
+  state_.y = Residual(data_.current_A, a, x);
 }
 
 void Solver::Slide() {
@@ -197,17 +196,14 @@ Slope Solver::SlopeHere() const {
   const Eigen::MatrixXd columns = a(Eigen::all, linear);
   const Eigen::MatrixXd b = slopes(Eigen::all, slope.moving);
   // Mixed block A'B - diag(slope . y), each slope for a current of 1.
-  Eigen::MatrixXd mixed = columns.transpose() * b;
+  Eigen::MatrixXd mixed = TransposedTimes(columns, b);
   for (Eigen::Index i = 0; i < count; ++i) {
     const int j = slope.moving[i];
     const auto row = std::find(linear.begin(), linear.end(), 2 + j) - linear.begin();
     mixed(row, i) += gradient[j] / state_.atoms[j].current_A;
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::MatrixXd r = qr.matrixQR().topRows(columns.cols());
-  const Eigen::MatrixXd w = r.triangularView<Eigen::Upper>().transpose().solve(mixed);
   slope.gradient = gradient(slope.moving);
-  slope.hessian = b.transpose() * b - w.transpose() * w;
+  slope.hessian = SchurComplement(columns, b, mixed);
   slope.hessian.diagonal() -= bends(slope.moving);
   slope.squares = b.colwise().squaredNorm();
   return slope;
@@ -268,9 +264,9 @@ bool Solver::SlideOnce(double* damping) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Eigen::MatrixXd damped = slope.hessian;
     damped.diagonal() += *damping * slope.squares;
-    const Eigen::LLT<Eigen::MatrixXd> llt(damped);
-    if (llt.info() == Eigen::Success) {
-      const double largest = Move(slope.moving, llt.solve(slope.gradient));
+    Eigen::VectorXd step;
+    if (SolvePositive(damped, slope.gradient, &step)) {
+      const double largest = Move(slope.moving, step);
       const double after = state_.y.squaredNorm();
       if (after <= square * (1 + 1e-15)) {
         *damping = *damping > 1e-9 ? *damping * 0.1 : 0;
@@ -303,9 +299,7 @@ Eigen::VectorXd Solver::CleanResidual() const {
   for (const std::size_t count : {active.size(), plain}) {
     Eigen::MatrixXd columns(vd_.size(), count);
     for (std::size_t i = 0; i < count; ++i) columns.col(i) = active[i];
-    const auto qr = columns.colPivHouseholderQr();
-    Eigen::VectorXd y = state_.y;
-    for (int round = 0; round < 2; ++round) y -= columns * qr.solve(y);
+    Eigen::VectorXd y = WithoutColumns(columns, state_.y);
     if ((y - state_.y).norm() <= 1e-5 * state_.y.norm() || count == plain) return y;
   }
   return state_.y;

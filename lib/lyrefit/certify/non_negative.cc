@@ -1,9 +1,10 @@
 #include "lyrefit/certify/non_negative.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 namespace {
@@ -13,7 +14,7 @@ Eigen::VectorXd SolveActive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                             const std::vector<int>& active) {
   Eigen::MatrixXd columns(a.rows(), active.size());
   for (std::size_t i = 0; i < active.size(); ++i) columns.col(i) = a.col(active[i]);
-  const Eigen::VectorXd solution = columns.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd solution = LeastSquares(columns, b);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
   for (std::size_t i = 0; i < active.size(); ++i) x[active[i]] = solution[i];
   return x;
@@ -22,7 +23,7 @@ Eigen::VectorXd SolveActive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
 // The column outside `active` that the residual leans on most; -1: none beyond rounding.
 int MostWanted(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                const std::vector<int>& active) {
-  const Eigen::VectorXd y = b - a * x;
+  const Eigen::VectorXd y = Residual(b, a, x);
   int best = -1;
   double strongest = 1e-15 * b.norm();
   for (int i = 0; i < static_cast<int>(a.cols()); ++i) {

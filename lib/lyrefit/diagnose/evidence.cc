@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/distributions.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
@@ -137,7 +136,7 @@ double Whiteness(const Workbench& bench, const LawFit& fit) {
     statistic += correlation * correlation / (count - lag);
   }
   statistic *= static_cast<double>(count) * (count + 2);
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(kLags), statistic));
+  return ChiSquaredTail(statistic, kLags);
 }
 
 std::string KindOfData(const Readings& readings) {
@@ -226,7 +225,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
   if (!(error > 0)) return {};
   const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
-  const double p = boost::math::cdf(boost::math::complement(boost::math::normal(), distance));
+  const double p = NormalTail(distance);
   if (!(p < kSure)) return {};
   Cause cause = Metadata("fit", p);
   // n Ns T is what the data say; the plausible range of n turns it into the others'.

@@ -1,8 +1,10 @@
 #include "lyrefit/diagnose/noise.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 namespace {
@@ -236,7 +238,7 @@ Autocorrelation EstimateAutocorrelation(const Readings& readings,
         }
       }
       Eigen::VectorXd e = Eigen::Map<Eigen::VectorXd>(chain.data(), n);
-      e -= smooth * (smooth.transpose() * e);
+      TakeOut(smooth, &e);
       for (int i = 0; i + 1 < n; ++i) product += e[i] * e[i + 1];
       square += e.squaredNorm();
       // What removing `waves` smooth shapes takes from the neighbours' product.

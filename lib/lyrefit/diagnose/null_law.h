@@ -1,20 +1,20 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <functional>
 #include <utility>
 #include <vector>
+
+#include "lyrefit/base/distributions.h"
 
 namespace lyrefit {
 
 constexpr double kTail = 0.02;  // below it p-values follow the F distribution's tail
 
 inline double TailOf(double statistic, int degrees) {
-  const boost::math::fisher_f f(1, std::max(degrees, 1));
   if (!(statistic > 0)) return 1;
-  return std::max(boost::math::cdf(boost::math::complement(f, statistic)), 1e-300);
+  return std::max(FisherTail(statistic, 1, std::max(degrees, 1)), 1e-300);
 }
 
 // p-value of a statistic given the sorted (falling) statistics of the nulls.

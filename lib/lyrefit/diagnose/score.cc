@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/diagnose/null_law.h"
 
@@ -88,8 +89,8 @@ Candidate Prepare(const Workbench& bench, const LawFit& fit, const Linearized& l
       effect.probes != nullptr ? effect.probes(bench.readings->traits) : std::vector<Probe>();
   std::vector<Eigen::VectorXd> kept;
   for (const Raw& raw : Signatures(bench, fit, effect)) {
-    const Eigen::VectorXd rest =
-        raw.signature - linear.basis * (linear.basis.transpose() * raw.signature);
+    Eigen::VectorXd rest = raw.signature;
+    TakeOut(linear.basis, &rest);
     Direction direction;
     direction.probe = raw.probe;
     direction.norm = rest.norm();
@@ -159,7 +160,7 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
     for (int d = 0; d < lot; ++d) {
       for (int k = 0; k < count; ++k) noise(k, d) = bench.used[k] != 0 ? random.Normal() : 0.0;
     }
-    noise -= linear.basis * (linear.basis.transpose() * noise).eval();
+    TakeOut(linear.basis, &noise);
     const Eigen::VectorXd sums = noise.colwise().squaredNorm();
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       if (!candidates[c].score.testable) continue;
@@ -167,7 +168,7 @@ Eigen::MatrixXd SimulateNulls(const Workbench& bench, const Linearized& linear,
       if (candidates[c].directions.cols() == 0) {
         best = (room.asDiagonal() * noise).cwiseAbs().colwise().maxCoeff();
       } else {
-        const Eigen::MatrixXd along = candidates[c].directions.transpose() * noise;
+        const Eigen::MatrixXd along = TransposedTimes(candidates[c].directions, noise);
         best = candidates[c].two_sided ? along.cwiseAbs().colwise().maxCoeff().eval()
                                        : along.colwise().maxCoeff().cwiseMax(0.0).eval();
       }
@@ -262,8 +263,8 @@ class Refit {
       const double fresh = random->Normal();
       noise[k] = bench_.used[k] != 0 ? fresh : 0.0;
     }
-    const Eigen::VectorXd left =
-        noise - prepared_.linear.basis * (prepared_.linear.basis.transpose() * noise);
+    Eigen::VectorXd left = noise;
+    TakeOut(prepared_.linear.basis, &left);
     std::vector<double> residual(count);
     for (int k = 0; k < count; ++k) residual[k] = left[k] * bench_.sigma[k];
     const Noise again = EstimateNoise(readings, question_.dark, residual, bench_.used,
@@ -279,11 +280,9 @@ class Refit {
   std::vector<double> Statistics(const Eigen::VectorXd& noise,
                                  const Eigen::VectorXd& weight) const {
     const Eigen::MatrixXd jacobian = weight.asDiagonal() * prepared_.linear.basis;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    const Eigen::MatrixXd basis =
-        qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+    const Eigen::MatrixXd basis = OrthonormalBasis(jacobian);
     Eigen::VectorXd rest = weight.cwiseProduct(noise);
-    rest -= basis * (basis.transpose() * rest);
+    TakeOut(basis, &rest);
     const double sum = rest.squaredNorm();
     std::vector<double> statistics;
     for (const Candidate& candidate : prepared_.candidates) {
@@ -296,8 +295,8 @@ class Refit {
         }
       } else {
         Eigen::MatrixXd directions = weight.asDiagonal() * candidate.directions;
-        directions -= basis * (basis.transpose() * directions).eval();
-        const Eigen::ArrayXd along = (directions.transpose() * rest).array() /
+        TakeOut(basis, &directions);
+        const Eigen::ArrayXd along = TransposedTimes(directions, rest).array() /
                                      directions.colwise().norm().transpose().array().max(1e-12);
         size = candidate.two_sided ? along.abs().maxCoeff() : std::max(along.maxCoeff(), 0.0);
       }

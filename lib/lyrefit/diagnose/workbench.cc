@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/dense.h"
+
 namespace lyrefit {
 namespace {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 bool Held(const Readings& readings, const Law& law, int parameter) {
   if (parameter == kBasePhotocurrent && readings.traits.only_dark) return true;
@@ -131,7 +131,7 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
     linear.residual.setZero();
     jacobian.setZero();
   }
-  const Eigen::VectorXd gradient = jacobian.transpose() * linear.residual;
+  const Eigen::VectorXd gradient = TransposedTimes(jacobian, linear.residual);
   for (int k = 0; k < size; ++k) {
     if (problem.held[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
     const double slack = 1e-9 * (problem.upper[k] - problem.lower[k]);
@@ -149,23 +149,20 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
     linear.basis = Eigen::MatrixXd::Zero(count, 0);
     return linear;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-  const int rank = static_cast<int>(qr.rank());
-  linear.basis = qr.householderQ() * Eigen::MatrixXd::Identity(count, rank);
+  linear.basis = RankedBasis(scaled);
   return linear;
 }
 
 std::vector<double> StandardErrors(const Linearized& linear, int parameters) {
   std::vector<double> errors(parameters, 0.0);
   if (linear.free.empty()) return errors;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-      linear.jacobian * linear.jacobian.colwise().norm().cwiseInverse().asDiagonal(),
-      Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const RightSingular svd = FindRightSingular(
+      linear.jacobian * linear.jacobian.colwise().norm().cwiseInverse().asDiagonal());
   for (std::size_t k = 0; k < linear.free.size(); ++k) {
     double variance = 0;
-    for (int j = 0; j < svd.singularValues().size(); ++j) {
-      const double s = std::max(svd.singularValues()[j], 1e-12);
-      variance += std::pow(svd.matrixV()(static_cast<int>(k), j) / s, 2);
+    for (int j = 0; j < svd.values.size(); ++j) {
+      const double s = std::max(svd.values[j], 1e-12);
+      variance += std::pow(svd.vectors(static_cast<int>(k), j) / s, 2);
     }
     errors[linear.free[k]] = std::sqrt(variance) / linear.jacobian.col(k).norm();
   }

@@ -1,17 +1,15 @@
 #include "lyrefit/fit/statistics.h"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
+
+#include "lyrefit/base/distributions.h"
 
 namespace lyrefit {
 
 double StudentT95(int degrees_of_freedom) {
-  const boost::math::students_t distribution(std::max(degrees_of_freedom, 1));
-  return boost::math::quantile(distribution, 0.975);
+  return StudentQuantile(0.975, std::max(degrees_of_freedom, 1));
 }
 
 double FTestPValue(double mean_square_simple, double mean_square_rich, int extra,
@@ -19,8 +17,7 @@ double FTestPValue(double mean_square_simple, double mean_square_rich, int extra
   if (degrees_of_freedom_rich < 1 || !(mean_square_rich > 0)) return kUnknown;
   const double f = (mean_square_simple / mean_square_rich - 1) / extra * degrees_of_freedom_rich;
   if (!(f > 0)) return 1;
-  const boost::math::fisher_f distribution(extra, degrees_of_freedom_rich);
-  return boost::math::cdf(boost::math::complement(distribution, f));
+  return FisherTail(f, extra, degrees_of_freedom_rich);
 }
 
 InformationCriteria FindInformation(double mean_square, int points, int parameters) {
@@ -70,9 +67,7 @@ ResidualStatistics FindResidualStatistics(const std::vector<double>& voltage_V,
       (result.expected_runs - 1) * (result.expected_runs - 2) / std::max(n - 1, 1.0);
   if (positive > 0 && negative > 0 && variance > 0) {
     const double distance = std::max(std::fabs(result.runs - result.expected_runs) - 0.5, 0.0);
-    const boost::math::normal normal;
-    result.runs_p_value =
-        2 * boost::math::cdf(boost::math::complement(normal, distance / std::sqrt(variance)));
+    result.runs_p_value = 2 * NormalTail(distance / std::sqrt(variance));
   }
   return result;
 }

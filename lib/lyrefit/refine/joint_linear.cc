@@ -2,9 +2,10 @@
 
 #include <ceres/jet.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 namespace {
@@ -31,9 +32,8 @@ RowMatrix ProjectOut(const JointLinear& now) {
   for (std::size_t c = 0; c < now.local.size(); ++c) {
     if (now.local[c].cols() == 0) continue;
     auto block = projected.middleRows(now.first_row[c], now.local[c].rows());
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(now.local[c]);
-    const Eigen::MatrixXd taken = qr.solve(Eigen::MatrixXd(block));
-    block -= now.local[c] * taken;
+    const Eigen::MatrixXd taken = LeastSquares(now.local[c], Eigen::MatrixXd(block));
+    block -= Times(now.local[c], taken);
   }
   return projected;
 }
@@ -70,17 +70,11 @@ Directions FindDirections(const JointLinear& now) {
   // Coordinates by scaled ones.
   Eigen::MatrixXd unscale = Eigen::MatrixXd::Zero(moving, count);
   for (int k = 0; k < count; ++k) unscale(seen[k], k) = 1 / projected.col(seen[k]).norm();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projected * unscale);
-  // Fewer rows than columns leave the rest of the triangle 0.
-  const int rows = static_cast<int>(std::min<Eigen::Index>(count, projected.rows()));
-  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(count, count);
-  triangle.topRows(rows) = qr.matrixR().topRows(rows).template triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd square = triangle * qr.colsPermutation().transpose();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  const RightSingular svd = FindAllRightSingular(Times(projected, unscale));
+  const Eigen::VectorXd& singular = svd.values;
   found.condition = singular[0] / singular[count - 1];
   for (int k = 0; k < count; ++k) {
-    const Eigen::VectorXd direction = unscale * svd.matrixV().col(k);
+    const Eigen::VectorXd direction = Times(unscale, Eigen::VectorXd(svd.vectors.col(k)));
     if (!(singular[k] > kSingular * singular[0])) {
       add_open(direction);
       continue;
@@ -109,15 +103,13 @@ void FindLocalErrors(const JointProblem& problem, const JointLinear& now, const 
     if (local.cols() == 0) continue;
     const JointCurve& curve = problem.curves[c];
     const JointShape shape = ShapeOf(curve);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(local);
-    const bool full = qr.rank() == local.cols();
-    const Eigen::MatrixXd solve =
-        full ? Eigen::MatrixXd(qr.solve(Eigen::MatrixXd::Identity(local.rows(), local.rows())))
-             : Eigen::MatrixXd::Zero(local.cols(), local.rows());
-    const Eigen::MatrixXd taken = solve * now.shared.middleRows(now.first_row[c], local.rows());
-    const Eigen::MatrixXd through = taken * found.half;
+    Eigen::MatrixXd solve = Eigen::MatrixXd::Zero(local.cols(), local.rows());
+    const bool full = PseudoInverse(local, &solve);
+    const RowMatrix shared = now.shared.middleRows(now.first_row[c], local.rows());
+    const Eigen::MatrixXd taken = Times(solve, shared);
+    const Eigen::MatrixXd through = Times(taken, found.half);
     const Eigen::MatrixXd covariance =
-        variance * (solve * solve.transpose() + through * through.transpose());
+        variance * (TimesTransposed(solve) + TimesTransposed(through));
     int column = 0;
     const double sds[] = {curve.irradiance_sd, curve.temperature_sd_K};
     for (int which = 0; which < 2; ++which) {
@@ -174,9 +166,9 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
   const JointLinear now = LinearizeJointly(problem, end.point, end.held);
   const Directions found = FindDirections(now);
   spread.condition = found.condition;
-  const Eigen::MatrixXd natural = now.natural_slope * found.half;
-  spread.covariance = variance * natural * natural.transpose();
-  spread.open = now.natural_slope * found.open;
+  const Eigen::MatrixXd natural = Times(now.natural_slope, found.half);
+  spread.covariance = TimesTransposed(natural, variance);
+  spread.open = Times(now.natural_slope, found.open);
   std::vector<int> decided;
   for (const int i : now.parameter) {
     if (Decided(now.natural_slope.row(i).transpose(), found)) decided.push_back(i);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/refine/joint_coordinates.h"
 
 namespace lyrefit {
@@ -19,8 +19,6 @@ JointShape ShapeOf(const JointCurve& curve);
 // Unknowns of its own that a curve has, side by side, and back.
 std::vector<double> PackLocal(const JointShape& shape, const JointLocal& local);
 JointLocal UnpackLocal(const JointShape& shape, const JointLocal& packed);
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // sqrt(weight) x (model - measured) of one curve in units of `unit_A`, priors behind, and the
 // derivatives with respect to the shared coordinates and to the curve's own unknowns (null: not

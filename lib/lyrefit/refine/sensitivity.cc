@@ -1,9 +1,9 @@
 #include "lyrefit/refine/sensitivity.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/refine/jacobian.h"
 
 namespace lyrefit {
@@ -20,16 +20,16 @@ Sensitivity FindSensitivity(const RefineProblem& problem, const RefineEnd& end,
   if (moving == 0 || !(lengths.minCoeff() > 0) || !lengths.allFinite()) return result;
 
   const Eigen::MatrixXd scaled = now.jacobian * lengths.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  const RightSingular svd = FindRightSingular(scaled);
+  const Eigen::VectorXd& singular = svd.values;
   constexpr double kSingular = 1e-13;
   result.condition = singular[0] / singular[singular.size() - 1];
   if (singular.size() < moving || !(singular[moving - 1] > kSingular * singular[0])) return result;
 
   const double variance = now.residual.squaredNorm() / degrees_of_freedom;
   // Rows: sensitivity of each natural parameter to the independent directions of the data.
-  const Eigen::MatrixXd spread = now.parameter_slope * lengths.cwiseInverse().asDiagonal() *
-                                 svd.matrixV() * singular.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd slope = now.parameter_slope * lengths.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd spread = Times(slope, svd.vectors) * singular.cwiseInverse().asDiagonal();
   const Eigen::VectorXd norm = spread.rowwise().norm();
   for (int i = 0; i < count; ++i) {
     if (end.held[i] || !(norm[i] > 0)) continue;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/device/solve.h"
 #include "lyrefit/refine/linear_part.h"
 #include "lyrefit/refine/separable.h"
@@ -106,7 +107,7 @@ class Descent {
     double damping = 1e-4;
     for (int step = 0; step < kMaxSteps; ++step) {
       Eigen::MatrixXd j = Jacobian();
-      const Eigen::VectorXd gradient = j.transpose() * linear_.residual;
+      const Eigen::VectorXd gradient = TransposedTimes(j, linear_.residual);
       for (int i = 0; i < theta_.size(); ++i) {
         const bool pressed = (theta_[i] <= lower_[i] && gradient[i] > 0) ||
                              (theta_[i] >= upper_[i] && gradient[i] < 0);
@@ -118,8 +119,8 @@ class Descent {
 
   // One accepted step; false when none helps any more.
   bool Step(const Eigen::MatrixXd& j, double* damping) {
-    const Eigen::VectorXd gradient = j.transpose() * linear_.residual;
-    const Eigen::MatrixXd hessian = j.transpose() * j;
+    const Eigen::VectorXd gradient = TransposedTimes(j, linear_.residual);
+    const Eigen::MatrixXd hessian = TransposedTimes(j, j);
     const double before = Cost(linear_);
     for (int attempt = 0; attempt < 12; ++attempt) {
       Eigen::MatrixXd damped = hessian;
@@ -127,7 +128,7 @@ class Descent {
         damped(i, i) += *damping * hessian(i, i) + (hessian(i, i) > 0 ? 0 : 1);
       }
       const Eigen::VectorXd trial =
-          (theta_ - damped.ldlt().solve(gradient)).cwiseMax(lower_).cwiseMin(upper_);
+          (theta_ - SolveSymmetric(damped, gradient)).cwiseMax(lower_).cwiseMin(upper_);
       LinearPart linear = Solve(trial);
       const double after = Cost(linear);
       if (after < before) {

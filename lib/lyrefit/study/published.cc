@@ -1,10 +1,10 @@
 #include "lyrefit/study/published.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
 
+#include "lyrefit/base/distributions.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/study/named_table.h"
 #include "lyrefit/study/summary.h"
@@ -45,9 +45,8 @@ void PredictBatch(const std::vector<double>& statistics, CheckedValue* checked) 
   double mean = 0, square = 0;
   for (const double s : statistics) mean += std::log(std::max(s, 1e-300)) / count;
   for (const double s : statistics) square += std::pow(std::log(std::max(s, 1e-300)) - mean, 2);
-  const boost::math::students_t t(count - 1);
-  const double reach =
-      boost::math::quantile(t, 0.995) * std::sqrt(square / (count - 1)) * std::sqrt(1 + 1 / count);
+  const double reach = StudentQuantile(0.995, count - 1) * std::sqrt(square / (count - 1)) *
+                       std::sqrt(1 + 1 / count);
   const double half_unit = HalfUnit(checked->published.text);
   checked->ours = std::exp(mean);
   checked->low = std::exp(mean - reach) - half_unit;

@@ -3,20 +3,17 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numeric>
+
+#include "lyrefit/base/distributions.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kMostExactPairs = 200;
 
-double TwoSidedNormal(double z) {
-  const boost::math::normal normal;
-  return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(normal, std::fabs(z))));
-}
+double TwoSidedNormal(double z) { return std::min(1.0, 2 * NormalTail(std::fabs(z))); }
 
 std::vector<std::size_t> OrderOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
@@ -128,8 +125,7 @@ Friedman FriedmanTest(const std::vector<std::vector<double>>& values) {
   const double variance = RankVariance(values);
   if (!(variance > 0)) return friedman;
   friedman.chi_square = friedman.blocks * squares / variance;
-  const boost::math::chi_squared distribution(friedman.contenders - 1);
-  friedman.p_value = boost::math::cdf(boost::math::complement(distribution, friedman.chi_square));
+  friedman.p_value = ChiSquaredTail(friedman.chi_square, friedman.contenders - 1);
   return friedman;
 }
 
@@ -143,8 +139,7 @@ std::vector<RankPair> ComparePairs(const Friedman& friedman,
   const double deviation = std::sqrt(2 * RankVariance(values) / friedman.blocks);
   // Sidak: 1 - (1 - each)^count = 0.05.
   const double each = -std::expm1(std::log1p(-0.05) / count);
-  const double z_95 =
-      boost::math::quantile(boost::math::complement(boost::math::normal(), each / 2));
+  const double z_95 = NormalAbove(each / 2);
   std::vector<RankPair> pairs;
   std::vector<double> p_values;
   for (int a = 0; a < contenders; ++a) {

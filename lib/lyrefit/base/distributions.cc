@@ -1,0 +1,28 @@
+#include "lyrefit/base/distributions.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+namespace lyrefit {
+
+using boost::math::complement;
+
+double NormalTail(double x) { return cdf(complement(boost::math::normal(), x)); }
+
+double ChiSquaredTail(double x, double degrees) {
+  return cdf(complement(boost::math::chi_squared(degrees), x));
+}
+
+double FisherTail(double x, double degrees_above, double degrees_below) {
+  return cdf(complement(boost::math::fisher_f(degrees_above, degrees_below), x));
+}
+
+double NormalAbove(double tail) { return quantile(complement(boost::math::normal(), tail)); }
+
+double StudentQuantile(double p, double degrees) {
+  return quantile(boost::math::students_t(degrees), p);
+}
+
+}  // namespace lyrefit

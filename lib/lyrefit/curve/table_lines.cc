@@ -61,6 +61,9 @@ bool LineSplitter::Split(std::string_view line) {
   ends_.clear();
   line_.assign(line);
   if (delimiter_ == ' ') std::replace(line_.begin(), line_.end(), '\t', ' ');
+  // The parser copies a field anew whenever it has grown by a block.
+  constexpr std::size_t kBlock = 128;
+  csv_set_blk_size(&parser_, std::max(kBlock, line_.size()));
   const bool parsed =
       csv_parse(&parser_, line_.data(), line_.size(), TakeField, nullptr, this) == line_.size();
   const bool closed = csv_fini(&parser_, TakeField, nullptr, this) == 0;

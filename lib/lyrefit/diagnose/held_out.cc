@@ -89,7 +89,6 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.trials = false;
     inner.most_rivals = kRivals;
     inner.in_passing = true;
-    for (const ChosenCause& cause : selection.causes) inner.settled.push_back(cause.effect);
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.calibration = selection.calibration;

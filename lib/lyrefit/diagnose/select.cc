@@ -306,12 +306,7 @@ class Selector {
 
   // Every cause but the last gives its place to any effect that does better beside the others.
   void Exchange() {
-    if (std::all_of(causes_.begin(), causes_.end(), [&](const ChosenCause& cause) {
-          const auto& settled = options_.settled;
-          return std::find(settled.begin(), settled.end(), cause.effect) != settled.end();
-        })) {
-      return;
-    }
+    if (options_.in_passing) return;
     for (int round = 0; round < 2; ++round) {
       bool changed = false;
       for (int c = 0; c + 1 < static_cast<int>(causes_.size()); ++c) {

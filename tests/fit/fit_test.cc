@@ -286,15 +286,15 @@ TEST(Fit, EchoesEveryOptionThatDiffersFromItsDefault) {
 
 // A source-meter that held the current at its limit beyond open circuit: no diode does that, and
 // the linear stand-in of the descent leads astray.
-IvCurve Clipped() {
+IvCurve Clipped(int points = 83, double limit_A = -0.05) {
   IvCurve curve;
   curve.conditions.cells_in_series = 1;
-  for (int k = 0; k < 83; ++k) curve.voltage_V.push_back(-0.1 + 0.01 * k);
+  for (int k = 0; k < points; ++k) curve.voltage_V.push_back(-0.1 + 0.01 * k);
   const std::vector<double> truth = {0.038, 4e-10, 1.2, 0.3, 2900};
   curve.current_A = SolveCurrents(MakeDevice(Model::kSingleDiode, curve.conditions), truth.data(),
                                   curve.voltage_V);
   RandomStream random(4);
-  for (double& i : curve.current_A) i = std::max(i + 1e-5 * random.Normal(), -0.05);
+  for (double& i : curve.current_A) i = std::max(i + 1e-5 * random.Normal(), limit_A);
   return curve;
 }
 
@@ -309,18 +309,25 @@ TEST(Fit, NeverPolishesABirdIntoSomethingWorse) {
   }
 }
 
+// Held at its limit but once: the fit is usable, just so, and a parameter at its bound.
+IvCurve ClippedOnce() { return Clipped(73, -0.06); }
+
 TEST(Fit, HasTheSameParametersWithAndWithoutIntervals) {
   for (int seed = 0; seed < 3; ++seed) {
     FitOptions options;
     options.search.seed = seed;
-    const FitReport with = *Fit(Clipped(), options);
-    options.intervals = Intervals::kNone;
-    EXPECT_EQ(Fit(Clipped(), options)->refined, with.refined) << seed;
+    for (const IvCurve& curve : {Clipped(), ClippedOnce()}) {
+      options.intervals = Intervals::kProfile;
+      const FitReport with = *Fit(curve, options);
+      options.intervals = Intervals::kNone;
+      EXPECT_EQ(Fit(curve, options)->refined, with.refined) << seed;
+    }
   }
 }
 
 TEST(Fit, GivesNoIntervalNarrowerThanItsProfileSaw) {
-  const FitReport report = *Fit(Clipped(), {});
+  const FitReport report = *Fit(ClippedOnce(), {});
+  EXPECT_TRUE(report.usable);
   for (const Estimate& e : report.estimates) {
     EXPECT_LT(e.low_95, e.high_95) << e.info.symbol;
     const bool inside = e.at_bound == BoundSide::kNone;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../curve/made_curve.h"
 #include "lyrefit/base/random.h"
@@ -63,6 +64,33 @@ TEST(UsableTest, WhatIsNoCurveIsNotUsable) {
   for (double& current : curve.current_A) current = 9 * random.Uniform();
   const auto noise = Fit(curve, Quick());
   EXPECT_TRUE(!noise || !noise->usable);
+}
+
+TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {
+  for (const Intervals method : {Intervals::kProfile, Intervals::kSymmetric, Intervals::kNone}) {
+    FitOptions options = Quick();
+    options.intervals = method;
+    options.model = Model::kDoubleDiode;
+    bool sought = false;
+    const auto report = Fit(MadeModule(1, 1, 0.5), options, [&](const Progress& progress) {
+      sought = sought || progress.stage == "intervals";
+      return ObserverAction::kContinue;
+    });
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->usable);
+    EXPECT_FALSE(sought);
+    const bool asked = method != Intervals::kNone;
+    EXPECT_THAT(report->no_intervals_because, StartsWith(asked ? "the fit is not usable" : ""));
+    EXPECT_EQ(report->no_intervals_because.empty(), !asked);
+    for (const Estimate& e : report->estimates) {
+      EXPECT_EQ(e.interval, IntervalMethod::kNone);
+      EXPECT_TRUE(std::isnan(e.low_95) && std::isnan(e.standard_error));
+      EXPECT_TRUE(std::isfinite(e.refined));
+    }
+  }
+  FitOptions options = Quick();
+  options.intervals = Intervals::kSymmetric;
+  EXPECT_EQ(Fit(MadeModule(), options)->no_intervals_because, "");
 }
 
 TEST(UsableTest, WhatASearchAloneMissesIsNotTheModelsFault) {

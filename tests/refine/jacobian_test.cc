@@ -27,10 +27,9 @@ TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
       std::vector<double> at = theta;
       const double step = 1e-6 * (1 + std::fabs(theta[c]));
       at[c] = theta[c] + step;
-      const double* block = at.data();
-      ASSERT_TRUE(residuals(&block, up.data()));
+      ASSERT_TRUE(residuals.Evaluate(at.data(), up.data(), nullptr));
       at[c] = theta[c] - step;
-      ASSERT_TRUE(residuals(&block, down.data()));
+      ASSERT_TRUE(residuals.Evaluate(at.data(), down.data(), nullptr));
       const double largest = now.jacobian.col(c).cwiseAbs().maxCoeff();
       for (int k = 0; k < points; ++k) {
         EXPECT_NEAR(now.jacobian(k, c), (up[k] - down[k]) / (2 * step), 1e-6 * largest)

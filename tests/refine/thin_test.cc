@@ -41,6 +41,36 @@ TEST(Thin, KeepsTheSumOfSquaresAroundTheOptimum) {
   }
 }
 
+// The current at given voltages is smooth along them: quadrature keeps its sum of squares to far
+// better than straight pieces could.
+TEST(Thin, KeepsTheSumOfSquaresOfASmoothCurrent) {
+  const RefineProblem problem =
+      ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 3e-3,
+                    Objective::kSolvedCurrent, 1, kMany);
+  const RefineProblem thin = Thin(problem);
+  EXPECT_LE(thin.points.size, 128);
+  for (int i = 0; i < problem.device.size(); ++i) {
+    std::vector<double> moved = kDoubleTruth;
+    moved[i] *= i == kRsh ? 1.1 : 1.01;
+    EXPECT_NEAR(MeanSquare(thin, moved) / MeanSquare(problem, moved), 1, 1e-4) << i;
+  }
+}
+
+TEST(Thin, StandsForReadingsAtAFewVoltages) {
+  const RefineProblem few = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
+                                          3e-3, Objective::kSolvedCurrent, 1, 30);
+  std::vector<double> voltage, current;
+  for (int k = 0; k < kMany; ++k) {
+    voltage.push_back(few.voltage_V[k % 30]);
+    current.push_back(few.current_A[k % 30] + (k % 7 - 3) * 1e-3);
+  }
+  const RefineProblem many =
+      MakeRefineProblem(few.device, few.objective, voltage, current, {}, few.lower, few.upper);
+  const RefineProblem thin = Thin(many);
+  EXPECT_LE(thin.points.size, 128);
+  EXPECT_NEAR(MeanSquare(thin, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);
+}
+
 TEST(Thin, CountsEveryPointWithItsWeight) {
   RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
                                         3e-3, Objective::kSolvedCurrent, 1, kMany);

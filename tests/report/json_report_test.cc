@@ -147,6 +147,13 @@ TEST(JsonReport, KeepsWallClockTimesUnderSecondsOnly) {
   EXPECT_EQ(first, second);
 }
 
+TEST(JsonReport, SaysWhyThereAreNoIntervals) {
+  FitReport report = SampleReport();
+  EXPECT_EQ(Parsed(report)["intervals"]["none_because"], "");
+  report.no_intervals_because = "the fit is not usable";
+  EXPECT_EQ(Parsed(report)["intervals"]["none_because"], "the fit is not usable");
+}
+
 TEST(JsonReport, WritesTheChoiceOfTheModel) {
   FitReport report = SampleReport();
   report.choice = ModelChoice{

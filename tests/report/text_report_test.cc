@@ -100,6 +100,14 @@ TEST(FullReport, SaysFirstWhyItIsNotUsableAndWhatIsDoubtful) {
   EXPECT_THAT(BriefReport(report), HasSubstr(", NOT USABLE: the curve has a step near 25 V"));
 }
 
+TEST(FullReport, SaysWhyThereAreNoIntervals) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("intervals: none")));
+  report.no_intervals_because = "the fit is not usable";
+  EXPECT_THAT(FullReport(report),
+              HasSubstr("95 % intervals: none, since the fit is not usable.\n"));
+}
+
 TEST(FullReport, MarksBoundsFixedAndNotIdentifiable) {
   FitReport report = SampleReport();
   report.estimates[0].fixed = true;

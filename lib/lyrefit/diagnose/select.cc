@@ -16,15 +16,6 @@ namespace {
 
 bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
 
-// A grid much coarser than the noise leaves errors that neighbours share.
-void WidenByRounding(const NoiseSource& source, const Noise& noise, Workbench* bench) {
-  if (!IsCoarse(*bench->readings, source.dark, noise, source.values.grids)) return;
-  bench->least_variance = 1;
-  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
-    bench->sigma[k] = std::hypot(bench->sigma[k], source.values.rounding[k]);
-  }
-}
-
 class Selector {
  public:
   Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
@@ -181,6 +172,7 @@ class Selector {
   void Extend(Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
     std::set<std::set<const Effect*>> seen;
+    std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
       const std::vector<Score> scores =
           ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step, calibration_);
@@ -191,7 +183,6 @@ class Selector {
       }
       const Score* unknown = Find(scores, "unknown_structure");
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
-      std::vector<Rival> rivals;
       const bool later = !causes_.empty() || !outliers_.empty();
       level_ = options_.level * (later ? kLaterLevel : 1);
       if (step == 0 && options_.trials) {
@@ -200,6 +191,9 @@ class Selector {
       }
       if (!(smallest < level_)) return;
       if (static_cast<int>(causes_.size()) >= most) return;
+      // Causes gain little from a reading less: no new fits where the next stands out by far.
+      const bool left = step > 0 && !rivals.empty();
+      if (left && OutlierStandsOut(scores) && TakeOutlier(scores, rivals)) continue;
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
@@ -212,6 +206,7 @@ class Selector {
       Readmit();
       const std::set<const Effect*> present(fit_.law.effects.begin(), fit_.law.effects.end());
       if (!seen.insert(present).second) return;  // what was dropped came back
+      rivals.clear();
     }
   }
 
@@ -223,6 +218,16 @@ class Selector {
       });
       if (!there) trials->push_back({score, {}, 0});
     }
+  }
+
+  static bool OutlierStandsOut(const std::vector<Score>& scores) {
+    constexpr double kByFar = 2;  // times what any cause promises
+    const Score* outliers = Find(scores, "outliers");
+    if (outliers == nullptr) return false;
+    return std::all_of(scores.begin(), scores.end(), [&](const Score& score) {
+      const bool other = score.testable && score.effect->probes != nullptr;
+      return !other || outliers->statistic > kByFar * score.statistic;
+    });
   }
 
   // A single reading that is further off than any cause explains goes first.
@@ -301,6 +306,7 @@ class Selector {
 
   // Every cause but the last gives its place to any effect that does better beside the others.
   void Exchange() {
+    if (options_.in_passing) return;
     for (int round = 0; round < 2; ++round) {
       bool changed = false;
       for (int c = 0; c + 1 < static_cast<int>(causes_.size()); ++c) {
@@ -374,27 +380,6 @@ class Selector {
 };
 
 }  // namespace
-
-Noise SettleNoise(const NoiseSource& source, Workbench* bench, LawFit* fit) {
-  const Readings& readings = *bench->readings;
-  Noise noise;
-  for (int round = 0; round < 2; ++round) {
-    std::vector<double> residual(readings.points.size());
-    for (std::size_t k = 0; k < residual.size(); ++k) {
-      residual[k] = fit->current[k] - readings.points[k].current;
-    }
-    noise = EstimateNoise(readings, source.dark, residual, bench->used, source.notes,
-                          source.values.grids);
-    bench->sigma = noise.sigma;
-    WidenByRounding(source, noise, bench);
-    const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
-                       10 * kSmallestNoise;  // computed readings: what is left is arithmetic
-    if (exact) bench->least_variance = 1;
-    LawFit again = FitLaw(*bench, fit->law, fit->p);
-    if (again.usable) *fit = std::move(again);
-  }
-  return noise;
-}
 
 Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
                        const DeviceNotes& notes, const std::vector<char>& used,

@@ -24,7 +24,8 @@ struct SelectOptions {
   bool trials = true;                     // fit every effect on the base model, wanted or not, and
                                           // tell the watch of the stages
   int most_rivals = 0;                    // fitted at a step, the best by score; 0: all
-  bool in_passing = false;                // each of them from its best probe alone
+  bool in_passing = false;                // each of them from its best probe alone,
+                                          // and no cause exchanged for another later
   std::vector<const Effect*> candidates;  // allowed by the kind of data
   Watch* watch = nullptr;
 };

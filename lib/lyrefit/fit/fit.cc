@@ -238,14 +238,20 @@ void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& 
 // Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
 void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
   const FitOptions& options = job->options;
+  const bool wanted = report->no_intervals_because.empty();
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
     OrderDiodes(job->bounds, &end->p, &end->held);
     report->refined = end->p;
     FillEstimates(*job, report);
     report->correlations.clear();
-    const IntervalInput input{job->problem,    *end,        options.intervals, job->free_parameters,
-                              options.threads, &job->watch, round == kRestarts};
+    const IntervalInput input{job->problem,
+                              *end,
+                              wanted ? options.intervals : Intervals::kNone,
+                              job->free_parameters,
+                              options.threads,
+                              &job->watch,
+                              round == kRestarts};
     const std::vector<double> better =
         FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
     if (better.empty() || round == kRestarts) break;
@@ -256,7 +262,7 @@ void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
   }
 }
 
-// Polishes, finds intervals, and says where the polish ended.
+// Polishes, finds intervals around what is usable, and says where the polish ended.
 void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, FitReport* report) {
   const FitOptions& options = job->options;
   const auto starts = CollectStarts(job->few, elites, kGridStarts);
@@ -268,8 +274,17 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
+  OrderDiodes(job->bounds, &end.p, &end.held);
+  const std::vector<double> polished = report->refined = end.p;
+  FillResults(*job, report);
+  if (!report->usable && options.intervals != Intervals::kNone) {
+    report->no_intervals_because =
+        "the fit is not usable: around parameters of a curve that the model does not describe no "
+        "interval means anything";
+  }
   const auto begin = std::chrono::steady_clock::now();
   JudgeAndImprove(job, &end, report);
+  if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -304,8 +319,8 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   } else {
     report.refined = report.searched;
     FillEstimates(job, &report);
+    FillResults(job, &report);
   }
-  FillResults(job, &report);
   report.interrupted = job.watch.stopped();
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);

@@ -172,6 +172,7 @@ struct FitReport {
   SearchSummary search;
   RefineReport refine;
   double interval_seconds = 0;
+  std::string no_intervals_because;   // empty: they are there, or were not asked for
   std::optional<ModelChoice> choice;  // of `auto`
   // Of an extended model: ids of the effects beside the diodes, and how many curves under
   // conditions of their own it describes. What reads a fit back must know them.

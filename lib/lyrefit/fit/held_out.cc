@@ -16,6 +16,11 @@ namespace {
 constexpr int kMostBlocks = 10;
 constexpr int kSmallestBlock = 2;
 
+// Of one refit: diodes that take each other's place leave valleys along which a solve creeps
+// without end, and without a figure of the error changing.
+constexpr double kTolerance = 1e-10;
+constexpr int kMaxIterations = 100;
+
 struct Split {
   IvCurve kept;
   IvCurve left_out;
@@ -62,6 +67,8 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
         Thin(MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
                                split.kept.current_A, std::move(weights), lower, upper));
     RefineOptions how;
+    how.function_tolerance = kTolerance;
+    how.max_iterations = kMaxIterations;
     how.stop = watch->stop();
     if (watch->Next()) return;
     RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined), how);

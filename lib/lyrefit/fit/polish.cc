@@ -15,6 +15,9 @@ constexpr double kBetter = 1e-12;    // relative, of RMSE: one end is better tha
 constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents have come to the same curve
 // Of the RMSE: ends on few points so close to the best may be the best on all points.
 constexpr double kMayBeBest = 1e-3;
+// On many points: far below what their noise leaves undecided, and what is left of a solve that
+// started from the optimum of the few is creeping.
+constexpr double kToleranceOnMany = 1e-12;
 
 std::vector<double> ExplicitCurve(const RefineProblem& problem, const std::vector<double>& p) {
   std::vector<double> current;
@@ -129,8 +132,9 @@ int Enough(const RefineProblem& problem) { return DiodeCount(problem.device) == 
 
 // Solves the ends on a few points that may be the best, and the first one, on all points; the
 // others are counted there as they are.
-void FinishOnAll(const RefineProblem& problem, const RefineOptions& how, const Groups& groups,
+void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& groups,
                  std::vector<RefineEnd>* ends) {
+  how.function_tolerance = kToleranceOnMany;
   double lowest = HUGE_VAL;
   for (std::size_t s = 0; s < ends->size(); ++s) {
     if (groups.Leader(static_cast<int>(s)) != static_cast<int>(s)) continue;

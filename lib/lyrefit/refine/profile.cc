@@ -15,6 +15,8 @@ constexpr int kGridStarts = 1;
 constexpr int kProposals = 8;       // then by bisection
 constexpr int kMaxIterations = 20;  // of one refit
 constexpr int kMaxRounds = 3;
+constexpr int kThoroughIterations = 200;  // of those that have the last word on an end
+constexpr int kThoroughRounds = 10;
 constexpr double kHopeless = 10;  // of t: no exchange of diodes brings a saturation current so far
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
@@ -112,7 +114,10 @@ class Side {
     std::vector<double> start = best_.p;
     start[query_.parameter] = value;
     RefineOptions how = how_;
-    how.enough = best_.mean_square * (1 + looked_for_ * (1 - 4 * kCloseEnough));
+    how.max_iterations = kThoroughIterations;
+    how.max_rounds = kThoroughRounds;
+    how.let_diodes_in = true;
+    how.enough = best_.mean_square * (1 + looked_for_ * (1 - 2 * kCloseEnough));
     std::vector<std::vector<double>> starts = {start};
     for (const SeparableStart& grid : SeparableStarts(held, best_.p[kRs], kGridStarts)) {
       starts.push_back(grid.p);

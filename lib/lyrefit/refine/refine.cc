@@ -24,6 +24,22 @@ constexpr double kFlat = 1e-8;
 // Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
 constexpr double kWorse = 1e-9;
 
+// CurveResiduals as Ceres asks for them.
+class PolishCost : public ceres::CostFunction {
+ public:
+  PolishCost(const RefineProblem& problem, const Coordinates& coordinates, double unit_A)
+      : residuals_(problem, coordinates, unit_A) {
+    set_num_residuals(static_cast<int>(problem.voltage_V.size()));
+    mutable_parameter_block_sizes()->push_back(coordinates.size());
+  }
+  bool Evaluate(double const* const* theta, double* residuals, double** jacobians) const override {
+    return residuals_.Evaluate(theta[0], residuals, jacobians ? jacobians[0] : nullptr);
+  }
+
+ private:
+  CurveResiduals residuals_;
+};
+
 class Polish {
  public:
   Polish(const RefineProblem& problem, std::vector<double> start, const RefineOptions& options)
@@ -100,12 +116,9 @@ class Polish {
     if (!AllFinite(theta.data(), theta.size()) || !std::isfinite(mean_square_)) return;
     if (!coordinates.Sane(theta.data())) return;
     const double unit_A = std::max(std::sqrt(mean_square_), 1e-13 * problem_.current_scale_A);
-    auto* cost = new ceres::DynamicAutoDiffCostFunction<CurveResiduals, kJetWidth>(
-        new CurveResiduals(problem_, coordinates, unit_A));
-    cost->AddParameterBlock(coordinates.size());
-    cost->SetNumResiduals(static_cast<int>(problem_.voltage_V.size()));
     ceres::Problem ceres_problem;
-    ceres_problem.AddResidualBlock(cost, nullptr, theta.data());
+    ceres_problem.AddResidualBlock(new PolishCost(problem_, coordinates, unit_A), nullptr,
+                                   theta.data());
     if (bounded) {
       for (int k = 0; k < coordinates.size(); ++k) {
         double lower, upper;

@@ -1,5 +1,6 @@
 #include "lyrefit/refine/thin.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,8 +9,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kBins = 256;   // of equally many points: what the shape of the curve is read from
-constexpr int kGroups = 64;  // of equal length along the curve
+constexpr int kBins = 256;  // of equally many points: what the shape of the curve is read from
+// Groups of equal length along the curve, and what stands for each.
+constexpr int kScatteredGroups = 64;  // four points, where the residual takes the measured current
+constexpr int kSmoothGroups = 30;
+constexpr int kNodes = 4;  // of a smooth group
 
 // Weight, mean and covariance of a group of points.
 struct Moments {
@@ -44,6 +48,7 @@ Moments FindMoments(const RefineProblem& problem, Iterator begin, Iterator end) 
 std::vector<int> VoltageOrder(const std::vector<double>& voltage_V) {
   std::vector<int> order(voltage_V.size());
   std::iota(order.begin(), order.end(), 0);
+  if (std::is_sorted(voltage_V.begin(), voltage_V.end())) return order;
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return voltage_V[a] < voltage_V[b]; });
   return order;
@@ -51,7 +56,8 @@ std::vector<int> VoltageOrder(const std::vector<double>& voltage_V) {
 
 // Where the groups begin in `order`, and its end. Noise would lengthen a path from point to point,
 // so the length is that of the path through the means of the bins.
-std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order) {
+std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order,
+                                    int groups) {
   const auto bin_begin = [&](int bin) {
     return order.begin() + static_cast<std::ptrdiff_t>(order.size()) * bin / kBins;
   };
@@ -67,7 +73,7 @@ std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vec
   std::vector<Iterator> begins = {order.begin()};
   int group = 0;
   for (int bin = 1; bin < kBins; ++bin) {
-    const int own = static_cast<int>(kGroups * length[bin] / (length.back() * (1 + 1e-12)));
+    const int own = static_cast<int>(groups * length[bin] / (length.back() * (1 + 1e-12)));
     if (own <= group) continue;
     group = own;
     begins.push_back(bin_begin(bin));
@@ -76,30 +82,110 @@ std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vec
   return begins;
 }
 
+struct Points {
+  std::vector<double> voltage_V, current_A, weights;
+  void Add(double voltage, double current, double weight) {
+    voltage_V.push_back(voltage);
+    current_A.push_back(current);
+    weights.push_back(weight);
+  }
+};
+
+// Four points with the weight, the mean and the covariance of voltage and current of a group.
+void AddScattered(const Moments& m, Points* points) {
+  const double spread = std::sqrt(m.vv);
+  const double slope = m.vv > 0 ? m.vi / m.vv : 0;
+  const double scatter = std::sqrt(std::max(m.ii - slope * m.vi, 0.0));  // around the line
+  for (const double side : {-1.0, 1.0}) {
+    for (const double sign : {-1.0, 1.0}) {
+      points->Add(m.voltage + side * spread, m.current + side * slope * spread + sign * scatter,
+                  m.weight / 4);
+    }
+  }
+}
+
+// The Gauss quadrature of a group: nodes and weights that sum every polynomial of degree
+// 2 kNodes - 1 as the group's own points do (Golub and Welsch; the recurrence by Lanczos' process
+// on the points themselves), and at the nodes the polynomial of degree kNodes - 1 that is closest
+// to the currents. Sums of squares of whatever is such a polynomial less the currents are kept but
+// for a constant, which is returned: the weighted squares around the polynomial.
+double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin, Iterator end,
+                 Points* points) {
+  const int count = static_cast<int>(end - begin);
+  Eigen::VectorXd root(count), x(count), rest(count);
+  for (int k = 0; k < count; ++k) {
+    root[k] = std::sqrt(problem.weights[begin[k]]);
+    x[k] = problem.voltage_V[begin[k]] - m.voltage;
+    rest[k] = root[k] * problem.current_A[begin[k]];
+  }
+  const double reach = std::max(x.cwiseAbs().maxCoeff(), 1e-300);
+  x /= reach;
+  constexpr double kSamePlace = 1e-9;  // of the reach: no further node
+  const int most = std::min(kNodes, count);
+  Eigen::MatrixXd basis(count, most);
+  Eigen::MatrixXd recurrence = Eigen::MatrixXd::Zero(most, most);
+  Eigen::VectorXd along(most);  // of the currents, each polynomial of the basis
+  Eigen::VectorXd next = root;
+  int nodes = 0;
+  while (nodes < most) {
+    const double length = next.norm();
+    if (nodes > 0 && !(length > kSamePlace)) break;
+    if (nodes > 0) recurrence(nodes, nodes - 1) = recurrence(nodes - 1, nodes) = length;
+    basis.col(nodes) = next / length;
+    along[nodes] = basis.col(nodes).dot(rest);
+    rest -= along[nodes] * basis.col(nodes);
+    next = x.cwiseProduct(basis.col(nodes));
+    recurrence(nodes, nodes) = basis.col(nodes).dot(next);
+    ++nodes;
+    for (int again = 0; again < 2; ++again) {
+      next -= basis.leftCols(nodes) * (basis.leftCols(nodes).transpose() * next).eval();
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      recurrence.topLeftCorner(nodes, nodes));
+  const Eigen::MatrixXd& vectors = solver.eigenvectors();
+  for (int k = 0; k < nodes; ++k) {
+    const double current =
+        vectors.col(k).dot(along.head(nodes)) / (vectors(0, k) * std::sqrt(m.weight));
+    points->Add(m.voltage + reach * solver.eigenvalues()[k], current,
+                m.weight * vectors(0, k) * vectors(0, k));
+  }
+  return rest.squaredNorm();
+}
+
+// Gives the weight of the heaviest point of the first group, where no diode conducts yet, to two
+// points around it that are as far off as `squares` asks.
+void AddConstant(double squares, Points* points) {
+  const auto first = points->weights.begin();
+  const std::ptrdiff_t most = std::min<std::ptrdiff_t>(kNodes, points->weights.end() - first);
+  const std::ptrdiff_t k = std::max_element(first, first + most) - first;
+  const double off = std::sqrt(squares / points->weights[k]);
+  const double current = points->current_A[k];
+  points->weights[k] /= 2;
+  points->current_A[k] = current + off;
+  points->Add(points->voltage_V[k], current - off, points->weights[k]);
+}
+
 }  // namespace
 
 RefineProblem Thin(const RefineProblem& problem) {
   if (problem.voltage_V.size() <= kFewPoints) return problem;
+  const bool smooth = problem.objective == Objective::kSolvedCurrent;
   const std::vector<int> order = VoltageOrder(problem.voltage_V);
-  const std::vector<Iterator> begins = CutIntoGroups(problem, order);
-  std::vector<double> voltage, current, weights;
+  const std::vector<Iterator> begins =
+      CutIntoGroups(problem, order, smooth ? kSmoothGroups : kScatteredGroups);
+  Points points;
+  double squares = 0;
   for (std::size_t g = 0; g + 1 < begins.size(); ++g) {
     const Moments m = FindMoments(problem, begins[g], begins[g + 1]);
     if (!(m.weight > 0)) continue;
-    const double spread = std::sqrt(m.vv);
-    const double slope = m.vv > 0 ? m.vi / m.vv : 0;
-    const double scatter = std::sqrt(std::max(m.ii - slope * m.vi, 0.0));  // around the line
-    for (const double side : {-1.0, 1.0}) {
-      for (const double sign : {-1.0, 1.0}) {
-        voltage.push_back(m.voltage + side * spread);
-        current.push_back(m.current + side * slope * spread + sign * scatter);
-        weights.push_back(m.weight / 4);
-      }
-    }
+    if (smooth) squares += AddSmooth(problem, m, begins[g], begins[g + 1], &points);
+    if (!smooth) AddScattered(m, &points);
   }
-  RefineProblem thin =
-      MakeRefineProblem(problem.device, problem.objective, std::move(voltage), std::move(current),
-                        std::move(weights), problem.lower, problem.upper);
+  if (smooth) AddConstant(squares, &points);
+  RefineProblem thin = MakeRefineProblem(problem.device, problem.objective,
+                                         std::move(points.voltage_V), std::move(points.current_A),
+                                         std::move(points.weights), problem.lower, problem.upper);
   thin.kernel = problem.kernel;
   thin.current_scale_A = problem.current_scale_A;
   thin.voltage_scale_V = problem.voltage_scale_V;

@@ -104,7 +104,8 @@ void AddEvidence(const FitReport& report, Json* json) {
   j["correlations"] = CorrelationsJson(report.correlations);
   j["search"] = SearchJson(report.search_options, report.search);
   j["refine"] = RefineJson(report.refine);
-  j["intervals"] = {{"seconds", Number(report.interval_seconds)}};
+  j["intervals"] = {{"seconds", Number(report.interval_seconds)},
+                    {"none_because", report.no_intervals_because}};
   j["model_choice"] = ChoiceJson(report.choice);
   j["options"] = OptionsJson(report.non_default_options);
   j["interrupted"] = report.interrupted;

@@ -71,6 +71,9 @@ std::string ParameterSection(const FitReport& report) {
   text += UnidentifiableNotes(report.estimates);
   const std::string intervals = IntervalNote(report.estimates);
   if (!intervals.empty()) text += Wrap("  ", "95 % intervals: " + intervals);
+  if (!report.no_intervals_because.empty()) {
+    text += Wrap("  ", "95 % intervals: none, since " + report.no_intervals_because + ".");
+  }
   text += Wrap("  ", fmt::format("nNsVth = {} V (n1 x cells in series x k T / q)",
                                  Significant(report.nNsVth, kValueDigits)));
   return text;

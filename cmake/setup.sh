@@ -15,7 +15,7 @@ Die() {
 PackagesFor() {
   case $1 in
     build)
-      echo build-essential cmake libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
+      echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
     test) echo libgtest-dev libgmock-dev ;;
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
@@ -53,10 +53,13 @@ InstallPackages() {
   AptGet install -y --no-install-recommends "${missing[@]}" || Die "apt-get install failed (see above)"
 }
 
-# Configure FOLDER OPTION...: a Release build unless the options say otherwise.
+# Configure FOLDER OPTION...: a Release build unless the options say otherwise; a folder that was configured
+# before keeps its generator.
 Configure() {
+  local generator=()
+  [[ -f $1/CMakeCache.txt ]] || generator=(-G Ninja)
   Say "Configuring $1"
-  cmake -S "$LYREFIT_ROOT" -B "$1" -DCMAKE_BUILD_TYPE=Release "${@:2}"
+  cmake -S "$LYREFIT_ROOT" -B "$1" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "${@:2}"
 }
 
 # Build FOLDER [OPTION...] on every core.

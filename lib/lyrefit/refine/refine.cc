@@ -9,7 +9,7 @@
 
 #include "lyrefit/refine/finite.h"
 #include "lyrefit/refine/jacobian.h"
-#include "lyrefit/refine/residuals.h"
+#include "lyrefit/refine/polish_cost.h"
 #include "lyrefit/refine/separable.h"
 #include "lyrefit/refine/stop_asked.h"
 #include "lyrefit/refine/thin.h"
@@ -23,22 +23,6 @@ constexpr double kFaded = 1e-9;
 constexpr double kFlat = 1e-8;
 // Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
 constexpr double kWorse = 1e-9;
-
-// CurveResiduals as Ceres asks for them.
-class PolishCost : public ceres::CostFunction {
- public:
-  PolishCost(const RefineProblem& problem, const Coordinates& coordinates, double unit_A)
-      : residuals_(problem, coordinates, unit_A) {
-    set_num_residuals(static_cast<int>(problem.voltage_V.size()));
-    mutable_parameter_block_sizes()->push_back(coordinates.size());
-  }
-  bool Evaluate(double const* const* theta, double* residuals, double** jacobians) const override {
-    return residuals_.Evaluate(theta[0], residuals, jacobians ? jacobians[0] : nullptr);
-  }
-
- private:
-  CurveResiduals residuals_;
-};
 
 class Polish {
  public:

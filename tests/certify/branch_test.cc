@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -33,7 +34,7 @@ TEST(BranchOverResistance, BoundsEveryResistanceAndAttainsTheBest) {
 
 // A coarse tolerance leaves much excess in every mixture, which has to be priced in full.
 TEST(BranchOverResistance, HoldsWithCoarseMixturesToo) {
-  for (std::uint64_t seed = 112; seed < 118; ++seed) {
+  for (int seed = 112; seed < 112 + Repeats(6); ++seed) {
     const IvCurve curve = RandomCurve(seed);
     const MixtureData data = DataOf(curve);
     const Window window = WindowOf(curve, 0.5, 4);

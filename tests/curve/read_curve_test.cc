@@ -8,6 +8,7 @@
 #include "../temp_folder.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/random.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -152,7 +153,7 @@ TEST(ReadCurveTest, CutAndFlippedFilesGiveACurveOrAnError) {
         EXPECT_NE(curve.error().message, "");
       }
     }
-    for (int repeat = 0; repeat < 3000; ++repeat) {
+    for (int repeat = 0; repeat < Repeats(3000); ++repeat) {
       std::string broken = text;
       for (std::uint32_t flips = 1 + random.Index(4); flips > 0; --flips) {
         broken[random.Index(broken.size())] = static_cast<char>(random.Index(256));
@@ -174,7 +175,7 @@ TEST(ReadCurveTest, BrokenSidecarsGiveACurveOrAnError) {
   const std::string text =
       R"({"name": "x", "cells_in_series": 36, "nominal_temperature_C": 25.5, "current_noise": {"constant_A": 1e-3}})";
   RandomStream random(18);
-  for (int repeat = 0; repeat < 600; ++repeat) {
+  for (int repeat = 0; repeat < Repeats(600); ++repeat) {
     std::string broken = text.substr(0, random.Index(4) == 0 ? random.Index(text.size()) : 1000);
     if (!broken.empty()) broken[random.Index(broken.size())] = static_cast<char>(random.Index(256));
     folder.Write("a.json", broken);

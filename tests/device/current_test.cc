@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/device/kernel.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -84,7 +85,7 @@ Quad ExactCurrent(const Device& device, const std::vector<Quad>& p, double volta
 std::vector<Quad> ToQuad(const std::vector<double>& p) { return {p.begin(), p.end()}; }
 
 TEST(SolveOperatingPoint, AgreesWithMultiprecisionOverRandomDevices) {
-  constexpr int kDraws = 100000;
+  constexpr int kDraws = Repeats(100000);
   RandomStream random(20240607);
   double worst = 0;
   for (int k = 0; k < kDraws; ++k) {
@@ -124,7 +125,7 @@ TEST(SolveCurrents, EveryKernelAgreesWithTheScalarSolverAndWithEachOtherToTheBit
 }
 
 TEST(ImplicitFactor, GivesDerivativesThatAgreeWithMultiprecisionDifferences) {
-  constexpr int kDraws = 3000;
+  constexpr int kDraws = Repeats(3000);
   RandomStream random(99);
   for (int k = 0; k < kDraws; ++k) {
     const Draw draw = DrawDevice(&random);

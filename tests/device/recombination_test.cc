@@ -10,6 +10,7 @@
 #include "lyrefit/device/current.h"
 #include "lyrefit/device/kernel.h"
 #include "lyrefit/device/model_points.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -81,7 +82,7 @@ Quad ExactCurrent(const Draw& draw, double voltage_V, double start) {
 TEST(Recombination, TheSolverAgreesWithBisectionIn113BitsOverRandomDevices) {
   RandomStream random(51);
   int compared = 0;
-  for (int k = 0; k < 4000; ++k) {
+  for (int k = 0; k < Repeats(4000); ++k) {
     const Draw draw = DrawDevice(&random);
     const double v = draw.pole_V * (-1 + 1.9 * random.Uniform());
     const OperatingPoint point = SolveOperatingPoint(draw.device, draw.p.data(), v);
@@ -99,7 +100,7 @@ TEST(Recombination, TheSolverAgreesWithBisectionIn113BitsOverRandomDevices) {
 
 TEST(Recombination, KernelsAgreeToTheBitAndWithTheScalarSolver) {
   RandomStream random(52);
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < Repeats(1000); ++k) {
     const Draw draw = DrawDevice(&random);
     std::vector<double> v, i;
     for (int j = 0; j < 19; ++j) {

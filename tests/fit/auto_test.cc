@@ -6,6 +6,7 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/held_out.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -30,11 +31,7 @@ TEST(FitAuto, FindsASecondDiodeThatIsThere) {
 }
 
 TEST(FitAuto, IsRarelyFooledByASingleDiode) {
-#ifdef LYREFIT_SANITIZED
-  constexpr int kCurves = 2;
-#else
-  constexpr int kCurves = 40;
-#endif
+  constexpr int kCurves = Repeats(40);
   int fooled = 0;
   for (int seed = 0; seed < kCurves; ++seed) {
     const FitReport report =

@@ -1,10 +1,10 @@
 #include "audit_command.h"
 
 #include "flags.h"
+#include "interrupt.h"
 #include "lyrefit/report/audit_csv.h"
 #include "lyrefit/report/audit_json.h"
 #include "lyrefit/report/audit_text.h"
-#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {

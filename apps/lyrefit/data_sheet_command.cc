@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "flags.h"
+#include "interrupt.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/data_sheet_json.h"
 #include "lyrefit/report/data_sheet_text.h"
 #include "lyrefit/report/pvlib_json.h"
-#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
+#include "interrupt.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
-#include "interrupt.h"
 #include "output.h"
 
 namespace lyrefit {

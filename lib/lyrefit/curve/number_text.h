@@ -17,8 +17,8 @@ std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = fa
 // below.
 inline constexpr double kOverflowCode = 1e30;
 
-// Whether a field stands for a reading that is missing: empty, NaN, a word such as "NA" or "ovf", or
-// an overflow code.
+// Whether a field stands for a reading that is missing: empty, NaN, a word such as "NA" or "ovf",
+// or an overflow code.
 bool IsMissingReading(std::string_view text, bool decimal_comma = false);
 
 // A word that stands for a missing reading.

@@ -23,13 +23,13 @@ struct ReadOptions {
   // do not tell.
   std::string voltage_column;
   std::string current_column;
-  // The unit of the voltage or of the current ("mA", "mA/cm2"), where the file names none or a wrong
-  // one.
+  // The unit of the voltage or of the current ("mA", "mA/cm2"), where the file names none or a
+  // wrong one.
   std::string voltage_unit;
   std::string current_unit;
   // Leaves out rows without a reading: their voltage or current is empty, NaN, a word such as "NA",
-  // or a number such as 9.91e37, which instruments write for an overflow. `assumptions` counts them.
-  // False: the first of them is an error.
+  // or a number such as 9.91e37, which instruments write for an overflow. `assumptions` counts
+  // them. False: the first of them is an error.
   bool skip_missing = false;
   std::optional<double> area_cm2;  // of the cell; makes currents of current densities
   std::uintmax_t largest_file_bytes = 64U << 20;

@@ -8,7 +8,7 @@ app=build/apps/lyrefit/lyrefit
 cat << EOF
 This will
   1. install the Debian packages that are missing (root is asked for only then; a minute or two the first time),
-  2. build the library and the command in $LYREFIT_ROOT/build (some five minutes on two cores),
+  2. build the library and the command in $LYREFIT_ROOT/build (two minutes on two cores),
   3. fit data/rtc_france and draw it into build/rtc_france.svg (a second).
 Nothing outside that folder is touched but the packages.
 EOF

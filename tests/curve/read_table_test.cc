@@ -82,6 +82,7 @@ TEST(ReadTableTest, ErrorsNameLineColumnAndWhatWasExpected) {
       {"voltage_V,current_A\n0,1\n0.1,abc\n", 3, 5,
        "expected a number in column current_A, found 'abc'"},
       {"V,I\nabc,1\n0.1,2\n", 2, 1, "expected a number in column V, found 'abc'"},
+      {"id,V,I\nA,0;1;2,2;1;0\n", 2, 3, "found a list of 3: write one reading a line"},
       {"V,I\n0,1\n0.1,\n", 3, 5, "expected a number in column I, found an empty field"},
       {"V,I\n0,1\n,1\n", 3, 1, "found an empty field"},
       {"V,I\n0,1\n0.1\n", 3, 1, "expected 2 fields as in the first line of the table, found 1"},

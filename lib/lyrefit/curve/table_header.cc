@@ -157,6 +157,27 @@ TableLine AsRow(std::string_view line) {
   return {};
 }
 
+void TakeColumnName(std::string_view line, Fields* names) {
+  const std::size_t mark = line.find_first_of(":=");
+  if (mark == std::string_view::npos) return;
+  const std::string key = LowerCase(TrimBlanks(line.substr(0, mark)));
+  const std::size_t digits = key.find_last_not_of("0123456789") + 1;
+  const std::string_view word = TrimBlanks(std::string_view(key).substr(0, digits));
+  if (word != "label" && word != "column" && word != "col") return;
+  if (key.substr(digits) == "1") names->clear();
+  if (key.substr(digits) != std::to_string(names->size() + 1)) return;
+  std::string name(TrimBlanks(line.substr(mark + 1)));
+  std::replace(name.begin(), name.end(), '\t', ' ');
+  names->push_back(std::move(name));
+}
+
+TableLine HeaderOfNames(const Fields& names, const TableLine& row, const HeaderRules& rules) {
+  if (names.empty() || names.size() != row.fields.size()) return {};
+  TableLine header = {row.delimiter, names, RecogniseAll(names), true};
+  ApplyColumnWishes(rules.options, &header.columns);
+  return FindChannels(header.columns).empty() ? TableLine{} : header;
+}
+
 TableLine HeaderInComment(std::string_view comment, std::string_view row,
                           const HeaderRules& rules) {
   const std::size_t text = comment.find_first_not_of("#% \t");

@@ -46,6 +46,14 @@ std::string WithUnits(std::string_view names, std::string_view units);
 // `line` as a row that begins with two numbers.
 TableLine AsRow(std::string_view line);
 
+// Remembers the name of a column that a line of its own gives, "Label1: Voltage [V]" or "Column 2 =
+// Current (A)"; they are numbered from 1, another first one begins anew.
+void TakeColumnName(std::string_view line, Fields* names);
+
+// The names so given as the header of `row`; without a delimiter if they are not as many as the row
+// has fields, or no voltage and current.
+TableLine HeaderOfNames(const Fields& names, const TableLine& row, const HeaderRules& rules);
+
 // "# voltage current" above headerless numbers, as NumPy writes it.
 TableLine HeaderInComment(std::string_view comment, std::string_view row, const HeaderRules& rules);
 

@@ -90,6 +90,14 @@ class LayoutSearch {
     while (skipped_ <= kLargestPreamble && NextContent(&offset)) {
       if (auto header = TryHeader()) return *header;
       const TableLine row = AsRow(line_);
+      if (const TableLine header = HeaderOfNames(names_, row, rules_); header.delimiter != 0) {
+        Expected<TableLayout> layout =
+            LayoutOfHeader(header, PlaceOf(header), line_, rules_.options);
+        if (layout) {
+          layout->assumptions.push_back("column names taken from the lines that number them");
+        }
+        return Finish(std::move(layout), offset, lines_.number() - 1);
+      }
       if (row.delimiter != 0 && !row_after_text_ && !demand_header_) {
         if (skipped_ == 0 || WishesArePlaces()) {
           return Finish(FromRow(row), offset, lines_.number() - 1);
@@ -170,6 +178,7 @@ class LayoutSearch {
   void Skip() {
     last_text_ = {line_, lines_.number()};
     if (skipped_++ == 0) first_text_ = last_text_;
+    TakeColumnName(line_, &names_);
     ReadHeadLine(line_, lines_.number(), HeadLine::kText, &head_);
   }
 
@@ -205,6 +214,7 @@ class LayoutSearch {
   HeaderRules rules_;
   std::string_view line_;
   std::string_view comment_;
+  Fields names_;  // of columns, given one a line
   Text first_text_;
   Text last_text_;
   Text text_before_row_;

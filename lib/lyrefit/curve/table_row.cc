@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -57,6 +58,12 @@ Expected<double> TableRow::Value(int field) {
   const std::string_view text = splitter_[field];
   const auto number = ParseNumber(text, delimiter_ != ',');
   if (!number && text.empty()) return RefuseMissing(field, "a number");
+  if (const auto more = std::count(text.begin(), text.end(), ';'); !number && more > 1) {
+    return Refuse(
+        fmt::format("expected a number in {}, found a list of {}: write one reading a line",
+                    ColumnName(field), more + 1),
+        field);
+  }
   if (!number) return RefuseField(field, "a number");
   if (!std::isfinite(*number)) return RefuseMissing(field, "a finite number");
   if (auto checked = CheckSeparator(field, text); !checked) {

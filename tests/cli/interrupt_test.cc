@@ -148,10 +148,10 @@ TEST_P(InterruptTest, EndsWhatTakesAMomentToo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptTest, testing::Values(SIGINT, SIGTERM, SIGHUP),
-                         [](const auto& info) {
-                           return info.param == SIGINT    ? "INT"
-                                  : info.param == SIGTERM ? "TERM"
-                                                          : "HUP";
+                         [](const auto& signal) {
+                           return signal.param == SIGINT    ? "INT"
+                                  : signal.param == SIGTERM ? "TERM"
+                                                            : "HUP";
                          });
 
 nlohmann::json Comparison(const std::string& journal) {

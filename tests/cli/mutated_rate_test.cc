@@ -31,10 +31,6 @@ struct Mutation {
   Mutator apply;
 };
 
-double Uniform(std::mt19937* random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(*random);
-}
-
 std::size_t Index(std::mt19937* random, std::size_t count) {
   return std::uniform_int_distribution<std::size_t>(0, count - 1)(*random);
 }

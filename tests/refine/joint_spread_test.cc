@@ -150,8 +150,8 @@ TEST(FindJointProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) 
   for (int i = 0; i < law.size(); ++i) {
     if (best.held[i]) continue;
     for (const bool upper : {false, true}) {
-      const JointProfileSide side =
-          FindJointProfileSide(problem, best, {i, upper, t, variance, spread.standard_error[i]});
+      const JointProfileSide side = FindJointProfileSide(
+          problem, best, {i, upper, t, variance, spread.standard_error[i], {}});
       EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
       EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
       EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
@@ -170,13 +170,13 @@ TEST(FindJointProfileSide, StopsAtABoundThatTheDataAllow) {
   const JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
   const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
   const JointProfileSide low =
-      FindJointProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0});
+      FindJointProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0, {}});
   EXPECT_TRUE(low.at_bound);
   EXPECT_EQ(low.value, 0);
   EXPECT_TRUE(
-      FindJointProfileSide(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0}).at_bound);
+      FindJointProfileSide(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0, {}}).at_bound);
   const JointProfileSide limit =
-      FindJointProfileSide(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0});
+      FindJointProfileSide(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0, {}});
   EXPECT_FALSE(limit.at_bound);
   EXPECT_GT(limit.value, 300);
 }

@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // Slow enough for the slowest build; met within seconds.
@@ -75,10 +76,10 @@ const std::vector<std::string> kStudy = {"compare",      DataFolder("rtc_france"
                                          "--runs",       "1000000"};
 
 TEST(Progress, ShowsABarAndTheTimeLeftOnATerminal) {
-  const std::string shown =
-      OnTerminal(kStudy, "of 2000000, about [0-9]+ (minutes|h [0-9]+ min) left");
+  const std::string left = "of 2000000, about [0-9]+ (minutes|h [0-9]+ min) left";
+  const std::string shown = OnTerminal(kStudy, left);
   EXPECT_THAT(shown, HasSubstr("compare [......"));
-  EXPECT_THAT(shown, HasSubstr(" left"));
+  EXPECT_THAT(shown, ContainsRegex(left));
   EXPECT_THAT(shown, ContainsRegex("lyrefit: this takes about [0-9]+ (minutes|h [0-9]+ min); "
                                    "Ctrl-C keeps what is done"));
   EXPECT_THAT(shown, HasSubstr("INTERRUPTED"));
@@ -102,6 +103,12 @@ TEST(Progress, IsSilentWhereAsked) {
   std::vector<std::string> quiet = kStudy;
   quiet.push_back("--quiet");
   EXPECT_EQ(OnStandardError(quiet, 3), "");
+  // A run that ends by itself, after it would have drawn some bars.
+  std::vector<std::string> short_study = kStudy;
+  short_study.back() = "2000";
+  EXPECT_THAT(OnTerminal(short_study, "no such text"), HasSubstr("compare ["));
+  short_study.push_back("--quiet");
+  EXPECT_THAT(OnTerminal(short_study, "no such text"), Not(HasSubstr("compare [")));
 }
 
 TEST(Progress, SaysNothingElsewhereOfAShortRun) {

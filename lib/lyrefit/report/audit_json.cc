@@ -134,7 +134,7 @@ std::string AuditJson(const AuditReport& report) {
     json["summary"][key] = CountFindings(report, row.value);
   }
   // Rows and paths may hold bytes that are not UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json);
 }
 
 }  // namespace lyrefit

@@ -69,7 +69,7 @@ std::string CertificateJson(const Certificate& certificate) {
                       {{"voltage_V", Numbers(certificate.curve.voltage_V)},
                        {"current_A", Numbers(certificate.curve.current_A)}}}};
   // Names and files may hold bytes that are not UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json);
 }
 
 }  // namespace lyrefit

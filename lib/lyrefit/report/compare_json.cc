@@ -168,7 +168,7 @@ std::string CompareJson(const Comparison& comparison) {
     json["problems"].push_back(ProblemJson(problem));
   }
   // Names and files may hold bytes that are not UTF-8.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json, 1);
 }
 
 }  // namespace lyrefit

@@ -65,7 +65,7 @@ std::string CoverageJson(const CoverageReport& report) {
                      {"interrupted", report.interrupted},   {"failed", report.failed},
                      {"parameters", std::move(parameters)}, {"sets", std::move(sets)},
                      {"seconds", Number(report.seconds)}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json, 1);
 }
 
 }  // namespace lyrefit

@@ -44,7 +44,7 @@ std::string DataSheetJson(const DataSheetFit& fit) {
   json["checks"] = std::move(checks);
   json["largest_relative_error"] = Number(fit.largest_relative_error);
   json["warnings"] = fit.warnings;
-  return json.dump(2) + "\n";
+  return JsonText(json);
 }
 
 }  // namespace lyrefit

@@ -180,9 +180,7 @@ Json ToJson(const Diagnosis& diagnosis) {
 }
 
 // Names and files may hold bytes that are not UTF-8.
-std::string Dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string Dump(const Json& json) { return JsonText(json); }
 
 }  // namespace
 

@@ -194,7 +194,7 @@ std::string FamilyJson(const FamilyReport& report) {
   AddEvidence(report, &json);
   json["curves"] = CurvesJson(report);
   // Names and files may hold bytes that are not UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json);
 }
 
 }  // namespace lyrefit

@@ -110,7 +110,7 @@ std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points) {
     }
     list.push_back(std::move(item));
   }
-  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(list);
 }
 
 }  // namespace lyrefit

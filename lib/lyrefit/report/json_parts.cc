@@ -19,6 +19,10 @@ Json CurveJson(const IvCurve& curve) {
           {"assumptions", curve.assumptions}};
 }
 
+std::string JsonText(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json OptionsJson(const std::vector<OptionEcho>& options) {
   Json list = Json::array();
   for (const OptionEcho& option : options) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "lyrefit/base/option.h"
@@ -20,6 +21,10 @@ inline Json Numbers(const std::vector<double>& values) {
   for (const double value : values) list.push_back(Number(value));
   return list;
 }
+
+// The text of a report, with an end of line. What is not UTF-8 in it, such as a file's name, is
+// replaced.
+std::string JsonText(const Json& json, int indent = 2);
 
 // Options that differ from their defaults.
 Json OptionsJson(const std::vector<OptionEcho>& options);

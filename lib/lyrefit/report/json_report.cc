@@ -156,7 +156,7 @@ Json FitJson(const FitReport& report, JsonPoints points) {
 
 std::string JsonReport(const FitReport& report, JsonPoints points) {
   // Names and files may hold bytes that are not UTF-8.
-  return FitJson(report, points).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(FitJson(report, points));
 }
 
 }  // namespace lyrefit

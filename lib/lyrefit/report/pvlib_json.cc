@@ -52,7 +52,7 @@ std::string PvlibJson(const std::string& name, TranslationLaw law,
   json["cec"] = cec ? RowJson(*cec) : Json(nullptr);
   json["cec_reason"] = cec ? std::string() : cec.error().message;
   // Names and files may hold bytes that are not UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json);
 }
 
 }  // namespace lyrefit

@@ -6,17 +6,17 @@ cmake_minimum_required(VERSION 3.25)
 # room -> the rooms of lib/lyrefit that its files may include, besides itself
 set(ALLOWED_base)
 set(ALLOWED_curve base)
-set(ALLOWED_device base curve)
+set(ALLOWED_law base curve)
 set(ALLOWED_search base)  # knows no photovoltaics
-set(ALLOWED_refine base curve device)
-set(ALLOWED_certify base curve device refine)
-set(ALLOWED_fit base curve device search refine certify)
-set(ALLOWED_family base curve device search refine fit)
-set(ALLOWED_study base curve device search refine certify fit family)
-set(ALLOWED_effects base curve device)  # knows no fitting
-set(ALLOWED_diagnose base curve device search refine fit family effects)
-set(ALLOWED_report base curve device search certify fit family study diagnose)  # computes nothing
-set(ROOMS base curve device search refine certify fit family study effects diagnose report)
+set(ALLOWED_refine base curve law)
+set(ALLOWED_certify base curve law refine)
+set(ALLOWED_fit base curve law search refine certify effects)
+set(ALLOWED_family base curve law search refine fit effects)
+set(ALLOWED_study base curve law search refine certify fit family effects)
+set(ALLOWED_effects base curve law)  # knows no fitting
+set(ALLOWED_diagnose base curve law search refine fit family effects)
+set(ALLOWED_report base curve law search certify fit family study diagnose)  # computes nothing
+set(ROOMS base curve law search refine certify effects fit family study diagnose report)
 
 set(BROKEN 0)
 macro(complain text)

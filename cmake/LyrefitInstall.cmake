@@ -27,19 +27,19 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/nearest_curve.h
   curve/read_curve.h
   curve/write_curve.h
-  device/current.h
-  device/device.h
-  device/kernel.h
-  device/model_points.h
-  device/parameter.h
-  device/solve.h
-  device/term.h
-  device/translation.h
+  law/current.h
+  law/device.h
+  law/effect.h
+  law/kernel.h
+  law/model_points.h
+  law/parameter.h
+  law/reading.h
+  law/solve.h
+  law/term.h
+  law/translation.h
   diagnose/diagnose.h
   diagnose/diagnosis.h
   effects/catalogue.h
-  effects/effect.h
-  effects/reading.h
   family/coefficients.h
   family/data_sheet.h
   family/family_report.h

@@ -29,7 +29,7 @@
 #include "lyrefit/curve/nearest_curve.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/family/coefficients.h"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/device.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/device.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/fit/bounds.h"
 
 namespace lyrefit::bench {

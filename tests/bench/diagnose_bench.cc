@@ -6,9 +6,9 @@
 
 #include "benchmarks.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit::bench {

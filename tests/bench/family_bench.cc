@@ -7,8 +7,8 @@
 
 #include "benchmarks.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_free.h"
 

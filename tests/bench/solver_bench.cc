@@ -9,7 +9,7 @@
 #include "bench_support.h"
 #include "benchmarks.h"
 #include "claims.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/certify/mixture.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
 

@@ -7,8 +7,8 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/device.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/device.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
 

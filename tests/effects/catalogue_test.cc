@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "made_readings.h"
+#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/law.h"
-#include "made_readings.h"
+#include "lyrefit/law/law.h"
+#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {

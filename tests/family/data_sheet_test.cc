@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/refine/joint.h"
 
 namespace lyrefit {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

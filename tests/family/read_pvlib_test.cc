@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/pvlib_json.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "../temp_folder.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

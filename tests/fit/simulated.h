@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/refine/problem.h"
 
 namespace lyrefit {

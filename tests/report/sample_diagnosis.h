@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "sample_report.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/family/family_report.h"
 
 namespace lyrefit {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "../temp_folder.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 #include "repeats.h"
 
 namespace lyrefit {

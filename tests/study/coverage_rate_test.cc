@@ -9,7 +9,7 @@
 
 #include "../temp_folder.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/study/coverage_sets.h"
 
 namespace lyrefit {

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

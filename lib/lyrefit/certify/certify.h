@@ -10,7 +10,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

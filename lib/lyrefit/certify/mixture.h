@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

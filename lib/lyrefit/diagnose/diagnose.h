@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/diagnose/diagnosis.h"
 
 namespace lyrefit {

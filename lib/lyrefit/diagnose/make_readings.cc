@@ -8,7 +8,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/settle_conditions.h"
-#include "lyrefit/effects/law.h"
+#include "lyrefit/law/law.h"
 #include "lyrefit/family/held_values.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/reading.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/reading.h"
 
 namespace lyrefit {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/diagnose/watch.h"
-#include "lyrefit/effects/law.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/law.h"
+#include "lyrefit/law/reading.h"
 #include "lyrefit/refine/least_squares.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/effects/effect.h"
+#include "lyrefit/law/effect.h"
 
 namespace lyrefit {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/effects/effect.h"
+#include "lyrefit/law/effect.h"
 
 namespace lyrefit {
 

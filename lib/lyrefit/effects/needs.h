@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/effects/effect.h"
+#include "lyrefit/law/effect.h"
 
 namespace lyrefit {
 

@@ -1,6 +1,6 @@
 #include "lyrefit/family/coefficients.h"
 
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 

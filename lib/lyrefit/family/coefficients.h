@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 

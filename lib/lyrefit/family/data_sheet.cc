@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet_values.h"
 #include "lyrefit/family/key_point_solver.h"

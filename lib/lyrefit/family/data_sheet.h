@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 

@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/refine/joint_linear.h"

@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/search/search.h"
 

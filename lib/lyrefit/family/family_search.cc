@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
 
 namespace lyrefit {

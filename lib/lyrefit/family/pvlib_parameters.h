@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 

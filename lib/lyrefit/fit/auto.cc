@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/held_out.h"
 #include "lyrefit/fit/statistics.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

@@ -8,7 +8,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/search/search.h"

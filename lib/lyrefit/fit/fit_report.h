@@ -9,7 +9,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

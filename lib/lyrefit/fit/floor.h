@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/device/parameter.h"
+#include "lyrefit/law/parameter.h"
 
 namespace lyrefit {
 

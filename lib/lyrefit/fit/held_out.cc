@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"

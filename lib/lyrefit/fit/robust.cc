@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {

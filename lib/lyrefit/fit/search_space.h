@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/device/parameter.h"
+#include "lyrefit/law/parameter.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

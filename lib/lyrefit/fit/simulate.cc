@@ -10,8 +10,8 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/json_text.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

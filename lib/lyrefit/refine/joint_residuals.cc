@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/refine/residuals.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/device/solve.h"
+#include "lyrefit/law/solve.h"
 #include "lyrefit/refine/linear_part.h"
 #include "lyrefit/refine/separable.h"
 

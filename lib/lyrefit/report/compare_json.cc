@@ -1,6 +1,6 @@
 #include "lyrefit/report/compare_json.h"
 
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {

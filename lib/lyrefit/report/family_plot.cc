@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/report/data_block.h"
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"

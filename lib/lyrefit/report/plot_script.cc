@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/fit/fit_report.h"
 
 // What the text writers share.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/held_values.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/study/coverage.h"
 
 namespace lyrefit {

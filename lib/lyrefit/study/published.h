@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/study/compare.h"
 
 namespace lyrefit {

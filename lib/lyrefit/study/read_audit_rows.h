@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/device/parameter.h"
+#include "lyrefit/law/parameter.h"
 #include "lyrefit/family/family_report.h"
 
 namespace lyrefit {

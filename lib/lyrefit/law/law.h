@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "lyrefit/device/translation.h"
-#include "lyrefit/effects/effect.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/translation.h"
+#include "lyrefit/law/effect.h"
+#include "lyrefit/law/reading.h"
 
 namespace lyrefit {
 

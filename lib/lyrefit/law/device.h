@@ -7,8 +7,8 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/device/parameter.h"
-#include "lyrefit/device/term.h"
+#include "lyrefit/law/parameter.h"
+#include "lyrefit/law/term.h"
 
 namespace lyrefit {
 

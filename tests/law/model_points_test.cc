@@ -1,10 +1,10 @@
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

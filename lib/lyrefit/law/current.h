@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 // or is forced inline: a function that two kernels shared would be compiled for the newer processor
 // only.
 
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit::LYREFIT_KERNEL {
 

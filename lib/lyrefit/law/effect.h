@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/dual.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/reading.h"
 
 namespace lyrefit {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/device/device.h"
-#include "lyrefit/device/solve.h"
+#include "lyrefit/law/device.h"
+#include "lyrefit/law/solve.h"
 
 namespace lyrefit {
 

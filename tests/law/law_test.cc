@@ -1,13 +1,13 @@
-#include "lyrefit/effects/law.h"
+#include "lyrefit/law/law.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/translation.h"
-#include "made_readings.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/translation.h"
+#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {

@@ -1,9 +1,9 @@
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/model_points.h"
 
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

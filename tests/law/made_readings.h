@@ -8,8 +8,8 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/law.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/law.h"
+#include "lyrefit/law/reading.h"
 
 namespace lyrefit {
 

@@ -11,9 +11,9 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -2,5 +2,5 @@
 #define LYREFIT_KERNEL avx2
 #define LYREFIT_KERNEL_NAME "avx2"
 #define LYREFIT_KERNEL_WIDTH 4
-#include "lyrefit/device/kernel_impl.h"
+#include "lyrefit/law/kernel_impl.h"
 #endif

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/device/device.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
 

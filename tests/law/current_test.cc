@@ -1,4 +1,4 @@
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/effects/effect.h"
-#include "lyrefit/effects/law.h"
-#include "lyrefit/effects/reading.h"
+#include "lyrefit/law/effect.h"
+#include "lyrefit/law/law.h"
+#include "lyrefit/law/reading.h"
 
 // The law of one cell, over any number type: what law.cc solves.
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 #include <glog/logging.h>
 

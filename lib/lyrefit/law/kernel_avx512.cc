@@ -2,5 +2,5 @@
 #define LYREFIT_KERNEL avx512
 #define LYREFIT_KERNEL_NAME "avx512"
 #define LYREFIT_KERNEL_WIDTH 8
-#include "lyrefit/device/kernel_impl.h"
+#include "lyrefit/law/kernel_impl.h"
 #endif

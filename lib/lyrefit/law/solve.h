@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "lyrefit/base/portable_exp.h"
-#include "lyrefit/device/term.h"
+#include "lyrefit/law/term.h"
 
 namespace lyrefit {
 

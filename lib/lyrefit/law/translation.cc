@@ -1,4 +1,4 @@
-#include "lyrefit/device/translation.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 namespace {

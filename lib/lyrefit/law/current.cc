@@ -1,9 +1,9 @@
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 #include <cmath>
 
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/solve.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/solve.h"
 
 namespace lyrefit {
 

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/current.h"
-#include "lyrefit/device/kernel.h"
-#include "lyrefit/device/model_points.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -1,11 +1,11 @@
-#include "lyrefit/device/kernel.h"
+#include "lyrefit/law/kernel.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/device/current.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "lyrefit/effects/law.h"
+#include "lyrefit/law/law.h"
 
 #include <glog/logging.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/effects/cell_law.h"
+#include "lyrefit/law/cell_law.h"
 
 namespace lyrefit {
 namespace {

@@ -100,7 +100,8 @@ TEST_P(CatalogueTest, CanBeFittedWhereItHasParameters) {
 TEST_P(CatalogueTest, EveryStageKnowsEveryNumberType) {
   const auto complete = [](const auto& hook) {
     const bool value = hook.value != nullptr;
-    return value == (hook.narrow != nullptr) && value == (hook.wide != nullptr);
+    return value == (hook.narrow != nullptr) && value == (hook.middle != nullptr) &&
+           value == (hook.wide != nullptr);
   };
   const Effect& e = effect();
   EXPECT_TRUE(complete(e.sky) && complete(e.cell) && complete(e.junction) && complete(e.series) &&

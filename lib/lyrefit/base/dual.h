@@ -1,79 +1,182 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
+
+// Calls cost more than what these functions do.
+#define LYREFIT_INLINE [[gnu::always_inline]]
 
 namespace lyrefit {
 
-// A value and its derivatives with respect to N unknowns: forward automatic differentiation for
-// rooms that know no solver.
-template <int N>
-struct Dual {
-  double a = 0;
-  double v[N] = {};
+template <int N, class T>
+struct Dual;
 
-  Dual() = default;
-  Dual(double constant) : a(constant) {}  // NOLINT: numbers are duals without derivative
+// Element by element: `yes` where the condition holds. Both are worked out, so neither may leave
+// the numbers.
+LYREFIT_INLINE inline double Choose(bool condition, double yes, double no) {
+  return condition ? yes : no;
+}
+template <class Condition, int N, class T>
+LYREFIT_INLINE inline Dual<N, T> Choose(const Condition& condition, const Dual<N, T>& yes,
+                                        const Dual<N, T>& no) {
+  Dual<N, T> result;
+  result.a = Choose(condition, yes.a, no.a);
+  for (int k = 0; k < N; ++k) result.v[k] = Choose(condition, yes.v[k], no.v[k]);
+  return result;
+}
+
+// A value and its derivatives with respect to N unknowns: forward automatic differentiation. T is
+// double or several doubles at once (law/pack.h, a kernel's own), whose `exp`, `log`, `sqrt` and
+// comparisons stand beside T. A value with its slope along one unknown is a Dual<1, T>.
+template <int N, class T = double>
+struct Dual {
+  T a;
+  T v[N];
+
+  Dual() = default;  // as T itself: without a value
+  LYREFIT_INLINE Dual(const T& constant)
+      : a(constant) {  // NOLINT: numbers are duals without derivative
+    for (T& derivative : v) derivative = T(0.0);
+  }
+  template <class Number,
+            class = std::enable_if_t<std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>>>
+  LYREFIT_INLINE Dual(Number constant)
+      : Dual(T(static_cast<double>(constant))) {}  // NOLINT: the same
   // The unknown at position `index`.
-  Dual(double value, int index) : a(value) { v[index] = 1; }
+  LYREFIT_INLINE Dual(const T& value, int index) : Dual(value) { v[index] = T(1.0); }
 
   // f(this) with f' = slope.
-  Dual Chain(double value, double slope) const {
+  LYREFIT_INLINE Dual Chain(const T& value, const T& slope) const {
     Dual result;
     result.a = value;
     for (int k = 0; k < N; ++k) result.v[k] = slope * v[k];
     return result;
   }
 
-  friend Dual operator+(const Dual& x, const Dual& y) {
+  LYREFIT_INLINE friend Dual operator+(const Dual& x, const Dual& y) {
     Dual result;
     result.a = x.a + y.a;
     for (int k = 0; k < N; ++k) result.v[k] = x.v[k] + y.v[k];
     return result;
   }
-  friend Dual operator-(const Dual& x, const Dual& y) {
+  LYREFIT_INLINE friend Dual operator-(const Dual& x, const Dual& y) {
     Dual result;
     result.a = x.a - y.a;
     for (int k = 0; k < N; ++k) result.v[k] = x.v[k] - y.v[k];
     return result;
   }
-  friend Dual operator*(const Dual& x, const Dual& y) {
+  LYREFIT_INLINE friend Dual operator*(const Dual& x, const Dual& y) {
     Dual result;
     result.a = x.a * y.a;
     for (int k = 0; k < N; ++k) result.v[k] = x.a * y.v[k] + y.a * x.v[k];
     return result;
   }
-  friend Dual operator/(const Dual& x, const Dual& y) {
+  LYREFIT_INLINE friend Dual operator/(const Dual& x, const Dual& y) {
     Dual result;
-    const double inverse = 1.0 / y.a;
-    result.a = x.a * inverse;
-    for (int k = 0; k < N; ++k) result.v[k] = inverse * (x.v[k] - result.a * y.v[k]);
+    result.a = x.a / y.a;
+    for (int k = 0; k < N; ++k) result.v[k] = x.v[k] - result.a * y.v[k];
+    if constexpr (N == 1) {
+      result.v[0] = result.v[0] / y.a;
+    } else {
+      const T inverse = T(1.0) / y.a;
+      for (int k = 0; k < N; ++k) result.v[k] = inverse * result.v[k];
+    }
     return result;
   }
-  friend Dual operator-(const Dual& x) { return x.Chain(-x.a, -1); }
-  friend Dual operator+(const Dual& x, double y) { return x.Chain(x.a + y, 1); }
-  friend Dual operator+(double y, const Dual& x) { return x.Chain(x.a + y, 1); }
-  friend Dual operator-(const Dual& x, double y) { return x.Chain(x.a - y, 1); }
-  friend Dual operator-(double y, const Dual& x) { return x.Chain(y - x.a, -1); }
-  friend Dual operator*(const Dual& x, double y) { return x.Chain(x.a * y, y); }
-  friend Dual operator*(double y, const Dual& x) { return x.Chain(x.a * y, y); }
-  friend Dual operator/(const Dual& x, double y) { return x.Chain(x.a / y, 1 / y); }
-  friend bool operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
+  LYREFIT_INLINE friend Dual operator-(const Dual& x) {
+    Dual result;
+    result.a = -x.a;
+    for (int k = 0; k < N; ++k) result.v[k] = -x.v[k];
+    return result;
+  }
+  // With plain numbers, which have no derivative to carry.
+  LYREFIT_INLINE friend Dual operator+(Dual x, double y) {
+    x.a = x.a + T(y);
+    return x;
+  }
+  LYREFIT_INLINE friend Dual operator+(double y, Dual x) {
+    x.a = x.a + T(y);
+    return x;
+  }
+  LYREFIT_INLINE friend Dual operator-(Dual x, double y) {
+    x.a = x.a - T(y);
+    return x;
+  }
+  LYREFIT_INLINE friend Dual operator-(double y, const Dual& x) {
+    Dual result = -x;
+    result.a = T(y) - x.a;
+    return result;
+  }
+  LYREFIT_INLINE friend Dual operator*(Dual x, double y) {
+    x.a = x.a * y;
+    for (int k = 0; k < N; ++k) x.v[k] = x.v[k] * y;
+    return x;
+  }
+  LYREFIT_INLINE friend Dual operator*(double y, const Dual& x) { return x * y; }
+  LYREFIT_INLINE friend Dual operator/(Dual x, double y) {
+    x.a = x.a / T(y);
+    for (int k = 0; k < N; ++k) x.v[k] = x.v[k] * (1 / y);
+    return x;
+  }
+  // With several plain numbers at once.
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator*(Dual x, const U& y) {
+    x.a = x.a * y;
+    for (int k = 0; k < N; ++k) x.v[k] = x.v[k] * y;
+    return x;
+  }
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator*(const U& y, const Dual& x) {
+    return x * y;
+  }
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator+(Dual x, const U& y) {
+    x.a = x.a + y;
+    return x;
+  }
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator+(const U& y, const Dual& x) {
+    return x + y;
+  }
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator-(Dual x, const U& y) {
+    x.a = x.a - y;
+    return x;
+  }
+  template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
+  LYREFIT_INLINE friend Dual operator-(const U& y, const Dual& x) {
+    Dual result = -x;
+    result.a = y - x.a;
+    return result;
+  }
+  LYREFIT_INLINE friend auto operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
 
-  friend Dual exp(const Dual& x) {
-    const double e = std::exp(x.a);
+  LYREFIT_INLINE friend Dual exp(const Dual& x) {
+    using std::exp;
+    const T e = exp(x.a);
     return x.Chain(e, e);
   }
-  friend Dual log(const Dual& x) { return x.Chain(std::log(x.a), 1 / x.a); }
-  friend Dual sqrt(const Dual& x) {
-    const double root = std::sqrt(x.a);
-    return x.Chain(root, 0.5 / root);
+  LYREFIT_INLINE friend Dual log(const Dual& x) {
+    using std::log;
+    return x.Chain(log(x.a), T(1.0) / x.a);
   }
-  friend Dual abs(const Dual& x) { return x.a < 0 ? -x : x; }
+  LYREFIT_INLINE friend Dual sqrt(const Dual& x) {
+    using std::sqrt;
+    const T root = sqrt(x.a);
+    return x.Chain(root, T(0.5) / root);
+  }
+  LYREFIT_INLINE friend Dual abs(const Dual& x) { return Choose(x.a < T(0.0), -x, x); }
+  LYREFIT_INLINE friend Dual Smaller(const Dual& x, const Dual& y) {
+    return Choose(y.a < x.a, y, x);
+  }
+  LYREFIT_INLINE friend Dual Larger(const Dual& x, const Dual& y) {
+    return Choose(x.a < y.a, y, x);
+  }
 };
 
 inline double ValueOf(double x) { return x; }
-template <int N>
-double ValueOf(const Dual<N>& x) {
+template <int N, class T>
+T ValueOf(const Dual<N, T>& x) {
   return x.a;
 }
 

@@ -45,6 +45,23 @@ inline double PortableExp(double x) {
   return PortableExp<double, std::uint64_t>(x);
 }
 
+// ln(x) for finite x > 0, the same bits everywhere: a first value from the exponent bits and a line,
+// within 0.04, then Halley's steps on exp(y) = x. Error below 2 ulp of max(|ln x|, 1).
+inline double PortableLog(double x) {
+  std::int64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const double exponent = static_cast<double>((bits >> 52) - 1023);
+  bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
+  double mantissa;
+  std::memcpy(&mantissa, &bits, sizeof mantissa);
+  double y = (mantissa - 0.96) * 0.6931471805599454;
+  for (int step = 0; step < 2; ++step) {
+    const double e = PortableExp(y);
+    y += 2 * ((mantissa - e) / (mantissa + e));
+  }
+  return (exponent * 0x1.62e42fefa0000p-1 + y) + exponent * 0x1.cf79abc9e3b3ap-40;
+}
+
 // An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent
 // bits and one tangent; the same bits everywhere.
 inline double LogUpperBound(double x) {

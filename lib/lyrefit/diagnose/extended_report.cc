@@ -51,7 +51,7 @@ Searched SearchLaw(const Selection& selection, std::uint64_t seed, const Observe
   LawWorkspace workspace;
   const auto rmse = [&](const double* p) {
     // From a fresh start each time: the value must not hang on the bird before.
-    workspace.junction.clear();
+    workspace.Forget();
     if (!EvaluateLaw(law, readings, p, &workspace, current.data(), nullptr)) return kInfinity;
     return RmseOf(bench, current);
   };

@@ -20,10 +20,8 @@ Effect BackContact() {
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     constexpr double kSmallest = 1e-2;  // below it the tangent goes on
     const auto inside = 1.0 + current * p[0];
-    if (inside < kSmallest) {
-      return cell.thermal_voltage * (std::log(kSmallest) + (inside - kSmallest) * (1 / kSmallest));
-    }
-    return cell.thermal_voltage * log(inside);
+    const auto within = Larger(inside, kSmallest);
+    return cell.thermal_voltage * (log(within) + (inside - within) * (1 / kSmallest));
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (traits.beyond_voc) return {};

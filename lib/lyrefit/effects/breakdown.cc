@@ -27,10 +27,10 @@ Effect Breakdown() {
   e.parameters[1].convert = [](const double* p, const ReadingScale& scale) {
     return -scale.reach_V / (p[1] * p[1]);
   };
-  e.junction = [](const auto* p, const auto& cell, const auto& voltage) {
+  e.junction = [](const auto* p, const auto& cell, const auto&, const auto& voltage) {
     const auto v = voltage * (1.0 / cell.reach);
-    auto gap = 1.0 + v * p[1];
-    if (gap < 0.02) gap = gap * 0.0 + 0.02;
+    const auto open = 1.0 + v * p[1];
+    const auto gap = Larger(open, 0.02);
     return -p[0] * v * exp(3.4 * log((1.0 - p[1]) / gap));
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {

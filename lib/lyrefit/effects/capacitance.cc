@@ -22,7 +22,7 @@ Effect Capacitance() {
       {"C0", "capacitance", "F", "of the whole device", 0, 0.3, 0, false, 1, 1, -1, -1},
       {"tau", "lifetime", "s", "diffusion capacitance over the conductance of the diode", 0, 0.3, 0,
        false, 1, 0, 0, -1}};
-  e.instrument = [](const auto* p, const Reading& reading, auto* solved) {
+  e.instrument = [](const auto* p, const auto& reading, auto* solved) {
     const auto divider = 1.0 + solved->resistance * solved->conductance;
     const auto charge = p[0] + p[1] * solved->diode_conductance;
     solved->current = solved->current - charge * reading.rate / (divider * divider);

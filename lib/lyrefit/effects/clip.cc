@@ -22,9 +22,11 @@ Effect Clip() {
                    0.9, kNoLowerLimit, true, 1, 1}};
   e.parameters[0].absent_at = kNoUpperLimit;
   e.parameters[1].absent_at = kNoLowerLimit;
-  e.instrument = [](const auto* p, const Reading&, auto* solved) {
-    if (p[0] < solved->current && p[0] < kNoUpperLimit) solved->current = p[0];
-    if (solved->current < p[1] && kNoLowerLimit < p[1]) solved->current = p[1];
+  e.instrument = [](const auto* p, const auto&, auto* solved) {
+    const auto above = (p[0] < solved->current) & (p[0] < kNoUpperLimit);
+    solved->current = Choose(above, p[0], solved->current);
+    const auto below = (solved->current < p[1]) & (kNoLowerLimit < p[1]);
+    solved->current = Choose(below, p[1], solved->current);
   };
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) {

@@ -16,15 +16,12 @@ Effect Collection() {
   e.confused_with = {"nonohmic_shunt", "photoshunt", "second_diode"};
   e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
   e.parameters = {{"chi", "d2mutau", "V", "loss parameter of a cell", 0, 0.3, 0}};
-  e.junction = [](const auto* p, const auto& cell, const auto& voltage) {
+  e.junction = [](const auto* p, const auto&, const auto& photocurrent, const auto& voltage) {
     constexpr double kBuiltIn = 0.9;
     constexpr double kClosest = 0.03;  // beyond it the tangent goes on
     const auto gap = kBuiltIn - voltage;
-    if (gap < kClosest) {
-      return -(cell.photocurrent * p[0]) *
-             (1.0 / kClosest + (kClosest - gap) / (kClosest * kClosest));
-    }
-    return -(cell.photocurrent * p[0]) / gap;
+    const auto within = Larger(gap, kClosest);
+    return -(1.0 / within + (within - gap) * (1 / (kClosest * kClosest))) * (photocurrent * p[0]);
   };
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) { return Strengths({0.005, 0.05}); };

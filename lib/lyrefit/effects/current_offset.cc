@@ -17,7 +17,7 @@ Effect CurrentOffset() {
   e.separate_by = "a reading with open leads; a dark curve; the sensor covered";
   e.parameters = {
       {"c", "current_offset", "A", "what the instrument adds", -0.1, 0.1, 0, false, 1, 1}};
-  e.instrument = [](const auto* p, const Reading&, auto* solved) {
+  e.instrument = [](const auto* p, const auto&, auto* solved) {
     solved->current = solved->current + p[0];
   };
   e.why_not = NeedsLightLevels;

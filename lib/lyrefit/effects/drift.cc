@@ -18,7 +18,7 @@ Effect Drift() {
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
   e.parameters = {
       {"d", "relative_change", "", "change of the light over the measurement", -0.5, 0.5, 0}};
-  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
+  e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * reading.x);
   };
   e.why_not = NeedsOneLitCondition;

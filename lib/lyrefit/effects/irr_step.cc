@@ -20,8 +20,9 @@ Effect IrradianceStep() {
   e.parameters = {
       {"s", "relative_step", "", "jump of the light", -0.5, 0.5, 0},
       {"x0", "step_time", "", "when, -1/2 .. 1/2 over the measurement", -0.5, 0.5, 0, true}};
-  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
-    if (reading.x > ValueOf(p[1])) sky->irradiance = sky->irradiance * (1.0 + p[0]);
+  e.sky = [](const auto* p, const auto& reading, auto* sky) {
+    const auto changed = sky->irradiance * (1.0 + p[0]);
+    sky->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, sky->irradiance);
   };
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits& traits) {

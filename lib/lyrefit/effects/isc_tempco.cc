@@ -16,7 +16,7 @@ Effect IscTemperatureCoefficient() {
   e.confused_with = {"sensor_nonlin"};
   e.separate_by = "a measurement of the coefficient at constant light";
   e.parameters = {{"c", "tempco_error", "1/K", "true minus stated, relative", -0.01, 0.01, 0}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) {
+  e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->isc_tempco_per_K = sky->isc_tempco_per_K + p[0];
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {

@@ -19,9 +19,9 @@ Effect Mismatch() {
       {"d", "current_deficit", "", "part of the current that the weaker cells miss", 0, 0.9, 0},
       {"w", "weaker_share", "", "part of the cells that is weaker", 0.005, 0.95, 0.3}};
   e.cell = [](const auto* p, auto* cell) {
-    cell->grouped = true;
-    cell->light = 1.0 - p[0];
-    cell->share = p[1];
+    cell->kinds = 2;
+    cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
+    cell->kind[1] = {p[1], 1.0 - p[0], 0.0, 0};
   };
   e.groups = true;
   e.why_not = NeedsModule;

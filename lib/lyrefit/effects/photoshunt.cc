@@ -25,16 +25,14 @@ Effect Photoshunt() {
       {"Gph", "photoconductance", "S", "conductance that 1000 W/m2 adds", 0, 3, 0, false, 1, 1, -1},
       {"law", "law", "", "0 linear, 1 exponential", 0, 1, 0, true}};
   e.cell = [](const auto* p, auto* cell) {
-    if (ValueOf(p[1]) < 0.5) {
-      cell->conductance = cell->conductance + p[0] * cell->irradiance;
-      return;
-    }
+    const auto linear = cell->conductance + p[0] * cell->irradiance;
     // PVsyst: Rsh = base + (Rdark - base) exp(-5.5 g), from 1 / Gsh in the dark.
     const double fade = std::exp(-5.5);
     const auto dark = 1.0 / (cell->conductance + 1e-6);
     const auto lit = 1.0 / (cell->conductance + p[0] + 1e-6);
     const auto base = (lit - dark * fade) / (1.0 - fade);
-    cell->conductance = 1.0 / (base + (dark - base) * exp(-5.5 * cell->irradiance));
+    const auto exponential = 1.0 / (base + (dark - base) * exp(-5.5 * cell->irradiance));
+    cell->conductance = Choose(ValueOf(p[1]) < 0.5, linear, exponential);
   };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) {

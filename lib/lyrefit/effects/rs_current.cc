@@ -22,12 +22,10 @@ Effect RsCurrent() {
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     const auto size = abs(current);
     // No cell's resistance falls below 0: where Rs + 2 Rs1 |I| would, the tangent goes on.
-    if (2.0 * p[0] * size + cell.resistance < 0.0) {
-      const auto most = -0.5 * cell.resistance / p[0];
-      const auto drop = p[0] * most * (2.0 * size - most);
-      return current < 0.0 ? -drop : drop;
-    }
-    return p[0] * current * size;
+    const auto most = -0.5 * cell.resistance / p[0];
+    const auto drop = (2.0 * size - most) * (p[0] * most);
+    const auto beyond = 2.0 * size * p[0] + cell.resistance < 0.0;
+    return Choose(beyond, Choose(current < 0.0, -drop, drop), current * size * p[0]);
   };
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) { return Strengths({0.01, -0.005}); };

@@ -21,8 +21,7 @@ Effect SecondDiode() {
     return scale.saturation_2_unit;
   };
   e.cell = [](const auto* p, auto* cell) {
-    cell->second = true;
-    cell->saturation_2 = cell->saturation_2 + p[0] * cell->saturation_2_unit;
+    cell->diode[cell->diodes++] = {p[0] * cell->saturation_2_unit, 0.5 / cell->thermal_voltage};
   };
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   e.probes = [](const DataTraits&) { return Strengths({0.02, 0.2}); };

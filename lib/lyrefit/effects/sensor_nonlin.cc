@@ -16,7 +16,7 @@ Effect SensorNonlinearity() {
   e.confused_with = {"sensor_offset", "current_offset"};
   e.separate_by = "a second sensor; two-lamp linearity test";
   e.parameters = {{"c", "nonlinearity", "", "relative error per 1000 W/m2", -0.4, 0.4, 0}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) {
+  e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * (sky->irradiance - 1.0));
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {

@@ -17,9 +17,7 @@ Effect SensorOffset() {
   e.separate_by = "the sensor covered; a dark curve";
   e.parameters = {
       {"c", "irradiance_offset", "W/m2", "true minus shown", -0.1, 0.1, 0, false, 1000}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) {
-    sky->irradiance = sky->irradiance + p[0];
-  };
+  e.sky = [](const auto* p, const auto&, auto* sky) { sky->irradiance = sky->irradiance + p[0]; };
   e.why_not = NeedsIrradiances;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };
   return e;

@@ -37,10 +37,10 @@ Effect Shading() {
       {"w", "shaded_share", "", "part of the cells that is shaded", 0.01, 0.99, 0.3, true},
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
   e.cell = [](const auto* p, auto* cell) {
-    cell->grouped = true;
-    cell->light = 1.0 - p[0];
-    cell->share = p[1];
-    cell->bypassed = true;
+    cell->kinds = cell->parts = 2;
+    cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
+    cell->kind[1] = {p[1], 1.0 - p[0], 0.0, 1};
+    cell->part[1] = {true, cell->substring_cells, 0};
     cell->bypass = p[2];
   };
   e.groups = true;

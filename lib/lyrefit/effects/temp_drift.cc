@@ -16,7 +16,7 @@ Effect TemperatureDrift() {
   e.confused_with = {"drift", "timing_skew", "capacitance"};
   e.separate_by = "a sweep up and down; a shorter sweep";
   e.parameters = {{"r", "temperature_change", "K", "warming over the measurement", -30, 30, 0}};
-  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
+  e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0] * reading.x;
   };
   e.why_not = NeedsOneLitCondition;

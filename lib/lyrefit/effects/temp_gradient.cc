@@ -17,7 +17,7 @@ Effect TemperatureGradient() {
   e.confused_with = {"second_diode", "back_contact", "bandgap"};
   e.separate_by = "flashes of different length; a thermometer on the cell; a dark curve";
   e.parameters = {{"c", "temperature_gradient", "K", "warmer at 1000 W/m2", -5, 25, 0}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) {
+  e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0] * sky->irradiance;
   };
   e.why_not = NeedsLightLevels;

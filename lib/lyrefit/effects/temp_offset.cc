@@ -16,7 +16,7 @@ Effect TemperatureOffset() {
   e.confused_with = {"bandgap", "voltage_offset", "second_diode"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
   e.parameters = {{"c", "temperature_offset", "K", "true minus shown", -25, 25, 0}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) {
+  e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0];
   };
   e.why_not = NeedsTemperatures;

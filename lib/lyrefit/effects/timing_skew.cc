@@ -17,7 +17,7 @@ Effect TimingSkew() {
   e.separate_by = "two sweep speeds and two irradiances; a resistor in the place of the device";
   e.parameters = {{"ts", "skew", "s", "from the reading of the current to that of the voltage",
                    -0.05, 0.05, 0, false, 1, 0, 0, -1}};
-  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
+  e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->voltage = sky->voltage - p[0] * reading.rate;
   };
   e.why_not = NeedsUpDown;

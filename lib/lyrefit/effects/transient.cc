@@ -20,7 +20,7 @@ Effect Transient() {
                   {"w", "width", "", "how long, part of the measurement", 0.01, 0.13, 0.05}};
   e.parameters[1].above_lower = e.parameters[1].below_upper = true;
   e.parameters[2].below_upper = true;
-  e.sky = [](const auto* p, const Reading& reading, auto* sky) {
+  e.sky = [](const auto* p, const auto& reading, auto* sky) {
     const auto z = (reading.x - p[1]) / p[2];
     sky->irradiance = sky->irradiance * (1.0 - p[0] * exp(-0.5 * z * z));
   };

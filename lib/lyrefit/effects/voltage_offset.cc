@@ -18,7 +18,7 @@ Effect VoltageOffset() {
       "a reading with shorted leads; a dark curve through the origin at high resolution";
   e.parameters = {{"c", "voltage_offset", "V", "what the instrument adds, whole device", -0.1, 0.1,
                    0, false, 1, 0, 1}};
-  e.sky = [](const auto* p, const Reading&, auto* sky) { sky->voltage = sky->voltage - p[0]; };
+  e.sky = [](const auto* p, const auto&, auto* sky) { sky->voltage = sky->voltage - p[0]; };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };
   return e;

@@ -15,8 +15,7 @@ OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double
   OperatingPoint point;
   point.junction_voltage_V = voltage_V + prepared.rs * prepared.largest_current;
   SolveTogether<1>(prepared, limit, &voltage_V, &point.junction_voltage_V, &point.current_A);
-  point.conductance_S =
-      PreparedCurrent(prepared, Slope<double>(point.junction_voltage_V, 1.0)).slope;
+  point.conductance_S = PreparedCurrent(prepared, Dual<1>(point.junction_voltage_V, 0)).v[0];
   return point;
 }
 
@@ -25,8 +24,7 @@ OperatingPoint KnownOperatingPoint(const Device& device, const double* p, double
   OperatingPoint point;
   point.current_A = current_A;
   point.junction_voltage_V = voltage_V + current_A * p[device.resistance_series];
-  point.conductance_S =
-      JunctionCurrent(device, p, Slope<double>(point.junction_voltage_V, 1.0)).slope;
+  point.conductance_S = JunctionCurrent(device, p, Dual<1>(point.junction_voltage_V, 0)).v[0];
   return point;
 }
 

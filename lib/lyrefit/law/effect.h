@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/dual.h"
+#include "lyrefit/law/pack.h"
 #include "lyrefit/law/reading.h"
 
 namespace lyrefit {
@@ -22,10 +23,24 @@ namespace lyrefit {
 //
 // An effect is a named cause that changes one or several of these stages. It owns a stretch of the
 // parameter vector, `p` points to its beginning. Every hook is written once, as a lambda over its
-// number type: plain numbers for the solver, duals for the derivatives.
-using Slope1 = Dual<1>;  // derivative by the junction voltage
-using Narrow = Dual<8>;  // models with up to 8 parameters
-using Wide = Dual<20>;   // up to 20
+// number type: eight readings at a time for the solver, duals of as many for the derivatives. So
+// there is no `if` over a value: Choose(condition, yes, no) works out both (dual.h, pack.h).
+using Narrow = Dual<6, Pack>;   // models with up to 6 parameters
+using Middle = Dual<10, Pack>;  // up to 10
+using Wide = Dual<20, Pack>;    // up to 20
+
+// Eight readings at a time.
+struct ReadingBlock {
+  Pack voltage;  // per cell, V
+  Pack current;  // in current scales
+  Pack irradiance;
+  Pack temperature_K;
+  Pack x;     // as in Reading
+  Pack rate;  // as in Reading
+  int first = 0;
+  int count = 0;        // readings from `first` on; lanes beyond repeat the last of them
+  bool one_sky = true;  // irradiance and temperature are the same in all lanes
+};
 
 template <class S>
 struct Sky {
@@ -37,32 +52,64 @@ struct Sky {
 };
 
 template <class S>
+struct Diode {
+  S saturation;
+  S inverse_n_vt;  // 1 / (n Vt)
+};
+
+// What stands in the way of a current that a cell in reverse does not deliver.
+enum class ReverseLaw {
+  kShunt,   // the shunt alone
+  kBishop,  // I = ... - Gsh a Vj (1 - Vj / Vbr)^-m doi:10.1016/0379-6787(88)90059-2
+  kSoft,    // I = ... + Iph (-Vj / A)^m, which is Vj = -A ((I - Iph) / Iph)^(1 / m)
+};
+
+// Cells in series that are alike. A part of a string is what shares a bypass diode (or has none);
+// kinds of one part carry one current.
+constexpr int kMostKinds = 8;
+template <class S>
+struct Kind {
+  S share;  // of all cells of the device
+  S light;  // part of the photocurrent
+  S leak;   // conductance beside that of the others
+  int part = 0;
+};
+struct Part {
+  bool bypassed = false;
+  double cells = 1;  // that one bypass diode spans
+  int string = 0;    // strings of different number stand in parallel
+};
+
+template <class S>
 struct Cell {
+  static constexpr int kMostDiodes = 4;
   S irradiance;
   S photocurrent;
-  S saturation;         // of the first diode
-  S inverse_n_vt;       // 1 / (n Vt)
-  bool second = false;  // there is a second diode, with n = 2
-  S saturation_2;
-  S inverse_2_vt;
-  S saturation_2_unit;  // saturation current of a second diode that carries 1 at the pivot voltage
+  int diodes = 0;
+  Diode<S> diode[kMostDiodes];
+  S saturation_2_unit;  // saturation current of a diode with n = 2 that carries 1 at the pivot
   S conductance;
   S resistance;
   S thermal_voltage;
   double reach = 1;            // largest |voltage| of the readings: where shunts are quoted
+  double cells = 1;            // in series
   double substring_cells = 1;  // cells that share a bypass diode
-  // Part of the cells under a part of the light, with bypass diodes or without.
-  bool grouped = false;
-  S share;
-  S light;
-  bool bypassed = false;
+  int kinds = 1;               // one: all cells are alike, in one part without bypass diode
+  int parts = 1;
+  int strings = 1;
+  Kind<S>* kind = nullptr;  // kMostKinds of them
+  Part part[kMostKinds];
   S bypass;  // voltage over a bypass diode that carries the current scale
+  ReverseLaw reverse = ReverseLaw::kShunt;
+  S reverse_strength;  // Bishop's a
+  S reverse_voltage;   // Bishop's -Vbr, the soft law's A; above 0
+  S reverse_exponent;  // m
   // Every cell in two halves, the second reached through a lateral resistance.
   bool halved = false;
   S lateral;
 };
 
-// A reading solved for: what instruments make of it.
+// Readings solved for: what instruments make of them.
 template <class S>
 struct Solved {
   S current;            // to be changed into the recorded one
@@ -78,40 +125,45 @@ struct TangentOf {
   using Type = S;
 };
 template <>
-struct TangentOf<double> {
-  using Type = Slope1;
+struct TangentOf<Pack> {
+  using Type = Dual<1, Pack>;
 };
 template <class S>
 using Tangent = typename TangentOf<S>::Type;
 
 template <class S>
-using SkyStage = void (*)(const S* p, const Reading& reading, Sky<S>* sky);
+using SkyStage = void (*)(const S* p, const ReadingBlock& readings, Sky<S>* sky);
 template <class S>
 using CellStage = void (*)(const S* p, Cell<S>* cell);
-template <class S>  // current that is added over the junction voltage
-using JunctionStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const Tangent<S>& voltage);
+// Current that is added over the junction voltage, of a cell under the light of its own.
+template <class S>
+using JunctionStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const S& photocurrent,
+                                     const Tangent<S>& voltage);
 template <class S>  // voltage that is added to V + I Rs at the delivered current
 using SeriesStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const Tangent<S>& current);
 template <class S>
-using InstrumentStage = void (*)(const S* p, const Reading& reading, Solved<S>* solved);
+using InstrumentStage = void (*)(const S* p, const ReadingBlock& readings, Solved<S>* solved);
 
 template <template <class> class Stage>
 struct Hook {
-  Stage<double> value = nullptr;
+  Stage<Pack> value = nullptr;
   Stage<Narrow> narrow = nullptr;
+  Stage<Middle> middle = nullptr;
   Stage<Wide> wide = nullptr;
 
   Hook() = default;
   template <class F>
-  Hook(F f) : value(f), narrow(f), wide(f) {}  // NOLINT: a lambda is a hook
+  Hook(F f) : value(f), narrow(f), middle(f), wide(f) {}  // NOLINT: a lambda is a hook
 
   explicit operator bool() const { return value != nullptr; }
   template <class S>
   Stage<S> For() const {
-    if constexpr (std::is_same_v<S, double>) {
+    if constexpr (std::is_same_v<S, Pack>) {
       return value;
     } else if constexpr (std::is_same_v<S, Narrow>) {
       return narrow;
+    } else if constexpr (std::is_same_v<S, Middle>) {
+      return middle;
     } else {
       return wide;
     }

@@ -3,17 +3,13 @@
 #include <vector>
 
 #include "lyrefit/law/device.h"
+#include "lyrefit/law/pack.h"
 #include "lyrefit/law/solve.h"
 
 namespace lyrefit {
 
-// Points of a curve laid out for kernels that take eight at a time; the last block is filled up
-// with copies of the last point at weight 0.
-struct alignas(64) Block {
-  static constexpr int kLanes = 8;
-  double lane[kLanes];
-};
-
+// Points of a curve laid out for kernels; the last block is filled up with copies of the last point
+// at weight 0.
 struct PointSet {
   int size = 0;
   double inverse_size = 0;

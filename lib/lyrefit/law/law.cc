@@ -2,17 +2,15 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "lyrefit/base/constants.h"
-#include "lyrefit/law/cell_law.h"
+#include "lyrefit/law/cell.h"
+#include "lyrefit/law/string.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFar_V = 50;
 constexpr double kNear_V = 2;  // a former root farther from a plain guess is no start
 
 struct Bound {
@@ -28,140 +26,60 @@ Bound BaseBound(const Law& law, int parameter) {
   return kBaseBounds[parameter];
 }
 
-struct Root {
-  double junction = 0;
-  double current = 0;
-  double slope = 0;  // dF/dVj
-  // Of the shaded group: its junction voltage, and that voltage's slope by the current.
-  double shaded_junction = 0;
-  double shaded_slope = 0;
-  double shaded_by_current = 0;
-};
-
-Root SolveUniform(const Bench<double>& bench, const Cell<double>& cell, double voltage,
-                  double start) {
-  Root root;
-  const auto excess = [&](double vj) {
-    const Slope1 x(vj, 0);
-    const Slope1 current = CellCurrent(bench, cell, x);
-    root.current = current.a;
-    root.slope = current.v[0];
-    return x - voltage - SeriesDrop(bench, cell, current);
-  };
-  root.junction = RisingRoot(excess, start);
-  excess(root.junction);
-  return root;
+bool OneSky(const Reading& a, const Reading& b) {
+  return a.irradiance == b.irradiance && a.temperature_K == b.temperature_K;
 }
 
-// The shaded group at a known current and series drop. Its cells and their bypass diode carry the
-// current together: F(v) + B(D - v) = I.
-void SolveShaded(const Bench<double>& bench, const Cell<double>& shaded, double current,
-                 const Slope1& drop, Root* root) {
-  double bypass_slope = 0;
-  const auto excess = [&](double vj) {
-    const Slope1 x(vj, 0);
-    const Slope1 bypass = BypassCurrent(shaded, drop.a - x);
-    bypass_slope = -bypass.v[0];
-    const Slope1 cells = CellCurrent(bench, shaded, x);
-    root->shaded_slope = cells.v[0] + bypass.v[0];
-    return Slope1(current) - cells - bypass;
-  };
-  root->shaded_junction = RisingRoot(excess, root->shaded_junction);
-  excess(root->shaded_junction);
-  root->shaded_by_current = (1 - bypass_slope * drop.v[0]) / root->shaded_slope;
-}
-
-Root SolveGrouped(const Bench<double>& bench, const Cell<double>& cell, double voltage,
-                  double start, double shaded_start) {
-  Root root;
-  root.shaded_junction = shaded_start;
-  const double w = cell.share;
-  const Cell<double> dim = UnderLight(cell, cell.light);
-  const auto excess = [&](double vj) {
-    const Slope1 x(vj, 0);
-    const Slope1 current = CellCurrent(bench, cell, x);
-    root.current = current.a;
-    root.slope = current.v[0];
-    const Slope1 by_current = SeriesDrop(bench, cell, Slope1(current.a, 0));
-    SolveShaded(bench, dim, current.a, by_current, &root);
-    Slope1 drop(by_current.a), shaded(root.shaded_junction - by_current.a);
-    drop.v[0] = by_current.v[0] * current.v[0];
-    shaded.v[0] = root.shaded_by_current * current.v[0] - drop.v[0];
-    return (1 - w) * (x - drop) + w * shaded - voltage;
-  };
-  root.junction = RisingRoot(excess, start);
-  excess(root.junction);
-  return root;
-}
-
-// Current and junction voltage as duals, given the root in plain numbers (implicit function
-// theorem).
-template <class S>
-void Differentiate(const Bench<S>& bench, const Cell<S>& cell, const S& voltage,
-                   const Bench<double>& plain, const Cell<double>& plain_cell, const Root& root,
-                   S* current, S* junction) {
-  const S drop = SeriesDrop(bench, cell, S(root.current));
-  const double resistance = SeriesDrop(plain, plain_cell, Slope1(root.current, 0)).v[0];  // dD/dI
-  const S missing = CellCurrent(bench, cell, plain, plain_cell, S(root.junction)) - root.current;
-  if (!cell.grouped) {
-    const S shift = voltage + drop - root.junction;
-    *current = root.current + (missing + root.slope * shift) / (1 - root.slope * resistance);
-    *junction = root.junction + shift + resistance * (*current - root.current);
-    return;
+template <class F>
+Pack Gather(const Readings& readings, const ReadingBlock& block, F value) {
+  Block lanes;
+  for (int i = 0; i < Block::kLanes; ++i) {
+    lanes.lane[i] = value(readings.points[block.first + std::min(i, block.count - 1)]);
   }
-  const S lit = root.junction - missing / root.slope - drop;
-  const Cell<S> dim = UnderLight(cell, cell.light);
-  const Cell<double> plain_dim = UnderLight(plain_cell, plain_cell.light);
-  const S carried = CellCurrent(bench, dim, plain, plain_dim, S(root.shaded_junction)) +
-                    BypassCurrent(dim, S(drop - root.shaded_junction));
-  const S shaded = root.shaded_junction - (carried - root.current) / root.shaded_slope - drop;
-  const double w = plain_cell.share;
-  const double slope =
-      (1 - w) * (1 / root.slope - resistance) + w * (root.shaded_by_current - resistance);
-  const S excess = (1.0 - cell.share) * lit + cell.share * shaded - voltage;
-  *current = root.current - excess / slope;
-  *junction = root.junction + (*current - root.current - missing) / root.slope;
+  return every_processor::Load(lanes);
 }
 
-template <class S>
-S Recorded(const Bench<S>& bench, const Reading& reading, const Cell<S>& cell, const S& current,
-           const S& junction) {
-  Solved<S> solved;
-  solved.current = current;
-  solved.resistance = cell.resistance;
-  solved.diode_conductance =
-      cell.saturation * cell.inverse_n_vt * exp(Cut(S(junction * cell.inverse_n_vt)));
-  if (cell.second) {
-    solved.diode_conductance =
-        solved.diode_conductance +
-        cell.saturation_2 * cell.inverse_2_vt * exp(Cut(S(junction * cell.inverse_2_vt)));
-  }
-  solved.conductance = solved.diode_conductance + cell.conductance;
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->instrument.template For<S>();
-    if (stage != nullptr) stage(bench.p + bench.offsets[e], reading, &solved);
-  }
-  return solved.current;
+// How many readings from `first` on have its sky.
+int RunFrom(const Readings& readings, int first) {
+  const std::vector<Reading>& points = readings.points;
+  int last = first + 1;
+  while (last < static_cast<int>(points.size()) && OneSky(points[first], points[last])) ++last;
+  return last - first;
 }
 
-template <class S>
-Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
-  Bench<S> bench{law, readings, p, {}};
-  int offset = law.base_size();
-  for (const Effect* effect : law.effects) {
-    bench.offsets.push_back(offset);
-    offset += effect->size();
+// Readings in blocks: those under one sky in blocks of their own, where they fill half of one.
+std::vector<ReadingBlock> BlocksOf(const Readings& readings) {
+  constexpr int kOwn = Block::kLanes / 2;
+  const int count = static_cast<int>(readings.points.size());
+  std::vector<ReadingBlock> blocks;
+  for (int first = 0; first < count; first += blocks.back().count) {
+    ReadingBlock block;
+    block.first = first;
+    block.count = RunFrom(readings, first);
+    block.one_sky = block.count >= kOwn;
+    while (!block.one_sky && block.count < Block::kLanes && first + block.count < count) {
+      const int next = RunFrom(readings, first + block.count);
+      if (next >= kOwn) break;
+      block.count += next;
+    }
+    block.count = std::min(block.count, Block::kLanes);
+    block.voltage = Gather(readings, block, [](const Reading& r) { return r.voltage; });
+    block.current = Gather(readings, block, [](const Reading& r) { return r.current; });
+    block.irradiance = Gather(readings, block, [](const Reading& r) { return r.irradiance; });
+    block.temperature_K = Gather(readings, block, [](const Reading& r) { return r.temperature_K; });
+    block.x = Gather(readings, block, [](const Reading& r) { return r.x; });
+    block.rate = Gather(readings, block, [](const Reading& r) { return r.rate; });
+    blocks.push_back(block);
   }
-  return bench;
+  return blocks;
 }
 
-// Value and all derivatives.
-bool IsSame(double a, double b) { return a == b; }
+bool IsSame(const Pack& a, const Pack& b) { return All(!(a < b) & !(b < a)); }
 template <int N>
-bool IsSame(const Dual<N>& a, const Dual<N>& b) {
-  if (a.a != b.a) return false;
+bool IsSame(const Dual<N, Pack>& a, const Dual<N, Pack>& b) {
+  if (!IsSame(a.a, b.a)) return false;
   for (int k = 0; k < N; ++k) {
-    if (a.v[k] != b.v[k]) return false;
+    if (!IsSame(a.v[k], b.v[k])) return false;
   }
   return true;
 }
@@ -171,35 +89,84 @@ bool IsSame(const Dual<N>& a, const Dual<N>& b) {
 template <class S>
 class CellKeeper {
  public:
+  CellKeeper(const CellKeeper&) = delete;  // cells point into it
   explicit CellKeeper(const Bench<S>& bench) : bench_(bench) {
+    warm_.kind = kinds_;
     for (const Effect* effect : bench.law.effects) varies_ = varies_ || effect->sky;
   }
-  const Cell<S>& At(const Reading& reading, Sky<S>* sky) {
-    *sky = SkyAt(bench_, reading);
-    const bool same = known_ && reading.temperature_K == temperature_;
-    if (!varies_ && same && reading.irradiance == irradiance_) return cell_;
-    if (!same || !IsSame(sky->temperature_K, last_.temperature_K) ||
-        !IsSame(sky->bandgap_eV, last_.bandgap_eV)) {
-      warm_ = CellUnder(bench_, *sky);
-      last_ = *sky;
+
+  // Whether the cell differs from that of the block before.
+  bool Settle(const ReadingBlock& block) {
+    sky_ = SkyAt(bench_, block);
+    const bool same = known_ && block.one_sky && last_.one_sky &&
+                      IsSame(block.temperature_K, last_.temperature_K) &&
+                      IsSame(block.irradiance, last_.irradiance);
+    if (!varies_ && same) return false;
+    if (!known_ || !IsSame(sky_.temperature_K, warm_sky_.temperature_K) ||
+        !IsSame(sky_.bandgap_eV, warm_sky_.bandgap_eV)) {
+      CellUnder(bench_, sky_, &warm_);
+      warm_sky_ = sky_;
     }
-    cell_ = CellAt(bench_, *sky, warm_);
-    irradiance_ = reading.irradiance;
-    temperature_ = reading.temperature_K;
+    cell_ = warm_;
+    Light(bench_, sky_, &cell_);
+    ApplyCellStages(bench_, &cell_);
+    last_ = block;
     known_ = true;
-    return cell_;
+    return true;
   }
+  const Cell<S>& cell() const { return cell_; }
+  const Sky<S>& sky() const { return sky_; }
 
  private:
   const Bench<S>& bench_;
   bool varies_ = false;
   bool known_ = false;
-  double irradiance_ = 0;
-  double temperature_ = 0;
-  Sky<S> last_;
+  ReadingBlock last_;
+  Sky<S> sky_;
+  Sky<S> warm_sky_;
   Cell<S> warm_;  // at that sky's temperature
   Cell<S> cell_;
+  Kind<S> kinds_[kMostKinds];
 };
+
+template <class S>
+S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell, const S& current,
+           const S& junction) {
+  Solved<S> solved;
+  solved.current = current;
+  solved.resistance = cell.resistance;
+  solved.diode_conductance = S(0.0);
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Diode<S>& diode = cell.diode[d];
+    solved.diode_conductance =
+        solved.diode_conductance +
+        diode.saturation * diode.inverse_n_vt * exp(Cut(S(junction * diode.inverse_n_vt)));
+  }
+  solved.conductance = solved.diode_conductance + cell.conductance;
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->instrument.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], block, &solved);
+  }
+  return solved.current;
+}
+
+// From a plain guess, or from the last evaluation's end where that is near.
+void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBlock& block,
+           const Pack& voltage, bool fresh, StringState* state) {
+  const Pack guess = voltage + block.current * cell.resistance;
+  const Mask near = fresh ? Pack(1.0) < Pack(0.0) : abs(state->u[0] - guess) < kNear_V;
+  if (All(near)) return;
+  const Pack junction = Smaller(guess, limits.voltage);
+  for (int g = 0; g < cell.kinds; ++g) state->u[g] = Choose(near, state->u[g], junction);
+  for (int p = 0; p < cell.parts; ++p) {
+    const bool bypassed = cell.kinds > 1 && cell.part[p].bypassed;
+    const Pack least = bypassed ? -limits.reverse / cell.part[p].cells : voltage;
+    state->part_voltage[p] = Choose(near, state->part_voltage[p], Larger(voltage, least));
+  }
+  for (int s = 0; s < cell.strings; ++s) {
+    state->current[s] = Choose(near, state->current[s], block.current);
+  }
+}
 
 bool HasInstrument(const Law& law) {
   for (const Effect* effect : law.effects) {
@@ -208,60 +175,184 @@ bool HasInstrument(const Law& law) {
   return false;
 }
 
+// Adds `part` times the derivatives of x.
+template <int N>
+void Add(const Pack& part, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
+  for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + part * x.v[k];
+}
+
+// What the law is at a root, in duals and in plain numbers.
+template <class S>
+struct Place {
+  const Bench<S>& bench;
+  const Cell<S>& cell;
+  const Cell<Pack>& plain;
+};
+
+// `part` times the derivatives of F(voltage) of a kind, at a voltage that is held.
+template <class S>
+void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& part, S* sum) {
+  const Cell<S>& cell = at.cell;
+  const bool alike = at.plain.kinds == 1;
+  S light = cell.photocurrent;
+  if (!alike) light = light * cell.kind[kind].light;
+  Add(part, light, sum);
+  Add(-part * voltage, cell.conductance, sum);
+  if (!alike) Add(-part * voltage, cell.kind[kind].leak, sum);
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Diode<Pack>& diode = at.plain.diode[d];
+    const Pack rise = exp(Cut(voltage * diode.inverse_n_vt));
+    Add(part * (1.0 - rise), cell.diode[d].saturation, sum);
+    Add(-part * voltage * rise * diode.saturation, cell.diode[d].inverse_n_vt, sum);
+  }
+  if (HasMore(at.bench, cell)) Add(part, MoreCurrent(at.bench, cell, light, S(voltage)), sum);
+}
+
+// The same of a kind's current and voltage at its unknown.
+template <class S>
+void AddKind(const Place<S>& at, const StringState& state, const KindPoint& point, int kind,
+             const Pack& by_current, const Pack& by_voltage, S* sum) {
+  if (!at.plain.halved) {
+    AddJunction(at, kind, state.u[kind], by_current, sum);
+    return;
+  }
+  // I = (F(V) + F(u)) / 2 with V = u - R F(u) / 2.
+  const Pack by_near = by_voltage + 0.5 * by_current * point.near.v[0];
+  AddJunction(at, kind, point.voltage.a, 0.5 * by_current, sum);
+  AddJunction(at, kind, state.u[kind], 0.5 * by_current - 0.5 * by_near * at.plain.lateral, sum);
+  Add(-0.5 * by_near * point.far.a, at.cell.lateral, sum);
+}
+
+// The delivered current with its derivatives, by the slopes at the root.
+template <class S>
+S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& state,
+                       const StringRoot& root) {
+  const StringSlopes& slopes = root.slopes;
+  const Cell<Pack>& plain = at.plain;
+  S current = root.current;
+  for (int g = 0; g < plain.kinds; ++g) {
+    AddKind(at, state, root.kind[g], g, slopes.by_current[g], slopes.by_voltage[g], &current);
+    if (plain.kinds > 1) Add(slopes.by_share[g], at.cell.kind[g].share, &current);
+  }
+  for (int s = 0; s < plain.strings; ++s) {
+    Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);
+    Add(slopes.by_terminal[s], voltage, &current);
+    if (!HasMoreDrop(at.bench)) continue;
+    Add(slopes.by_drop[s], MoreDrop(at.bench, at.cell, S(state.current[s])), &current);
+  }
+  for (int p = 0; p < plain.parts; ++p) {
+    if (!plain.part[p].bypassed) continue;
+    Add(slopes.by_bypass[p], BypassCurrent(at.cell, plain.part[p].cells, S(-state.part_voltage[p])),
+        &current);
+  }
+  return current;
+}
+
+// Junction voltage of the first kind, where the cells carry `current`.
+template <class S>
+S DifferentiateJunction(const Place<S>& at, const StringState& state, const StringRoot& root,
+                        const S& current) {
+  const KindPoint& point = root.kind[0];
+  const Pack slope = point.voltage.v[0] / point.current.v[0];
+  S junction = point.voltage.a;
+  Add(slope, current, &junction);
+  AddKind(at, state, point, 0, -slope, Pack(1.0), &junction);
+  return junction;
+}
+
+template <int N>
+bool AllFinite(const Dual<N, Pack>& a, int size) {
+  bool finite = AllFinite(a.a);
+  for (int k = 0; k < size; ++k) finite = finite && AllFinite(a.v[k]);
+  return finite;
+}
+
+void StoreRows(const Pack& values, const ReadingBlock& block, int stride, double* to) {
+  Block lanes;
+  every_processor::Store(values, &lanes);
+  for (int i = 0; i < block.count; ++i) to[(block.first + i) * stride] = lanes.lane[i];
+}
+
+}  // namespace
+
+struct LawWorkspace::State {
+  std::vector<ReadingBlock> blocks;
+  std::vector<StringState> strings;  // of each block, as the last evaluation left them
+  bool fresh = true;
+};
+
+LawWorkspace::LawWorkspace() = default;
+LawWorkspace::~LawWorkspace() = default;
+void LawWorkspace::Forget() { state_.reset(); }
+LawWorkspace::State* LawWorkspace::Of(const Readings& readings) {
+  if (state_ == nullptr) {
+    state_ = std::make_unique<State>();
+    state_->blocks = BlocksOf(readings);
+    state_->strings.resize(state_->blocks.size());
+  }
+  return state_.get();
+}
+
+namespace {
+
 template <class S>
 bool Evaluate(const Law& law, const Readings& readings, const double* values,
               LawWorkspace* workspace, double* current, double* jacobian) {
+  constexpr bool kDerivatives = !std::is_same_v<S, Pack>;
   const int size = law.size();
-  const Bench<double> plain = MakeBench(law, readings, values);
-  std::vector<S> duals(size);
-  if constexpr (!std::is_same_v<S, double>) {
-    for (int k = 0; k < size; ++k) duals[k] = S(values[k], k);
+  std::vector<Pack> plain_values(size);
+  for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
+  const Bench<Pack> plain = MakeBench(law, readings, static_cast<const Pack*>(plain_values.data()));
+  std::vector<S> duals;
+  if constexpr (kDerivatives) {
+    for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k]), k));
   }
   const Bench<S> bench = MakeBench(law, readings, static_cast<const S*>(duals.data()));
-  CellKeeper<double> plain_cells(plain);
+  CellKeeper<Pack> plain_cells(plain);
   CellKeeper<S> cells(bench);
   const bool instrument = HasInstrument(law);
-  const std::size_t count = readings.points.size();
-  const bool fresh = workspace->junction.size() != count;
-  if (fresh) workspace->junction.assign(count, 0.0);
-  if (fresh) workspace->shaded.assign(count, kInfinity);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Reading& reading = readings.points[k];
-    Sky<double> sky;
-    const Cell<double>& cell = plain_cells.At(reading, &sky);
-    if (!(sky.temperature_K > 100 && sky.temperature_K < 700)) return false;
-    double& start = workspace->junction[k];
-    const double guess = sky.voltage + reading.current * cell.resistance;
-    if (fresh || !(std::fabs(start - guess) < kNear_V)) start = guess;
-    double& shaded_start = workspace->shaded[k];
-    if (!(std::fabs(shaded_start) < kFar_V)) shaded_start = start;
-    const Root root = cell.grouped ? SolveGrouped(plain, cell, sky.voltage, start, shaded_start)
-                                   : SolveUniform(plain, cell, sky.voltage, start);
-    start = root.junction;
-    if (cell.grouped) shaded_start = root.shaded_junction;
-    current[k] = root.current;
-    if constexpr (std::is_same_v<S, double>) {
-      if (instrument) {
-        current[k] = Recorded(plain, reading, cell, root.current, root.junction);
-      }
+  LawWorkspace::State& state = *workspace->Of(readings);
+  StringLimits limits;
+  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+    const ReadingBlock& block = state.blocks[b];
+    if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
+    const Cell<Pack>& cell = plain_cells.cell();
+    const Pack& temperature = plain_cells.sky().temperature_K;
+    if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
+    StringState& at = state.strings[b];
+    const Pack& voltage = plain_cells.sky().voltage;
+    Start(cell, limits, block, voltage, state.fresh, &at);
+    const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
+    if constexpr (!kDerivatives) {
+      const Pack& junction = root.kind[0].voltage.a;
+      const Pack recorded =
+          instrument ? Recorded(plain, block, cell, root.current, junction) : root.current;
+      if (!AllFinite(recorded)) return false;
+      StoreRows(recorded, block, 1, current);
     } else {
-      Sky<S> dual_sky;
-      const Cell<S>& dual_cell = cells.At(reading, &dual_sky);
-      S dual_current, dual_junction;
-      Differentiate(bench, dual_cell, dual_sky.voltage, plain, cell, root, &dual_current,
-                    &dual_junction);
+      cells.Settle(block);
+      const Place<S> place{bench, cells.cell(), cell};
+      S recorded = DifferentiateCurrent(place, cells.sky().voltage, at, root);
       if (instrument) {
-        dual_current = Recorded(bench, reading, dual_cell, dual_current, dual_junction);
+        const S junction = DifferentiateJunction(place, at, root, recorded);
+        recorded = Recorded(bench, block, cells.cell(), recorded, junction);
       }
-      current[k] = dual_current.a;
-      for (int i = 0; i < size; ++i) {
-        if (!std::isfinite(dual_current.v[i])) return false;
-        jacobian[k * size + i] = dual_current.v[i];
-      }
+      if (!AllFinite(recorded, size)) return false;
+      StoreRows(recorded.a, block, 1, current);
+      for (int k = 0; k < size; ++k) StoreRows(recorded.v[k], block, size, jacobian + k);
     }
-    if (!std::isfinite(current[k])) return false;
   }
+  state.fresh = false;
   return true;
+}
+
+const EffectParameter* ParameterAt(const Law& law, int parameter) {
+  int at = parameter - law.base_size();
+  for (const Effect* effect : law.effects) {
+    if (at < effect->size()) return &effect->parameters[at];
+    at -= effect->size();
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -277,19 +368,6 @@ int Law::Offset(int effect) const {
   for (int e = 0; e < effect; ++e) offset += effects[e]->size();
   return offset;
 }
-
-namespace {
-
-const EffectParameter* ParameterAt(const Law& law, int parameter) {
-  int at = parameter - law.base_size();
-  for (const Effect* effect : law.effects) {
-    if (at < effect->size()) return &effect->parameters[at];
-    at -= effect->size();
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 double Law::Lower(int parameter) const {
   if (parameter < base_size()) return BaseBound(*this, parameter).lower;
@@ -308,8 +386,9 @@ bool Law::Searched(int parameter) const {
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
                  double* current, double* jacobian) {
   CHECK_LE(law.size(), 20);
-  if (jacobian == nullptr) return Evaluate<double>(law, readings, p, workspace, current, nullptr);
-  if (law.size() <= 8) return Evaluate<Narrow>(law, readings, p, workspace, current, jacobian);
+  if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, workspace, current, nullptr);
+  if (law.size() <= 6) return Evaluate<Narrow>(law, readings, p, workspace, current, jacobian);
+  if (law.size() <= 10) return Evaluate<Middle>(law, readings, p, workspace, current, jacobian);
   return Evaluate<Wide>(law, readings, p, workspace, current, jacobian);
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "lyrefit/law/translation.h"
 #include "lyrefit/law/effect.h"
 #include "lyrefit/law/reading.h"
+#include "lyrefit/law/translation.h"
 
 namespace lyrefit {
 
@@ -49,10 +50,19 @@ struct Law {
   bool Searched(int parameter) const;  // not to be descended in
 };
 
-// Junction voltages of the last evaluation, from which the next starts.
-struct LawWorkspace {
-  std::vector<double> junction;
-  std::vector<double> shaded;  // of the shaded group
+// The readings laid out for the law, and where the last evaluation of it ended: from there the next
+// starts. For one law and one set of readings, which must not change in between.
+class LawWorkspace {
+ public:
+  LawWorkspace();
+  ~LawWorkspace();
+  void Forget();  // the next evaluation starts afresh
+
+  struct State;
+  State* Of(const Readings& readings);
+
+ private:
+  std::unique_ptr<State> state_;
 };
 
 // Recorded current of every reading. `jacobian`, where given, receives its derivatives by all

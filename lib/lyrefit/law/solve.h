@@ -3,49 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/dual.h"
 #include "lyrefit/base/portable_exp.h"
 #include "lyrefit/law/term.h"
 
 namespace lyrefit {
 
-[[gnu::always_inline]] inline double Choose(bool condition, double yes, double no) {
-  return condition ? yes : no;
-}
 [[gnu::always_inline]] inline bool All(bool condition) { return condition; }
 [[gnu::always_inline]] inline double Magnitude(double x) { return std::fabs(x); }
-
-// A value and its derivative with respect to the junction voltage, over any T that the terms take.
-template <class T>
-struct Slope {
-  T value;
-  T slope;
-
-  Slope() = default;
-  explicit Slope(double constant) : value(constant), slope(0.0) {}
-  Slope(const T& v, const T& s) : value(v), slope(s) {}
-
-  friend Slope operator+(const Slope& a, const Slope& b) {
-    return {a.value + b.value, a.slope + b.slope};
-  }
-  friend Slope operator-(const Slope& a, const Slope& b) {
-    return {a.value - b.value, a.slope - b.slope};
-  }
-  friend Slope operator-(const Slope& a) { return {-a.value, -a.slope}; }
-  friend Slope operator*(const Slope& a, double b) { return {a.value * b, a.slope * b}; }
-  friend Slope operator/(const Slope& a, const Slope& b) {
-    const T ratio = a.value / b.value;
-    return {ratio, (a.slope - ratio * b.slope) / b.value};
-  }
-  friend Slope exp(const Slope& a) {
-    using std::exp;
-    const T e = exp(a.value);
-    return {e, e * a.slope};
-  }
-  friend Slope Smaller(const Slope& a, const Slope& b) {
-    const auto right = b.value < a.value;
-    return {Choose(right, b.value, a.value), Choose(right, b.slope, a.slope)};
-  }
-};
 
 // Voltage-independent part of a device, prepared once per parameter vector. At most kMaxTerms
 // terms.
@@ -144,13 +109,12 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage
     T excess = T(-1.0);  // by how much any step is still too long
     for (int k = 0; k < kCount; ++k) {
       const T x = junction[k];
-      const Slope<T> f = PreparedCurrent(d, Slope<T>(x, T(1.0)));
-      const T next =
-          Smaller(x - (x - voltage[k] - f.value * rs) / (T(1.0) - f.slope * rs), limit[k]);
+      const Dual<1, T> f = PreparedCurrent(d, Dual<1, T>(x, 0));
+      const T next = Smaller(x - (x - voltage[k] - f.a * rs) / (T(1.0) - f.v[0] * rs), limit[k]);
       const T step = next - x;
       junction[k] = next;
-      current[k] = f.value + f.slope * step;
-      slope[k] = f.slope;
+      current[k] = f.a + f.v[0] * step;
+      slope[k] = f.v[0];
       excess = Larger(excess, Magnitude(step) - Magnitude(next) * 1e-15);
     }
     if (All(excess < T(small_step))) break;

@@ -51,7 +51,7 @@ class Descent {
     const std::vector<double> p = Parameters();
     for (std::size_t k = 0; k < weights_.size(); ++k) {
       const double vd = problem_.voltage_V[k] + p[kRs] * problem_.current_A[k];
-      const double slope = JunctionCurrent(problem_.device, p.data(), Slope<double>(vd, 1.0)).slope;
+      const double slope = JunctionCurrent(problem_.device, p.data(), Dual<1>(vd, 0)).v[0];
       const double factor = 1 / (1 - p[kRs] * slope);
       weights_[k] = problem_.weights[k] * factor * factor;
     }

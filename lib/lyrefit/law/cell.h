@@ -1,0 +1,197 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/law/effect.h"
+#include "lyrefit/law/law.h"
+#include "lyrefit/law/reading.h"
+
+// The law of one cell, over any number type: what string.h puts in series and law.cc solves.
+namespace lyrefit {
+
+constexpr double kLargestCellExponent = 200;
+
+// The parameters' view of a law: where each effect's stretch begins.
+template <class S>
+struct Bench {
+  const Law& law;
+  const Readings& readings;
+  const S* p;
+  std::vector<int> offsets;
+};
+
+template <class S>
+Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
+  Bench<S> bench{law, readings, p, {}};
+  int offset = law.base_size();
+  for (const Effect* effect : law.effects) {
+    bench.offsets.push_back(offset);
+    offset += effect->size();
+  }
+  return bench;
+}
+
+template <class S>
+Sky<S> SkyAt(const Bench<S>& bench, const ReadingBlock& readings) {
+  const Law& law = bench.law;
+  Sky<S> sky{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
+             law.free_bandgap ? bench.p[law.BandgapAt()] : S(bench.readings.bandgap_eV),
+             law.free_tempco ? bench.p[law.TempcoAt()] : S(bench.readings.isc_tempco_per_K)};
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    const auto stage = law.effects[e]->sky.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], readings, &sky);
+  }
+  return sky;
+}
+
+// A cell at a temperature, its light still to come.
+template <class S>
+void CellUnder(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
+  const double k_eV = ThermalVoltage(1.0);
+  const double reference_K = bench.readings.reference_temperature_K;
+  const double pivot = bench.readings.pivot_voltage;
+  const S* p = bench.p;
+  const S ratio = sky.temperature_K * (1 / reference_K);
+  const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
+  const S barrier = DeSotoBarrier(sky.bandgap_eV, S(bench.law.bandgap_slope_per_K), reference_K,
+                                  sky.temperature_K, k_eV);
+  const S inverse_n = 1.0 / p[kBaseIdeality];
+  const S pivot_exponent = inverse_n * (pivot / (k_eV * reference_K));
+  cell->thermal_voltage = sky.temperature_K * k_eV;
+  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
+  const S saturation = exp(p[kBasePivot] + barrier - pivot_exponent) * (ratio * ratio * ratio) /
+                       (1.0 - exp(-pivot_exponent));
+  cell->diodes = 1;
+  cell->diode[0] = {saturation, inverse_vt * inverse_n};
+  cell->saturation_2_unit =
+      bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
+  if (bench.law.second_diode) {
+    cell->diode[cell->diodes++] = {p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
+  }
+  cell->resistance = p[kBaseResistance];
+  cell->reach = bench.readings.scale.reach_V;
+  const DataTraits& traits = bench.readings.traits;
+  const int substrings = traits.substrings > 0 ? traits.substrings : 3;
+  cell->cells = traits.cells;
+  cell->substring_cells = cell->cells / substrings;
+}
+
+// What the light decides in a cell whose temperature is settled.
+template <class S>
+void Light(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
+  const double reference_K = bench.readings.reference_temperature_K;
+  const S* p = bench.p;
+  cell->irradiance = sky.irradiance;
+  const S warmer = sky.temperature_K - reference_K;
+  cell->photocurrent =
+      sky.irradiance * (p[kBasePhotocurrent] * (1.0 + sky.isc_tempco_per_K * warmer) +
+                        bench.readings.isc_tempco_scales_per_K * warmer);
+  // A cell in a string must carry the others' current in reverse, if at a huge voltage.
+  constexpr double kSmallestConductance = 1e-8;
+  const bool inverse = bench.law.shunt == ShuntLaw::kInverse;
+  cell->conductance =
+      (inverse ? p[kBaseConductance] * sky.irradiance : p[kBaseConductance]) + kSmallestConductance;
+}
+
+// What the effects make of a cell under a sky.
+template <class S>
+void ApplyCellStages(const Bench<S>& bench, Cell<S>* cell) {
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->cell.template For<S>();
+    if (stage != nullptr) stage(bench.p + bench.offsets[e], cell);
+  }
+}
+
+template <class T>
+T Cut(const T& exponent) {
+  return Smaller(exponent, T(kLargestCellExponent));
+}
+
+// What a cell adds in reverse to what its shunt carries.
+template <class S>
+Tangent<S> ReverseCurrent(const Cell<S>& cell, const S& photocurrent, const Tangent<S>& voltage) {
+  using T = Tangent<S>;
+  constexpr double kLeast = 1e-9;  // of the voltage: below it nothing flows
+  const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
+  if (cell.reverse == ReverseLaw::kSoft) {
+    const T current = exp(log(depth) * cell.reverse_exponent) * photocurrent;
+    return Choose(voltage < 0.0, current, T(0.0));
+  }
+  constexpr double kClosest = 0.02;  // nearer to breakdown the last factor stays
+  const T gap = Larger(1.0 - depth, kClosest);
+  const T factor = exp(-log(gap) * cell.reverse_exponent) * cell.reverse_strength;
+  return Choose(voltage < 0.0, -(voltage * cell.conductance) * factor, T(0.0));
+}
+
+// What stands beside photocurrent, diodes and shunt over the junction.
+template <class S>
+bool HasMore(const Bench<S>& bench, const Cell<S>& cell) {
+  if (cell.reverse != ReverseLaw::kShunt) return true;
+  for (const Effect* effect : bench.law.effects) {
+    if (effect->junction) return true;
+  }
+  return false;
+}
+template <class S>
+Tangent<S> MoreCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& photocurrent,
+                       const Tangent<S>& voltage) {
+  Tangent<S> current = 0.0;
+  if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, photocurrent, voltage);
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->junction.template For<S>();
+    if (stage == nullptr) continue;
+    current = current + stage(bench.p + bench.offsets[e], cell, photocurrent, voltage);
+  }
+  return current;
+}
+
+// F(Vj) of one kind of cell: the current it delivers, with its slope.
+inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
+                                     const Dual<1, Pack>& voltage) {
+  const bool alike = cell.kinds == 1;
+  const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.kind[kind].light;
+  Dual<1, Pack> current =
+      light - voltage * (alike ? cell.conductance : cell.conductance + cell.kind[kind].leak);
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Diode<Pack>& diode = cell.diode[d];
+    current = current - (exp(Cut(voltage * diode.inverse_n_vt)) - 1.0) * diode.saturation;
+  }
+  return HasMore(bench, cell) ? current + MoreCurrent(bench, cell, light, voltage) : current;
+}
+
+// D(I): what stands between junction and terminal beside Rs.
+template <class S>
+bool HasMoreDrop(const Bench<S>& bench) {
+  for (const Effect* effect : bench.law.effects) {
+    if (effect->series) return true;
+  }
+  return false;
+}
+template <class S>
+Tangent<S> MoreDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
+  Tangent<S> drop = 0.0;
+  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
+    const auto stage = bench.law.effects[e]->series.template For<S>();
+    if (stage != nullptr) drop = drop + stage(bench.p + bench.offsets[e], cell, current);
+  }
+  return drop;
+}
+inline Dual<1, Pack> SeriesDrop(const Bench<Pack>& bench, const Cell<Pack>& cell,
+                                const Dual<1, Pack>& current) {
+  const Dual<1, Pack> drop = current * cell.resistance;
+  return HasMoreDrop(bench) ? drop + MoreDrop(bench, cell, current) : drop;
+}
+
+// Current through the bypass diode beside a part, per voltage `reverse` of one of its cells against
+// their own direction.
+template <class S>
+Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
+  constexpr double kIdeality = 1.2;
+  const S inverse = (1 / kIdeality) / cell.thermal_voltage;
+  const S start = exp(-(cell.bypass * inverse));
+  return (exp(Cut(Tangent<S>(reverse * (cells * inverse)))) - 1.0) * start;
+}
+
+}  // namespace lyrefit

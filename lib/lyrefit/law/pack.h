@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cmath>
+
+#include "lyrefit/base/portable_exp.h"
+
+namespace lyrefit {
+
+// Eight numbers of a curve, laid out for loops that take as many at a time.
+struct alignas(64) Block {
+  static constexpr int kLanes = 8;
+  double lane[kLanes];
+};
+
+// The pack of every processor; kernels have packs of their own for newer ones.
+namespace every_processor {
+
+#define LYREFIT_PACK_WIDTH 2
+#include "lyrefit/law/pack_impl.h"
+
+template <class F>
+Pack LaneByLane(const Pack& a, F f) {
+  Block block;
+  Store(a, &block);
+  for (double& lane : block.lane) lane = f(lane);
+  return Load(block);
+}
+// Of what is above 0.
+inline Pack log(const Pack& a) { return LaneByLane(a, PortableLog); }
+inline Pack sqrt(const Pack& a) {
+  return LaneByLane(a, [](double x) { return std::sqrt(x); });
+}
+inline const Pack& ValueOf(const Pack& a) { return a; }
+inline bool Any(const Mask& mask) { return !All(!mask); }
+// Infinity and NaN times 0 are NaN, which is never above anything.
+inline bool AllFinite(const Pack& a) { return All(-1.0 < a * 0.0); }
+
+}  // namespace every_processor
+
+using every_processor::Mask;
+using every_processor::Pack;
+
+}  // namespace lyrefit

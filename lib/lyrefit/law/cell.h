@@ -119,10 +119,14 @@ Tangent<S> ReverseCurrent(const Cell<S>& cell, const S& photocurrent, const Tang
     const T current = exp(log(depth) * cell.reverse_exponent) * photocurrent;
     return Choose(voltage < 0.0, current, T(0.0));
   }
-  constexpr double kClosest = 0.02;  // nearer to breakdown the last factor stays
+  constexpr double kClosest = 0.02;  // nearer to breakdown the tangent goes on
   const T gap = Larger(1.0 - depth, kClosest);
-  const T factor = exp(-log(gap) * cell.reverse_exponent) * cell.reverse_strength;
-  return Choose(voltage < 0.0, -(voltage * cell.conductance) * factor, T(0.0));
+  const T edge = -(1.0 - gap) * cell.reverse_voltage;  // the voltage, or where the tangent begins
+  const T factor = exp(-log(gap) * cell.reverse_exponent);
+  const T slope = factor * (1.0 - edge * (cell.reverse_exponent / cell.reverse_voltage) / gap);
+  const T current =
+      -(edge * factor + (voltage - edge) * slope) * S(cell.conductance * cell.reverse_strength);
+  return Choose(voltage < 0.0, current, T(0.0));
 }
 
 // What stands beside photocurrent, diodes and shunt over the junction.

@@ -150,21 +150,26 @@ S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell
   return solved.current;
 }
 
-// From a plain guess, or from the last evaluation's end where that is near.
+// From where the last evaluation ended if that is near a plain guess, else from the guess.
 void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBlock& block,
            const Pack& voltage, bool fresh, StringState* state) {
-  const Pack guess = voltage + block.current * cell.resistance;
-  const Mask near = fresh ? Pack(1.0) < Pack(0.0) : abs(state->u[0] - guess) < kNear_V;
+  StringState guess;
+  StartString(cell, limits, voltage, block.current, &guess);
+  if (fresh) {
+    *state = guess;
+    return;
+  }
+  const Mask near = abs(state->u[0] - guess.u[0]) < kNear_V;
   if (All(near)) return;
-  const Pack junction = Smaller(guess, limits.voltage);
-  for (int g = 0; g < cell.kinds; ++g) state->u[g] = Choose(near, state->u[g], junction);
+  for (int g = 0; g < cell.kinds; ++g) {
+    state->u[g] = Choose(near, state->u[g], guess.u[g]);
+    state->far[g] = Choose(near, state->far[g], guess.far[g]);
+  }
   for (int p = 0; p < cell.parts; ++p) {
-    const bool bypassed = cell.kinds > 1 && cell.part[p].bypassed;
-    const Pack least = bypassed ? -limits.reverse / cell.part[p].cells : voltage;
-    state->part_voltage[p] = Choose(near, state->part_voltage[p], Larger(voltage, least));
+    state->part_voltage[p] = Choose(near, state->part_voltage[p], guess.part_voltage[p]);
   }
   for (int s = 0; s < cell.strings; ++s) {
-    state->current[s] = Choose(near, state->current[s], block.current);
+    state->current[s] = Choose(near, state->current[s], guess.current[s]);
   }
 }
 
@@ -208,19 +213,16 @@ void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& 
   if (HasMore(at.bench, cell)) Add(part, MoreCurrent(at.bench, cell, light, S(voltage)), sum);
 }
 
-// The same of a kind's current and voltage at its unknown.
+// The same of a kind's current.
 template <class S>
 void AddKind(const Place<S>& at, const StringState& state, const KindPoint& point, int kind,
-             const Pack& by_current, const Pack& by_voltage, S* sum) {
-  if (!at.plain.halved) {
-    AddJunction(at, kind, state.u[kind], by_current, sum);
-    return;
-  }
-  // I = (F(V) + F(u)) / 2 with V = u - R F(u) / 2.
-  const Pack by_near = by_voltage + 0.5 * by_current * point.near.v[0];
-  AddJunction(at, kind, point.voltage.a, 0.5 * by_current, sum);
-  AddJunction(at, kind, state.u[kind], 0.5 * by_current - 0.5 * by_near * at.plain.lateral, sum);
-  Add(-0.5 * by_near * point.far.a, at.cell.lateral, sum);
+             const Pack& part, S* sum) {
+  const Pack near = at.plain.halved ? 0.5 * part : part;
+  AddJunction(at, kind, state.u[kind], near, sum);
+  if (!at.plain.halved) return;
+  const Pack far = near * point.follows;
+  AddJunction(at, kind, state.far[kind], far, sum);
+  Add(0.5 * far * point.far.v[0] * point.far.a, at.cell.lateral, sum);
 }
 
 // The delivered current with its derivatives, by the slopes at the root.
@@ -231,7 +233,7 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   const Cell<Pack>& plain = at.plain;
   S current = root.current;
   for (int g = 0; g < plain.kinds; ++g) {
-    AddKind(at, state, root.kind[g], g, slopes.by_current[g], slopes.by_voltage[g], &current);
+    AddKind(at, state, root.kind[g], g, slopes.by_current[g], &current);
     if (plain.kinds > 1) Add(slopes.by_share[g], at.cell.kind[g].share, &current);
   }
   for (int s = 0; s < plain.strings; ++s) {
@@ -253,10 +255,10 @@ template <class S>
 S DifferentiateJunction(const Place<S>& at, const StringState& state, const StringRoot& root,
                         const S& current) {
   const KindPoint& point = root.kind[0];
-  const Pack slope = point.voltage.v[0] / point.current.v[0];
-  S junction = point.voltage.a;
+  const Pack slope = 1.0 / point.current.v[0];
+  S junction = state.u[0];
   Add(slope, current, &junction);
-  AddKind(at, state, point, 0, -slope, Pack(1.0), &junction);
+  AddKind(at, state, point, 0, -slope, &junction);
   return junction;
 }
 
@@ -324,9 +326,8 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     Start(cell, limits, block, voltage, state.fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
     if constexpr (!kDerivatives) {
-      const Pack& junction = root.kind[0].voltage.a;
       const Pack recorded =
-          instrument ? Recorded(plain, block, cell, root.current, junction) : root.current;
+          instrument ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;
       if (!AllFinite(recorded)) return false;
       StoreRows(recorded, block, 1, current);
     } else {

@@ -6,7 +6,7 @@ namespace {
 using every_processor::Any;
 
 constexpr double kShort = 1e-9;      // of a voltage: after such a step the next is below rounding
-constexpr double kRounding = 4e-16;  // of a current
+constexpr double kRounding = 3e-15;  // of a current: what sums of such make of it
 
 // An upper bound of ln(x), x > 0, never more than 0.07 above it.
 Pack LogBound(const Pack& x) { return every_processor::LaneByLane(x, LogUpperBound); }
@@ -20,18 +20,27 @@ Pack Limited(const Pack& from, const Pack& to, const Pack& limit, const Pack& un
   return Choose(beyond, begin + unit * LogBound(1.0 + rest), to);
 }
 
-KindPoint PointOf(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind, const Pack& at) {
-  const Dual<1, Pack> u(at, 0);
+// Newton's step to where a current is `size` at most, or, far up an exponential where such steps
+// are all alike, the step of its logarithm.
+Pack StepDown(const Pack& newton, const Dual<1, Pack>& current, const Pack& size) {
+  constexpr double kFar = 20;
+  const Mask far = kFar * size < abs(current.a);
+  if (!Any(far)) return newton;
+  return Choose(far, current.a / current.v[0] * LogBound(size / abs(current.a)), newton);
+}
+
+KindPoint PointOf(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
+                  const StringState& state) {
   KindPoint point;
-  point.far = JunctionCurrent(bench, cell, kind, u);
-  if (!cell.halved) {
-    point.voltage = u;
-    point.current = point.far;
-    return point;
-  }
-  point.voltage = u - point.far * (0.5 * cell.lateral);
-  point.near = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(point.voltage.a, 0));
-  point.current = 0.5 * (point.near.Chain(point.near.a, point.voltage.v[0]) + point.far);
+  point.current = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.u[kind], 0));
+  if (!cell.halved) return point;
+  point.far = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.far[kind], 0));
+  const Pack half = 0.5 * cell.lateral;
+  point.follows = 1.0 / (1.0 - half * point.far.v[0]);
+  point.behind = state.u[kind] - state.far[kind] + half * point.far.a;
+  point.current.a =
+      0.5 * (point.current.a + point.far.a + point.far.v[0] * point.behind * point.follows);
+  point.current.v[0] = 0.5 * (point.current.v[0] + point.far.v[0] * point.follows);
   return point;
 }
 
@@ -44,7 +53,7 @@ struct Terms {
 
 void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState& state,
              Terms* terms) {
-  for (int g = 0; g < cell.kinds; ++g) terms->kind[g] = PointOf(bench, cell, g, state.u[g]);
+  for (int g = 0; g < cell.kinds; ++g) terms->kind[g] = PointOf(bench, cell, g, state);
   for (int s = 0; s < cell.strings; ++s) {
     terms->drop[s] = SeriesDrop(bench, cell, Dual<1, Pack>(state.current[s], 0));
   }
@@ -59,7 +68,7 @@ void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState
 struct Linear {
   Pack weight[kMostKinds];        // of each part
   Pack mean_voltage[kMostKinds];  // of its cells
-  Pack stiffness[kMostKinds];     // its mean dv/dF
+  Pack stiffness[kMostKinds];     // its mean du/dF
   Pack divider[kMostKinds];
   Pack level[kMostKinds];  // U = level + slope x (I - present I)
   Pack slope[kMostKinds];
@@ -76,8 +85,8 @@ Pack ShareOf(const Cell<Pack>& cell, int kind) {
 }
 
 // Means over the kinds of each part, and the current that its cells carry at present.
-void SumKinds(const Cell<Pack>& cell, const Terms& terms, Linear* linear, Pack* present,
-              Pack* mismatch) {
+void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& terms, Linear* linear,
+              Pack* present, Pack* mismatch) {
   bool seen[kMostKinds] = {};
   for (int p = 0; p < cell.parts; ++p) {
     linear->weight[p] = linear->mean_voltage[p] = linear->stiffness[p] = mismatch[p] = 0.0;
@@ -86,11 +95,11 @@ void SumKinds(const Cell<Pack>& cell, const Terms& terms, Linear* linear, Pack* 
     const KindPoint& point = terms.kind[g];
     const int p = PartOf(cell, g);
     const Pack share = ShareOf(cell, g);
-    const Pack slope = share * (point.voltage.v[0] / point.current.v[0]);
+    const Pack slope = share / point.current.v[0];
     if (!seen[p]) present[p] = point.current.a;
     seen[p] = true;
     linear->weight[p] = linear->weight[p] + share;
-    linear->mean_voltage[p] = linear->mean_voltage[p] + share * point.voltage.a;
+    linear->mean_voltage[p] = linear->mean_voltage[p] + share * state.u[g];
     linear->stiffness[p] = linear->stiffness[p] + slope;
     mismatch[p] = mismatch[p] + (point.current.a - present[p]) * slope;
   }
@@ -105,7 +114,7 @@ void SumKinds(const Cell<Pack>& cell, const Terms& terms, Linear* linear, Pack* 
 void SolveLinear(const Cell<Pack>& cell, const Pack& voltage, const StringState& state,
                  const Terms& terms, Linear* linear) {
   Pack present[kMostKinds], mismatch[kMostKinds], string_level[kMostKinds];
-  SumKinds(cell, terms, linear, present, mismatch);
+  SumKinds(cell, state, terms, linear, present, mismatch);
   for (int s = 0; s < cell.strings; ++s) {
     linear->string_weight[s] = linear->string_slope[s] = string_level[s] = 0.0;
   }
@@ -144,39 +153,58 @@ void SolveLinear(const Cell<Pack>& cell, const Pack& voltage, const StringState&
 
 Mask IsShort(const Pack& step, const Pack& of) { return abs(step) < kShort * (1.0 + abs(of)); }
 
-// Moves the state by a step; the lanes that have arrived.
+// One junction's next voltage, `way` of Newton further.
+Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack& u, const Pack& way,
+                 const Dual<1, Pack>& current, const Pack& size) {
+  const Pack down = Choose(0.0 < u, StepDown(way, current, size), way);
+  const Pack next = Limited(u, u + down, limits.voltage, limits.n_vt);
+  if (cell.reverse == ReverseLaw::kShunt) return next;
+  return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // into breakdown by leaps of its own size
+}
+
+// Moves the state by `part` of a step; the lanes that have arrived.
 Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms,
-          const Linear& linear, StringState* state) {
+          const Linear& linear, double part, StringState* state) {
   Mask done = Pack(0.0) < 1.0;
   for (int g = 0; g < cell.kinds; ++g) {
-    const Dual<1, Pack>& present = terms.kind[g].current;
+    const KindPoint& point = terms.kind[g];
     const Pack& current = linear.part_current[PartOf(cell, g)];
-    const Pack missing = current - present.a;
-    const Pack next =
-        Limited(state->u[g], state->u[g] + missing / present.v[0], limits.voltage, limits.n_vt);
-    done = done &
-           ((abs(missing) < kRounding * (1.0 + abs(current))) | IsShort(next - state->u[g], next));
-    state->u[g] = next;
+    const Pack missing = current - point.current.a;
+    const Pack size = 1.0 + abs(current);
+    const Pack u = state->u[g], newton = missing / point.current.v[0];
+    const Pack step = NextVoltage(cell, limits, u, newton, point.current, size) - u;
+    state->u[g] = u + part * step;
+    done = done & ((abs(missing) < kRounding * size) | IsShort(step, u));
+    if (!cell.halved) continue;
+    const Pack far = state->far[g], way = (part * step + point.behind) * point.follows;
+    const Pack far_step = NextVoltage(cell, limits, far, way, point.far, size) - far;
+    state->far[g] = far + far_step;
+    done = done & IsShort(far_step, far);
   }
   for (int p = 0; p < cell.parts; ++p) {
     Pack next = linear.part_voltage[p];
     if (cell.part[p].bypassed) {
       const double cells = cell.part[p].cells;
       const Pack before = state->part_voltage[p];
-      next = -1 / cells * Limited(-cells * before, -cells * next, limits.reverse, limits.bypass_vt);
       const Dual<1, Pack>& bypass = terms.bypass[p];
+      const Pack size =
+          1.0 + abs(linear.current[cell.part[p].string]) + abs(linear.part_current[p]);
+      next = before + StepDown(next - before, bypass, size);
+      next = -1 / cells * Limited(-cells * before, -cells * next, limits.reverse, limits.bypass_vt);
       done = done & ((abs(bypass.v[0] * (next - before)) < kRounding * (1.0 + abs(bypass.a))) |
                      IsShort(cells * (next - before), cells * next));
     }
-    state->part_voltage[p] = next;
+    state->part_voltage[p] = state->part_voltage[p] + part * (next - state->part_voltage[p]);
   }
-  for (int s = 0; s < cell.strings; ++s) state->current[s] = linear.current[s];
+  for (int s = 0; s < cell.strings; ++s) {
+    state->current[s] = state->current[s] + part * (linear.current[s] - state->current[s]);
+  }
   return done;
 }
 
 // By implicit differentiation of the equations above, where they hold.
-void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const Terms& terms,
-                const Linear& linear, StringSlopes* slopes) {
+void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& state,
+                const Terms& terms, const Linear& linear, StringSlopes* slopes) {
   Pack scale[kMostKinds];  // of each string: its part in the sum of currents over its slope
   for (int s = 0; s < cell.strings; ++s) {
     scale[s] = linear.string_weight[s] / linear.string_slope[s];
@@ -194,12 +222,10 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const Terms& terms,
     const int p = PartOf(cell, g);
     const int s = cell.part[p].string;
     const Pack share = scale[s] * ShareOf(cell, g) * linear.divider[p];
-    slopes->by_current[g] = share * (point.voltage.v[0] / point.current.v[0]);
-    slopes->by_voltage[g] = -share;
+    slopes->by_current[g] = share / point.current.v[0];
     slopes->by_share[g] =
-        linear.current[s] +
-        scale[s] * (voltage - linear.part_voltage[p] -
-                    linear.divider[p] * (point.voltage.a - linear.mean_voltage[p]));
+        linear.current[s] + scale[s] * (voltage - linear.part_voltage[p] -
+                                        linear.divider[p] * (state.u[g] - linear.mean_voltage[p]));
   }
 }
 
@@ -209,32 +235,172 @@ StringLimits LimitsOf(const Cell<Pack>& cell) {
   StringLimits limits;
   limits.n_vt = 1.0 / cell.diode[0].inverse_n_vt;
   limits.voltage = 1e3;
-  // What a halved cell's far half may carry before the near half's voltage runs away.
-  const Pack spare = cell.halved ? Smaller(1.0, 0.1 / Larger(cell.lateral, 1e-3)) : Pack(1.0);
   for (int d = 0; d < cell.diodes; ++d) {
     const Pack n_vt = 1.0 / cell.diode[d].inverse_n_vt;
     limits.n_vt = Smaller(limits.n_vt, n_vt);
-    const Pack ratio = (abs(cell.photocurrent) + spare) / Larger(cell.diode[d].saturation, 1e-300);
+    const Pack ratio = (abs(cell.photocurrent) + 1.0) / Larger(cell.diode[d].saturation, 1e-300);
     limits.voltage = Smaller(limits.voltage, n_vt * LogBound(1.0 + ratio));
-  }
-  if (cell.halved) {  // the near half's voltage moves by so much more
-    const Pack steepness = (abs(cell.photocurrent) + 1.0) / limits.n_vt;
-    limits.n_vt = limits.n_vt / (1.0 + 0.5 * cell.lateral * steepness);
   }
   limits.bypass_vt = 1.2 * cell.thermal_voltage;
   limits.reverse = cell.bypass;
   return limits;
 }
 
+void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
+                 const Pack& current, StringState* state) {
+  const Pack junction = Smaller(voltage + current * cell.resistance, limits.voltage);
+  for (int g = 0; g < cell.kinds; ++g) state->u[g] = state->far[g] = junction;
+  for (int p = 0; p < cell.parts; ++p) {
+    const bool bypassed = cell.part[p].bypassed;
+    state->part_voltage[p] =
+        bypassed ? Larger(voltage, -limits.reverse / cell.part[p].cells) : voltage;
+  }
+  for (int s = 0; s < cell.strings; ++s) state->current[s] = current;
+}
+
+namespace {
+
+// For lanes on which Newton's steps go round in circles: by current, with brackets. The voltage of
+// a string falls as its current rises, and what a part's cells carry rises with what all carry.
+class Bracketed {
+ public:
+  Bracketed(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits)
+      : bench_(bench), cell_(cell), limits_(limits) {}
+
+  void Solve(const Pack& voltage, StringState* state) const {
+    for (int s = 0; s < cell_.strings; ++s) {
+      const auto excess = [&](const Pack& current) {  // rises
+        return voltage * WeightOf(s) - VoltageOf(s, current, state);
+      };
+      state->current[s] = RisingRoot(excess, state->current[s], 1.0);
+      excess(state->current[s]);
+    }
+  }
+
+ private:
+  static constexpr int kSteps = 64;
+
+  // Root of a rising function: a bracket grown from `start` by doubling steps, then halved.
+  template <class F>
+  static Pack RisingRoot(const F& f, const Pack& start, double first_step) {
+    Pack low = start, high = start;
+    double step = first_step;
+    for (int k = 0; k < kSteps; ++k, step *= 2) {
+      const Mask too_high = 0.0 < f(low), too_low = f(high) < 0.0;
+      if (!Any(too_high) && !Any(too_low)) break;
+      low = Choose(too_high, low - step, low);
+      high = Choose(too_low, high + step, high);
+    }
+    for (int k = 0; k < kSteps; ++k) {
+      const Pack middle = 0.5 * (low + high);
+      const Mask below = f(middle) < 0.0;
+      low = Choose(below, middle, low);
+      high = Choose(below, high, middle);
+    }
+    return 0.5 * (low + high);
+  }
+
+  Pack WeightOf(int string) const {
+    Pack weight = 0.0;
+    for (int g = 0; g < cell_.kinds; ++g) {
+      if (cell_.part[PartOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
+    }
+    return weight;
+  }
+
+  // Sum of share x voltage of a string's parts at a current; the state follows.
+  Pack VoltageOf(int string, const Pack& current, StringState* state) const {
+    const Pack drop = SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
+    Pack sum = 0.0;
+    for (int p = 0; p < cell_.parts; ++p) {
+      if (cell_.part[p].string != string) continue;
+      Pack carried = current, weight = 0.0;
+      if (cell_.part[p].bypassed) {
+        carried = RisingRoot(
+            [&](const Pack& own) {
+              const Pack reverse = drop - MeanVoltage(p, own, &weight, state);
+              return own + BypassCurrent(cell_, cell_.part[p].cells, Dual<1, Pack>(reverse, 0)).a -
+                     current;
+            },
+            current, 1.0);
+      }
+      state->part_voltage[p] = MeanVoltage(p, carried, &weight, state) - drop;
+      sum = sum + weight * state->part_voltage[p];
+    }
+    return sum;
+  }
+
+  // Of a part's cells at the current they carry.
+  Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
+    Pack sum = 0.0;
+    *weight = 0.0;
+    for (int g = 0; g < cell_.kinds; ++g) {
+      if (PartOf(cell_, g) != part) continue;
+      MoveKind(g, carried, state);
+      *weight = *weight + ShareOf(cell_, g);
+      sum = sum + ShareOf(cell_, g) * state->u[g];
+    }
+    return sum / *weight;
+  }
+
+  // To the junction voltage at which a kind carries a current.
+  void MoveKind(int kind, const Pack& carried, StringState* state) const {
+    const Pack size = 1.0 + abs(carried);
+    for (int k = 0; k < kSteps; ++k) {
+      const KindPoint point = PointOf(bench_, cell_, kind, *state);
+      const Pack missing = carried - point.current.a, u = state->u[kind];
+      state->u[kind] =
+          NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
+      const Pack step = state->u[kind] - u;
+      Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
+      if (cell_.halved) {
+        const Pack far = state->far[kind], way = (step + point.behind) * point.follows;
+        state->far[kind] = NextVoltage(cell_, limits_, far, way, point.far, size);
+        done = done & IsShort(state->far[kind] - far, far);
+      }
+      if (All(done)) return;
+    }
+  }
+
+  const Bench<Pack>& bench_;
+  const Cell<Pack>& cell_;
+  const StringLimits& limits_;
+};
+
+void Take(const Cell<Pack>& cell, const Mask& lanes, const StringState& from, StringState* to) {
+  for (int g = 0; g < cell.kinds; ++g) {
+    to->u[g] = Choose(lanes, from.u[g], to->u[g]);
+    to->far[g] = Choose(lanes, from.far[g], to->far[g]);
+  }
+  for (int p = 0; p < cell.parts; ++p) {
+    to->part_voltage[p] = Choose(lanes, from.part_voltage[p], to->part_voltage[p]);
+  }
+  for (int s = 0; s < cell.strings; ++s) {
+    to->current[s] = Choose(lanes, from.current[s], to->current[s]);
+  }
+}
+
+}  // namespace
+
 StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
                        const Pack& voltage, StringState* state) {
-  constexpr int kMostSteps = 100;
+  constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
   Linear linear;
+  bool near = false;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(bench, cell, *state, &terms);
     SolveLinear(cell, voltage, *state, terms, &linear);
-    if (All(Move(cell, limits, terms, linear, state))) break;
+    // Whole steps may go round in circles between exponentials that oppose each other.
+    const double part = near || k < kPatience || k > kMostSteps - kPatience ? 1 : 0.5;
+    const Mask done = Move(cell, limits, terms, linear, part, state);
+    if (All(done) && part == 1) break;
+    near = All(done);
+    if (k != kMostSteps - kPatience) continue;
+    StringState settled;
+    StartString(cell, limits, voltage, 0.0, &settled);
+    Bracketed(bench, cell, limits).Solve(voltage, &settled);
+    Take(cell, !done, settled, state);
   }
   StringRoot root;
   for (int g = 0; g < cell.kinds; ++g) root.kind[g] = terms.kind[g];
@@ -242,7 +408,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   for (int s = 0; s < cell.strings; ++s) {
     root.current = root.current + linear.string_weight[s] * linear.current[s];
   }
-  FindSlopes(cell, voltage, terms, linear, &root.slopes);
+  FindSlopes(cell, voltage, *state, terms, linear, &root.slopes);
   return root;
 }
 

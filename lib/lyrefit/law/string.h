@@ -5,10 +5,10 @@
 // Unlike cells in series, and strings of them in parallel: given the voltage, the current that all
 // share. Cells that are all alike are a string of one kind.
 //
-// Every kind g has one unknown u, from which its voltage v(u) and its current F(u) follow; kinds of
-// one part carry the same current J, beside it the part's bypass diode carries B:
+// Every kind g has a junction voltage u, from which its current F(u) follows; kinds of one part
+// carry the same current J, beside it the part's bypass diode carries B:
 //
-//   F_g(u_g) = J_p,   U_p = mean of v_g - D(I),   J_p + B(-U_p) = I,   sum of w_p U_p = W V
+//   F_g(u_g) = J_p,   U_p = mean of u_g - D(I),   J_p + B(-U_p) = I,   sum of w_p U_p = W V
 //
 // (w, W: shares of the part and of the string in all cells). Newton on all of it at once: the
 // system is a tree, so a step costs one evaluation of each kind and a few sums. Exponentials are
@@ -16,10 +16,12 @@
 // the junction carries all there is, a step goes only as far as its logarithm.
 namespace lyrefit {
 
-// Where an iteration stands, of eight readings: unknowns of the kinds, voltages of the parts,
-// currents of the strings, each as if all cells stood in that string.
+// Where an iteration stands, of eight readings: junction voltages of the kinds (of halved cells the
+// near half's and the far one's), voltages of the parts, currents of the strings, each as if all
+// cells stood in that string.
 struct StringState {
   Pack u[kMostKinds];
+  Pack far[kMostKinds];
   Pack part_voltage[kMostKinds];
   Pack current[kMostKinds];
 };
@@ -33,19 +35,18 @@ struct StringLimits {
 };
 StringLimits LimitsOf(const Cell<Pack>& cell);
 
-// A kind at its unknown, with slopes along it. In two halves, I = (F(V) + F(u)) / 2 and
-// u = V + R F(u) / 2: the far half's voltage is the unknown, and the near one's follows.
+// A kind at its junction voltage. In two halves, I = (F(u) + F(f)) / 2 and f = u + R F(f) / 2: the
+// far half is linearised, so that the current is one of u alone.
 struct KindPoint {
-  Dual<1, Pack> voltage;  // of the near half
-  Dual<1, Pack> current;
-  Dual<1, Pack> far;   // halved: F(u)
-  Dual<1, Pack> near;  // halved: F(V), slope along V
+  Dual<1, Pack> current;  // with its slope by u
+  Dual<1, Pack> far;      // halved: F(f), with its slope
+  Pack follows;           // halved: df/du
+  Pack behind;            // halved: what f lacks
 };
 
 // How the delivered current changes with what the equations are made of, at their root.
 struct StringSlopes {
   Pack by_current[kMostKinds];  // F of each kind
-  Pack by_voltage[kMostKinds];  // v of each kind
   Pack by_share[kMostKinds];
   Pack by_bypass[kMostKinds];    // B of each part
   Pack by_drop[kMostKinds];      // D of each string
@@ -57,6 +58,10 @@ struct StringRoot {
   KindPoint kind[kMostKinds];
   StringSlopes slopes;
 };
+
+// A state to begin from, where `current` is a guess.
+void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
+                 const Pack& current, StringState* state);
 
 // The root at `voltage` per cell, from the state that is given, which moves there.
 StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,

@@ -115,6 +115,8 @@ TEST_P(LawEffectsTest, DerivativesAreThoseOfTheCurrents) {
   for (const Probe& probe : SomeProbes()) {
     const Settled at = WithEffect(effect(), probe);
     for (int parameter = 0; parameter < at.law.size(); ++parameter) {
+      const int own = parameter - at.law.base_size();
+      if (own >= 0 && probe[own] == effect().parameters[own].absent_at) continue;  // not there
       // The longer steps fail at sharp bends, the shorter ones on rounding.
       const Column column = CompareColumn(at, readings_, parameter, 1e-3);
       const Column close = CompareColumn(at, readings_, parameter, 5e-5);
@@ -189,7 +191,7 @@ TEST_P(DeviceEffectsTest, CurrentsNeverRiseWithVoltage) {
   }
 }
 
-// Models with more than eight parameters take another number type through the same stages.
+// Models with more than six or ten parameters take another number type through the same stages.
 TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
   const std::vector<const Effect*> idle = {FindEffect("drift"), FindEffect("temp_drift"),
                                            FindEffect("voltage_offset"),
@@ -199,8 +201,8 @@ TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
     Settled wide = narrow;
     wide.law.effects.insert(wide.law.effects.end(), idle.begin(), idle.end());
     wide.p.resize(narrow.p.size() + idle.size(), 0.0);
-    ASSERT_LE(narrow.law.size(), 8);
-    ASSERT_GT(wide.law.size(), 8);
+    if (narrow.law.size() > 10) return;  // only ever wide
+    ASSERT_TRUE(narrow.law.size() <= 6 ? wide.law.size() > 6 : wide.law.size() > 10);
     const std::vector<double> a = Jacobian(narrow.law, readings_, narrow.p);
     const std::vector<double> b = Jacobian(wide.law, readings_, wide.p);
     ASSERT_FALSE(a.empty() || b.empty());

@@ -16,11 +16,10 @@ namespace {
 std::vector<double> DeviceParameters(const Law& law, const Readings& readings,
                                      const std::vector<double>& p) {
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
-  constexpr double kAlwaysThere = 1e-8;  // conductance that every cell has
   std::vector<double> device = {p[kBasePhotocurrent] * scale,
                                 SaturationCurrent(law, readings, p.data()) * scale,
                                 p[kBaseIdeality], p[kBaseResistance] * cells / scale,
-                                cells / ((p[kBaseConductance] + kAlwaysThere) * scale)};
+                                cells / (p[kBaseConductance] * scale)};
   if (law.second_diode) {
     device.push_back(p[kBaseSecond] * Saturation2Unit(readings) * scale);
     device.push_back(2);
@@ -101,13 +100,14 @@ double Bisect(const std::function<double(double)>& f, double low, double high) {
 // An ordinary cell written down once more.
 struct PlainCell {
   const Readings& readings;
+  double leak = 1e-8;  // that every cell of a string has
   std::vector<double> p = OrdinaryCell();
 
   double Junction(double voltage, double light) const {
     const double n_vt = p[kBaseIdeality] * ThermalVoltage(readings.reference_temperature_K);
     return p[kBasePhotocurrent] * light -
            SaturationCurrent(Law{}, readings, p.data()) * std::expm1(voltage / n_vt) -
-           (p[kBaseConductance] + 1e-8) * voltage;
+           (p[kBaseConductance] + leak) * voltage;
   }
   // Terminal voltage at which the cell delivers `current`.
   double Voltage(double current, double light) const {
@@ -168,7 +168,7 @@ TEST(LawTest, ShadedCellsAreBypassed) {
 
 TEST(LawTest, SpreadResistanceIsTwoHalfCells) {
   const Readings readings = MadeReadings(DataKind::kForward, 1);
-  const PlainCell cell{readings};
+  const PlainCell cell{readings, 0};
   for (const double lateral : {0.02, 0.3, 2.0}) {
     const Settled at = WithEffect(*FindEffect("distributed_rs"), {lateral});
     const std::vector<double> found = Currents(at.law, readings, at.p);

@@ -162,8 +162,9 @@ class Lane {
     const bool alike = cell_.kinds == 1;
     T light = T(cell_.photocurrent[lane_]);
     T conductance = T(cell_.conductance[lane_]);
+    const T least = alike ? T(1e-13) : T(cell_.kind[g].leak[lane_]) + T(1e-8);
     if (!alike) light *= T(cell_.kind[g].light[lane_]);
-    T current = light - (conductance + (alike ? T(0) : T(cell_.kind[g].leak[lane_]))) * v;
+    T current = light - (conductance + least) * v;
     for (int d = 0; d < cell_.diodes; ++d) {
       current -= T(cell_.diode[d].saturation[lane_]) *
                  (exp(v * T(cell_.diode[d].inverse_n_vt[lane_])) - 1);

@@ -31,8 +31,10 @@ Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
   std::vector<const Effect*> candidates;
   for (const Effect* effect : Catalogue()) {
     const std::string id = effect->id;
-    const bool scored = effect->probes != nullptr || id == "outliers" || id == "unknown_structure";
-    if (!scored || !IsWanted(id, options) || effect->why_not(traits)) continue;
+    const bool asked = effect->found_by == FoundBy::kRequest && options.effects.empty();
+    if (asked || effect->found_by == FoundBy::kValues || !IsWanted(id, options) ||
+        effect->why_not(traits))
+      continue;
     if (options.base == Model::kDoubleDiode && id == "second_diode") continue;
     candidates.push_back(effect);
   }

@@ -8,37 +8,9 @@ namespace lyrefit {
 namespace {
 
 const std::vector<Effect>& Entries() {
-  static const std::vector<Effect> entries = {
-      SecondDiode(),
-      NonohmicShunt(),
-      Breakdown(),
-      Collection(),
-      Photoshunt(),
-      BackContact(),
-      RsCurrent(),
-      DistributedRs(),
-      Shading(),
-      Mismatch(),
-      Drift(),
-      IrradianceStep(),
-      Transient(),
-      TemperatureDrift(),
-      Capacitance(),
-      TimingSkew(),
-      Clip(),
-      Outliers(),
-      Quantisation(),
-      CurrentOffset(),
-      VoltageOffset(),
-      SensorOffset(),
-      SensorNonlinearity(),
-      TemperatureOffset(),
-      TemperatureGradient(),
-      Bandgap(),
-      IscTemperatureCoefficient(),
-      TemperatureOrCells(),
-      UnknownStructure(),
-  };
+#define LYREFIT_MAKE_EFFECT(name) name(),
+  static const std::vector<Effect> entries = {LYREFIT_EFFECTS(LYREFIT_MAKE_EFFECT)};
+#undef LYREFIT_MAKE_EFFECT
   return entries;
 }
 

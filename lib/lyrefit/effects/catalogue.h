@@ -8,7 +8,7 @@
 namespace lyrefit {
 
 // Every effect lyrefit knows, in the order of reports. To add one: a file effects/<id>.cc with a
-// function that makes it, and its line in catalogue.cc.
+// function that makes it, and its line in catalogue_entries.h.
 const std::vector<const Effect*>& Catalogue();
 
 // Values of clip's limits where there is none.

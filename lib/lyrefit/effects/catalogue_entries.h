@@ -4,35 +4,42 @@
 
 namespace lyrefit {
 
-// One function for each file of the catalogue.
-Effect SecondDiode();
-Effect NonohmicShunt();
-Effect Breakdown();
-Effect Collection();
-Effect Photoshunt();
-Effect BackContact();
-Effect RsCurrent();
-Effect DistributedRs();
-Effect Shading();
-Effect Mismatch();
-Effect Drift();
-Effect IrradianceStep();
-Effect Transient();
-Effect TemperatureDrift();
-Effect Capacitance();
-Effect TimingSkew();
-Effect Clip();
-Effect Outliers();
-Effect Quantisation();
-Effect CurrentOffset();
-Effect VoltageOffset();
-Effect SensorOffset();
-Effect SensorNonlinearity();
-Effect TemperatureOffset();
-Effect TemperatureGradient();
-Effect Bandgap();
-Effect IscTemperatureCoefficient();
-Effect TemperatureOrCells();
-Effect UnknownStructure();
+// One line for each file of the catalogue, in the order of reports.
+#define LYREFIT_EFFECTS(ENTRY)     \
+  ENTRY(SecondDiode)               \
+  ENTRY(NonohmicShunt)             \
+  ENTRY(Breakdown)                 \
+  ENTRY(Collection)                \
+  ENTRY(Photoshunt)                \
+  ENTRY(BackContact)               \
+  ENTRY(RsCurrent)                 \
+  ENTRY(DistributedRs)             \
+  ENTRY(Shading)                   \
+  ENTRY(Mismatch)                  \
+  ENTRY(Substrings)                \
+  ENTRY(WeakCell)                  \
+  ENTRY(Drift)                     \
+  ENTRY(IrradianceStep)            \
+  ENTRY(Transient)                 \
+  ENTRY(TemperatureDrift)          \
+  ENTRY(Capacitance)               \
+  ENTRY(TimingSkew)                \
+  ENTRY(Clip)                      \
+  ENTRY(Outliers)                  \
+  ENTRY(Quantisation)              \
+  ENTRY(CurrentOffset)             \
+  ENTRY(VoltageOffset)             \
+  ENTRY(SensorOffset)              \
+  ENTRY(SensorNonlinearity)        \
+  ENTRY(TemperatureOffset)         \
+  ENTRY(TemperatureGradient)       \
+  ENTRY(Bandgap)                   \
+  ENTRY(IscTemperatureCoefficient) \
+  ENTRY(TemperatureOrCells)        \
+  ENTRY(UnknownStructure)
+
+#define LYREFIT_DECLARE_EFFECT(name) Effect name();
+LYREFIT_EFFECTS(LYREFIT_DECLARE_EFFECT)
+#undef LYREFIT_DECLARE_EFFECT
 
 }  // namespace lyrefit

@@ -24,6 +24,7 @@ Effect IrradianceStep() {
     const auto changed = sky->irradiance * (1.0 + p[0]);
     sky->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, sky->irradiance);
   };
+  e.momentary = true;
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

@@ -24,6 +24,7 @@ Effect Transient() {
     const auto z = (reading.x - p[1]) / p[2];
     sky->irradiance = sky->irradiance * (1.0 - p[0] * exp(-0.5 * z * z));
   };
+  e.momentary = true;
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

@@ -12,6 +12,10 @@
 namespace lyrefit {
 
 constexpr double kLargestCellExponent = 200;
+// Scales per volt that a junction always conducts: so little that nobody sees it, and, of a cell in
+// a string, enough to carry the others' current in reverse, if at a huge voltage.
+constexpr double kLeastConductance = 1e-13;
+constexpr double kLeastLeak = 1e-8;
 
 // The parameters' view of a law: where each effect's stretch begins.
 template <class S>
@@ -46,32 +50,54 @@ Sky<S> SkyAt(const Bench<S>& bench, const ReadingBlock& readings) {
   return sky;
 }
 
+// Diodes of the base at a temperature: `warmer` is what that makes of the first one's saturation
+// current, `warmer_2` of one that recombines in the junction.
+template <class S>
+void PivotDiodes(const Bench<S>& bench, const S& inverse_vt, const S& warmer, Cell<S>* cell) {
+  const double k_eV = ThermalVoltage(1.0);
+  const S inverse_n = 1.0 / bench.p[kBaseIdeality];
+  const S exponent =
+      inverse_n * (bench.readings.pivot_voltage / (k_eV * bench.readings.reference_temperature_K));
+  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
+  const S saturation = exp(bench.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
+  cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
+  if (!bench.law.second_diode) return;
+  cell->diode[cell->diodes++] = {bench.p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
+}
+template <class S>
+void NaturalDiodes(const Bench<S>& bench, const S& inverse_vt, const S& warmer, const S& warmer_2,
+                   Cell<S>* cell) {
+  const double per_scale = 1 / bench.readings.scale.current_A;
+  for (int d = 0; d < static_cast<int>(bench.law.model); ++d) {
+    const S saturation = bench.p[SaturationCurrentIndex(d)] * per_scale;
+    cell->diode[cell->diodes++] = {saturation * (d == 0 ? warmer : warmer_2),
+                                   inverse_vt / bench.p[IdealityIndex(d)]};
+  }
+}
+
 // A cell at a temperature, its light still to come.
 template <class S>
 void CellUnder(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
-  const double k_eV = ThermalVoltage(1.0);
+  const ReadingScale& scale = bench.readings.scale;
+  const double k_eV = ThermalVoltage(1.0, bench.law.constants);
   const double reference_K = bench.readings.reference_temperature_K;
-  const double pivot = bench.readings.pivot_voltage;
-  const S* p = bench.p;
   const S ratio = sky.temperature_K * (1 / reference_K);
   const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
   const S barrier = DeSotoBarrier(sky.bandgap_eV, S(bench.law.bandgap_slope_per_K), reference_K,
                                   sky.temperature_K, k_eV);
-  const S inverse_n = 1.0 / p[kBaseIdeality];
-  const S pivot_exponent = inverse_n * (pivot / (k_eV * reference_K));
+  const S warmer = exp(barrier) * (ratio * ratio * ratio);
+  const S warmer_2 = (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
   cell->thermal_voltage = sky.temperature_K * k_eV;
-  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
-  const S saturation = exp(p[kBasePivot] + barrier - pivot_exponent) * (ratio * ratio * ratio) /
-                       (1.0 - exp(-pivot_exponent));
-  cell->diodes = 1;
-  cell->diode[0] = {saturation, inverse_vt * inverse_n};
-  cell->saturation_2_unit =
-      bench.readings.scale.saturation_2_unit * (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
-  if (bench.law.second_diode) {
-    cell->diode[cell->diodes++] = {p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
+  cell->saturation_2_unit = scale.saturation_2_unit * warmer_2;
+  cell->diodes = 0;
+  if (bench.law.natural) {
+    NaturalDiodes(bench, inverse_vt, warmer, warmer_2, cell);
+    cell->resistance = bench.p[kRs] * (scale.current_A / scale.cells);
+  } else {
+    PivotDiodes(bench, inverse_vt, warmer, cell);
+    cell->resistance = bench.p[kBaseResistance];
   }
-  cell->resistance = p[kBaseResistance];
-  cell->reach = bench.readings.scale.reach_V;
+  cell->reach = scale.reach_V;
   const DataTraits& traits = bench.readings.traits;
   const int substrings = traits.substrings > 0 ? traits.substrings : 3;
   cell->cells = traits.cells;
@@ -81,18 +107,17 @@ void CellUnder(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
 // What the light decides in a cell whose temperature is settled.
 template <class S>
 void Light(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
-  const double reference_K = bench.readings.reference_temperature_K;
+  const ReadingScale& scale = bench.readings.scale;
   const S* p = bench.p;
   cell->irradiance = sky.irradiance;
-  const S warmer = sky.temperature_K - reference_K;
-  cell->photocurrent =
-      sky.irradiance * (p[kBasePhotocurrent] * (1.0 + sky.isc_tempco_per_K * warmer) +
-                        bench.readings.isc_tempco_scales_per_K * warmer);
-  // A cell in a string must carry the others' current in reverse, if at a huge voltage.
-  constexpr double kSmallestConductance = 1e-8;
+  const S warmer = sky.temperature_K - bench.readings.reference_temperature_K;
+  const bool natural = bench.law.natural;
+  const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
+  cell->photocurrent = sky.irradiance * (photocurrent * (1.0 + sky.isc_tempco_per_K * warmer) +
+                                         bench.readings.isc_tempco_scales_per_K * warmer);
+  const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
   const bool inverse = bench.law.shunt == ShuntLaw::kInverse;
-  cell->conductance =
-      (inverse ? p[kBaseConductance] * sky.irradiance : p[kBaseConductance]) + kSmallestConductance;
+  cell->conductance = inverse ? conductance * sky.irradiance : conductance;
 }
 
 // What the effects make of a cell under a sky.
@@ -156,8 +181,8 @@ inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>&
                                      const Dual<1, Pack>& voltage) {
   const bool alike = cell.kinds == 1;
   const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.kind[kind].light;
-  Dual<1, Pack> current =
-      light - voltage * (alike ? cell.conductance : cell.conductance + cell.kind[kind].leak);
+  const Pack leak = alike ? Pack(kLeastConductance) : cell.kind[kind].leak + kLeastLeak;
+  Dual<1, Pack> current = light - voltage * (cell.conductance + leak);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<Pack>& diode = cell.diode[d];
     current = current - (exp(Cut(voltage * diode.inverse_n_vt)) - 1.0) * diode.saturation;

@@ -188,6 +188,8 @@ struct EffectParameter {
   int rate = 0;
   // What the value is multiplied by besides, given all of the effect's parameters.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
+  // A fit keeps it at its neutral value unless it is asked for by name.
+  bool held = false;
   // A fit that ends at such a bound is not this effect but bends to another.
   bool below_upper = false;
   bool above_lower = false;
@@ -195,6 +197,15 @@ struct EffectParameter {
   double absent_at = std::numeric_limits<double>::quiet_NaN();
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
+};
+
+// How a diagnosis comes upon an effect.
+enum class FoundBy {
+  kFit,            // by its score on the residuals, and a fit
+  kWaves,          // by smooth waves in the residuals that nothing else explains
+  kSingleReading,  // by single readings far off
+  kValues,         // by the values or parameters themselves: nothing is fitted
+  kRequest,        // not at all: it is fitted or simulated where somebody asks for it
 };
 
 // A place from which an effect is tried: a full set of its parameters at a strength that shows.
@@ -221,8 +232,10 @@ struct Effect {
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
 
-  // Splits the cells of a string into two groups: only one effect of a law can.
+  FoundBy found_by = FoundBy::kFit;
+  // Splits the cells of a string into kinds: only one effect of a law can.
   bool groups = false;
+  bool momentary = false;  // lasts a moment of the sweep: it can bend to any single reading
 
   int size() const { return static_cast<int>(parameters.size()); }
 };

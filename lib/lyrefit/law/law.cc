@@ -381,7 +381,9 @@ double Law::Upper(int parameter) const {
 }
 
 bool Law::Searched(int parameter) const {
-  return parameter >= base_size() && ParameterAt(*this, parameter)->searched;
+  if (parameter < base_size()) return false;
+  const EffectParameter& info = *ParameterAt(*this, parameter);
+  return info.searched || info.held;
 }
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,

@@ -33,13 +33,20 @@ enum BaseParameter {
 
 struct Law {
   bool second_diode = false;  // in the base
+  // The base as a device of `model` instead: its parameters as device.h orders them, in its units,
+  // at the reference and at irradiance 1.
+  bool natural = false;
+  Model model = Model::kSingleDiode;
+  ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;
   double bandgap_slope_per_K = 0;        // dEgdT
   ShuntLaw shunt = ShuntLaw::kConstant;  // or kInverse
   bool free_tempco = false;              // alpha is a parameter
   bool free_bandgap = false;             // EgRef is a parameter
 
-  int TempcoAt() const { return second_diode ? 6 : 5; }                 // where free
+  int TempcoAt() const {  // where free
+    return natural ? 3 + 2 * static_cast<int>(model) : second_diode ? 6 : 5;
+  }
   int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // where free
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
   int size() const;
@@ -47,7 +54,7 @@ struct Law {
   // Bounds of all parameters.
   double Lower(int parameter) const;
   double Upper(int parameter) const;
-  bool Searched(int parameter) const;  // not to be descended in
+  bool Searched(int parameter) const;  // not to be descended in, unless asked for
 };
 
 // The readings laid out for the law, and where the last evaluation of it ended: from there the next

@@ -280,22 +280,32 @@ class Bracketed {
  private:
   static constexpr int kSteps = 64;
 
-  // Root of a rising function: a bracket grown from `start` by doubling steps, then halved.
+  // Root of a rising function: a bracket grown from `start` by doubling steps, then by turns halved
+  // and cut where the line between its ends crosses 0.
   template <class F>
   static Pack RisingRoot(const F& f, const Pack& start, double first_step) {
-    Pack low = start, high = start;
+    Pack low = start, high = start, below = f(start), above = below;
     double step = first_step;
     for (int k = 0; k < kSteps; ++k, step *= 2) {
-      const Mask too_high = 0.0 < f(low), too_low = f(high) < 0.0;
+      const Mask too_high = 0.0 < below, too_low = above < 0.0;
       if (!Any(too_high) && !Any(too_low)) break;
       low = Choose(too_high, low - step, low);
       high = Choose(too_low, high + step, high);
+      below = f(low);
+      above = f(high);
     }
-    for (int k = 0; k < kSteps; ++k) {
+    for (int k = 0; k < kSteps && Any(kRounding * (1.0 + abs(low)) < high - low); ++k) {
       const Pack middle = 0.5 * (low + high);
-      const Mask below = f(middle) < 0.0;
-      low = Choose(below, middle, low);
-      high = Choose(below, high, middle);
+      const Pack cut = low - below * ((high - low) / Larger(above - below, 1e-300));
+      const Pack width = high - low;
+      const Mask inside = (low + 0.01 * width < cut) & (cut < high - 0.01 * width);
+      const Pack x = k % 2 == 0 ? middle : Choose(inside, cut, middle);
+      const Pack value = f(x);
+      const Mask negative = value < 0.0;
+      low = Choose(negative, x, low);
+      below = Choose(negative, value, below);
+      high = Choose(negative, high, x);
+      above = Choose(negative, above, value);
     }
     return 0.5 * (low + high);
   }

@@ -1,0 +1,64 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect WeakCell() {
+  Effect e;
+  e.id = "weak_cell";
+  e.title = "weak cells";
+  e.where = "device";
+  e.equation =
+      "one or a few cells of a substring under light (1 - d), with a conductance g of their own; "
+      "in "
+      "reverse I = ... - Gsh a Vj (1 + Vj / Vbr)^-m";
+  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.sentence = "a cell delivers less than its neighbours and is driven into reverse: a hot spot";
+  e.needs = "a curve of a module whose weak cell conducts in reverse before its bypass diode does";
+  e.acts = "between short circuit and the knee";
+  e.confused_with = {"mismatch", "shading", "nonohmic_shunt"};
+  e.separate_by = "cover one cell after the other, or a thermal image under load";
+  e.parameters = {
+      {"d", "light_deficit", "", "part of the light that the weak cells miss", 0, 0.999, 0},
+      {"cells", "weak_cells", "", "how many they are, all in one substring", 1, 24, 1},
+      {"g", "leak", "S", "conductance of each beside that of the others", 0, 5, 0, false, 1, 1},
+      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
+      {"a", "breakdown_factor", "", "of reverse breakdown", 0, 10, 0.1},
+      {"Vbr", "breakdown_voltage", "V", "of a cell, its size", 3, 60, 15},
+      {"m", "breakdown_exponent", "", "of reverse breakdown", 1, 6, 3.4}};
+  for (const int k : {1, 3, 4, 5, 6}) e.parameters[k].held = true;
+  e.cell = [](const auto* p, auto* cell) {
+    const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
+    const auto weak = p[1] * (1 / cell->cells);
+    const double elsewhere = 1 - mates / cell->cells;
+    cell->kinds = 2;
+    cell->kind[0] = {mates / cell->cells - weak, 1.0, 0.0, 0};
+    cell->kind[1] = {weak, 1.0 - p[0], p[2], 0};
+    cell->part[0] = {true, mates, 0};
+    cell->parts = 1;
+    if (elsewhere > 1e-9) {
+      cell->kind[2] = {p[1] * 0.0 + elsewhere, 1.0, 0.0, 1};
+      cell->part[1] = {false, mates, 0};  // never in reverse
+      cell->kinds = 3;
+      cell->parts = 2;
+    }
+    cell->bypass = p[3];
+    cell->reverse = ReverseLaw::kBishop;
+    cell->reverse_strength = p[4];
+    cell->reverse_voltage = p[5];
+    cell->reverse_exponent = p[6];
+  };
+  e.groups = true;
+  e.found_by = FoundBy::kRequest;
+  e.why_not = NeedsModule;
+  e.probes = [](const DataTraits&) {
+    std::vector<Probe> probes;
+    for (const double deficit : {0.05, 0.15, 0.4, 0.8}) {
+      probes.push_back({deficit, 1, 0, 0.5, 0.1, 15, 3.4});
+    }
+    return probes;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -32,7 +32,8 @@ class NullTest : public ::testing::Test {
       readings.points[k].current = clean_.current[k] + made_.bench.sigma[k] * random.Normal();
     }
     const LawFit fit = FitLaw(made_.bench, Law(), clean_.p);
-    return ScoreEffects(made_.bench, fit, Showable(readings.traits), kDraws, 100 + seed);
+    return ScoreEffects(made_.bench, fit, Showable(readings.traits),
+                        MakeNullDraws(readings.points.size(), kDraws, 100 + seed));
   }
 
   MadeBench made_;
@@ -102,7 +103,8 @@ const Score& Of(const std::vector<Score>& scores, const std::string& id) {
 std::vector<Score> ScoreCurve(const IvCurve& curve) {
   const MadeBench made = OnTheBench(curve);
   return ScoreEffects(made.bench, FitBase(made.bench, Law()),
-                      Showable(made.measurement->readings.traits), kDraws, 1);
+                      Showable(made.measurement->readings.traits),
+                      MakeNullDraws(curve.size(), kDraws, 1));
 }
 
 TEST(ScoreTest, SeesAWrongReading) {
@@ -167,12 +169,12 @@ TEST(SignatureTest, IsWhatTheProbeDoes) {
   const MadeBench made = OnTheBench(MadeCurve({}));
   const LawFit fit = FitBase(made.bench, Law());
   const Effect& drift = *FindEffect("drift");
-  const Eigen::VectorXd signature = Signature(made.bench, fit, drift, {0.01});
+  LawWorkspace workspace;
+  const Eigen::VectorXd signature = Signature(made.bench, fit, drift, {0.01}, &workspace);
   Law law;
   law.effects = {&drift};
   std::vector<double> p = fit.p, current(made.bench.used.size());
   p.push_back(0.01);
-  LawWorkspace workspace;
   ASSERT_TRUE(
       EvaluateLaw(law, made.measurement->readings, p.data(), &workspace, current.data(), nullptr));
   for (std::size_t k = 0; k < current.size(); ++k) {

@@ -27,7 +27,7 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const double variance = NoiseVariance(bench, extended);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
     const std::vector<Score> scores =
-        ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed);
+        ScoreEffects(bench, without, open, selection->nulls->leftCols(BriefDraws(options)));
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);

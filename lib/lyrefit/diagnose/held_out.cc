@@ -92,7 +92,8 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.calibration = selection.calibration;
-    inner.draws = std::max(options.draws / 2, 200);
+    inner.draws = std::min(options.draws, std::max(options.draws / 2, 200));
+    inner.nulls = selection.nulls;
     const Selection again =
         SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];

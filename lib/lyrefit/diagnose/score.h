@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,25 +44,40 @@ struct Calibration {
   double Corrected(double p) const;
 };
 
-// What a null has to estimate anew.
-struct NoiseQuestion {
-  const std::vector<char>& dark;
-  const DeviceNotes& notes;
-  const Grids& grids;
-  VoltageNoise voltage;
+// Standard normal numbers for the nulls of a measurement, a row a reading and a column a null.
+// Every scoring of it may use the same.
+using NullDraws = Eigen::MatrixXf;
+NullDraws MakeNullDraws(std::size_t readings, int draws, std::uint64_t seed, std::uint64_t run = 0);
+
+// Every effect of `candidates` beside the residuals of `fit` and beside simulated nulls (noise
+// through the same projections), which count for the whole list, boundaries and grids of probes
+// included. "unknown_structure" is scored on smooth waves along each stretch, "outliers" on single
+// readings.
+class ScoreSheet {
+ public:
+  ScoreSheet(const Workbench& bench, const LawFit& fit,
+             const std::vector<const Effect*>& candidates,
+             const Eigen::Ref<const NullDraws>& draws);
+  ScoreSheet(ScoreSheet&&) noexcept;
+  ScoreSheet& operator=(ScoreSheet&&) noexcept;
+  ~ScoreSheet();
+
+  std::vector<Score> Scores(const Calibration& calibration = {}) const;
+
+  // From `draws` nulls of their own, on the bench of the sheet.
+  Calibration Calibrate(const Workbench& bench, const NoiseEstimator& noise, int draws,
+                        std::uint64_t seed) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
-// Scores every effect of `candidates` on the residuals of `fit`; "unknown_structure" is scored on
-// smooth waves along each stretch, "outliers" on single readings. `draws` simulated nulls (noise
-// through the same projections) give p-values and their correction for the whole list, boundaries
-// and grids of probes included.
+// The scores of a sheet that nothing else is asked.
 std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
-                                const std::vector<const Effect*>& candidates, int draws,
-                                std::uint64_t seed, const Calibration& calibration = {});
-
-Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
-                            const std::vector<const Effect*>& candidates,
-                            const NoiseQuestion& question, int draws, std::uint64_t seed);
+                                const std::vector<const Effect*>& candidates,
+                                const Eigen::Ref<const NullDraws>& draws,
+                                const Calibration& calibration = {});
 
 // p-value of a statistic that an effect reached in a fit, its directions and the list counted.
 double CorrectedP(const Score& score, double statistic, int degrees,
@@ -71,6 +88,6 @@ double HopelessStatistic(const std::vector<Score>& scores);
 
 // What an effect's probe does to the fitted currents, whitened.
 Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
-                          const Probe& probe);
+                          const Probe& probe, LawWorkspace* workspace);
 
 }  // namespace lyrefit

@@ -26,10 +26,15 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
+        nulls_(options.nulls),
         bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
                used,      correlation,
                0,         options.watch} {
     for (const int k : values.at_lower) bench_.used[k] = 0;
+    if (nulls_ == nullptr) {
+      nulls_ = std::make_shared<const NullDraws>(
+          MakeNullDraws(readings.points.size(), options.draws, options.seed));
+    }
   }
 
   Selection Run() {
@@ -51,8 +56,9 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0 || values_.limited) AddClip();
-    Calibrate();
-    Extend(&selection);
+    ScoreSheet sheet = Sheet(options_.draws);
+    Calibrate(sheet);
+    Extend(std::move(sheet), &selection);
     selection.extended = fit_;
     selection.causes = causes_;
     selection.outliers = outliers_;
@@ -60,6 +66,7 @@ class Selector {
     selection.bench = bench_;
     selection.noise = noise_;
     selection.calibration = calibration_;
+    selection.nulls = nulls_;
     return selection;
   }
 
@@ -93,14 +100,17 @@ class Selector {
     SettleNoise();
   }
 
-  void Calibrate() {
+  ScoreSheet Sheet(int draws) const {
+    return ScoreSheet(bench_, fit_, Open(), nulls_->leftCols(draws));
+  }
+
+  void Calibrate(const ScoreSheet& sheet) {
     calibration_ = options_.calibration;
     if (!calibration_.nulls.empty()) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
-    const NoiseQuestion question{dark_, notes_, values_.grids,
-                                 voltage ? VoltageNoise::kAlways : VoltageNoise::kNever};
-    calibration_ =
-        CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5, options_.seed);
+    const NoiseEstimator noise(readings_, dark_, bench_.used, notes_, values_.grids,
+                               voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
+    calibration_ = sheet.Calibrate(bench_, noise, options_.draws / 5, options_.seed);
   }
 
   // Whether an effect is there already, or something it cannot stand beside.
@@ -169,13 +179,13 @@ class Selector {
     return nullptr;
   }
 
-  void Extend(Selection* selection) {
+  void Extend(ScoreSheet sheet, Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
     std::set<std::set<const Effect*>> seen;
     std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
-      const std::vector<Score> scores =
-          ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step, calibration_);
+      if (step > 0) sheet = Sheet(options_.draws);
+      const std::vector<Score> scores = sheet.Scores(calibration_);
       if (Stopped(bench_.watch)) return;
       double smallest = 1;
       for (const Score& score : scores) {
@@ -325,8 +335,7 @@ class Selector {
     fit_ = FitWithout(bench_, present, c);
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
-      const std::vector<Rival> rivals =
-          FitAll(ScoreEffects(bench_, fit_, Open(), options_.draws / 4 + 100, options_.seed));
+      const std::vector<Rival> rivals = FitAll(Sheet(BriefDraws(options_)).Scores());
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
       const double kept =
@@ -369,6 +378,7 @@ class Selector {
   const DeviceNotes& notes_;
   const ValueFindings& values_;
   const SelectOptions& options_;
+  std::shared_ptr<const NullDraws> nulls_;
   Workbench bench_;
   Noise noise_;
   Calibration calibration_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "lyrefit/diagnose/noise.h"
@@ -16,7 +18,8 @@ constexpr double kLaterLevel = 0.2;
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
-  Calibration calibration;  // of the list's p-values; found where it is empty
+  std::shared_ptr<const NullDraws> nulls;  // at least so many; drawn where there are none
+  Calibration calibration;                 // of the list's p-values; found where it is empty
   int largest_causes = 4;
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
@@ -29,6 +32,11 @@ struct SelectOptions {
   std::vector<const Effect*> candidates;  // allowed by the kind of data
   Watch* watch = nullptr;
 };
+
+// Nulls that are enough where scores only decide what is fitted.
+inline int BriefDraws(const SelectOptions& options) {
+  return std::min(options.draws, options.draws / 4 + 100);
+}
 
 // What is read off the values before any fit.
 struct ValueFindings {
@@ -70,6 +78,7 @@ struct Selection {
   Workbench base_bench;       // with the noise of the base model
   Noise noise;
   Calibration calibration;
+  std::shared_ptr<const NullDraws> nulls;
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.

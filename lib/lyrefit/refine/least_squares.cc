@@ -78,25 +78,34 @@ bool SolveFree(const Quadratic& model, const std::vector<int>& free, double radi
   return true;
 }
 
-// Where the damped step leads. What it would carry beyond a bound stops there, and the others make
-// the best of it.
+// Where the damped step leads. At the first bound on its way it stops for that parameter, and goes
+// on in the others: the model falls all the way.
 bool TakeStep(const LeastSquaresProblem& problem, const Quadratic& model, const VectorXd& from,
               double radius, VectorXd* to) {
   std::vector<int> free = model.free;
   VectorXd step = VectorXd::Zero(from.size());
   *to = from;
-  for (std::size_t before = free.size() + 1; free.size() < before && !free.empty();) {
-    before = free.size();
+  while (!free.empty()) {
+    const VectorXd before = step;
     if (!SolveFree(model, free, radius, &step)) return false;
-    for (const int k : free) (*to)[k] = from[k] + step[k];
-    const auto stops = [&](int k) {
-      const double inside = std::min(std::max((*to)[k], problem.lower[k]), problem.upper[k]);
-      const bool beyond = inside != (*to)[k];
-      (*to)[k] = inside;
-      step[k] = inside - from[k];
-      return beyond;
-    };
-    free.erase(std::remove_if(free.begin(), free.end(), stops), free.end());
+    double reach = 1;
+    int first = -1;
+    for (const int k : free) {
+      const double bound = step[k] < before[k] ? problem.lower[k] : problem.upper[k];
+      const double room = (bound - from[k] - before[k]) / (step[k] - before[k]);
+      if (!(room < reach)) continue;
+      reach = std::max(room, 0.0);
+      first = k;
+    }
+    for (const int k : free) {
+      step[k] = before[k] + reach * (step[k] - before[k]);
+      (*to)[k] = std::min(std::max(from[k] + step[k], problem.lower[k]), problem.upper[k]);
+    }
+    if (first < 0) break;
+    const bool down = (*to)[first] - problem.lower[first] < problem.upper[first] - (*to)[first];
+    (*to)[first] = down ? problem.lower[first] : problem.upper[first];
+    step[first] = (*to)[first] - from[first];
+    free.erase(std::find(free.begin(), free.end(), first));
   }
   return true;
 }

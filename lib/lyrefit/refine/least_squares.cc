@@ -137,10 +137,17 @@ struct Trust {
   }
 };
 
+// Where the parabola through a step's start, with its slope there, and its end is lowest: for ends
+// that disappoint.
+double BestPart(const Quadratic& model, const VectorXd& step, double gained) {
+  const double slope = -2 * model.gradient.dot(step);
+  return std::min(std::max(slope / (2 * (slope - gained)), 0.1), 0.5);
+}
+
 LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
                         Place here) {
   // A step that is hardly damped and promises nothing need not be tried.
-  constexpr double kHardlyDamped = 1e3;
+  constexpr double kHardlyDamped = 1e3, kLeastQuality = 1e-3;
   LeastSquaresEnd end;
   end.usable = true;
   Place next = here;
@@ -163,16 +170,17 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
       continue;
     }
     invalid = 0;
-    const double gained = here.sum - next.sum;
-    const bool better = gained > 0 && gained > 1e-3 * predicted;
+    double gained = here.sum - next.sum;
     end.converged = std::fabs(gained) <= enough;
+    if (gained > kLeastQuality * predicted) {
+      trust.Lengthen(gained / predicted);
+    } else if (!end.converged) {
+      next.p = here.p + BestPart(model, step, gained) * step;
+      gained = Evaluate(problem, &next) ? here.sum - next.sum : 0;
+      if (!(gained > kLeastQuality * predicted)) trust.Shorten();
+    }
     if (gained > 0) std::swap(here, next);
     if (end.converged) break;
-    if (better) {
-      trust.Lengthen(gained / predicted);
-    } else {
-      trust.Shorten();
-    }
     if (gained > 0) model = Expand(problem, here);
   }
   end.converged = end.converged || model.free.empty();

@@ -143,8 +143,8 @@ class Selector {
     return statistics[most - 1];
   }
 
-  // Fits the effects that stand a chance; with `all` the others as well, in passing. Where nothing
-  // `is_there` all are fitted in passing: it is for the record.
+  // Fits the effects that stand a chance; with `all` the others as well, for the record. Where
+  // nothing `is_there` all are.
   std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false,
                             bool is_there = true) const {
     std::vector<Rival> rivals;
@@ -156,9 +156,9 @@ class Selector {
                         score.effect->probes != nullptr &&
                         fit_.law.size() + score.effect->size() <= kMostParameters;
       if (!fits || Stopped(bench_.watch)) continue;
-      const Effort effort = is_there && !options_.in_passing && score.statistic >= hopeless
-                                ? Effort::kFull
-                                : Effort::kInPassing;
+      const Effort effort = !is_there || score.statistic < hopeless ? Effort::kForTheRecord
+                            : options_.in_passing                   ? Effort::kInPassing
+                                                                    : Effort::kFull;
       Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }

@@ -146,8 +146,9 @@ double BestPart(const Quadratic& model, const VectorXd& step, double gained) {
 
 LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
                         Place here) {
-  // A step that is hardly damped and promises nothing need not be tried.
-  constexpr double kHardlyDamped = 1e3, kLeastQuality = 1e-3;
+  // A step that is hardly damped and promises nothing need not be tried; nor one that promises so
+  // little that many like it would not do.
+  constexpr double kHardlyDamped = 1e3, kLeastQuality = 1e-3, kMany = 10;
   LeastSquaresEnd end;
   end.usable = true;
   Place next = here;
@@ -163,7 +164,8 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     const double enough = options.function_tolerance * here.sum;
     const bool promising = predicted > enough || trust.radius < kHardlyDamped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
-    if (end.converged) break;
+    const bool hopeless = here.sum - kMany * predicted > options.to_beat;
+    if (end.converged || (hopeless && trust.radius >= kHardlyDamped)) break;
     if (!solved || !Evaluate(problem, &next)) {
       ++invalid;
       trust.Shorten();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace lyrefit {
@@ -19,7 +20,10 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresOptions {
   int max_iterations = 60;
-  double function_tolerance = 1e-9;  // relative change of the cost
+  double function_tolerance = 1e-9;  // relative change of the sum of squares
+  // A sum of squares that others reached: where steps do not promise to come near it, the descent
+  // ends.
+  double to_beat = std::numeric_limits<double>::infinity();
 };
 
 struct LeastSquaresEnd {

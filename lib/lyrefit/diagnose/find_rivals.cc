@@ -26,8 +26,7 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const LawFit& extended = selection->extended;
     const double variance = NoiseVariance(bench, extended);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
-    const std::vector<Score> scores =
-        ScoreEffects(bench, without, open, selection->nulls->leftCols(BriefDraws(options)));
+    const std::vector<Score> scores = Rescore(bench, without, open, selection->scores);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);

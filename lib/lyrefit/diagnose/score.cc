@@ -83,4 +83,24 @@ std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
   return ScoreSheet(bench, fit, candidates, draws).Scores(calibration);
 }
 
+std::vector<Score> Rescore(const Workbench& bench, const LawFit& fit,
+                           const std::vector<const Effect*>& candidates,
+                           const std::vector<Score>& known) {
+  std::vector<Score> scores;
+  for (Candidate& candidate : PrepareAll(bench, fit, candidates).candidates) {
+    Score& score = candidate.score;
+    const auto same = std::find_if(known.begin(), known.end(), [&](const Score& other) {
+      return other.effect == score.effect && other.testable;
+    });
+    if (same != known.end()) {
+      score.charge = same->charge;
+      score.catalogue = same->catalogue;
+    } else if (score.testable) {  // at most what all its directions would
+      score.charge = 2 * std::log(std::max<double>(candidate.directions.cols(), 1));
+    }
+    scores.push_back(std::move(score));
+  }
+  return scores;
+}
+
 }  // namespace lyrefit

@@ -79,6 +79,12 @@ std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
                                 const Eigen::Ref<const NullDraws>& draws,
                                 const Calibration& calibration = {});
 
+// The same without nulls, where scores decide only what is fitted: what a list counts for hardly
+// changes with one cause more or less, so that charges are taken from `known` scores. No p-values.
+std::vector<Score> Rescore(const Workbench& bench, const LawFit& fit,
+                           const std::vector<const Effect*>& candidates,
+                           const std::vector<Score>& known);
+
 // p-value of a statistic that an effect reached in a fit, its directions and the list counted.
 double CorrectedP(const Score& score, double statistic, int degrees,
                   const Calibration& calibration);

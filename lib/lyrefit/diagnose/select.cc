@@ -56,7 +56,7 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0 || values_.limited) AddClip();
-    ScoreSheet sheet = Sheet(options_.draws);
+    ScoreSheet sheet = Sheet();
     Calibrate(sheet);
     Extend(std::move(sheet), &selection);
     selection.extended = fit_;
@@ -67,6 +67,7 @@ class Selector {
     selection.noise = noise_;
     selection.calibration = calibration_;
     selection.nulls = nulls_;
+    selection.scores = first_;
     return selection;
   }
 
@@ -100,8 +101,8 @@ class Selector {
     SettleNoise();
   }
 
-  ScoreSheet Sheet(int draws) const {
-    return ScoreSheet(bench_, fit_, Open(), nulls_->leftCols(draws));
+  ScoreSheet Sheet() const {
+    return ScoreSheet(bench_, fit_, Open(), nulls_->leftCols(options_.draws));
   }
 
   void Calibrate(const ScoreSheet& sheet) {
@@ -184,9 +185,10 @@ class Selector {
     std::set<std::set<const Effect*>> seen;
     std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
-      if (step > 0) sheet = Sheet(options_.draws);
+      if (step > 0) sheet = Sheet();
       const std::vector<Score> scores = sheet.Scores(calibration_);
       if (Stopped(bench_.watch)) return;
+      if (step == 0) first_ = scores;
       double smallest = 1;
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
@@ -335,7 +337,7 @@ class Selector {
     fit_ = FitWithout(bench_, present, c);
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
-      const std::vector<Rival> rivals = FitAll(Sheet(BriefDraws(options_)).Scores());
+      const std::vector<Rival> rivals = FitAll(Rescore(bench_, fit_, Open(), first_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
       const double kept =
@@ -383,6 +385,7 @@ class Selector {
   Noise noise_;
   Calibration calibration_;
   LawFit fit_;
+  std::vector<Score> first_;  // scores of the first step
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;
   double outlier_p_ = 1;

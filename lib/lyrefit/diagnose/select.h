@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -32,11 +31,6 @@ struct SelectOptions {
   std::vector<const Effect*> candidates;  // allowed by the kind of data
   Watch* watch = nullptr;
 };
-
-// Nulls that are enough where scores only decide what is fitted.
-inline int BriefDraws(const SelectOptions& options) {
-  return std::min(options.draws, options.draws / 4 + 100);
-}
 
 // What is read off the values before any fit.
 struct ValueFindings {
@@ -71,7 +65,8 @@ struct Selection {
   std::vector<LawFit> without;      // the extended law without each cause, filled by FindRivals
   std::vector<int> outliers;        // readings left out as wrong
   double outlier_p = 1;
-  std::vector<Rival> trials;  // each effect on the base model
+  std::vector<Score> scores;  // of each effect on the base model
+  std::vector<Rival> trials;  // its fit there
   double unknown_p = 1;       // corrected, of unknown structure in what `extended` leaves
   bool unknown = false;       // it is the verdict
   Workbench bench;            // with the noise of the extended model

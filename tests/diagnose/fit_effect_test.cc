@@ -16,8 +16,7 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   const LawFit base = FitBase(made.bench, Law());
   const auto candidates = Showable(made.measurement->readings.traits);
   int fitted = 0;
-  for (const Score& score :
-       ScoreEffects(made.bench, base, candidates, MakeNullDraws(made.bench.sigma.size(), 200, 1))) {
+  for (const Score& score : ScoreEffects(made.bench, base, candidates, 200, 1)) {
     if (!score.testable || score.effect->probes == nullptr) continue;
     // Shares and limits that are tried out have no value at which the effect is not there.
     const std::string id = score.effect->id;
@@ -40,8 +39,8 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
   const MadeBench made = OnTheBench(curve);
   const LawFit base = FitBase(made.bench, Law());
-  const std::vector<Score> scores = ScoreEffects(made.bench, base, {FindEffect("transient")},
-                                                 MakeNullDraws(made.bench.sigma.size(), 200, 1));
+  const std::vector<Score> scores =
+      ScoreEffects(made.bench, base, {FindEffect("transient")}, 200, 1);
   const LawFit fit = FitEffect(made.bench, base, scores.front());
   ASSERT_TRUE(fit.usable);
   EXPECT_LT(fit.sum, 0.5 * base.sum);

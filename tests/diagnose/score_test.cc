@@ -32,8 +32,7 @@ class NullTest : public ::testing::Test {
       readings.points[k].current = clean_.current[k] + made_.bench.sigma[k] * random.Normal();
     }
     const LawFit fit = FitLaw(made_.bench, Law(), clean_.p);
-    return ScoreEffects(made_.bench, fit, Showable(readings.traits),
-                        MakeNullDraws(readings.points.size(), kDraws, 100 + seed));
+    return ScoreEffects(made_.bench, fit, Showable(readings.traits), kDraws, 100 + seed);
   }
 
   MadeBench made_;
@@ -103,8 +102,7 @@ const Score& Of(const std::vector<Score>& scores, const std::string& id) {
 std::vector<Score> ScoreCurve(const IvCurve& curve) {
   const MadeBench made = OnTheBench(curve);
   return ScoreEffects(made.bench, FitBase(made.bench, Law()),
-                      Showable(made.measurement->readings.traits),
-                      MakeNullDraws(curve.size(), kDraws, 1));
+                      Showable(made.measurement->readings.traits), kDraws, 1);
 }
 
 TEST(ScoreTest, SeesAWrongReading) {

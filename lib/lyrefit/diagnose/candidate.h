@@ -1,12 +1,36 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
-#include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
 
 namespace lyrefit {
+
+// One way an effect could show: the direction in which it would move the whitened currents, less
+// what the present law absorbs.
+struct Direction {
+  int probe = 0;     // of the effect's probes
+  double kept = 0;   // part of the signature's norm the law cannot absorb
+  double norm = 0;   // of what is kept, at the probe's strength
+  double score = 0;  // its length along the residual, signed: positive if the effect helps
+};
+
+// How an effect scores on the residuals of a law.
+struct Score {
+  const Effect* effect = nullptr;
+  bool testable = false;
+  std::string why_not;
+  std::vector<Direction> directions;  // the best first
+  double statistic = 0;               // F(1, dof - 1) of the best direction
+  double p_value = 1;                 // all its directions counted, by simulated nulls
+  double corrected_p = 1;             // the whole catalogue counted
+  double charge = 0;                  // 2 ln of its effective number of directions
+  double catalogue = 1;               // how many such effects the whole list is worth
+  double kept = 0;                    // of its best kept direction
+  int outlier = -1;                   // of `outliers`: the reading
+};
 
 // An effect on its bench: its own part of a score, and how it would show in noise.
 struct Candidate {
@@ -22,8 +46,14 @@ struct Prepared {
   std::vector<Candidate> candidates;
 };
 
+// Every effect of `effects` beside the residuals of `fit`, not judged yet. "unknown_structure" is
+// scored on smooth waves along each stretch, "outliers" on single readings.
 Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
                     const std::vector<const Effect*>& effects);
+
+// What an effect's probe does to the fitted currents, whitened.
+Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
+                          const Probe& probe, LawWorkspace* workspace);
 
 // F(1, degrees - 1) of a score that takes its square off a sum of squares.
 double Statistic(double score, double sum, int degrees, double least_variance);

@@ -26,7 +26,8 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const LawFit& extended = selection->extended;
     const double variance = NoiseVariance(bench, extended);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
-    const std::vector<Score> scores = Rescore(bench, without, open, selection->scores);
+    const std::vector<Score> scores =
+        JudgeScores(PrepareAll(bench, without, open), *selection->worth);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);

@@ -91,9 +91,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.in_passing = true;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
-    inner.calibration = selection.calibration;
-    inner.draws = std::min(options.draws, std::max(options.draws / 2, 200));
-    inner.nulls = selection.nulls;
+    inner.worth = selection.worth;
     const Selection again =
         SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];

@@ -2,69 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/diagnose/candidate.h"
-#include "lyrefit/diagnose/null_law.h"
 #include "lyrefit/diagnose/nulls.h"
 
 namespace lyrefit {
+namespace {
 
-NullDraws MakeNullDraws(std::size_t readings, int draws, std::uint64_t seed, std::uint64_t run) {
-  NullDraws normal(static_cast<int>(readings), draws);
+// A row a reading and a column a null.
+Eigen::MatrixXf DrawNormal(const Workbench& bench, int draws, std::uint64_t seed,
+                           std::uint64_t run) {
+  Eigen::MatrixXf normal(static_cast<int>(bench.sigma.size()), draws);
   RandomStream random(seed, run);
   for (float& number : normal.reshaped()) number = static_cast<float>(random.Normal());
   return normal;
 }
 
-struct ScoreSheet::Parts {
-  Prepared prepared;
-  Eigen::MatrixXf nulls;
-  ListLaw list;
-};
-
-ScoreSheet::ScoreSheet(const Workbench& bench, const LawFit& fit,
-                       const std::vector<const Effect*>& candidates,
-                       const Eigen::Ref<const NullDraws>& draws)
-    : parts_(new Parts) {
-  Prepared& prepared = parts_->prepared;
-  prepared = PrepareAll(bench, fit, candidates);
-  if (prepared.degrees < 3) return;
-  parts_->nulls = SimulateNulls(bench, prepared, draws);
-  parts_->list = ListLaw(parts_->nulls, prepared.degrees);
+// By the tail of one direction, counted as often as it has any.
+void CountDirections(const Candidate& candidate, int degrees, Score* score) {
+  const double directions = std::max<double>(candidate.directions.cols(), 1);
+  score->p_value = std::min(1.0, directions * TailOf(score->statistic, degrees));
+  score->charge = 2 * std::log(directions);
 }
 
-ScoreSheet::ScoreSheet(ScoreSheet&&) noexcept = default;
-ScoreSheet& ScoreSheet::operator=(ScoreSheet&&) noexcept = default;
-ScoreSheet::~ScoreSheet() = default;
-
-std::vector<Score> ScoreSheet::Scores(const Calibration& calibration) const {
-  std::vector<Score> scores;
-  std::size_t at = 0;
-  for (const Candidate& candidate : parts_->prepared.candidates) {
-    Score score = candidate.score;
-    if (score.testable) {
-      const NullLaw& law = parts_->list.laws[at++];
-      score.p_value = law.Of(score.statistic);
-      score.charge = 2 * std::log(law.Directions());
-      score.catalogue = parts_->list.Catalogue();
-      score.corrected_p = calibration.Corrected(parts_->list.Corrected(score.p_value));
-    }
-    scores.push_back(std::move(score));
-  }
-  return scores;
-}
-
-Calibration ScoreSheet::Calibrate(const Workbench& bench, const NoiseEstimator& noise, int draws,
-                                  std::uint64_t seed) const {
+// `list`: a smaller one than what is to be calibrated, so that it scatters more and errs to the
+// safe side.
+Calibration Calibrate(const Workbench& bench, const Prepared& prepared, const ListLaw& list,
+                      const NoiseEstimator& noise, const Eigen::MatrixXf& draws) {
   Calibration calibration;
-  if (parts_->list.laws.empty()) return calibration;
-  // A list that counts few nulls is calibrated for being one.
-  const int counted = std::min(2 * draws, static_cast<int>(parts_->nulls.rows()));
-  const ListLaw list(parts_->nulls.topRows(counted), parts_->prepared.degrees);
-  Begin(bench.watch, "nulls", draws);
-  const Eigen::MatrixXf nulls = SimulateRefits(
-      bench, parts_->prepared, noise, MakeNullDraws(bench.readings->points.size(), draws, seed, 1));
+  Begin(bench.watch, "nulls", draws.cols());
+  const Eigen::MatrixXf nulls = SimulateRefits(bench, prepared, noise, draws);
   for (int d = 0; d < nulls.rows(); ++d) {
     double smallest = 1;
     for (int c = 0; c < nulls.cols(); ++c) {
@@ -76,27 +44,42 @@ Calibration ScoreSheet::Calibrate(const Workbench& bench, const NoiseEstimator& 
   return calibration;
 }
 
-std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
-                                const std::vector<const Effect*>& candidates,
-                                const Eigen::Ref<const NullDraws>& draws,
-                                const Calibration& calibration) {
-  return ScoreSheet(bench, fit, candidates, draws).Scores(calibration);
+}  // namespace
+
+ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
+                         const NoiseEstimator* noise, int draws, std::uint64_t seed) {
+  ScoreWorth worth;
+  if (prepared.degrees < 3) return worth;
+  for (const Candidate& candidate : prepared.candidates) {
+    if (candidate.score.testable) worth.effects.push_back(candidate.score.effect);
+  }
+  if (worth.effects.empty()) return worth;
+  const Eigen::MatrixXf nulls = SimulateNulls(bench, prepared, DrawNormal(bench, draws, seed, 0));
+  worth.list = ListLaw(nulls, prepared.degrees);
+  if (noise == nullptr) return worth;
+  worth.calibration =
+      Calibrate(bench, prepared, ListLaw(nulls.topRows(draws / 5 * 2), prepared.degrees), *noise,
+                DrawNormal(bench, draws / 5, seed, 1));
+  return worth;
 }
 
-std::vector<Score> Rescore(const Workbench& bench, const LawFit& fit,
-                           const std::vector<const Effect*>& candidates,
-                           const std::vector<Score>& known) {
+std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth) {
   std::vector<Score> scores;
-  for (Candidate& candidate : PrepareAll(bench, fit, candidates).candidates) {
-    Score& score = candidate.score;
-    const auto same = std::find_if(known.begin(), known.end(), [&](const Score& other) {
-      return other.effect == score.effect && other.testable;
-    });
-    if (same != known.end()) {
-      score.charge = same->charge;
-      score.catalogue = same->catalogue;
-    } else if (score.testable) {  // at most what all its directions would
-      score.charge = 2 * std::log(std::max<double>(candidate.directions.cols(), 1));
+  for (const Candidate& candidate : prepared.candidates) {
+    Score score = candidate.score;
+    if (score.testable) {
+      const auto at = std::find(worth.effects.begin(), worth.effects.end(), score.effect);
+      if (at != worth.effects.end()) {
+        const NullLaw& law = worth.list.laws[at - worth.effects.begin()];
+        score.p_value = law.Of(score.statistic);
+        score.charge = 2 * std::log(law.Directions());
+      } else {
+        CountDirections(candidate, prepared.degrees, &score);
+      }
+      if (!worth.effects.empty()) {
+        score.catalogue = worth.list.Catalogue();
+        score.corrected_p = worth.calibration.Corrected(worth.list.Corrected(score.p_value));
+      }
     }
     scores.push_back(std::move(score));
   }

@@ -26,15 +26,11 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
-        nulls_(options.nulls),
+        worth_(options.worth),
         bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
                used,      correlation,
                0,         options.watch} {
     for (const int k : values.at_lower) bench_.used[k] = 0;
-    if (nulls_ == nullptr) {
-      nulls_ = std::make_shared<const NullDraws>(
-          MakeNullDraws(readings.points.size(), options.draws, options.seed));
-    }
   }
 
   Selection Run() {
@@ -56,18 +52,16 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0 || values_.limited) AddClip();
-    ScoreSheet sheet = Sheet();
-    Calibrate(sheet);
-    Extend(std::move(sheet), &selection);
+    Prepared prepared = PrepareAll(bench_, fit_, Open());
+    FindWorth(prepared);
+    Extend(std::move(prepared), &selection);
     selection.extended = fit_;
     selection.causes = causes_;
     selection.outliers = outliers_;
     selection.outlier_p = outlier_p_;
     selection.bench = bench_;
     selection.noise = noise_;
-    selection.calibration = calibration_;
-    selection.nulls = nulls_;
-    selection.scores = first_;
+    selection.worth = worth_;
     return selection;
   }
 
@@ -101,17 +95,13 @@ class Selector {
     SettleNoise();
   }
 
-  ScoreSheet Sheet() const {
-    return ScoreSheet(bench_, fit_, Open(), nulls_->leftCols(options_.draws));
-  }
-
-  void Calibrate(const ScoreSheet& sheet) {
-    calibration_ = options_.calibration;
-    if (!calibration_.nulls.empty()) return;
+  void FindWorth(const Prepared& prepared) {
+    if (worth_ != nullptr) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
     const NoiseEstimator noise(readings_, dark_, bench_.used, notes_, values_.grids,
                                voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
-    calibration_ = sheet.Calibrate(bench_, noise, options_.draws / 5, options_.seed);
+    worth_ = std::make_shared<const ScoreWorth>(
+        SimulateWorth(bench_, prepared, &noise, options_.draws, options_.seed));
   }
 
   // Whether an effect is there already, or something it cannot stand beside.
@@ -180,15 +170,14 @@ class Selector {
     return nullptr;
   }
 
-  void Extend(ScoreSheet sheet, Selection* selection) {
+  void Extend(Prepared prepared, Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
     std::set<std::set<const Effect*>> seen;
     std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
-      if (step > 0) sheet = Sheet();
-      const std::vector<Score> scores = sheet.Scores(calibration_);
+      if (step > 0) prepared = PrepareAll(bench_, fit_, Open());
+      const std::vector<Score> scores = JudgeScores(prepared, *worth_);
       if (Stopped(bench_.watch)) return;
-      if (step == 0) first_ = scores;
       double smallest = 1;
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
@@ -302,8 +291,8 @@ class Selector {
   }
 
   bool Accept(const Rival& rival) {
-    const double p =
-        CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law), calibration_);
+    const double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                                worth_->calibration);
     if (!(p < level_)) return false;
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
@@ -337,7 +326,8 @@ class Selector {
     fit_ = FitWithout(bench_, present, c);
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
-      const std::vector<Rival> rivals = FitAll(Rescore(bench_, fit_, Open(), first_));
+      const std::vector<Rival> rivals =
+          FitAll(JudgeScores(PrepareAll(bench_, fit_, Open()), *worth_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
       const double kept =
@@ -366,7 +356,7 @@ class Selector {
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable || Stopped(bench_.watch)) continue;
       const double loss = (without.sum - fit_.sum) / Variance(fit_);
-      if (CorrectedP(causes_[c].score, loss, Degrees(bench_, fit_.law), calibration_) <
+      if (CorrectedP(causes_[c].score, loss, Degrees(bench_, fit_.law), worth_->calibration) <
           options_.level * kLaterLevel)
         continue;
       fit_ = std::move(without);
@@ -380,12 +370,10 @@ class Selector {
   const DeviceNotes& notes_;
   const ValueFindings& values_;
   const SelectOptions& options_;
-  std::shared_ptr<const NullDraws> nulls_;
+  std::shared_ptr<const ScoreWorth> worth_;
   Workbench bench_;
   Noise noise_;
-  Calibration calibration_;
   LawFit fit_;
-  std::vector<Score> first_;  // scores of the first step
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;
   double outlier_p_ = 1;

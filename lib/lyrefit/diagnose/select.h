@@ -17,8 +17,7 @@ constexpr double kLaterLevel = 0.2;
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
-  std::shared_ptr<const NullDraws> nulls;  // at least so many; drawn where there are none
-  Calibration calibration;                 // of the list's p-values; found where it is empty
+  std::shared_ptr<const ScoreWorth> worth;  // of the list; simulated where there is none
   int largest_causes = 4;
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
@@ -65,15 +64,13 @@ struct Selection {
   std::vector<LawFit> without;      // the extended law without each cause, filled by FindRivals
   std::vector<int> outliers;        // readings left out as wrong
   double outlier_p = 1;
-  std::vector<Score> scores;  // of each effect on the base model
-  std::vector<Rival> trials;  // its fit there
+  std::vector<Rival> trials;  // each effect on the base model
   double unknown_p = 1;       // corrected, of unknown structure in what `extended` leaves
   bool unknown = false;       // it is the verdict
   Workbench bench;            // with the noise of the extended model
   Workbench base_bench;       // with the noise of the base model
   Noise noise;
-  Calibration calibration;
-  std::shared_ptr<const NullDraws> nulls;
+  std::shared_ptr<const ScoreWorth> worth;
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.

@@ -45,7 +45,8 @@ inline std::vector<const Effect*> Showable(const DataTraits& traits) {
 inline std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
                                        const std::vector<const Effect*>& effects, int draws,
                                        std::uint64_t seed) {
-  const Prepared prepared = PrepareAll(bench, fit, effects);
+  Imprints imprints;
+  const Prepared prepared = PrepareAll(bench, fit, effects, &imprints);
   return JudgeScores(prepared, SimulateWorth(bench, prepared, nullptr, draws, seed));
 }
 

@@ -48,22 +48,52 @@ struct Raw {
   int probe;
 };
 
-// Each starts from the junction voltages of the one before.
-std::vector<Raw> Signatures(const Workbench& bench, const LawFit& fit, const Effect& effect) {
+std::vector<Raw> Signatures(const Workbench& bench, const Effect& effect, const Imprint& imprint) {
   std::vector<Raw> raw;
   if (std::strcmp(effect.id, "unknown_structure") == 0) {
     for (Eigen::VectorXd& wave : Waves(bench)) raw.push_back({std::move(wave), -1});
     return raw;
   }
-  const std::vector<Probe> probes = effect.probes(bench.readings->traits);
-  LawWorkspace workspace;
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    Eigen::VectorXd signature = Signature(bench, fit, effect, probes[k], &workspace);
-    if (signature.allFinite() && signature.norm() > 0) {
-      raw.push_back({std::move(signature), static_cast<int>(k)});
-    }
+  const auto moved = imprint.moved.find(&effect);
+  for (int k = 0; moved != imprint.moved.end() && k < moved->second.cols(); ++k) {
+    Eigen::VectorXd signature = Whiten(bench, moved->second.col(k));
+    if (signature.allFinite() && signature.norm() > 0) raw.push_back({std::move(signature), k});
   }
   return raw;
+}
+
+// Each probe starts from the junction voltages of the one before.
+Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& effect) {
+  Law law = fit.law;
+  law.effects.push_back(&effect);
+  const std::vector<Probe> probes = effect.probes(readings.traits);
+  const int count = static_cast<int>(readings.points.size());
+  const Eigen::Map<const Eigen::VectorXd> before(fit.current.data(), count);
+  Eigen::MatrixXd moved(count, static_cast<int>(probes.size()));
+  LawWorkspace workspace;
+  for (int k = 0; k < moved.cols(); ++k) {
+    std::vector<double> p = fit.p;
+    p.insert(p.end(), probes[k].begin(), probes[k].end());
+    auto column = moved.col(k);
+    if (EvaluateLaw(law, readings, p.data(), &workspace, column.data(), nullptr)) {
+      column -= before;
+    } else {
+      column.setZero();
+    }
+  }
+  return moved;
+}
+
+bool Serves(const Workbench& bench, const LawFit& fit, const std::vector<const Effect*>& effects,
+            const Imprint& imprint) {
+  if (imprint.fit.law.effects != fit.law.effects) return false;
+  for (const Effect* effect : effects) {
+    if (effect->probes != nullptr && imprint.moved.count(effect) == 0) return false;
+  }
+  const int count = static_cast<int>(fit.current.size());
+  const Eigen::Map<const Eigen::VectorXd> here(fit.current.data(), count),
+      there(imprint.fit.current.data(), count);
+  return Whiten(bench, here - there).squaredNorm() < bench.count();
 }
 
 // How far from its neutral value a probe's strength may still grow.
@@ -75,15 +105,15 @@ double Headroom(const Effect& effect, const Probe& probe) {
   return used > 0 ? std::max(upper, lower) / used : 1;
 }
 
-Candidate Prepare(const Workbench& bench, const LawFit& fit, const Linearized& linear,
-                  const Effect& effect) {
+Candidate Prepare(const Workbench& bench, const Linearized& linear, const Effect& effect,
+                  const Imprint& imprint) {
   Candidate candidate;
   candidate.score.effect = &effect;
   candidate.two_sided = IsTwoSided(effect);
   const std::vector<Probe> probes =
       effect.probes != nullptr ? effect.probes(bench.readings->traits) : std::vector<Probe>();
   std::vector<Eigen::VectorXd> kept;
-  for (const Raw& raw : Signatures(bench, fit, effect)) {
+  for (const Raw& raw : Signatures(bench, effect, imprint)) {
     Eigen::VectorXd rest = raw.signature;
     TakeOut(linear.basis, &rest);
     Direction direction;
@@ -156,23 +186,26 @@ Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, cons
 
 }  // namespace
 
-Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
-                          const Probe& probe, LawWorkspace* workspace) {
-  Law law = fit.law;
-  law.effects.push_back(&effect);
-  std::vector<double> p = fit.p;
-  p.insert(p.end(), probe.begin(), probe.end());
-  const int count = static_cast<int>(bench.readings->points.size());
-  Eigen::VectorXd moved(count);
-  if (!EvaluateLaw(law, *bench.readings, p.data(), workspace, moved.data(), nullptr)) {
-    return Eigen::VectorXd::Zero(count);
+std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+                                           const std::vector<const Effect*>& effects,
+                                           Imprints* known) {
+  for (const auto& imprint : *known) {
+    if (Serves(bench, fit, effects, *imprint)) return imprint;
   }
-  for (int k = 0; k < count; ++k) moved[k] -= fit.current[k];
-  return Whiten(bench, moved);
+  auto imprint = std::make_shared<Imprint>();
+  imprint->fit = fit;
+  for (const Effect* effect : effects) {
+    if (Stopped(bench.watch)) break;
+    if (effect->probes == nullptr) continue;
+    imprint->moved.emplace(effect, Move(*bench.readings, fit, *effect));
+  }
+  known->push_back(imprint);
+  return imprint;
 }
 
 Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
-                    const std::vector<const Effect*>& effects) {
+                    const std::vector<const Effect*>& effects, Imprints* known) {
+  const std::shared_ptr<const Imprint> imprint = FindImprint(bench, fit, effects, known);
   Prepared prepared;
   prepared.linear = Linearize(bench, fit);
   prepared.degrees = bench.count() - static_cast<int>(prepared.linear.basis.cols());
@@ -181,7 +214,7 @@ Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
     if (Stopped(bench.watch)) break;
     const bool outliers = std::strcmp(effect->id, "outliers") == 0;
     Candidate candidate = outliers ? PrepareOutliers(bench, prepared.linear, *effect)
-                                   : Prepare(bench, fit, prepared.linear, *effect);
+                                   : Prepare(bench, prepared.linear, *effect, *imprint);
     if (prepared.degrees < 3) candidate.score.testable = false;
     if (candidate.score.testable) {
       const double best = candidate.score.directions.front().score;

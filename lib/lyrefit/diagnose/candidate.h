@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,14 +48,23 @@ struct Prepared {
   std::vector<Candidate> candidates;
 };
 
+// What the probes of effects do to the currents of a fitted law, not whitened: a column a probe, 0
+// where it cannot be had. Other fits of the same law that lie within the noise share it.
+struct Imprint {
+  LawFit fit;
+  std::map<const Effect*, Eigen::MatrixXd> moved;
+};
+using Imprints = std::vector<std::shared_ptr<const Imprint>>;
+
+// One of `known` that serves this fit and all of `effects`, else a new one, which is added.
+std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+                                           const std::vector<const Effect*>& effects,
+                                           Imprints* known);
+
 // Every effect of `effects` beside the residuals of `fit`, not judged yet. "unknown_structure" is
 // scored on smooth waves along each stretch, "outliers" on single readings.
 Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
-                    const std::vector<const Effect*>& effects);
-
-// What an effect's probe does to the fitted currents, whitened.
-Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
-                          const Probe& probe, LawWorkspace* workspace);
+                    const std::vector<const Effect*>& effects, Imprints* known);
 
 // F(1, degrees - 1) of a score that takes its square off a sum of squares.
 double Statistic(double score, double sum, int degrees, double least_variance);

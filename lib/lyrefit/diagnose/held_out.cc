@@ -92,6 +92,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.worth = selection.worth;
+    inner.imprints = selection.imprints;
     const Selection again =
         SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];

@@ -27,6 +27,7 @@ class Selector {
         values_(values),
         options_(options),
         worth_(options.worth),
+        imprints_(options.imprints),
         bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
                used,      correlation,
                0,         options.watch} {
@@ -52,7 +53,7 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0 || values_.limited) AddClip();
-    Prepared prepared = PrepareAll(bench_, fit_, Open());
+    Prepared prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
     FindWorth(prepared);
     Extend(std::move(prepared), &selection);
     selection.extended = fit_;
@@ -62,6 +63,7 @@ class Selector {
     selection.bench = bench_;
     selection.noise = noise_;
     selection.worth = worth_;
+    selection.imprints = imprints_;
     return selection;
   }
 
@@ -175,7 +177,7 @@ class Selector {
     std::set<std::set<const Effect*>> seen;
     std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
-      if (step > 0) prepared = PrepareAll(bench_, fit_, Open());
+      if (step > 0) prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
       const std::vector<Score> scores = JudgeScores(prepared, *worth_);
       if (Stopped(bench_.watch)) return;
       double smallest = 1;
@@ -327,7 +329,7 @@ class Selector {
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
       const std::vector<Rival> rivals =
-          FitAll(JudgeScores(PrepareAll(bench_, fit_, Open()), *worth_));
+          FitAll(JudgeScores(PrepareAll(bench_, fit_, Open(), &imprints_), *worth_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
       const double kept =
@@ -371,6 +373,7 @@ class Selector {
   const ValueFindings& values_;
   const SelectOptions& options_;
   std::shared_ptr<const ScoreWorth> worth_;
+  Imprints imprints_;
   Workbench bench_;
   Noise noise_;
   LawFit fit_;

@@ -18,6 +18,7 @@ struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
   std::shared_ptr<const ScoreWorth> worth;  // of the list; simulated where there is none
+  Imprints imprints;                        // of the laws met by a selection that this one repeats
   int largest_causes = 4;
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
@@ -71,6 +72,7 @@ struct Selection {
   Workbench base_bench;       // with the noise of the base model
   Noise noise;
   std::shared_ptr<const ScoreWorth> worth;
+  Imprints imprints;  // of the laws met on the way
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.

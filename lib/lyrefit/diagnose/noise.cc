@@ -109,22 +109,14 @@ Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& res
   return squares;
 }
 
-// Where the search for a scale starts: the median stays what it is where steps and outliers are
-// among the squares. Nulls hold none, and their mean is found at once.
-double StartingScale(const Eigen::ArrayXd& squares, bool null) {
-  if (!null) {
-    std::vector<double> sorted(squares.begin(), squares.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    if (*middle > 0) return *middle / 0.455;
-  }
-  return squares.mean();
-}
-
 // Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut.
-double CutScale(const Eigen::ArrayXd& squares, bool null) {
+double CutScale(const Eigen::ArrayXd& squares) {
   const double count = static_cast<double>(squares.size());
-  double scale = StartingScale(squares, null);
+  std::vector<double> sorted(squares.begin(), squares.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double scale = *middle / 0.455;
+  if (!(scale > 0)) scale = squares.sum() / count;
   for (int round = 0; round < 6; ++round) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
   }
@@ -139,11 +131,11 @@ double LogLikelihood(const Eigen::ArrayXd& squares, double logs, double scale) {
 }
 
 // Average over the shapes by their likelihood: with few readings nothing is decided.
-NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& squares, bool null) {
+NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& squares) {
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
     const Eigen::ArrayXd in_units = squares * differences.inverse.col(k);
-    scale[k] = CutScale(in_units, null);
+    scale[k] = CutScale(in_units);
     likelihood[k] = LogLikelihood(in_units, differences.logs[k], scale[k]);
     best = std::max(best, likelihood[k]);
   }
@@ -171,7 +163,7 @@ NoiseLaw AddVoltage(const NoiseDifferences& differences, const Eigen::ArrayXd& s
   const auto try_shape = [&](const Shape& shape) {
     const Eigen::ArrayXd variance = shape.Variance(differences);
     const Eigen::ArrayXd in_units = squares / variance;
-    scale = CutScale(in_units, voltage != VoltageNoise::kIfInsisted);
+    scale = CutScale(in_units);
     return LogLikelihood(in_units, variance.log().sum(), scale);
   };
   double best = try_shape(plain) + insist;
@@ -211,14 +203,13 @@ struct NoiseEstimator::Parts {
   NoiseLaw Estimate(const NoiseDifferences& differences,
                     const std::vector<double>& residual) const {
     const Eigen::ArrayXd squares = Squares(differences, residual);
-    const bool null = voltage != VoltageNoise::kIfInsisted;
     if (&differences == &lit && stated) {
       const double relative = std::max(stated->relative, 1e-12);
       const double ratio2 = std::pow(stated->constant / relative, 2);
-      const double scale = CutScale(squares / Shape{ratio2, 1, 0}.Variance(differences), null);
+      const double scale = CutScale(squares / Shape{ratio2, 1, 0}.Variance(differences));
       return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
     }
-    return AddVoltage(differences, squares, Weigh(differences, squares, null), voltage);
+    return AddVoltage(differences, squares, Weigh(differences, squares), voltage);
   }
 };
 

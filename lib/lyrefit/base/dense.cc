@@ -52,11 +52,6 @@ bool PseudoInverse(const MatrixXd& a, MatrixXd* inverse) {
   return true;
 }
 
-MatrixXd OrthonormalBasis(const MatrixXd& a) {
-  const Eigen::HouseholderQR<MatrixXd> qr(a);
-  return qr.householderQ() * MatrixXd::Identity(a.rows(), a.cols());
-}
-
 MatrixXd RankedBasis(const MatrixXd& a) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
   return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
@@ -75,7 +70,6 @@ MatrixXf OrthonormalUnder(const MatrixXf& a, const VectorXf& weight) {
 }
 
 void TakeOut(const MatrixXd& basis, VectorXd* y) { *y -= basis * TransposedTimes(basis, *y); }
-void TakeOut(const MatrixXd& basis, MatrixXd* y) { *y -= basis * TransposedTimes(basis, *y); }
 
 MatrixXd SchurComplement(const MatrixXd& a, const MatrixXd& b, const MatrixXd& mixed) {
   const Eigen::HouseholderQR<MatrixXd> qr(a);

@@ -48,17 +48,14 @@ Eigen::VectorXd WithoutColumns(const Eigen::MatrixXd& a, Eigen::VectorXd y);
 // on each other.
 bool PseudoInverse(const Eigen::MatrixXd& a, Eigen::MatrixXd* inverse);
 
-// Orthonormal columns that span those of `a`: n of them, m x n, for independent columns; as many as
-// the rank, by column pivoting, for any.
-Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& a);
+// Orthonormal columns that span those of `a`, as many as the rank, by column pivoting.
 Eigen::MatrixXd RankedBasis(const Eigen::MatrixXd& a);
 
 // The columns of `a`, which are independent by far, combined so that b' diag(weight) b = 1.
 Eigen::MatrixXf OrthonormalUnder(const Eigen::MatrixXf& a, const Eigen::VectorXf& weight);
 
-// Takes the part along orthonormal columns out: y - basis basis' y, of each column of y.
+// Takes the part along orthonormal columns out: y - basis basis' y.
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::VectorXd* y);
-void TakeOut(const Eigen::MatrixXd& basis, Eigen::MatrixXd* y);
 
 // b' b - mixed' (a' a)^-1 mixed, the columns of `a` independent and `mixed` n x columns of b.
 Eigen::MatrixXd SchurComplement(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,

@@ -96,8 +96,8 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
   }
   if (!best.usable) return best;
-  LawFit end = effort == Effort::kForTheRecord ? std::move(best)
-                                               : FitLaw(bench, law, best.p, kForRanking);
+  LawFit end =
+      effort == Effort::kForTheRecord ? std::move(best) : FitLaw(bench, law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
   return end;
 }

@@ -8,6 +8,7 @@
 #include "lyrefit/base/dense.h"
 
 namespace lyrefit {
+
 // Ratios of constant and relative noise that are weighed against each other.
 constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));

@@ -34,9 +34,9 @@ struct LeastSquaresEnd {
   int iterations = 0;
 };
 
-// Levenberg and Marquardt's method between bounds from `start`, which is moved inside them; made for
-// some ten parameters. One evaluation with derivatives a step. (Ceres takes three to five for the
-// same: its bounded steps search along a line, and it asks for values and derivatives in turn.)
+// Levenberg and Marquardt's method between bounds from `start`, which is moved inside them; made
+// for some ten parameters. One evaluation with derivatives a step. (Ceres takes three to five for
+// the same: its bounded steps search along a line, and it asks for values and derivatives in turn.)
 LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
                                   const std::vector<double>& start,
                                   const LeastSquaresOptions& options = {});

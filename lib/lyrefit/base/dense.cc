@@ -70,6 +70,7 @@ MatrixXf OrthonormalUnder(const MatrixXf& a, const VectorXf& weight) {
 }
 
 void TakeOut(const MatrixXd& basis, VectorXd* y) { *y -= basis * TransposedTimes(basis, *y); }
+void TakeOut(const MatrixXd& basis, MatrixXd* y) { *y -= basis * TransposedTimes(basis, *y); }
 
 MatrixXd SchurComplement(const MatrixXd& a, const MatrixXd& b, const MatrixXd& mixed) {
   const Eigen::HouseholderQR<MatrixXd> qr(a);

@@ -54,8 +54,9 @@ Eigen::MatrixXd RankedBasis(const Eigen::MatrixXd& a);
 // The columns of `a`, which are independent by far, combined so that b' diag(weight) b = 1.
 Eigen::MatrixXf OrthonormalUnder(const Eigen::MatrixXf& a, const Eigen::VectorXf& weight);
 
-// Takes the part along orthonormal columns out: y - basis basis' y.
+// Takes the part along orthonormal columns out: y - basis basis' y, of each column of y.
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::VectorXd* y);
+void TakeOut(const Eigen::MatrixXd& basis, Eigen::MatrixXd* y);
 
 // b' b - mixed' (a' a)^-1 mixed, the columns of `a` independent and `mixed` n x columns of b.
 Eigen::MatrixXd SchurComplement(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,

@@ -27,7 +27,7 @@ TEST(DenseTest, LeastSquaresLeavesNothingAlongTheColumns) {
   EXPECT_GT(rest.norm(), 1);
   EXPECT_LT((WithoutColumns(a, b) - rest).norm(), 1e-12);
   VectorXd left = b;
-  TakeOut(OrthonormalBasis(a), &left);
+  TakeOut(RankedBasis(a), &left);
   EXPECT_LT((left - rest).norm(), 1e-12);
   MatrixXd inverse;
   ASSERT_TRUE(PseudoInverse(a, &inverse));
@@ -70,7 +70,7 @@ TEST(DenseTest, SymmetricSystemsAreSolved) {
   EXPECT_FALSE(SolvePositive(-gram, y, &x));
   // b'b less what the columns of `a` explain of it.
   MatrixXd rest = b;
-  TakeOut(OrthonormalBasis(a), &rest);
+  TakeOut(RankedBasis(a), &rest);
   const MatrixXd schur = SchurComplement(a, b, TransposedTimes(a, b));
   EXPECT_LT((schur - TransposedTimes(rest, rest)).norm(), 1e-11);
 }

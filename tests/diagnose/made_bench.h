@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
 #include "lyrefit/effects/catalogue.h"
 #include "made_curve.h"
@@ -38,6 +39,15 @@ inline std::vector<const Effect*> Showable(const DataTraits& traits) {
   effects.push_back(FindEffect("outliers"));
   effects.push_back(FindEffect("unknown_structure"));
   return effects;
+}
+
+// Scored and judged by linear nulls of the same law.
+inline std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
+                                       const std::vector<const Effect*>& effects, int draws,
+                                       std::uint64_t seed) {
+  Imprints imprints;
+  const Prepared prepared = PrepareAll(bench, fit, effects, &imprints);
+  return JudgeScores(prepared, SimulateWorth(bench, prepared, nullptr, draws, seed));
 }
 
 }  // namespace lyrefit

@@ -163,21 +163,40 @@ TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
   }
 }
 
-TEST(SignatureTest, IsWhatTheProbeDoes) {
+TEST(ImprintTest, IsWhatTheProbesDo) {
   const MadeBench made = OnTheBench(MadeCurve({}));
+  const Readings& readings = made.measurement->readings;
   const LawFit fit = FitBase(made.bench, Law());
   const Effect& drift = *FindEffect("drift");
-  const Eigen::VectorXd signature = Signature(made.bench, fit, drift, {0.01});
+  Imprints imprints;
+  const Eigen::MatrixXd moved = FindImprint(made.bench, fit, {&drift}, &imprints)->moved.at(&drift);
+  const std::vector<Probe> probes = drift.probes(readings.traits);
+  ASSERT_EQ(moved.cols(), static_cast<int>(probes.size()));
   Law law;
   law.effects = {&drift};
-  std::vector<double> p = fit.p, current(made.bench.used.size());
-  p.push_back(0.01);
   LawWorkspace workspace;
-  ASSERT_TRUE(
-      EvaluateLaw(law, made.measurement->readings, p.data(), &workspace, current.data(), nullptr));
+  std::vector<double> p = fit.p, current(readings.points.size());
+  p.insert(p.end(), probes.front().begin(), probes.front().end());
+  ASSERT_TRUE(EvaluateLaw(law, readings, p.data(), &workspace, current.data(), nullptr));
   for (std::size_t k = 0; k < current.size(); ++k) {
-    EXPECT_NEAR(signature[k], (current[k] - fit.current[k]) / made.bench.sigma[k], 1e-6);
+    EXPECT_NEAR(moved(static_cast<int>(k), 0), current[k] - fit.current[k], 1e-9);
   }
+}
+
+TEST(ImprintTest, ServesFitsOfTheSameLawWithinTheNoise) {
+  const MadeBench made = OnTheBench(MadeCurve({}));
+  LawFit fit = FitBase(made.bench, Law());
+  const Effect *drift = FindEffect("drift"), *step = FindEffect("irr_step");
+  Imprints imprints;
+  const auto first = FindImprint(made.bench, fit, {drift}, &imprints);
+  for (double& current : fit.current) current += 0.5 * made.bench.sigma.front();
+  EXPECT_EQ(FindImprint(made.bench, fit, {drift}, &imprints), first);
+  EXPECT_NE(FindImprint(made.bench, fit, {drift, step}, &imprints), first);
+  for (double& current : fit.current) current += made.bench.sigma.front();
+  EXPECT_NE(FindImprint(made.bench, fit, {drift}, &imprints), first);
+  fit.law.effects = {step};
+  fit.p.insert(fit.p.end(), {0.0, 0.0});
+  EXPECT_NE(FindImprint(made.bench, fit, {drift}, &imprints), first);
 }
 
 }  // namespace

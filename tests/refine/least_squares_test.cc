@@ -48,9 +48,8 @@ TEST(LeastSquaresTest, StopsAtBounds) {
   problem.upper = {0.5, kInfinity};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1});
   EXPECT_DOUBLE_EQ(end.p[0], 0.5);
-  // Ceres cuts its steps at the bound and creeps along it: near the optimum, not at it.
-  EXPECT_NEAR(end.p[1], 0.25, 5e-3);
-  EXPECT_NEAR(end.sum_of_squares, 0.25, 2e-3);
+  EXPECT_NEAR(end.p[1], 0.25, 1e-6);
+  EXPECT_NEAR(end.sum_of_squares, 0.25, 1e-9);
 }
 
 TEST(LeastSquaresTest, MovesAStartInsideTheBounds) {
@@ -109,6 +108,20 @@ TEST(LeastSquaresTest, NeverEndsAboveItsStart) {
   const LeastSquaresEnd end = SolveLeastSquares(Valley(), {-1.2, 1}, options);
   EXPECT_LE(end.sum_of_squares, 24.2 + 1e-9);
   EXPECT_FALSE(end.converged);
+}
+
+TEST(LeastSquaresTest, GivesUpWhereOthersWereBetter) {
+  LeastSquaresProblem problem = Valley();
+  problem.lower = {3, -kInfinity};
+  LeastSquaresOptions options;
+  const LeastSquaresEnd all = SolveLeastSquares(problem, {5, 1}, options);
+  EXPECT_NEAR(all.sum_of_squares, 4, 1e-6);
+  options.to_beat = 1;
+  const LeastSquaresEnd beaten = SolveLeastSquares(problem, {5, 1}, options);
+  EXPECT_LT(beaten.iterations, all.iterations);
+  EXPECT_FALSE(beaten.converged);
+  options.to_beat = 5;
+  EXPECT_NEAR(SolveLeastSquares(problem, {5, 1}, options).sum_of_squares, 4, 1e-6);
 }
 
 }  // namespace

@@ -18,11 +18,15 @@ Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const RowMatrix& b);
 Eigen::MatrixXd Times(const RowMatrix& a, const Eigen::MatrixXd& b);
 Eigen::VectorXd Times(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
+Eigen::MatrixXf Times(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
+Eigen::VectorXf Times(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
 // a' b
 Eigen::MatrixXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::VectorXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
 Eigen::VectorXd TransposedTimes(const RowMatrix& a, const Eigen::VectorXd& x);
+Eigen::MatrixXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
+Eigen::VectorXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
 // scale a a', m x m.
 Eigen::MatrixXd TimesTransposed(const Eigen::MatrixXd& a, double scale = 1);
@@ -44,10 +48,11 @@ Eigen::VectorXd WithoutColumns(const Eigen::MatrixXd& a, Eigen::VectorXd y);
 // on each other.
 bool PseudoInverse(const Eigen::MatrixXd& a, Eigen::MatrixXd* inverse);
 
-// Orthonormal columns that span those of `a`: n of them, m x n, for independent columns; as many as
-// the rank, by column pivoting, for any.
-Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& a);
+// Orthonormal columns that span those of `a`, as many as the rank, by column pivoting.
 Eigen::MatrixXd RankedBasis(const Eigen::MatrixXd& a);
+
+// The columns of `a`, which are independent by far, combined so that b' diag(weight) b = 1.
+Eigen::MatrixXf OrthonormalUnder(const Eigen::MatrixXf& a, const Eigen::VectorXf& weight);
 
 // Takes the part along orthonormal columns out: y - basis basis' y, of each column of y.
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::VectorXd* y);

@@ -15,8 +15,11 @@ double ChiSquaredTail(double x, double degrees) {
   return cdf(complement(boost::math::chi_squared(degrees), x));
 }
 
+// In double precision throughout: long double takes several times as long, and this is asked often.
 double FisherTail(double x, double degrees_above, double degrees_below) {
-  return cdf(complement(boost::math::fisher_f(degrees_above, degrees_below), x));
+  using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  const boost::math::fisher_f_distribution<double, Policy> law(degrees_above, degrees_below);
+  return cdf(complement(law, x));
 }
 
 double NormalAbove(double tail) { return quantile(complement(boost::math::normal(), tail)); }

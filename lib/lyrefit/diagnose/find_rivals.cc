@@ -27,7 +27,7 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const double variance = NoiseVariance(bench, extended);
     std::vector<Rival>& rivals = selection->causes[c].rivals;
     const std::vector<Score> scores =
-        ScoreEffects(bench, without, open, options.draws / 4 + 100, options.seed);
+        JudgeScores(PrepareAll(bench, without, open, &selection->imprints), *selection->worth);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);

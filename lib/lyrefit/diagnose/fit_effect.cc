@@ -54,8 +54,8 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 
 // Every start comes this far; the best of them near enough to its end to be ranked. What is chosen
 // is fitted again with the noise it leaves.
-const LeastSquaresOptions kBriefly = {10, 1e-5};
-const LeastSquaresOptions kForRanking = {20, 1e-6};
+const LeastSquaresOptions kBriefly = {20, 1e-5};
+const LeastSquaresOptions kForRanking = {40, 1e-6};
 
 // Whether the last effect of a fit ended as what it is meant to be.
 bool IsItself(const Effect& effect, const LawFit& fit) {
@@ -81,7 +81,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   std::vector<std::vector<double>> starts;
   for (const Direction& direction : ChooseStarts(effect, probes, score)) {
     starts.push_back(Scaled(effect, probes[direction.probe], direction));
-    if (effort == Effort::kInPassing) break;
+    if (effort != Effort::kFull) break;
   }
   // A strength that does not act in proportion is better met as it was tried.
   const std::vector<double>& tried = probes[score.directions.front().probe];
@@ -89,11 +89,15 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
-    LawFit end = FitLaw(bench, law, start, kBriefly);
+    LeastSquaresOptions briefly = kBriefly;
+    if (best.usable) briefly.to_beat = best.sum;
+    LawFit end = FitLaw(bench, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
+    if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
   }
   if (!best.usable) return best;
-  LawFit end = FitLaw(bench, law, best.p, kForRanking);
+  LawFit end =
+      effort == Effort::kForTheRecord ? std::move(best) : FitLaw(bench, law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
   return end;
 }

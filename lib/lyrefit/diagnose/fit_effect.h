@@ -5,8 +5,8 @@
 
 namespace lyrefit {
 
-// In passing, an effect is tried from its best probe alone: for a table of what was tried.
-enum class Effort { kFull, kInPassing };
+// In passing, an effect is tried from its best probe alone; for the record, briefly as well.
+enum class Effort { kFull, kInPassing, kForTheRecord };
 
 // `fit`'s law with one more effect, all parameters free, from the best of the effect's probes;
 // never worse than `fit` itself but for the effects that have no neutral value.

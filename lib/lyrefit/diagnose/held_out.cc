@@ -91,8 +91,8 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.in_passing = true;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
-    inner.calibration = selection.calibration;
-    inner.draws = std::max(options.draws / 2, 200);
+    inner.worth = selection.worth;
+    inner.imprints = selection.imprints;
     const Selection again =
         SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
     Fold& result = results[f];

@@ -3,66 +3,40 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lyrefit/base/dense.h"
 
 namespace lyrefit {
-namespace {
 
 // Ratios of constant and relative noise that are weighed against each other.
 constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
+
+// Second differences along the stretches of one class of curves, lit or dark: what of them stays
+// the same whatever the residuals.
+struct NoiseDifferences {
+  struct Place {
+    int at[3];       // readings of one stretch
+    double part[2];  // of the outer two in the line that passes the middle one
+  };
+  std::vector<Place> places;
+  Eigen::ArrayXd constant;        // by how much constant noise enters the square
+  Eigen::ArrayXd relative;        // by how much noise in proportion to the current does
+  Eigen::ArrayXd steep;           // by how much noise of the voltage does
+  Eigen::ArrayXXd inverse;        // 1 / variance of unit noise, a column a ratio
+  double logs[kRatioCount] = {};  // sums of ln variance of unit noise
+
+  int size() const { return static_cast<int>(places.size()); }
+};
+
+namespace {
+
 // Squares beyond this many variances count as this many: steps and outliers are not noise.
 constexpr double kLargestSquare = 6.63;
 constexpr double kCutMean = 0.967;  // mean of a squared normal number cut there
 // Second differences overlap: three of them say about as much as this many independent squares.
 constexpr double kEvidence = 0.5;
-
-struct Difference {
-  double square;
-  double constant;  // by how much constant noise enters
-  double relative;  // by how much noise in proportion to the current does
-  double steep;     // by how much noise of the voltage does
-};
-
-std::vector<Difference> Differences(const Readings& readings, const std::vector<char>& dark,
-                                    bool want_dark, const std::vector<double>& residual,
-                                    const std::vector<char>& used) {
-  std::vector<int> chain;
-  std::vector<Difference> differences;
-  int segment = -1;
-  for (std::size_t k = 0; k < readings.points.size(); ++k) {
-    const Reading& r = readings.points[k];
-    if (used[k] == 0 || (dark[r.curve] != 0) != want_dark) continue;
-    if (r.segment != segment) chain.clear();
-    segment = r.segment;
-    chain.push_back(static_cast<int>(k));
-    if (chain.size() < 3) continue;
-    const int a = chain[chain.size() - 3], b = chain[chain.size() - 2], c = chain.back();
-    const double va = readings.points[a].voltage, vb = readings.points[b].voltage,
-                 vc = readings.points[c].voltage;
-    // A line through the outer two, so that uneven steps do not count.
-    double part = vc != va ? (vb - va) / (vc - va) : 0.5;
-    if (!(part > 0.05 && part < 0.95)) part = 0.5;
-    const double weight[] = {1 - part, -1, part};
-    const int at[] = {a, b, c};
-    Difference difference{0, 0, 0, 0};
-    const double slope =
-        vc != va ? (readings.points[c].current - readings.points[a].current) / (vc - va) : 0;
-    double value = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double current = readings.points[at[i]].current;
-      value += weight[i] * residual[at[i]];
-      const double part_of_noise = weight[i] * weight[i] / readings.points[at[i]].weight;
-      difference.constant += part_of_noise;
-      difference.relative += part_of_noise * current * current;
-    }
-    difference.steep = difference.constant * slope * slope;
-    difference.square = value * value;
-    differences.push_back(difference);
-  }
-  return differences;
-}
 
 // Noise of unit size: its three parts, squared.
 struct Shape {
@@ -70,46 +44,100 @@ struct Shape {
   double relative = 1;
   double voltage = 0;
 
-  double Variance(const Difference& d) const {
+  Eigen::ArrayXd Variance(const NoiseDifferences& d) const {
     return constant * d.constant + relative * d.relative + voltage * d.steep;
   }
 };
 
-// Scale (squared) of noise with the given shape, large squares cut.
-double CutScale(const std::vector<Difference>& differences, const Shape& shape) {
-  std::vector<double> squares;
-  squares.reserve(differences.size());
-  for (const Difference& d : differences) squares.push_back(d.square / shape.Variance(d));
-  std::vector<double> sorted = squares;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  double scale = sorted[sorted.size() / 2] / 0.455;
-  double mean = 0;
-  for (const double s : squares) mean += s / static_cast<double>(squares.size());
-  if (!(scale > 0)) scale = mean;
-  for (int round = 0; round < 6; ++round) {
-    double sum = 0;
-    for (const double s : squares) sum += std::min(s, kLargestSquare * scale);
-    scale = sum / (kCutMean * static_cast<double>(squares.size()));
+std::vector<NoiseDifferences::Place> FindPlaces(const Readings& readings,
+                                                const std::vector<char>& dark, bool want_dark,
+                                                const std::vector<char>& used) {
+  std::vector<NoiseDifferences::Place> places;
+  int segment = -1, length = 0, at[3] = {};
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    const Reading& r = readings.points[k];
+    if (used[k] == 0 || (dark[r.curve] != 0) != want_dark) continue;
+    length = r.segment == segment ? length + 1 : 1;
+    segment = r.segment;
+    at[0] = at[1], at[1] = at[2], at[2] = static_cast<int>(k);
+    if (length < 3) continue;
+    const auto voltage = [&](int i) { return readings.points[at[i]].voltage; };
+    // A line through the outer two, so that uneven steps do not count.
+    const double span = voltage(2) - voltage(0);
+    double part = span != 0 ? (voltage(1) - voltage(0)) / span : 0.5;
+    if (!(part > 0.05 && part < 0.95)) part = 0.5;
+    places.push_back({{at[0], at[1], at[2]}, {1 - part, part}});
   }
-  return scale;
+  return places;
 }
 
-double LogLikelihood(const std::vector<Difference>& differences, const Shape& shape, double scale) {
-  double sum = 0;
-  for (const Difference& d : differences) {
-    const double variance = scale * shape.Variance(d);
-    sum -= 0.5 * (std::log(variance) + std::min(d.square / variance, kLargestSquare));
+NoiseDifferences FindDifferences(const Readings& readings, const std::vector<char>& dark,
+                                 bool want_dark, const std::vector<char>& used) {
+  NoiseDifferences d;
+  d.places = FindPlaces(readings, dark, want_dark, used);
+  d.constant = d.relative = d.steep = Eigen::ArrayXd::Zero(d.size());
+  for (int k = 0; k < d.size(); ++k) {
+    const NoiseDifferences::Place& place = d.places[k];
+    const Reading &a = readings.points[place.at[0]], &c = readings.points[place.at[2]];
+    const double weight[] = {place.part[0], -1, place.part[1]};
+    for (int i = 0; i < 3; ++i) {
+      const Reading& r = readings.points[place.at[i]];
+      const double part_of_noise = weight[i] * weight[i] / r.weight;
+      d.constant[k] += part_of_noise;
+      d.relative[k] += part_of_noise * r.current * r.current;
+    }
+    const double span = c.voltage - a.voltage;
+    const double slope = span != 0 ? (c.current - a.current) / span : 0;
+    d.steep[k] = d.constant[k] * slope * slope;
   }
-  return kEvidence * sum;
+  d.inverse.resize(d.size(), kRatioCount);
+  for (int k = 0; k < kRatioCount; ++k) {
+    const Eigen::ArrayXd variance = Shape{kRatios[k] * kRatios[k], 1, 0}.Variance(d);
+    d.inverse.col(k) = variance.inverse();
+    d.logs[k] = variance.log().sum();
+  }
+  return d;
+}
+
+Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& residual) {
+  Eigen::ArrayXd squares(d.size());
+  for (int k = 0; k < d.size(); ++k) {
+    const NoiseDifferences::Place& p = d.places[k];
+    const double value =
+        p.part[0] * residual[p.at[0]] - residual[p.at[1]] + p.part[1] * residual[p.at[2]];
+    squares[k] = value * value;
+  }
+  return squares;
+}
+
+// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut.
+double CutScale(const Eigen::ArrayXd& squares) {
+  const double count = static_cast<double>(squares.size());
+  std::vector<double> sorted(squares.begin(), squares.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double scale = *middle / 0.455;
+  if (!(scale > 0)) scale = squares.sum() / count;
+  for (int round = 0; round < 6; ++round) {
+    scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
+  }
+  return std::max(scale, 1e-30);
+}
+
+// `logs`: sum of ln variance of unit noise.
+double LogLikelihood(const Eigen::ArrayXd& squares, double logs, double scale) {
+  const double count = static_cast<double>(squares.size());
+  const double cut = squares.min(kLargestSquare * scale).sum() / scale;
+  return -0.5 * kEvidence * (logs + count * std::log(scale) + cut);
 }
 
 // Average over the shapes by their likelihood: with few readings nothing is decided.
-NoiseLaw Weigh(const std::vector<Difference>& differences) {
+NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& squares) {
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
-    const Shape shape{kRatios[k] * kRatios[k], 1, 0};
-    scale[k] = std::max(CutScale(differences, shape), 1e-30);
-    likelihood[k] = LogLikelihood(differences, shape, scale[k]);
+    const Eigen::ArrayXd in_units = squares * differences.inverse.col(k);
+    scale[k] = CutScale(in_units);
+    likelihood[k] = LogLikelihood(in_units, differences.logs[k], scale[k]);
     best = std::max(best, likelihood[k]);
   }
   double constant2 = 0, relative2 = 0, sum = 0;
@@ -123,46 +151,34 @@ NoiseLaw Weigh(const std::vector<Difference>& differences) {
 }
 
 // Adds noise of the voltage where that explains the differences far better.
-NoiseLaw AddVoltage(const std::vector<Difference>& differences, const NoiseLaw& law,
-                    VoltageNoise voltage) {
+NoiseLaw AddVoltage(const NoiseDifferences& differences, const Eigen::ArrayXd& squares,
+                    const NoiseLaw& law, VoltageNoise voltage) {
   if (voltage == VoltageNoise::kNever) return law;
   // Gain in ln likelihood that is believed.
   const double insist = voltage == VoltageNoise::kAlways ? -1e300 : 5;
-  double steepest = 0;
-  for (const Difference& d : differences) {
-    steepest = std::max(steepest, std::sqrt(d.steep / std::max(d.constant, 1e-12)));
-  }
+  const double steepest =
+      std::sqrt((differences.steep / differences.constant.max(1e-12)).maxCoeff());
   const Shape plain{law.constant * law.constant, law.relative * law.relative, 0};
   if (!(steepest > 0) || !(plain.constant > 0)) return law;
-  double best = LogLikelihood(differences, plain, CutScale(differences, plain)) + insist;
+  double scale = 0;
+  const auto try_shape = [&](const Shape& shape) {
+    const Eigen::ArrayXd variance = shape.Variance(differences);
+    const Eigen::ArrayXd in_units = squares / variance;
+    scale = CutScale(in_units);
+    return LogLikelihood(in_units, variance.log().sum(), scale);
+  };
+  double best = try_shape(plain) + insist;
   NoiseLaw found = law;
   for (const double times : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
     Shape shape = plain;
     shape.voltage = std::pow(times / steepest, 2) * plain.constant;
-    const double scale = std::max(CutScale(differences, shape), 1e-30);
-    const double likelihood = LogLikelihood(differences, shape, scale);
+    const double likelihood = try_shape(shape);
     if (likelihood <= best) continue;
     best = likelihood;
     found = {law.constant * std::sqrt(scale), law.relative * std::sqrt(scale),
              std::sqrt(scale * shape.voltage)};
   }
   return found;
-}
-
-NoiseLaw EstimateLaw(const std::vector<Difference>& differences, const NoiseLaw* stated,
-                     VoltageNoise voltage) {
-  if (differences.size() < 3) return {kSmallestNoise, 0, 0};
-  if (stated != nullptr) {
-    const double relative = std::max(stated->relative, 1e-12);
-    const double ratio2 = std::pow(stated->constant / relative, 2);
-    const double scale = CutScale(differences, {ratio2, 1, 0});
-    return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
-  }
-  return AddVoltage(differences, Weigh(differences), voltage);
-}
-
-double Deviation(const NoiseLaw& law, double current, double slope) {
-  return std::hypot(law.constant, law.relative * current, law.voltage * slope);
 }
 
 // dI/dV at a reading, from its neighbours of the same stretch.
@@ -176,32 +192,74 @@ double SlopeAt(const std::vector<Reading>& points, std::size_t k) {
 
 }  // namespace
 
-Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
-                    const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, const Grids& grids, VoltageNoise voltage) {
-  Noise noise;
-  NoiseLaw stated;
-  const bool is_stated = notes.current_noise_constant_A && notes.current_noise_relative;
-  if (is_stated) {
-    stated.constant = *notes.current_noise_constant_A / readings.scale.current_A;
-    stated.relative = *notes.current_noise_relative;
+struct NoiseEstimator::Parts {
+  const Readings& readings;
+  VoltageNoise voltage;
+  std::optional<NoiseLaw> stated;
+  NoiseDifferences lit, dark;
+  std::vector<char> is_dark;       // of each reading
+  std::vector<double> slope;       // dI/dV
+  std::vector<double> grid_noise;  // a grid leaves no two readings closer than its own rounding
+
+  NoiseLaw Estimate(const NoiseDifferences& differences,
+                    const std::vector<double>& residual) const {
+    const Eigen::ArrayXd squares = Squares(differences, residual);
+    if (&differences == &lit && stated) {
+      const double relative = std::max(stated->relative, 1e-12);
+      const double ratio2 = std::pow(stated->constant / relative, 2);
+      const double scale = CutScale(squares / Shape{ratio2, 1, 0}.Variance(differences));
+      return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
+    }
+    return AddVoltage(differences, squares, Weigh(differences, squares), voltage);
   }
-  const auto lit = Differences(readings, dark, false, residual, used);
-  const auto unlit = Differences(readings, dark, true, residual, used);
-  if (lit.size() >= 3) noise.lit = EstimateLaw(lit, is_stated ? &stated : nullptr, voltage);
-  if (unlit.size() >= 3) noise.dark = EstimateLaw(unlit, nullptr, voltage);
-  if (lit.size() < 3) noise.lit = noise.dark;
-  if (unlit.size() < 3) noise.dark = noise.lit;
-  // A grid leaves no two readings closer than its own rounding noise.
+};
+
+NoiseEstimator::NoiseEstimator(const Readings& readings, const std::vector<char>& dark,
+                               const std::vector<char>& used, const DeviceNotes& notes,
+                               const Grids& grids, VoltageNoise voltage)
+    : parts_(new Parts{readings, voltage, {}, {}, {}, {}, {}, {}}) {
+  if (notes.current_noise_constant_A && notes.current_noise_relative) {
+    parts_->stated = NoiseLaw{*notes.current_noise_constant_A / readings.scale.current_A,
+                              *notes.current_noise_relative, 0};
+  }
+  parts_->lit = FindDifferences(readings, dark, false, used);
+  parts_->dark = FindDifferences(readings, dark, true, used);
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
-    const Reading& r = readings.points[k];
-    const NoiseLaw& law = dark[r.curve] != 0 ? noise.dark : noise.lit;
-    const double rounding = 0.25 * (dark[r.curve] != 0 ? grids.dark : grids.lit);
-    const double single =
-        std::max(Deviation(law, r.current, SlopeAt(readings.points, k)), rounding);
+    const char is_dark = dark[readings.points[k].curve];
+    parts_->is_dark.push_back(is_dark);
+    parts_->slope.push_back(SlopeAt(readings.points, k));
+    parts_->grid_noise.push_back(0.25 * (is_dark != 0 ? grids.dark : grids.lit));
+  }
+}
+
+NoiseEstimator::~NoiseEstimator() = default;
+
+Noise NoiseEstimator::Estimate(const std::vector<double>& residual) const {
+  constexpr int kFewest = 3;
+  Noise noise;
+  noise.lit = noise.dark = {0, 0, 0};
+  const bool lit = parts_->lit.size() >= kFewest, dark = parts_->dark.size() >= kFewest;
+  if (lit) noise.lit = parts_->Estimate(parts_->lit, residual);
+  if (dark) noise.dark = parts_->Estimate(parts_->dark, residual);
+  if (!lit) noise.lit = noise.dark;
+  if (!dark) noise.dark = noise.lit;
+  noise.sigma.reserve(parts_->slope.size());
+  for (std::size_t k = 0; k < parts_->slope.size(); ++k) {
+    const Reading& r = parts_->readings.points[k];
+    const NoiseLaw& law = parts_->is_dark[k] != 0 ? noise.dark : noise.lit;
+    const double relative = law.relative * r.current, voltage = law.voltage * parts_->slope[k];
+    const double deviation =
+        std::sqrt(law.constant * law.constant + relative * relative + voltage * voltage);
+    const double single = std::max(deviation, parts_->grid_noise[k]);
     noise.sigma.push_back(std::max(single / std::sqrt(r.weight), kSmallestNoise));
   }
   return noise;
+}
+
+Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
+                    const std::vector<double>& residual, const std::vector<char>& used,
+                    const DeviceNotes& notes, const Grids& grids, VoltageNoise voltage) {
+  return NoiseEstimator(readings, dark, used, notes, grids, voltage).Estimate(residual);
 }
 
 bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
@@ -35,8 +36,25 @@ struct Noise {
 };
 
 // From second differences of the residuals inside each monotone stretch, which smooth misfit does
-// not reach. `notes`: noise stated beforehand decides the shape, never the size. `sigma_A`, where
-// not empty, is the readings' own stated deviation and does the same.
+// not reach. `notes`: noise stated beforehand decides the shape, never the size. The readings stay
+// what they are: for many residuals of one measurement, as nulls have them. `readings` outlives it.
+class NoiseEstimator {
+ public:
+  NoiseEstimator(const Readings& readings, const std::vector<char>& dark,
+                 const std::vector<char>& used, const DeviceNotes& notes, const Grids& grids,
+                 VoltageNoise voltage = VoltageNoise::kIfInsisted);
+  ~NoiseEstimator();
+  NoiseEstimator(const NoiseEstimator&) = delete;
+  NoiseEstimator& operator=(const NoiseEstimator&) = delete;
+
+  Noise Estimate(const std::vector<double>& residual) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// The same, once.
 Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
                     const std::vector<double>& residual, const std::vector<char>& used,
                     const DeviceNotes& notes, const Grids& grids,

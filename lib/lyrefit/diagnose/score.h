@@ -1,38 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/noise.h"
+#include "lyrefit/diagnose/null_law.h"
 #include "lyrefit/diagnose/workbench.h"
 
 namespace lyrefit {
-
-// One way an effect could show: the direction in which it would move the whitened currents, less
-// what the present law absorbs.
-struct Direction {
-  int probe = 0;     // of the effect's probes
-  double kept = 0;   // part of the signature's norm the law cannot absorb
-  double norm = 0;   // of what is kept, at the probe's strength
-  double score = 0;  // its length along the residual, signed: positive if the effect helps
-};
-
-// How an effect scores on the residuals of a law.
-struct Score {
-  const Effect* effect = nullptr;
-  bool testable = false;
-  std::string why_not;
-  std::vector<Direction> directions;  // the best first
-  double statistic = 0;               // F(1, dof - 1) of the best direction
-  double p_value = 1;                 // all its directions counted, by simulated nulls
-  double corrected_p = 1;             // the whole catalogue counted
-  double charge = 0;                  // 2 ln of its effective number of directions
-  double catalogue = 1;               // how many such effects the whole list is worth
-  double kept = 0;                    // of its best kept direction
-  int outlier = -1;                   // of `outliers`: the reading
-};
 
 // What the list's corrected p-value really is worth. Linear nulls know the weights; in truth these
 // come from the same few readings, which makes extremes more frequent than they say. Found from
@@ -42,25 +18,23 @@ struct Calibration {
   double Corrected(double p) const;
 };
 
-// What a null has to estimate anew.
-struct NoiseQuestion {
-  const std::vector<char>& dark;
-  const DeviceNotes& notes;
-  const Grids& grids;
-  VoltageNoise voltage;
+// What statistics are worth, by nulls (noise through the projections of one law) that count for the
+// whole list, boundaries and grids of probes included. One cause more or less in the law, or some
+// readings less, hardly change it: it serves all steps and their repetitions.
+struct ScoreWorth {
+  std::vector<const Effect*> effects;  // that were testable
+  ListLaw list;                        // in that order
+  Calibration calibration;
 };
 
-// Scores every effect of `candidates` on the residuals of `fit`; "unknown_structure" is scored on
-// smooth waves along each stretch, "outliers" on single readings. `draws` simulated nulls (noise
-// through the same projections) give p-values and their correction for the whole list, boundaries
-// and grids of probes included.
-std::vector<Score> ScoreEffects(const Workbench& bench, const LawFit& fit,
-                                const std::vector<const Effect*>& candidates, int draws,
-                                std::uint64_t seed, const Calibration& calibration = {});
+// From `draws` linear nulls; where there is a `noise` to estimate, calibrated by a fifth as many
+// that do so.
+ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
+                         const NoiseEstimator* noise, int draws, std::uint64_t seed);
 
-Calibration CalibrateScores(const Workbench& bench, const LawFit& fit,
-                            const std::vector<const Effect*>& candidates,
-                            const NoiseQuestion& question, int draws, std::uint64_t seed);
+// With their p-values. An effect that was not testable when worth was found counts for all its
+// directions.
+std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth);
 
 // p-value of a statistic that an effect reached in a fit, its directions and the list counted.
 double CorrectedP(const Score& score, double statistic, int degrees,
@@ -68,9 +42,5 @@ double CorrectedP(const Score& score, double statistic, int degrees,
 
 // An effect whose linear score is below this will not come near the best when fitted.
 double HopelessStatistic(const std::vector<Score>& scores);
-
-// What an effect's probe does to the fitted currents, whitened.
-Eigen::VectorXd Signature(const Workbench& bench, const LawFit& fit, const Effect& effect,
-                          const Probe& probe);
 
 }  // namespace lyrefit

@@ -26,6 +26,8 @@ class Selector {
         notes_(notes),
         values_(values),
         options_(options),
+        worth_(options.worth),
+        imprints_(options.imprints),
         bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
                used,      correlation,
                0,         options.watch} {
@@ -51,15 +53,17 @@ class Selector {
     selection.base = fit_;
     selection.base_bench = bench_;
     if (values_.clip_level > 0 || values_.limited) AddClip();
-    Calibrate();
-    Extend(&selection);
+    Prepared prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
+    FindWorth(prepared);
+    Extend(std::move(prepared), &selection);
     selection.extended = fit_;
     selection.causes = causes_;
     selection.outliers = outliers_;
     selection.outlier_p = outlier_p_;
     selection.bench = bench_;
     selection.noise = noise_;
-    selection.calibration = calibration_;
+    selection.worth = worth_;
+    selection.imprints = imprints_;
     return selection;
   }
 
@@ -93,14 +97,13 @@ class Selector {
     SettleNoise();
   }
 
-  void Calibrate() {
-    calibration_ = options_.calibration;
-    if (!calibration_.nulls.empty()) return;
+  void FindWorth(const Prepared& prepared) {
+    if (worth_ != nullptr) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
-    const NoiseQuestion question{dark_, notes_, values_.grids,
-                                 voltage ? VoltageNoise::kAlways : VoltageNoise::kNever};
-    calibration_ =
-        CalibrateScores(bench_, fit_, Open(), question, options_.draws / 5, options_.seed);
+    const NoiseEstimator noise(readings_, dark_, bench_.used, notes_, values_.grids,
+                               voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
+    worth_ = std::make_shared<const ScoreWorth>(
+        SimulateWorth(bench_, prepared, &noise, options_.draws, options_.seed));
   }
 
   // Whether an effect is there already, or something it cannot stand beside.
@@ -133,8 +136,8 @@ class Selector {
     return statistics[most - 1];
   }
 
-  // Fits the effects that stand a chance; with `all` the others as well, in passing. Where nothing
-  // `is_there` all are fitted in passing: it is for the record.
+  // Fits the effects that stand a chance; with `all` the others as well, for the record. Where
+  // nothing `is_there` all are.
   std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false,
                             bool is_there = true) const {
     std::vector<Rival> rivals;
@@ -146,9 +149,9 @@ class Selector {
                         score.effect->probes != nullptr &&
                         fit_.law.size() + score.effect->size() <= kMostParameters;
       if (!fits || Stopped(bench_.watch)) continue;
-      const Effort effort = is_there && !options_.in_passing && score.statistic >= hopeless
-                                ? Effort::kFull
-                                : Effort::kInPassing;
+      const Effort effort = !is_there || score.statistic < hopeless ? Effort::kForTheRecord
+                            : options_.in_passing                   ? Effort::kInPassing
+                                                                    : Effort::kFull;
       Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
@@ -169,13 +172,13 @@ class Selector {
     return nullptr;
   }
 
-  void Extend(Selection* selection) {
+  void Extend(Prepared prepared, Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
     std::set<std::set<const Effect*>> seen;
     std::vector<Rival> rivals;  // of the step before where that took a single reading
     for (int step = 0;; ++step) {
-      const std::vector<Score> scores =
-          ScoreEffects(bench_, fit_, Open(), options_.draws, options_.seed + step, calibration_);
+      if (step > 0) prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
+      const std::vector<Score> scores = JudgeScores(prepared, *worth_);
       if (Stopped(bench_.watch)) return;
       double smallest = 1;
       for (const Score& score : scores) {
@@ -290,8 +293,8 @@ class Selector {
   }
 
   bool Accept(const Rival& rival) {
-    const double p =
-        CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law), calibration_);
+    const double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                                worth_->calibration);
     if (!(p < level_)) return false;
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
@@ -326,7 +329,7 @@ class Selector {
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
       const std::vector<Rival> rivals =
-          FitAll(ScoreEffects(bench_, fit_, Open(), options_.draws / 4 + 100, options_.seed));
+          FitAll(JudgeScores(PrepareAll(bench_, fit_, Open(), &imprints_), *worth_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
       const double kept =
@@ -355,7 +358,7 @@ class Selector {
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable || Stopped(bench_.watch)) continue;
       const double loss = (without.sum - fit_.sum) / Variance(fit_);
-      if (CorrectedP(causes_[c].score, loss, Degrees(bench_, fit_.law), calibration_) <
+      if (CorrectedP(causes_[c].score, loss, Degrees(bench_, fit_.law), worth_->calibration) <
           options_.level * kLaterLevel)
         continue;
       fit_ = std::move(without);
@@ -369,9 +372,10 @@ class Selector {
   const DeviceNotes& notes_;
   const ValueFindings& values_;
   const SelectOptions& options_;
+  std::shared_ptr<const ScoreWorth> worth_;
+  Imprints imprints_;
   Workbench bench_;
   Noise noise_;
-  Calibration calibration_;
   LawFit fit_;
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "lyrefit/diagnose/noise.h"
@@ -16,7 +17,8 @@ constexpr double kLaterLevel = 0.2;
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
-  Calibration calibration;  // of the list's p-values; found where it is empty
+  std::shared_ptr<const ScoreWorth> worth;  // of the list; simulated where there is none
+  Imprints imprints;                        // of the laws met by a selection that this one repeats
   int largest_causes = 4;
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
@@ -69,7 +71,8 @@ struct Selection {
   Workbench bench;            // with the noise of the extended model
   Workbench base_bench;       // with the noise of the base model
   Noise noise;
-  Calibration calibration;
+  std::shared_ptr<const ScoreWorth> worth;
+  Imprints imprints;  // of the laws met on the way
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.

@@ -1,93 +1,194 @@
 #include "lyrefit/refine/least_squares.h"
 
-#include <ceres/ceres.h>
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "lyrefit/refine/finite.h"
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 namespace {
 
-// The moving parameters of a problem as one block.
-class Cost : public ceres::CostFunction {
- public:
-  Cost(const LeastSquaresProblem& problem, const std::vector<int>& moving,
-       const std::vector<double>& start)
-      : problem_(problem), moving_(moving), p_(start) {
-    set_num_residuals(problem.residuals);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(moving.size()));
-    jacobian_.resize(static_cast<std::size_t>(problem.residuals) * start.size());
-  }
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    for (std::size_t k = 0; k < moving_.size(); ++k) p_[moving_[k]] = x[0][k];
-    const bool slopes = jacobians != nullptr && jacobians[0] != nullptr;
-    if (!problem_.evaluate(p_.data(), residuals, slopes ? jacobian_.data() : nullptr)) return false;
-    if (!AllFinite(residuals, problem_.residuals)) return false;
-    if (!slopes) return true;
-    double* to = jacobians[0];
-    if (!AllFinite(jacobian_.data(), jacobian_.size())) return false;
-    for (int i = 0; i < problem_.residuals; ++i) {
-      const double* row = jacobian_.data() + static_cast<std::size_t>(i) * p_.size();
-      for (const int k : moving_) *to++ = row[k];
-    }
-    return true;
-  }
+// More steps in a row than this that cannot be evaluated, and the descent ends where it is.
+constexpr int kMostInvalid = 20;
+constexpr double kLeastRadius = 1e-32, kLargestRadius = 1e16;
 
- private:
-  const LeastSquaresProblem& problem_;
-  const std::vector<int>& moving_;
-  mutable std::vector<double> p_;
-  mutable std::vector<double> jacobian_;
+// A place of the descent. The memory of `jacobian` is what `evaluate` fills: a column a residual.
+struct Place {
+  VectorXd p;
+  VectorXd residuals;
+  MatrixXd jacobian;
+  double sum = 0;
 };
 
-std::vector<int> Moving(const LeastSquaresProblem& problem) {
-  std::vector<int> moving;
-  for (std::size_t k = 0; k < problem.lower.size(); ++k) {
-    if (problem.held.empty() || problem.held[k] == 0) moving.push_back(static_cast<int>(k));
+bool Evaluate(const LeastSquaresProblem& problem, Place* place) {
+  if (!problem.evaluate(place->p.data(), place->residuals.data(), place->jacobian.data())) {
+    return false;
   }
-  return moving;
+  place->sum = place->residuals.squaredNorm();
+  return std::isfinite(place->sum);
 }
 
-ceres::Solver::Options SolverOptions(const LeastSquaresOptions& options) {
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.function_tolerance;
-  solver.gradient_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-12;
-  solver.initial_trust_region_radius = 1e4;
-  solver.max_num_consecutive_invalid_steps = 20;
-  solver.logging_type = ceres::SILENT;
-  return solver;
+// The model of the sum of squares around a place: half of it falls by -(gradient' d + d' gram d /
+// 2).
+struct Quadratic {
+  MatrixXd gram;
+  VectorXd gradient;
+  VectorXd scale;         // squared lengths of the columns
+  std::vector<int> free;  // parameters that move and are not pressed against a bound
+};
+
+Quadratic Expand(const LeastSquaresProblem& problem, const Place& place) {
+  Quadratic model;
+  model.gram = TimesTransposed(place.jacobian);
+  model.gradient = Times(place.jacobian, place.residuals);
+  model.scale = model.gram.diagonal().cwiseMax(1e-12);
+  for (int k = 0; k < place.p.size(); ++k) {
+    if (!problem.held.empty() && problem.held[k] != 0) continue;
+    const bool pressed = (place.p[k] <= problem.lower[k] && model.gradient[k] >= 0) ||
+                         (place.p[k] >= problem.upper[k] && model.gradient[k] <= 0);
+    if (!pressed) model.free.push_back(k);
+  }
+  return model;
 }
 
-// A bounded solve stops a little short where a bound is active: what is pressed against one is held
-// there and the rest solved once more.
-LeastSquaresEnd SolveWithinBounds(const LeastSquaresProblem& problem, LeastSquaresEnd end,
-                                  const LeastSquaresOptions& options) {
-  LeastSquaresProblem rest = problem;
-  rest.held.assign(problem.lower.size(), 0);
-  std::vector<double> start = end.p;
-  bool pressed = false, moving = false;
-  for (std::size_t k = 0; k < start.size(); ++k) {
-    const bool held = !problem.held.empty() && problem.held[k] != 0;
-    const double near = 1e-4 * std::min(problem.upper[k] - problem.lower[k], 1.0);
-    const bool low = start[k] - problem.lower[k] < near, high = problem.upper[k] - start[k] < near;
-    if (!held && (low || high)) {
-      start[k] = low ? problem.lower[k] : problem.upper[k];
-      pressed = true;
+// The damped step in the parameters of `free`, the others moving as `step` says already.
+bool SolveFree(const Quadratic& model, const std::vector<int>& free, double radius,
+               VectorXd* step) {
+  const int count = static_cast<int>(free.size());
+  MatrixXd gram(count, count);
+  VectorXd pull(count), scale(count), x;
+  for (int a = 0; a < count; ++a) {
+    (*step)[free[a]] = 0;
+    scale[a] = 1 / std::sqrt(model.scale[free[a]]);
+  }
+  for (int a = 0; a < count; ++a) {
+    pull[a] = -scale[a] * (model.gradient[free[a]] + model.gram.col(free[a]).dot(*step));
+    for (int b = 0; b < count; ++b) {
+      gram(a, b) = scale[a] * scale[b] * model.gram(free[a], free[b]);
     }
-    rest.held[k] = held || low || high ? 1 : 0;
-    moving = moving || rest.held[k] == 0;
+    gram(a, a) += 1 / radius;
   }
-  if (!pressed || !moving) return end;
-  LeastSquaresEnd again = SolveLeastSquares(rest, start, options);
-  if (!again.usable || again.sum_of_squares >= end.sum_of_squares) return end;
-  again.iterations += end.iterations;
-  return again;
+  if (!SolvePositive(gram, pull, &x) || !x.allFinite()) return false;
+  for (int a = 0; a < count; ++a) (*step)[free[a]] = scale[a] * x[a];
+  return true;
+}
+
+// Where the damped step leads. At the first bound on its way it stops for that parameter, and goes
+// on in the others: the model falls all the way.
+bool TakeStep(const LeastSquaresProblem& problem, const Quadratic& model, const VectorXd& from,
+              double radius, VectorXd* to) {
+  std::vector<int> free = model.free;
+  VectorXd step = VectorXd::Zero(from.size());
+  *to = from;
+  while (!free.empty()) {
+    const VectorXd before = step;
+    if (!SolveFree(model, free, radius, &step)) return false;
+    double reach = 1;
+    int first = -1;
+    for (const int k : free) {
+      const double bound = step[k] < before[k] ? problem.lower[k] : problem.upper[k];
+      const double room = (bound - from[k] - before[k]) / (step[k] - before[k]);
+      if (!(room < reach)) continue;
+      reach = std::max(room, 0.0);
+      first = k;
+    }
+    for (const int k : free) {
+      step[k] = before[k] + reach * (step[k] - before[k]);
+      (*to)[k] = std::min(std::max(from[k] + step[k], problem.lower[k]), problem.upper[k]);
+    }
+    if (first < 0) break;
+    const bool down = (*to)[first] - problem.lower[first] < problem.upper[first] - (*to)[first];
+    (*to)[first] = down ? problem.lower[first] : problem.upper[first];
+    step[first] = (*to)[first] - from[first];
+    free.erase(std::find(free.begin(), free.end(), first));
+  }
+  return true;
+}
+
+// By how much the model's sum of squares falls.
+double Predicted(const Quadratic& model, const VectorXd& step) {
+  return -2 * model.gradient.dot(step) - step.dot(Times(model.gram, step));
+}
+
+bool IsTiny(const VectorXd& step, const VectorXd& p) {
+  constexpr double kParameterTolerance = 1e-12;
+  return step.norm() <= kParameterTolerance * (p.norm() + kParameterTolerance);
+}
+
+// How far the model is trusted, steered as Nielsen 1999 ("Damping parameter in Marquardt's method")
+// does it: by what a step gained of what was predicted.
+struct Trust {
+  double radius = 1e4;
+  double shrink = 2;
+
+  void Shorten() {
+    radius /= shrink;
+    shrink *= 2;
+  }
+  void Lengthen(double quality) {
+    radius /= std::max(1.0 / 3, 1 - std::pow(2 * quality - 1, 3));
+    radius = std::min(radius, kLargestRadius);
+    shrink = 2;
+  }
+};
+
+// Where the parabola through a step's start, with its slope there, and its end is lowest: for ends
+// that disappoint.
+double BestPart(const Quadratic& model, const VectorXd& step, double gained) {
+  const double slope = -2 * model.gradient.dot(step);
+  return std::min(std::max(slope / (2 * (slope - gained)), 0.1), 0.5);
+}
+
+LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
+                        Place here) {
+  // A step that is hardly damped and promises nothing need not be tried; nor one that promises so
+  // little that many like it would not do.
+  constexpr double kHardlyDamped = 1e3, kLeastQuality = 1e-3, kMany = 10;
+  LeastSquaresEnd end;
+  end.usable = true;
+  Place next = here;
+  Quadratic model = Expand(problem, here);
+  Trust trust;
+  int invalid = 0;
+  while (!model.free.empty() && end.iterations < options.max_iterations &&
+         trust.radius > kLeastRadius && invalid <= kMostInvalid) {
+    ++end.iterations;
+    const bool solved = TakeStep(problem, model, here.p, trust.radius, &next.p);
+    const VectorXd step = next.p - here.p;
+    const double predicted = solved ? Predicted(model, step) : 0;
+    const double enough = options.function_tolerance * here.sum;
+    const bool promising = predicted > enough || trust.radius < kHardlyDamped;
+    end.converged = solved && (IsTiny(step, here.p) || !promising);
+    const bool hopeless = here.sum - kMany * predicted > options.to_beat;
+    if (end.converged || (hopeless && trust.radius >= kHardlyDamped)) break;
+    if (!solved || !Evaluate(problem, &next)) {
+      ++invalid;
+      trust.Shorten();
+      continue;
+    }
+    invalid = 0;
+    double gained = here.sum - next.sum;
+    end.converged = std::fabs(gained) <= enough;
+    if (gained > kLeastQuality * predicted) {
+      trust.Lengthen(gained / predicted);
+    } else if (!end.converged) {
+      next.p = here.p + BestPart(model, step, gained) * step;
+      gained = Evaluate(problem, &next) ? here.sum - next.sum : 0;
+      if (!(gained > kLeastQuality * predicted)) trust.Shorten();
+    }
+    if (gained > 0) std::swap(here, next);
+    if (end.converged) break;
+    if (gained > 0) model = Expand(problem, here);
+  }
+  end.converged = end.converged || model.free.empty();
+  end.p.assign(here.p.begin(), here.p.end());
+  end.sum_of_squares = here.sum;
+  return end;
 }
 
 }  // namespace
@@ -95,43 +196,17 @@ LeastSquaresEnd SolveWithinBounds(const LeastSquaresProblem& problem, LeastSquar
 LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
                                   const std::vector<double>& start,
                                   const LeastSquaresOptions& options) {
+  const int size = static_cast<int>(start.size());
+  Place first{Eigen::Map<const VectorXd>(start.data(), size), VectorXd(problem.residuals),
+              MatrixXd(size, problem.residuals)};
+  for (int k = 0; k < size; ++k) {
+    if (!problem.held.empty() && problem.held[k] != 0) continue;
+    first.p[k] = std::min(std::max(start[k], problem.lower[k]), problem.upper[k]);
+  }
   LeastSquaresEnd end;
-  end.p = start;
-  const std::vector<int> moving = Moving(problem);
-  std::vector<double> x;
-  for (const int k : moving) {
-    end.p[k] = std::min(std::max(start[k], problem.lower[k]), problem.upper[k]);
-    x.push_back(end.p[k]);
-  }
-  std::vector<double> residuals(problem.residuals);
-  if (!AllFinite(end.p.data(), end.p.size())) return end;
-  if (!problem.evaluate(end.p.data(), residuals.data(), nullptr)) return end;
-  end.usable = true;
-  for (const double r : residuals) end.sum_of_squares += r * r;
-  if (moving.empty()) {
-    end.converged = true;
-    return end;
-  }
-  ceres::Problem solver;
-  solver.AddResidualBlock(new Cost(problem, moving, end.p), nullptr, x.data());
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    const int at = static_cast<int>(k);
-    if (std::isfinite(problem.lower[moving[k]])) {
-      solver.SetParameterLowerBound(x.data(), at, problem.lower[moving[k]]);
-    }
-    if (std::isfinite(problem.upper[moving[k]])) {
-      solver.SetParameterUpperBound(x.data(), at, problem.upper[moving[k]]);
-    }
-  }
-  ceres::Solver::Summary summary;
-  ceres::Solve(SolverOptions(options), &solver, &summary);
-  end.iterations = static_cast<int>(summary.iterations.size());
-  end.converged = summary.termination_type == ceres::CONVERGENCE;
-  if (2 * summary.final_cost <= end.sum_of_squares) {
-    end.sum_of_squares = 2 * summary.final_cost;
-    for (std::size_t k = 0; k < moving.size(); ++k) end.p[moving[k]] = x[k];
-  }
-  return SolveWithinBounds(problem, std::move(end), options);
+  end.p.assign(first.p.begin(), first.p.end());
+  if (!first.p.allFinite() || !Evaluate(problem, &first)) return end;
+  return Descend(problem, options, std::move(first));
 }
 
 }  // namespace lyrefit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace lyrefit {
@@ -19,7 +20,10 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresOptions {
   int max_iterations = 60;
-  double function_tolerance = 1e-9;  // relative change of the cost
+  double function_tolerance = 1e-9;  // relative change of the sum of squares
+  // A sum of squares that others reached: where steps do not promise to come near it, the descent
+  // ends.
+  double to_beat = std::numeric_limits<double>::infinity();
 };
 
 struct LeastSquaresEnd {
@@ -30,7 +34,9 @@ struct LeastSquaresEnd {
   int iterations = 0;
 };
 
-// Ceres' bounded trust region with dense QR from `start`, which is moved inside the bounds.
+// Levenberg and Marquardt's method between bounds from `start`, which is moved inside them; made
+// for some ten parameters. One evaluation with derivatives a step. (Ceres takes three to five for
+// the same: its bounded steps search along a line, and it asks for values and derivatives in turn.)
 LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
                                   const std::vector<double>& start,
                                   const LeastSquaresOptions& options = {});

@@ -1,0 +1,234 @@
+#include "lyrefit/diagnose/candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "lyrefit/base/dense.h"
+
+namespace lyrefit {
+namespace {
+
+// An effect that would need more than its bound to come to this many noise units cannot be seen.
+constexpr double kDetectable = 4.7;
+// Directions of one effect that are more alike than this count as one.
+constexpr double kAlike = 0.97;
+
+bool IsTwoSided(const Effect& effect) {
+  if (effect.parameters.empty()) return true;
+  const EffectParameter& strength = effect.parameters.front();
+  return strength.lower < strength.neutral && strength.neutral < strength.upper &&
+         strength.neutral == 0;
+}
+
+// Smooth waves along every monotone stretch.
+std::vector<Eigen::VectorXd> Waves(const Workbench& bench) {
+  const std::vector<Reading>& points = bench.readings->points;
+  const int last_segment = points.back().segment;
+  const int most = bench.readings->traits.single ? 7 : 3;
+  std::vector<Eigen::VectorXd> waves;
+  for (int segment = 0; segment <= last_segment; ++segment) {
+    std::vector<int> at;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].segment == segment && bench.used[k] != 0) at.push_back(static_cast<int>(k));
+    }
+    const int count = static_cast<int>(at.size());
+    for (int w = 0; w < std::min(most, count / 4); ++w) {
+      Eigen::VectorXd wave = Eigen::VectorXd::Zero(static_cast<int>(points.size()));
+      for (int i = 0; i < count; ++i) wave[at[i]] = std::cos(M_PI * w * (i + 0.5) / count);
+      waves.push_back(wave);
+    }
+  }
+  return waves;
+}
+
+struct Raw {
+  Eigen::VectorXd signature;
+  int probe;
+};
+
+std::vector<Raw> Signatures(const Workbench& bench, const Effect& effect, const Imprint& imprint) {
+  std::vector<Raw> raw;
+  if (std::strcmp(effect.id, "unknown_structure") == 0) {
+    for (Eigen::VectorXd& wave : Waves(bench)) raw.push_back({std::move(wave), -1});
+    return raw;
+  }
+  const auto moved = imprint.moved.find(&effect);
+  for (int k = 0; moved != imprint.moved.end() && k < moved->second.cols(); ++k) {
+    Eigen::VectorXd signature = Whiten(bench, moved->second.col(k));
+    if (signature.allFinite() && signature.norm() > 0) raw.push_back({std::move(signature), k});
+  }
+  return raw;
+}
+
+// Each probe starts from the junction voltages of the one before.
+Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& effect) {
+  Law law = fit.law;
+  law.effects.push_back(&effect);
+  const std::vector<Probe> probes = effect.probes(readings.traits);
+  const int count = static_cast<int>(readings.points.size());
+  const Eigen::Map<const Eigen::VectorXd> before(fit.current.data(), count);
+  Eigen::MatrixXd moved(count, static_cast<int>(probes.size()));
+  LawWorkspace workspace;
+  for (int k = 0; k < moved.cols(); ++k) {
+    std::vector<double> p = fit.p;
+    p.insert(p.end(), probes[k].begin(), probes[k].end());
+    auto column = moved.col(k);
+    if (EvaluateLaw(law, readings, p.data(), &workspace, column.data(), nullptr)) {
+      column -= before;
+    } else {
+      column.setZero();
+    }
+  }
+  return moved;
+}
+
+bool Serves(const Workbench& bench, const LawFit& fit, const std::vector<const Effect*>& effects,
+            const Imprint& imprint) {
+  if (imprint.fit.law.effects != fit.law.effects) return false;
+  for (const Effect* effect : effects) {
+    if (effect->probes != nullptr && imprint.moved.count(effect) == 0) return false;
+  }
+  const int count = static_cast<int>(fit.current.size());
+  const Eigen::Map<const Eigen::VectorXd> here(fit.current.data(), count),
+      there(imprint.fit.current.data(), count);
+  return Whiten(bench, here - there).squaredNorm() < bench.count();
+}
+
+// How far from its neutral value a probe's strength may still grow.
+double Headroom(const Effect& effect, const Probe& probe) {
+  const EffectParameter& strength = effect.parameters.front();
+  const double used = std::fabs(probe[0] - strength.neutral);
+  const double upper = std::fabs(strength.upper - strength.neutral);
+  const double lower = std::fabs(strength.lower - strength.neutral);
+  return used > 0 ? std::max(upper, lower) / used : 1;
+}
+
+Candidate Prepare(const Workbench& bench, const Linearized& linear, const Effect& effect,
+                  const Imprint& imprint) {
+  Candidate candidate;
+  candidate.score.effect = &effect;
+  candidate.two_sided = IsTwoSided(effect);
+  const std::vector<Probe> probes =
+      effect.probes != nullptr ? effect.probes(bench.readings->traits) : std::vector<Probe>();
+  std::vector<Eigen::VectorXd> kept;
+  for (const Raw& raw : Signatures(bench, effect, imprint)) {
+    Eigen::VectorXd rest = raw.signature;
+    TakeOut(linear.basis, &rest);
+    Direction direction;
+    direction.probe = raw.probe;
+    direction.norm = rest.norm();
+    direction.kept = direction.norm / raw.signature.norm();
+    candidate.score.kept = std::max(candidate.score.kept, direction.kept);
+    const bool wave = raw.probe < 0;
+    if (!(direction.kept > (wave ? 1e-2 : 1e-7))) continue;
+    if (!wave && direction.norm * Headroom(effect, probes[raw.probe]) < kDetectable) continue;
+    const Eigen::VectorXd unit = rest / direction.norm;
+    direction.score = -unit.dot(linear.residual);
+    candidate.score.directions.push_back(direction);
+    kept.push_back(unit);
+  }
+  candidate.score.testable = !kept.empty();
+  if (kept.empty()) {
+    candidate.score.why_not =
+        "the base model absorbs it: no strength within its bounds would show in these data";
+    return candidate;
+  }
+  // The best direction of each lot of like ones stands for the lot in the null.
+  std::vector<int> order(kept.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  const auto size = [&](int k) {
+    const double s = candidate.score.directions[k].score;
+    return candidate.two_sided ? std::fabs(s) : s;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size(a) > size(b); });
+  std::vector<int> distinct;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    bool alike = false;
+    for (const int other : distinct) {
+      const double cosine = kept[k].dot(kept[other]);
+      alike = alike || (candidate.two_sided ? std::fabs(cosine) : cosine) > kAlike;
+    }
+    if (!alike) distinct.push_back(static_cast<int>(k));
+  }
+  candidate.directions.resize(linear.residual.size(), static_cast<int>(distinct.size()));
+  for (std::size_t k = 0; k < distinct.size(); ++k) {
+    candidate.directions.col(static_cast<int>(k)) = kept[distinct[k]].cast<float>();
+  }
+  std::vector<Direction> sorted;
+  sorted.reserve(order.size());
+  for (const int k : order) sorted.push_back(candidate.score.directions[k]);
+  candidate.score.directions = sorted;
+  return candidate;
+}
+
+Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, const Effect& effect) {
+  Candidate candidate;
+  candidate.score.effect = &effect;
+  candidate.two_sided = true;
+  candidate.score.testable = true;
+  candidate.score.kept = 1;
+  Direction best;
+  for (int k = 0; k < linear.residual.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double room = 1 - linear.basis.row(k).squaredNorm();
+    if (room < 1e-6) continue;
+    const double score = std::fabs(linear.residual[k]) / std::sqrt(room);
+    if (score > best.score) {
+      best = {-1, 1, 1, score};
+      candidate.score.outlier = k;
+    }
+  }
+  candidate.score.directions = {best};
+  return candidate;
+}
+
+}  // namespace
+
+std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+                                           const std::vector<const Effect*>& effects,
+                                           Imprints* known) {
+  for (const auto& imprint : *known) {
+    if (Serves(bench, fit, effects, *imprint)) return imprint;
+  }
+  auto imprint = std::make_shared<Imprint>();
+  imprint->fit = fit;
+  for (const Effect* effect : effects) {
+    if (Stopped(bench.watch)) break;
+    if (effect->probes == nullptr) continue;
+    imprint->moved.emplace(effect, Move(*bench.readings, fit, *effect));
+  }
+  known->push_back(imprint);
+  return imprint;
+}
+
+Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
+                    const std::vector<const Effect*>& effects, Imprints* known) {
+  const std::shared_ptr<const Imprint> imprint = FindImprint(bench, fit, effects, known);
+  Prepared prepared;
+  prepared.linear = Linearize(bench, fit);
+  prepared.degrees = bench.count() - static_cast<int>(prepared.linear.basis.cols());
+  const double sum = prepared.linear.residual.squaredNorm();
+  for (const Effect* effect : effects) {
+    if (Stopped(bench.watch)) break;
+    const bool outliers = std::strcmp(effect->id, "outliers") == 0;
+    Candidate candidate = outliers ? PrepareOutliers(bench, prepared.linear, *effect)
+                                   : Prepare(bench, prepared.linear, *effect, *imprint);
+    if (prepared.degrees < 3) candidate.score.testable = false;
+    if (candidate.score.testable) {
+      const double best = candidate.score.directions.front().score;
+      const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
+      candidate.score.statistic = Statistic(size, sum, prepared.degrees, bench.least_variance);
+    }
+    prepared.candidates.push_back(std::move(candidate));
+  }
+  return prepared;
+}
+
+double Statistic(double score, double sum, int degrees, double least_variance) {
+  const double rest = std::max(sum - score * score, 1e-12 * sum);
+  return score * score / std::max(rest / (degrees - 1), least_variance);
+}
+
+}  // namespace lyrefit

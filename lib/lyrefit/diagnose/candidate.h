@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/workbench.h"
+
+namespace lyrefit {
+
+// One way an effect could show: the direction in which it would move the whitened currents, less
+// what the present law absorbs.
+struct Direction {
+  int probe = 0;     // of the effect's probes
+  double kept = 0;   // part of the signature's norm the law cannot absorb
+  double norm = 0;   // of what is kept, at the probe's strength
+  double score = 0;  // its length along the residual, signed: positive if the effect helps
+};
+
+// How an effect scores on the residuals of a law.
+struct Score {
+  const Effect* effect = nullptr;
+  bool testable = false;
+  std::string why_not;
+  std::vector<Direction> directions;  // the best first
+  double statistic = 0;               // F(1, dof - 1) of the best direction
+  double p_value = 1;                 // all its directions counted, by simulated nulls
+  double corrected_p = 1;             // the whole catalogue counted
+  double charge = 0;                  // 2 ln of its effective number of directions
+  double catalogue = 1;               // how many such effects the whole list is worth
+  double kept = 0;                    // of its best kept direction
+  int outlier = -1;                   // of `outliers`: the reading
+};
+
+// An effect on its bench: its own part of a score, and how it would show in noise.
+struct Candidate {
+  Score score;
+  bool two_sided = false;
+  Eigen::MatrixXf directions;  // unit columns that no two are alike; none for outliers
+};
+
+// A law's candidates.
+struct Prepared {
+  Linearized linear;
+  int degrees = 0;  // of the readings beyond the law's parameters
+  std::vector<Candidate> candidates;
+};
+
+// What the probes of effects do to the currents of a fitted law, not whitened: a column a probe, 0
+// where it cannot be had. Other fits of the same law that lie within the noise share it.
+struct Imprint {
+  LawFit fit;
+  std::map<const Effect*, Eigen::MatrixXd> moved;
+};
+using Imprints = std::vector<std::shared_ptr<const Imprint>>;
+
+// One of `known` that serves this fit and all of `effects`, else a new one, which is added.
+std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+                                           const std::vector<const Effect*>& effects,
+                                           Imprints* known);
+
+// Every effect of `effects` beside the residuals of `fit`, not judged yet. "unknown_structure" is
+// scored on smooth waves along each stretch, "outliers" on single readings.
+Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
+                    const std::vector<const Effect*>& effects, Imprints* known);
+
+// F(1, degrees - 1) of a score that takes its square off a sum of squares.
+double Statistic(double score, double sum, int degrees, double least_variance);
+
+}  // namespace lyrefit

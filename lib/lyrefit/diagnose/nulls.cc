@@ -1,0 +1,158 @@
+#include "lyrefit/diagnose/nulls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/dense.h"
+
+namespace lyrefit {
+namespace {
+
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
+// Nulls that are computed together: what they need stays near the processor.
+constexpr int kLot = 100;
+
+// What all candidates share, side by side: products with it serve them all at once. Noise is random
+// anyway, so that single precision is plenty.
+struct Stack {
+  std::vector<const Candidate*> candidates;  // the testable ones
+  std::vector<int> first;                    // column of each; one more: their number
+  MatrixXf basis;
+  MatrixXf directions;
+  VectorXf used;  // 1 or 0
+
+  // The largest score of a candidate, given those of all directions, and whose it is.
+  template <class Column>
+  float Largest(std::size_t candidate, const Column& along, int* at) const {
+    const auto own = along.segment(first[candidate], first[candidate + 1] - first[candidate]);
+    const float size =
+        candidates[candidate]->two_sided ? own.cwiseAbs().maxCoeff(at) : own.maxCoeff(at);
+    *at += first[candidate];
+    return std::max(size, 0.0F);
+  }
+  bool IsOutliers(std::size_t candidate) const { return first[candidate + 1] == first[candidate]; }
+};
+
+Stack MakeStack(const Workbench& bench, const Prepared& prepared) {
+  Stack stack;
+  stack.first = {0};
+  for (const Candidate& candidate : prepared.candidates) {
+    if (!candidate.score.testable) continue;
+    stack.candidates.push_back(&candidate);
+    stack.first.push_back(stack.first.back() + static_cast<int>(candidate.directions.cols()));
+  }
+  stack.basis = prepared.linear.basis.cast<float>();
+  stack.directions.resize(stack.basis.rows(), stack.first.back());
+  for (std::size_t c = 0; c < stack.candidates.size(); ++c) {
+    if (stack.IsOutliers(c)) continue;
+    stack.directions.middleCols(stack.first[c], stack.first[c + 1] - stack.first[c]) =
+        stack.candidates[c]->directions;
+  }
+  stack.used.resize(stack.basis.rows());
+  for (int k = 0; k < stack.used.size(); ++k) stack.used[k] = bench.used[k] != 0 ? 1.0F : 0.0F;
+  return stack;
+}
+
+// A lot of noise as an estimate of its size changes it: readings weighted with what was found.
+struct Reweighted {
+  MatrixXf weights;             // squared, a column a null
+  MatrixXf rest;                // what the law leaves of the noise, times the weights
+  std::vector<MatrixXf> basis;  // of the law, times the weights
+  VectorXf sums;                // of squares
+  VectorXf outliers;            // the largest rest of a reading in parts of what the law leaves it
+};
+
+void Reweight(const Workbench& bench, const Stack& stack, const NoiseEstimator& estimator,
+              const VectorXf& noise, int d, Reweighted* lot) {
+  const int count = static_cast<int>(noise.size());
+  const VectorXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
+  std::vector<double> residual(count);
+  for (int k = 0; k < count; ++k) residual[k] = left[k] * bench.sigma[k];
+  const std::vector<double> sigma = estimator.Estimate(residual).sigma;
+  auto weight = lot->weights.col(d);
+  for (int k = 0; k < count; ++k) {
+    const double ratio = bench.sigma[k] / sigma[k];
+    weight[k] = stack.used[k] * static_cast<float>(ratio * ratio);
+  }
+  const MatrixXf basis = OrthonormalUnder(stack.basis, weight);
+  lot->basis[d] = weight.asDiagonal() * basis;
+  const VectorXf rest = noise - Times(basis, TransposedTimes(lot->basis[d], noise));
+  lot->rest.col(d) = weight.cwiseProduct(rest);
+  lot->sums[d] = rest.dot(lot->rest.col(d));
+  const VectorXf room = (1 - weight.array() * basis.rowwise().squaredNorm().array()).max(1e-9F);
+  lot->outliers[d] = std::sqrt((weight.array() * rest.array().square() / room.array()).maxCoeff());
+}
+
+// The largest score of a candidate in null `d`. `along` are the scores of all directions but for
+// what the law absorbs of their lengths, which is found for the largest alone: the weights hardly
+// differ, and neither does it from one direction to the next.
+float LargestReweighted(const Stack& stack, std::size_t candidate, const Reweighted& lot, int d,
+                        const VectorXf& along, const VectorXf& lengths) {
+  if (stack.IsOutliers(candidate)) return lot.outliers[d];
+  int at = 0;
+  const float size = stack.Largest(candidate, along, &at);
+  const float absorbed =
+      TransposedTimes(lot.basis[d], VectorXf(stack.directions.col(at))).squaredNorm();
+  return size * std::sqrt(lengths[at] / std::max(lengths[at] - absorbed, 1e-12F));
+}
+
+}  // namespace
+
+MatrixXf SimulateNulls(const Workbench& bench, const Prepared& prepared,
+                       const Eigen::Ref<const MatrixXf>& draws) {
+  const Stack stack = MakeStack(bench, prepared);
+  const VectorXf room = (1 - stack.basis.rowwise().squaredNorm().array()).max(1e-9F).rsqrt();
+  MatrixXf statistics = MatrixXf::Zero(draws.cols(), static_cast<int>(stack.candidates.size()));
+  for (int first = 0; first < draws.cols() && !Stopped(bench.watch); first += kLot) {
+    const int lot = std::min(kLot, static_cast<int>(draws.cols()) - first);
+    const MatrixXf noise = stack.used.asDiagonal() * draws.middleCols(first, lot);
+    const MatrixXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
+    const MatrixXf along = TransposedTimes(stack.directions, noise);  // free of the basis already
+    for (int d = 0; d < lot; ++d) {
+      const float sum = left.col(d).squaredNorm();
+      for (std::size_t c = 0; c < stack.candidates.size(); ++c) {
+        int at = 0;
+        const float best = stack.IsOutliers(c)
+                               ? left.col(d).cwiseProduct(room).cwiseAbs().maxCoeff()
+                               : stack.Largest(c, along.col(d), &at);
+        statistics(first + d, static_cast<int>(c)) =
+            static_cast<float>(Statistic(best, sum, prepared.degrees, bench.least_variance));
+      }
+    }
+  }
+  return statistics;
+}
+
+MatrixXf SimulateRefits(const Workbench& bench, const Prepared& prepared,
+                        const NoiseEstimator& estimator, const Eigen::Ref<const MatrixXf>& draws) {
+  const Stack stack = MakeStack(bench, prepared);
+  const int count = static_cast<int>(draws.rows());
+  const MatrixXf squared = stack.directions.cwiseAbs2();
+  MatrixXf statistics(draws.cols(), static_cast<int>(stack.candidates.size()));
+  Reweighted lot{MatrixXf::Zero(count, kLot), MatrixXf::Zero(count, kLot),
+                 std::vector<MatrixXf>(kLot), VectorXf(kLot), VectorXf(kLot)};
+  for (int first = 0; first < draws.cols(); first += kLot) {
+    const int size = std::min(kLot, static_cast<int>(draws.cols()) - first);
+    for (int d = 0; d < size; ++d) {
+      if (Stopped(bench.watch)) return statistics.topRows(first);
+      Reweight(bench, stack, estimator, stack.used.cwiseProduct(draws.col(first + d)), d, &lot);
+      Step(bench.watch);
+    }
+    const MatrixXf lengths = TransposedTimes(squared, lot.weights).cwiseMax(1e-12F);
+    const MatrixXf scores = TransposedTimes(stack.directions, lot.rest);
+    for (int d = 0; d < size; ++d) {
+      const VectorXf length = lengths.col(d),
+                     along = scores.col(d).cwiseQuotient(length.cwiseSqrt());
+      for (std::size_t c = 0; c < stack.candidates.size(); ++c) {
+        const float best = LargestReweighted(stack, c, lot, d, along, length);
+        statistics(first + d, static_cast<int>(c)) = static_cast<float>(
+            Statistic(best, lot.sums[d], prepared.degrees, bench.least_variance));
+      }
+    }
+  }
+  return statistics;
+}
+
+}  // namespace lyrefit

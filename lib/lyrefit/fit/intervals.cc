@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/refine/coordinates.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/sensitivity.h"
 #include "lyrefit/refine/thin.h"
@@ -65,27 +64,14 @@ class IntervalFinder {
     }
   }
 
-  // On the parameter's own scale: ln Is, 1 / Rsh, linear for the rest.
   void Symmetric(int i) {
     Estimate& e = estimates_[i];
     const double reach = t_ * e.standard_error;
     if (!std::isfinite(reach)) return;
-    const double value = input_.end.p[i];
     e.interval = IntervalMethod::kSymmetric;
-    if (Coordinates::IsSaturation(i)) {
-      e.low_95 = value * std::exp(-reach / value);
-      e.high_95 = value * std::exp(reach / value);
-    } else if (i == kRsh) {
-      const double conductance = 1 / value;
-      const double part = reach / (value * value);
-      e.low_95 = 1 / (conductance + part);
-      e.high_95 = conductance > part ? 1 / (conductance - part) : e.bounds.upper;
-    } else {
-      e.low_95 = value - reach;
-      e.high_95 = value + reach;
-    }
-    e.low_95 = std::max(e.low_95, e.bounds.lower);
-    e.high_95 = std::min(e.high_95, e.bounds.upper);
+    const ParameterRange range = RangeAround(e.info.kind, input_.end.p[i], reach);
+    e.low_95 = std::max(range.low, e.bounds.lower);
+    e.high_95 = std::min(range.high, e.bounds.upper);
   }
 
   bool NeedsProfile(int i) const {
@@ -103,7 +89,8 @@ class IntervalFinder {
   std::vector<ProfileQuery> Queries(bool saturation_currents) const {
     std::vector<ProfileQuery> queries;
     for (int i = 0; i < size_; ++i) {
-      if (Coordinates::IsSaturation(i) != saturation_currents || !NeedsProfile(i)) continue;
+      const bool saturation = estimates_[i].info.kind == ParameterKind::kSaturation;
+      if (saturation != saturation_currents || !NeedsProfile(i)) continue;
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
         queries.push_back({i, upper, t_, degrees_, estimates_[i].standard_error,
@@ -196,7 +183,7 @@ class IntervalFinder {
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "the data allow its whole range";
-      } else if (i == kRsh && e.high_95 >= e.bounds.upper) {
+      } else if (e.info.kind == ParameterKind::kShunt && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "no shunt is visible: only a lower limit is known";
       } else if (e.interval == IntervalMethod::kNone && e.at_bound == BoundSide::kNone) {

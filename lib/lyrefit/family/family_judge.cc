@@ -11,8 +11,6 @@
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/model_points.h"
-#include "lyrefit/refine/joint_linear.h"
-#include "lyrefit/refine/joint_profile.h"
 
 namespace lyrefit {
 namespace {
@@ -66,7 +64,7 @@ class Judge {
     }
     SensorErrors(spread);
     r_.reference = AtReference(family_.translation, r_.refined);
-    local_error_ = spread.local_error;
+    local_error_ = spread.local_errors;
   }
 
   double t() const { return t_; }
@@ -133,20 +131,19 @@ class Judge {
   }
 
   void ProfileWhereNeeded() {
-    std::vector<JointProfileQuery> queries;
+    std::vector<ProfileQuery> queries;
     for (int i = 0; i < family_.translation.size(); ++i) {
       if (!NeedsProfile(i)) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error, {}});
+        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error});
       }
     }
-    std::vector<JointProfileSide> sides(queries.size());
+    std::vector<ProfileSide> sides(queries.size());
     SharedObserver watch(observer_, "intervals", static_cast<std::int64_t>(queries.size()));
     watch.Begin();
     ParallelFor(static_cast<int>(queries.size()), options_.threads, [&](int q) {
       if (watch.Stopped()) return;
-      queries[q].proceed = watch.Proceed();
-      sides[q] = FindJointProfileSide(problem_, end_, queries[q]);
+      sides[q] = FindProfileSide(problem_, end_, queries[q], watch.Proceed());
       watch.FinishJob();
     });
     if (watch.Stopped()) {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/family_model.h"
 
 namespace lyrefit {
 

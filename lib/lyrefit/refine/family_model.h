@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "lyrefit/law/translation.h"
+#include "lyrefit/refine/model.h"
+#include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
 
@@ -69,26 +72,52 @@ struct JointEnd {
   bool converged = false;
   bool stopped = false;  // as `proceed` asked
   int iterations = 0;
-  std::vector<bool> held;  // shared parameters that are fixed or at a bound
-  // Largest cosine between the residuals and a column of the Jacobian along which a shared
-  // parameter is free to move downhill: 0 at an exact optimum.
-  double projected_gradient = 1;
+  std::vector<bool> held;         // see RefineEnd
+  double projected_gradient = 1;  // of the shared parameters, see RefineEnd
 };
 
 struct JointOptions {
   int max_iterations = 500;
   double function_tolerance = 1e-14;
   int max_rounds = 12;  // of settling which bounds are active
-  // Asked before every step; false ends the fit at the best point so far. May be empty.
+  // Asked once an iteration; false ends the fit at the best point so far. May be empty.
   std::function<bool()> proceed;
 };
 
-// Bounded least squares from `start` by Ceres: the local unknowns are eliminated by their Schur
-// complement. First with bounds, then in rounds of (hold what presses against its bound, solve free
-// in the rest, let in again what wants to), as Refine does. Saturation currents have no bounds of
-// their own: a second diode fades to 1e-11 of the largest current at the largest voltage, which
-// counts as absent (held).
+// RefineModel of a joint problem. Of the saturation currents only that of a second diode may
+// vanish; it then comes back with a size that shows nowhere, so that its logarithm is a number.
 JointEnd RefineJointly(const JointProblem& problem, JointPoint start,
                        const JointOptions& options = {});
+
+// FindSpread of a joint problem at the end of its fit, `variance` that of a point of weight 1.
+struct JointSpread : Spread {
+  std::vector<JointLocal> local_errors;  // standard errors of the curves' own unknowns
+  double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors
+};
+JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
+
+// FindProfileSide of a shared parameter; `proceed` as in JointOptions.
+ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
+                            const ProfileQuery& query, const std::function<bool()>& proceed = {});
+
+// A joint problem as a model: one block for each curve, its priors behind its points.
+class FamilyModel : public FitModel {
+ public:
+  // Keeps a reference.
+  explicit FamilyModel(const JointProblem& problem);
+
+  FitPoint Pack(const JointPoint& point) const;
+  JointPoint Unpack(const FitPoint& point) const;
+
+  // Derivatives of the solved current follow from the implicit function theorem at the root; those
+  // of the device's parameters with respect to the unknowns from dual numbers through the
+  // translation.
+  bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
+                double* local_slopes) const override;
+
+ private:
+  const JointProblem& problem_;
+  std::vector<PointSet> points_;
+};
 
 }  // namespace lyrefit

@@ -9,14 +9,16 @@
 
 #include "lyrefit/refine/linearize.h"
 #include "lyrefit/refine/solve.h"
+#include "lyrefit/refine/vanishing.h"
 
 namespace lyrefit {
 namespace {
 
-// A diode that adds less than this part of the largest current at the largest voltage has faded.
-constexpr double kFaded = 1e-9;
 // Cosine below which a gradient counts as zero when a bound is released or a diode let in.
 constexpr double kFlat = 1e-8;
+// How often a parameter may be let go, and a diode let in, times the number of parameters.
+constexpr int kMostReleased = 2;
+constexpr int kMostLetIn = 1;
 // Length of a column, in residuals, below which a unit of its coordinate changes nothing.
 constexpr double kNoInfluence = 1e-12;
 // Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
@@ -29,16 +31,13 @@ class ActiveSet {
     CHECK_EQ(static_cast<int>(start.p.size()), shape_.size());
     now_.at = std::move(start);
     now_.at.local.resize(shape_.locals(), 0);
-    for (const FitParameter& parameter : shape_.parameters) {
-      fixed_.push_back(parameter.fixed());
-      diodes_ += parameter.kind == ParameterKind::kSaturation ? 1 : 0;
-    }
+    for (const FitParameter& parameter : shape_.parameters) fixed_.push_back(parameter.fixed());
     now_.held = fixed_;
     refused_.assign(fixed_.size(), false);
     Clamp();
     Measure();
     Remember();
-    if (RemoveFaded()) Measure();
+    if (TakeOutFaded()) Measure();
   }
 
   RefineEnd Run() {
@@ -75,7 +74,6 @@ class ActiveSet {
   int size() const { return shape_.size(); }
   bool Ended() const { return stopped_ || now_.mean_square <= options_.enough; }
   void Measure() { now_.mean_square = model_.MeanSquare(now_.at); }
-  bool IsSaturation(int i) const { return shape_.parameters[i].kind == ParameterKind::kSaturation; }
 
   void Clamp() {
     std::vector<double>& p = now_.at.p;
@@ -90,10 +88,12 @@ class ActiveSet {
     if (best_.held.empty() || now_.mean_square < best_.mean_square) best_ = now_;
   }
 
-  // Of the settled places the lowest: what was let go and led nowhere is not asked again.
+  // Of the settled places the lowest: what was let go from there and led nowhere is not asked
+  // again.
   void KeepIfBetter() {
     if (settled_.held.empty() || now_.mean_square < settled_.mean_square) {
       settled_ = now_;
+      refused_.assign(refused_.size(), false);
       return;
     }
     if (last_released_ < 0) return;
@@ -167,7 +167,7 @@ class ActiveSet {
       if (low || high) Hold(coordinates, k, low);
       any = any || low || high;
     }
-    if (RemoveFaded() || any) Measure();
+    if (TakeOutFaded() || any) Measure();
   }
 
   // Solves without bounds. True if the answer lies inside them; else goes as far as the first bound
@@ -204,7 +204,7 @@ class ActiveSet {
     coordinates.ToParameters(theta.data(), now_.at.p.data());
     Clamp();
     Hold(coordinates, first, lower);
-    RemoveFaded();
+    TakeOutFaded();
     Measure();
     if (now_.mean_square > before.mean_square) {
       now_.at = before.at;
@@ -214,39 +214,13 @@ class ActiveSet {
     return false;
   }
 
-  // Takes out diodes that may vanish and whose current no longer shows at the largest voltage.
-  bool RemoveFaded() {
-    bool any = false;
-    for (int i = 0; i < size(); ++i) {
-      if (!IsSaturation(i)) continue;
-      const FitParameter& is = shape_.parameters[i];
-      const int n = is.with[0];
-      if (now_.at.p[i] <= 0) now_.held[i] = now_.held[n] = true;
-      if (!is.may_vanish || now_.held[i]) continue;
-      const double exponent = shape_.voltage_scale_V / (now_.at.p[n] * shape_.thermal_voltage_V);
-      const double strongest = now_.at.p[i] * std::exp(std::min(exponent, 600.0));
-      if (strongest > kFaded * shape_.current_scale_A) continue;
-      now_.at.p[i] = 0;
-      now_.held[i] = now_.held[n] = any = true;
-    }
-    return any;
-  }
-
-  // Everything that is fixed, and diodes that are not there.
-  std::vector<bool> FixedOrAbsent() const {
-    std::vector<bool> held = fixed_;
-    for (int i = 0; i < size(); ++i) {
-      if (IsSaturation(i) && now_.at.p[i] <= 0) {
-        held[i] = held[shape_.parameters[i].with[0]] = true;
-      }
-    }
-    return held;
-  }
+  bool TakeOutFaded() { return RemoveFaded(shape_, &now_.at.p, &now_.held); }
 
   // Signed cosine of the residuals with each parameter that is neither fixed nor absent; 0 where it
   // sits at a bound and would leave it, and of all others.
   std::vector<double> FreeCosines() const {
-    const std::vector<bool> held = FixedOrAbsent();
+    std::vector<bool> held = fixed_;
+    HoldAbsent(shape_, now_.at.p, &held);
     const Linearization now = Linearize(model_, now_.at, held);
     const Coordinates coordinates(shape_, now_.at.p, held);
     const std::vector<double> theta = coordinates.Start();
@@ -284,48 +258,10 @@ class ActiveSet {
       largest = std::fabs(cosines[i]);
       best = i;
     }
-    if (best < 0 || ++released_ > 2 * size()) return false;
+    if (best < 0 || ++released_ > kMostReleased * size()) return false;
     now_.held[best] = false;
     last_released_ = best;
     return true;
-  }
-
-  // A trial diode that is far too weak to matter, to read off the direction its current would pull.
-  struct Pull {
-    double cosine = kFlat;
-    double current = 0;  // the least-squares size of the diode alone
-    double n = 0;
-  };
-
-  Pull PullOf(const FitModel& model, int is, double n) const {
-    FitPoint trial = now_.at;
-    std::vector<bool> held(now_.held.size(), true);
-    held[is] = false;
-    trial.p[shape_.parameters[is].with[0]] = n;
-    const double exponent = shape_.voltage_scale_V / (n * shape_.thermal_voltage_V);
-    trial.p[is] = 1e-9 * shape_.current_scale_A * std::exp(-std::min(exponent, 600.0));
-    const Linearization now = Linearize(model, trial, held);
-    const double norm = now.jacobian.col(0).norm();
-    const double slope = now.jacobian.col(0).dot(now.residual);
-    return {-slope / (norm * now.residual.norm()), trial.p[is] * -slope / (norm * norm), n};
-  }
-
-  // Where in the range of its n the residuals ask most for a diode (looked for on the few points
-  // that stand for many); n = 0: nowhere.
-  Pull StrongestPull(int is) {
-    constexpr int kSteps = 24;
-    if (few_ == nullptr) few_ = model_.Few();
-    const FitParameter& n = shape_.parameters[shape_.parameters[is].with[0]];
-    const int steps = n.fixed() ? 0 : kSteps;
-    Pull best;
-    for (int step = 0; step <= steps; ++step) {
-      const double t = static_cast<double>(step) / kSteps;
-      const double trial = n.fixed() ? n.lower : 1 / ((1 - t) / n.lower + t / n.upper);
-      const Pull pull = PullOf(few_ != nullptr ? *few_ : model_, is, trial);
-      if (pull.cosine > best.cosine) best = pull;
-    }
-    if (best.n > 0 && few_ != nullptr) best = PullOf(model_, is, best.n);
-    return best.cosine > kFlat ? best : Pull{};
   }
 
   // Puts a vanished diode where the residuals ask for one and solves on; keeps it only if that
@@ -334,16 +270,18 @@ class ActiveSet {
     if (!options_.let_in || Ended()) return false;
     for (int i = 0; i < size(); ++i) {
       const FitParameter& is = shape_.parameters[i];
-      const bool vanished = IsSaturation(i) && now_.held[i] && now_.at.p[i] <= 0;
-      if (!vanished || is.fixed() || let_in_ > 3 * diodes_) continue;
-      const Pull pull = StrongestPull(i);
-      if (!(pull.n > 0)) continue;
+      const bool vanished = is.may_vanish && now_.held[i] && now_.at.p[i] <= 0;
+      if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
+      if (few_ == nullptr) few_ = model_.Few();
+      const Comeback diode = FindComeback(model_, few_.get(), now_.at, i);
+      if (!(diode.cosine > kFlat)) continue;
       ++let_in_;
       const State before = now_;
-      now_.at.p[i] = std::min(pull.current, is.upper);
-      now_.at.p[is.with[0]] = pull.n;
+      const int n = is.with[0];
+      now_.at.p[i] = std::min(diode.size, is.upper);
+      now_.at.p[n] = diode.n;
       now_.held[i] = false;
-      now_.held[is.with[0]] = fixed_[is.with[0]];
+      now_.held[n] = fixed_[n];
       Measure();
       Solve(/*bounded=*/true, options_.first_tolerance, options_.first_iterations);
       if (now_.mean_square < before.mean_square * (1 - 1e-13)) {
@@ -366,7 +304,6 @@ class ActiveSet {
   int last_released_ = -1;
   int released_ = 0;
   int let_in_ = 0;
-  int diodes_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
   std::unique_ptr<FitModel> few_;  // filled where needed

@@ -9,7 +9,7 @@
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/translation.h"
-#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
 

@@ -6,7 +6,7 @@
 
 #include "family/made_family.h"
 #include "lyrefit/refine/curve_model.h"
-#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 #include "refine/test_curves.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
 

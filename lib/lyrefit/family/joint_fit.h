@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_problem.h"
-#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
 

@@ -23,6 +23,7 @@ constexpr int kMostLetIn = 1;
 constexpr double kNoInfluence = 1e-12;
 // Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
 constexpr double kWorse = 1e-9;
+constexpr double kNoLoss = 1e-12;  // the same, of what may be taken out
 
 class ActiveSet {
  public:
@@ -193,7 +194,7 @@ class ActiveSet {
     }
     if (first < 0) {
       Clamp();  // rounding
-      return true;
+      return !FadesWithoutLoss();
     }
     std::vector<double> theta = from;
     for (std::size_t k = 0; k < theta.size(); ++k) theta[k] += reach * (to[k] - from[k]);
@@ -211,6 +212,16 @@ class ActiveSet {
       Hold(coordinates, first, lower);
       Measure();
     }
+    return false;
+  }
+
+  // Takes out what has faded if nothing is lost by it; the rest is then solved once more.
+  bool FadesWithoutLoss() {
+    State before = now_;
+    if (!TakeOutFaded()) return false;
+    Measure();
+    if (now_.mean_square <= before.mean_square * (1 + kNoLoss)) return true;
+    now_ = std::move(before);
     return false;
   }
 

@@ -1,104 +1,19 @@
 #pragma once
 
-#include <array>
-#include <functional>
 #include <vector>
 
-#include "lyrefit/law/translation.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/model.h"
-#include "lyrefit/refine/profile.h"
-#include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
 
-// One curve of a joint problem and the unknowns of its own: true irradiance = stated (1 + u), true
-// temperature = stated + d.
-struct JointCurve {
-  std::vector<double> voltage_V;
-  std::vector<double> current_A;
-  std::vector<double> weight;  // of the squared residuals; 1 is a point of ordinary weight
-  double irradiance_W_m2 = 0;  // as stated, above 0
-  double temperature_K = 0;
-  // Standard deviation of the unknown's prior around 0; 0: no such unknown, infinite: no prior.
-  double irradiance_sd = 0;  // of u
-  double temperature_sd_K = 0;
+// An unknown that a curve has to itself.
+struct OwnUnknown {
+  int which;  // in JointLocal
+  double sd;  // of its prior, may be infinite
 };
-
-using JointLocal = std::array<double, 2>;  // u, d in kelvin
-
-// Curves of one device: minimise the sum of weight x residual^2 over all points, plus (noise x
-// local / sd)^2 for every local unknown with a prior.
-struct JointProblem {
-  Translation translation;
-  Objective objective = Objective::kSolvedCurrent;
-  std::vector<JointCurve> curves;
-  // Bounds of the shared parameters in the translation's order, then of the sensors' common errors:
-  // true irradiance = stated + first (W/m2), true temperature = stated + second (K). Equal: held.
-  std::vector<double> lower;
-  std::vector<double> upper;
-  double noise_A = 1;  // of a point of weight 1: what priors are weighed against
-
-  // Natural sizes that the coordinates are scaled by.
-  double current_scale_A = 1;
-  double voltage_scale_V = 1;
-
-  int shared() const { return translation.size() + 2; }
-  int irradiance_offset() const { return translation.size(); }
-  int temperature_offset() const { return translation.size() + 1; }
-};
-
-// Fills the scales from the curves.
-void FindJointScales(JointProblem* problem);
-
-struct JointPoint {
-  std::vector<double> shared;     // with both sensor errors at the end
-  std::vector<JointLocal> local;  // of each curve; 0 where there is no such unknown
-};
-
-// Irradiance and temperature of a curve at a point of the problem.
-struct TrueConditions {
-  double irradiance_W_m2;
-  double temperature_K;
-};
-TrueConditions ConditionsAt(const JointProblem& problem, const JointPoint& point, int curve);
-
-// Parameters of translation.device for a curve at a point of the problem.
-std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve);
-
-struct JointEnd {
-  JointPoint point;
-  double squares = 0;        // weighted sum over the points, A^2
-  double prior_squares = 0;  // what the priors add
-  bool converged = false;
-  bool stopped = false;  // as `proceed` asked
-  int iterations = 0;
-  std::vector<bool> held;         // see RefineEnd
-  double projected_gradient = 1;  // of the shared parameters, see RefineEnd
-};
-
-struct JointOptions {
-  int max_iterations = 500;
-  double function_tolerance = 1e-14;
-  int max_rounds = 12;  // of settling which bounds are active
-  // Asked once an iteration; false ends the fit at the best point so far. May be empty.
-  std::function<bool()> proceed;
-};
-
-// RefineModel of a joint problem. Of the saturation currents only that of a second diode may
-// vanish; it then comes back with a size that shows nowhere, so that its logarithm is a number.
-JointEnd RefineJointly(const JointProblem& problem, JointPoint start,
-                       const JointOptions& options = {});
-
-// FindSpread of a joint problem at the end of its fit, `variance` that of a point of weight 1.
-struct JointSpread : Spread {
-  std::vector<JointLocal> local_errors;  // standard errors of the curves' own unknowns
-  double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors
-};
-JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
-
-// FindProfileSide of a shared parameter; `proceed` as in JointOptions.
-ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& proceed = {});
+std::vector<OwnUnknown> OwnUnknowns(const JointCurve& curve);
 
 // A joint problem as a model: one block for each curve, its priors behind its points.
 class FamilyModel : public FitModel {

@@ -1,0 +1,131 @@
+#include "lyrefit/refine/joint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lyrefit/refine/active_set.h"
+#include "lyrefit/refine/family_model.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kAbsent = -25;  // ln(current of a vanished diode at V0 / I0)
+
+RefineOptions HowToRefine(const JointOptions& options) {
+  RefineOptions how;
+  how.function_tolerance = options.function_tolerance;
+  if (options.proceed) how.stop = [&options] { return !options.proceed(); };
+  how.trust_radius = 1e6;  // starts are further off than a curve's: a longer step leads astray
+  return how;
+}
+
+void AddSquares(const JointProblem& problem, const FamilyModel& model, const FitPoint& at,
+                JointEnd* end) {
+  const double* local = at.local.data();
+  for (std::size_t c = 0; c < problem.curves.size(); ++c) {
+    const FitBlock& block = model.shape().blocks[c];
+    std::vector<double> residuals(block.residuals);
+    if (!model.Evaluate(static_cast<int>(c), at.p.data(), local, residuals.data(), nullptr,
+                        nullptr)) {
+      std::fill(residuals.begin(), residuals.end(), HUGE_VAL);
+    }
+    const std::size_t points = problem.curves[c].voltage_V.size();
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      (k < points ? end->squares : end->prior_squares) += residuals[k] * residuals[k];
+    }
+    local += block.locals;
+  }
+}
+
+}  // namespace
+
+void FindJointScales(JointProblem* problem) {
+  problem->current_scale_A = 0;
+  problem->voltage_scale_V = 0;
+  for (const JointCurve& curve : problem->curves) {
+    for (std::size_t k = 0; k < curve.voltage_V.size(); ++k) {
+      problem->current_scale_A = std::max(problem->current_scale_A, std::fabs(curve.current_A[k]));
+      problem->voltage_scale_V = std::max(problem->voltage_scale_V, curve.voltage_V[k]);
+    }
+  }
+}
+
+TrueConditions ConditionsAt(const JointProblem& problem, const JointPoint& point, int curve) {
+  const JointCurve& at = problem.curves[curve];
+  return {
+      at.irradiance_W_m2 * (1 + point.local[curve][0]) + point.shared[problem.irradiance_offset()],
+      at.temperature_K + point.local[curve][1] + point.shared[problem.temperature_offset()]};
+}
+
+std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve) {
+  const TrueConditions at = ConditionsAt(problem, point, curve);
+  std::vector<double> device(problem.translation.device.size());
+  Translate(problem.translation, point.shared.data(), at.irradiance_W_m2, at.temperature_K,
+            device.data());
+  return device;
+}
+
+JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
+                       const JointOptions& options) {
+  const FamilyModel model(problem);
+  RefineEnd found = RefineModel(model, model.Pack(start), HowToRefine(options));
+  const Translation& at = problem.translation;
+  const int is = at.saturation_current_2;
+  if (is >= 0 && found.held[is] && found.p[is] <= 0 && problem.upper[is] > 0) {
+    const double pivot = problem.voltage_scale_V / at.device.module_thermal_voltage_V;
+    found.p[is] = problem.current_scale_A * std::exp(kAbsent - pivot / found.p[at.n_2]);
+  }
+  JointEnd end;
+  AddSquares(problem, model, found, &end);
+  end.point = model.Unpack(found);
+  end.converged = found.converged;
+  end.stopped = found.stopped;
+  end.iterations = found.iterations;
+  end.projected_gradient = found.projected_gradient;
+  end.held = std::move(found.held);
+  return end;
+}
+
+JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance) {
+  const FamilyModel model(problem);
+  JointSpread spread;
+  static_cast<Spread&>(spread) = FindSpread(model, model.Pack(end.point), end.held, variance);
+  const double nan = std::nan("");
+  std::size_t next = 0;
+  for (const JointCurve& curve : problem.curves) {
+    spread.local_errors.push_back({nan, nan});
+    for (const OwnUnknown& own : OwnUnknowns(curve)) {
+      const double error = spread.local_error[next++];
+      spread.local_errors.back()[own.which] = error;
+      const double part = error * error / (own.sd * own.sd);
+      const double degrees = std::isnan(error) ? 0 : std::max(0.0, 1 - part);
+      spread.local_degrees += std::isfinite(own.sd) ? degrees : 1;
+    }
+  }
+  return spread;
+}
+
+ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
+                            const ProfileQuery& query, const std::function<bool()>& proceed) {
+  const FamilyModel model(problem);
+  RefineEnd from;
+  static_cast<FitPoint&>(from) = model.Pack(best.point);
+  from.mean_square = (best.squares + best.prior_squares) / model.shape().points;
+  JointOptions options;
+  options.proceed = proceed;
+  RefineOptions how = HowToRefine(options);
+  ProfileRefits refits;
+  refits.refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
+    FamilyModel held = model;
+    held.Fix(query.parameter, value);
+    FitPoint at = start;
+    at.p[query.parameter] = value;
+    how.enough = enough;
+    how.function_tolerance = tolerance;
+    return RefineModel(held, std::move(at), how);
+  };
+  return FindProfileSide(model, from, query, refits);
+}
+
+}  // namespace lyrefit

@@ -4,53 +4,12 @@
 
 #include <cmath>
 
-#include "lyrefit/base/random.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
+#include "refine/decay_model.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr double kNoise = 1e-3;
-constexpr int kPoints = 30;
-
-// A model that knows nothing of diodes: y = height exp(-rate x) in every block, each with an offset
-// of its own.
-class Decay : public FitModel {
- public:
-  explicit Decay(std::uint64_t seed, double least_rate = 0) : FitModel(MakeShape(least_rate)) {
-    RandomStream random(seed);
-    for (int b = 0; b < 2; ++b) {
-      for (int k = 0; k < kPoints; ++k) {
-        measured_[b][k] = 2 * std::exp(-0.7 * X(k)) + 0.1 * b + kNoise * random.Normal();
-      }
-    }
-  }
-
-  bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
-                double* local_slopes) const override {
-    for (int k = 0; k < kPoints; ++k) {
-      const double part = std::exp(-p[1] * X(k));
-      residuals[k] = p[0] * part + local[0] - measured_[block][k];
-      if (slopes != nullptr) slopes[2 * k] = part;
-      if (slopes != nullptr) slopes[2 * k + 1] = -X(k) * p[0] * part;
-      if (local_slopes != nullptr) local_slopes[k] = 1;
-    }
-    return true;
-  }
-
- private:
-  static double X(int k) { return 0.1 * k; }
-  static ModelShape MakeShape(double least_rate) {
-    ModelShape shape;
-    shape.parameters = {{ParameterKind::kPhotocurrent, 1, {-1, -1}, 0, 10},
-                        {ParameterKind::kPlain, 1, {-1, -1}, least_rate, 5}};
-    shape.blocks = {{kPoints, 1}, {kPoints, 1}};
-    shape.points = 2 * kPoints;
-    return shape;
-  }
-  double measured_[2][kPoints];
-};
 
 // By a number of the point itself.
 double GradientAt(const FitModel& model, const FitPoint& point, double* x) {
@@ -70,8 +29,8 @@ TEST(RefineModel, FitsAModelOfOnesOwnWithTheUnknownsOfItsBlocks) {
   EXPECT_LT(end.projected_gradient, 1e-8);
   EXPECT_NEAR(end.p[0], 2, 0.02);
   EXPECT_NEAR(end.p[1], 0.7, 0.02);
-  EXPECT_NEAR(end.local[1] - end.local[0], 0.1, 4 * kNoise);
-  EXPECT_NEAR(std::sqrt(end.mean_square), kNoise, 0.2 * kNoise);
+  EXPECT_NEAR(end.local[1] - end.local[0], 0.1, 4 * kDecayNoise);
+  EXPECT_NEAR(std::sqrt(end.mean_square), kDecayNoise, 0.2 * kDecayNoise);
 }
 
 TEST(RefineModel, HoldsAtABoundExactlyAndFitsTheRest) {
@@ -109,7 +68,7 @@ TEST(RefineModel, HasTheSpreadOfRepeatedMeasurements) {
   for (int run = 0; run < kRepeats; ++run) {
     const Decay model(run);
     const RefineEnd end = RefineModel(model, {{2, 0.7}, {0, 0.1}});
-    const Spread spread = FindSpread(model, end, end.held, kNoise * kNoise);
+    const Spread spread = FindSpread(model, end, end.held, kDecayNoise * kDecayNoise);
     const double value[] = {end.p[0], end.p[1], end.local[0]};
     const double error[] = {spread.standard_error[0], spread.standard_error[1],
                             spread.local_error[0]};
@@ -127,7 +86,7 @@ TEST(RefineModel, HasTheSpreadOfRepeatedMeasurements) {
 TEST(RefineModel, IsProfiledLikeAnyOther) {
   const Decay model(3);
   const RefineEnd best = RefineModel(model, {{2, 0.7}, {0, 0.1}});
-  const double variance = kNoise * kNoise, t = 2;
+  const double variance = kDecayNoise * kDecayNoise, t = 2;
   const Spread spread = FindSpread(model, best, best.held, variance);
   const auto refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
     Decay held = model;
@@ -144,7 +103,7 @@ TEST(RefineModel, IsProfiledLikeAnyOther) {
         model, best, {1, upper, t, variance, spread.standard_error[1]}, {refit, {}});
     EXPECT_TRUE(side.settled);
     const double risen = refit(side.value, best, 0, 1e-15).mean_square - best.mean_square;
-    EXPECT_NEAR(std::sqrt(risen * 2 * kPoints / variance), t, 0.01 * t);
+    EXPECT_NEAR(std::sqrt(risen * 2 * kDecayPoints / variance), t, 0.01 * t);
     EXPECT_EQ(side.value > best.p[1], upper);
   }
 }

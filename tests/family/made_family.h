@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/random.h"
@@ -129,6 +130,11 @@ inline JointProblem MadeProblem(const CurveSet& set, const Translation& law,
   free(law.recombination, 0, 30);
   FindJointScales(&problem);
   return problem;
+}
+
+// Where the curves' own unknowns are 0.
+inline JointPoint PointAt(const JointProblem& problem, std::vector<double> shared) {
+  return {std::move(shared), std::vector<JointLocal>(problem.curves.size(), {0, 0})};
 }
 
 }  // namespace lyrefit

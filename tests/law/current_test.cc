@@ -1,11 +1,11 @@
 #include "lyrefit/law/current.h"
 
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/law/kernel.h"
 #include "repeats.h"
@@ -16,7 +16,7 @@ namespace {
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 constexpr int kMost = 9;
-using Jet = ceres::Jet<double, kMost>;
+using Unknowns = Dual<kMost>;
 
 // A device, its parameters and a voltage, drawn from far beyond anything physical.
 struct Draw {
@@ -130,9 +130,9 @@ TEST(ImplicitFactor, GivesDerivativesThatAgreeWithMultiprecisionDifferences) {
   for (int k = 0; k < kDraws; ++k) {
     const Draw draw = DrawDevice(&random);
     const OperatingPoint point = SolveOperatingPoint(draw.device, draw.p.data(), draw.voltage_V);
-    Jet p[kMost];
-    for (int i = 0; i < draw.device.size(); ++i) p[i] = Jet(draw.p[i], i);
-    const Jet current = ExplicitCurrent(draw.device, p, draw.voltage_V, point.current_A);
+    Unknowns p[kMost];
+    for (int i = 0; i < draw.device.size(); ++i) p[i] = Unknowns(draw.p[i], i);
+    const Unknowns current = ExplicitCurrent(draw.device, p, draw.voltage_V, point.current_A);
     const double factor = ImplicitFactor(draw.device, draw.p.data(), point);
     for (int i = 0; i < draw.device.size(); ++i) {
       std::vector<Quad> up = ToQuad(draw.p), down = up;

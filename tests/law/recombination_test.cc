@@ -1,4 +1,3 @@
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/kernel.h"
@@ -17,7 +17,7 @@ namespace {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 constexpr int kMost = 9;
-using Jet = ceres::Jet<double, kMost>;
+using Unknowns = Dual<kMost>;
 
 // A device with recombination as PVsyst has it: d2mutau 0 to 2 V, NsVbi 0.9 V a cell.
 struct Draw {
@@ -162,9 +162,9 @@ TEST(Recombination, DerivativesAgreeWithDifferences) {
   AddRecombination(&device);
   const std::vector<double> p = {1.2, 2e-10, 1.4, 3.1, 900, 1.1, 34.2};
   for (const double vd : {-3.0, 0.0, 20.0, 33.0, 34.19, 40.0}) {
-    Jet jets[kMost];
-    for (int i = 0; i < device.size(); ++i) jets[i] = Jet(p[i], i);
-    const Jet current = JunctionCurrent(device, jets, Jet(vd));
+    Unknowns jets[kMost];
+    for (int i = 0; i < device.size(); ++i) jets[i] = Unknowns(p[i], i);
+    const Unknowns current = JunctionCurrent(device, jets, Unknowns(vd));
     for (int i = 0; i < device.size(); ++i) {
       std::vector<double> up = p, down = p;
       const double h = 1e-6 * p[i];

@@ -1,10 +1,11 @@
 #include "lyrefit/law/translation.h"
 
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "lyrefit/base/dual.h"
 
 namespace lyrefit {
 namespace {
@@ -217,7 +218,7 @@ TEST(Translate, HandsTheReferenceDeviceTheSameCurve) {
 
 TEST(Translate, DualNumbersAgreeWithCentralDifferences) {
   constexpr int kMost = 16;
-  using Jet = ceres::Jet<double, kMost>;
+  using Unknowns = Dual<kMost>;
   for (const TranslationLaw law : {TranslationLaw::kDeSoto, TranslationLaw::kPvsyst}) {
     const bool pvsyst = law == TranslationLaw::kPvsyst;
     const Translation translation = Make(law, pvsyst ? ShuntLaw::kExponential : ShuntLaw::kInverse,
@@ -228,9 +229,9 @@ TEST(Translate, DualNumbersAgreeWithCentralDifferences) {
     const int count = translation.size();
     x.push_back(640);    // irradiance
     x.push_back(322.4);  // temperature
-    std::vector<Jet> jets(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) jets[i] = Jet(x[i], static_cast<int>(i));
-    std::vector<Jet> device(translation.device.size());
+    std::vector<Unknowns> jets(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) jets[i] = Unknowns(x[i], static_cast<int>(i));
+    std::vector<Unknowns> device(translation.device.size());
     Translate(translation, jets.data(), jets[count], jets[count + 1], device.data());
     const auto at = [&](const std::vector<double>& y) {
       std::vector<double> d(translation.device.size());

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
-#include "lyrefit/refine/sensitivity.h"
+#include "family/made_family.h"
+#include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 #include "refine/test_curves.h"
 
@@ -17,11 +20,12 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
   const RefineEnd best = Refine(problem, kSingleTruth);
   const int degrees = 35;
   const double t = 2.03;
-  const Sensitivity sensitivity = FindSensitivity(problem, best, degrees);
+  const double variance = VarianceOf(problem, best, degrees);
+  const Spread spread = SpreadOf(problem, best, degrees);
   for (int i = 0; i < 5; ++i) {
     for (const bool upper : {false, true}) {
       const ProfileSide side =
-          FindProfileSide(problem, best, {i, upper, t, degrees, sensitivity.standard_error[i]});
+          FindProfileSide(problem, best, {i, upper, t, variance, spread.standard_error[i]});
       ASSERT_FALSE(side.at_bound) << i;
       EXPECT_TRUE(side.better.empty());
       EXPECT_EQ(side.value > best.p[i], upper);
@@ -30,8 +34,7 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
       const double risen = Refine(held, SeparableDescent(held, best.p)).mean_square;
       EXPECT_NEAR(std::sqrt((risen / best.mean_square - 1) * degrees), t, 0.01 * t) << i;
       // This well-measured curve is nearly linear: the symmetric interval is close.
-      EXPECT_NEAR(std::fabs(side.value - best.p[i]) / (t * sensitivity.standard_error[i]), 1, 0.4)
-          << i;
+      EXPECT_NEAR(std::fabs(side.value - best.p[i]) / (t * spread.standard_error[i]), 1, 0.4) << i;
     }
   }
 }
@@ -40,7 +43,8 @@ TEST(FindProfileSide, StopsAtTheBoundWhereTheDataDoNotObject) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kDoubleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);
   const RefineEnd best = Refine(problem, {3.8, 2e-8, 1.2, 0.25, 300, 1e-9, 1.6});
-  const ProfileSide low = FindProfileSide(problem, best, {5, false, 2.03, 33, 0});
+  const ProfileSide low =
+      FindProfileSide(problem, best, {5, false, 2.03, VarianceOf(problem, best, 33), 0});
   EXPECT_TRUE(low.at_bound);
   EXPECT_EQ(low.value, 0);
 }
@@ -49,7 +53,7 @@ TEST(FindProfileSide, EndsOutsideWhenItIsStopped) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);
   const RefineEnd best = Refine(problem, kSingleTruth);
-  const ProfileQuery query = {kRs, true, 2.03, 35, 0};
+  const ProfileQuery query = {kRs, true, 2.03, VarianceOf(problem, best, 35), 0};
   const ProfileSide whole = FindProfileSide(problem, best, query);
   EXPECT_TRUE(whole.settled);
   const ProfileSide stopped = FindProfileSide(problem, best, query, [] { return true; });
@@ -64,43 +68,59 @@ TEST(FindProfileSide, IsNeverNarrowerThanWhatItSaw) {
   RefineEnd wrong = Refine(problem, kSingleTruth);
   wrong.mean_square *= 3;
   for (const bool upper : {false, true}) {
-    const ProfileSide side = FindProfileSide(problem, wrong, {kIph, upper, 2.03, 35, 0});
+    const ProfileSide side =
+        FindProfileSide(problem, wrong, {kIph, upper, 2.03, VarianceOf(problem, wrong, 35), 0});
     EXPECT_FALSE(side.better.empty());
     EXPECT_GT(std::fabs(side.value - wrong.p[kIph]), 1e-3);
     EXPECT_EQ(side.value > wrong.p[kIph], upper);
   }
 }
 
-TEST(FindSensitivity, IsTheScatterOfRepeatedMeasurements) {
-  constexpr int kRepeats = 400;
-  std::vector<double> mean(5), square(5), claimed(5);
-  for (int run = 0; run < kRepeats; ++run) {
-    const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
-                                                kSingleTruth, 1e-3, Objective::kSolvedCurrent, run);
-    const RefineEnd end = Refine(problem, kSingleTruth);
-    const Sensitivity sensitivity = FindSensitivity(problem, end, 35);
-    for (int i = 0; i < 5; ++i) {
-      mean[i] += end.p[i] / kRepeats;
-      square[i] += end.p[i] * end.p[i] / kRepeats;
-      claimed[i] += sensitivity.standard_error[i] / kRepeats;
+TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
+  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = MadeTruth(law);
+  JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
+  problem.curves[1].irradiance_sd = HUGE_VAL;
+  const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
+  const double variance = 9e-6, t = 2;
+  const JointSpread spread = FindJointSpread(problem, best, variance);
+  const auto rise = [&](int i, double value) {
+    JointProblem held = problem;
+    held.lower[i] = held.upper[i] = value;
+    const JointEnd end = RefineJointly(held, best.point);
+    return std::sqrt((end.squares - best.squares) / variance);
+  };
+  for (int i = 0; i < law.size(); ++i) {
+    if (best.held[i]) continue;
+    for (const bool upper : {false, true}) {
+      const ProfileSide side =
+          FindProfileSide(problem, best, {i, upper, t, variance, spread.standard_error[i]});
+      EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
+      EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
+      EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
+      // Nothing on the way crosses the threshold.
+      const double middle = 0.5 * (side.value + best.point.shared[i]);
+      EXPECT_LT(rise(i, middle), t) << law.parameters[i].name;
     }
-  }
-  for (int i = 0; i < 5; ++i) {
-    const double scatter = std::sqrt(square[i] - mean[i] * mean[i]);
-    EXPECT_NEAR(claimed[i] / scatter, 1, 0.15) << i;
-    EXPECT_NEAR(mean[i], kSingleTruth[i],
-                5 * scatter / std::sqrt(kRepeats) + 0.02 * kSingleTruth[i])
-        << i;
   }
 }
 
-TEST(FindSensitivity, SaysNothingOfHeldParameters) {
-  RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
-                                        1e-3, Objective::kSolvedCurrent);
-  problem.lower[2] = problem.upper[2] = 1.2;
-  const Sensitivity sensitivity = FindSensitivity(problem, Refine(problem, kSingleTruth), 36);
-  EXPECT_TRUE(std::isnan(sensitivity.standard_error[2]));
-  EXPECT_GT(sensitivity.standard_error[1], 0);
+TEST(FindFamilyProfileSide, StopsAtABoundThatTheDataAllow) {
+  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
+  std::vector<double> truth = MadeTruth(law);
+  truth[law.resistance_series] = 0;
+  truth[law.resistance_shunt] = 1e7;
+  const JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
+  const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
+  const ProfileSide low =
+      FindProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0});
+  EXPECT_TRUE(low.at_bound);
+  EXPECT_EQ(low.value, 0);
+  EXPECT_TRUE(FindProfileSide(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0}).at_bound);
+  const ProfileSide limit =
+      FindProfileSide(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0});
+  EXPECT_FALSE(limit.at_bound);
+  EXPECT_GT(limit.value, 300);
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/problem.h"
+#include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
 
@@ -30,6 +32,15 @@ inline RefineProblem ModuleProblem(Model truth, Model fitted, const std::vector<
     upper.insert(upper.end(), {1e-4, 2});
   }
   return MakeRefineProblem(device, objective, voltage, current, {}, lower, upper);
+}
+
+// Of a residual of weight 1.
+inline double VarianceOf(const RefineProblem& problem, const RefineEnd& end, int degrees) {
+  return end.mean_square * static_cast<double>(problem.voltage_V.size()) / degrees;
+}
+
+inline Spread SpreadOf(const RefineProblem& problem, const RefineEnd& end, int degrees) {
+  return FindSpread(CurveModel(problem), end, end.held, VarianceOf(problem, end, degrees));
 }
 
 inline const std::vector<double> kSingleTruth = {3.8, 2e-8, 1.2, 0.25, 300};

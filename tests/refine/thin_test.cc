@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "lyrefit/refine/profile.h"
-#include "lyrefit/refine/sensitivity.h"
+#include "lyrefit/refine/refine.h"
 #include "refine/test_curves.h"
 
 namespace lyrefit {
@@ -113,14 +113,17 @@ TEST(Thin, GivesTheProfileOfAllPoints) {
       const RefineProblem few = Thin(all);
       const RefineEnd few_best = Refine(few, best.p);
       const int degrees = kMany - all.device.size();
-      const Sensitivity sensitivity = FindSensitivity(all, best, degrees);
+      const Spread spread = SpreadOf(all, best, degrees);
       for (const int i : {kIph + 0, kRs + 0, kRsh + 0}) {
-        const double error = sensitivity.standard_error[i];
+        const double error = spread.standard_error[i];
         double value[2][2];
         for (const bool upper : {false, true}) {
-          const ProfileQuery query = {i, upper, 1.962, degrees, error, false};
-          const ProfileSide full = FindProfileSide(all, best, query);
-          const ProfileSide thin = FindProfileSide(few, few_best, query);
+          const auto side = [&](const RefineProblem& problem, const RefineEnd& end) {
+            const double variance = VarianceOf(problem, end, degrees);
+            return FindProfileSide(problem, end, {i, upper, 1.962, variance, error});
+          };
+          const ProfileSide full = side(all, best);
+          const ProfileSide thin = side(few, few_best);
           EXPECT_TRUE(full.settled && thin.settled) << c.name << ' ' << i;
           EXPECT_EQ(thin.at_bound, full.at_bound) << c.name << ' ' << i;
           value[0][upper] = full.value;

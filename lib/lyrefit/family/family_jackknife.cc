@@ -31,29 +31,23 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
     return;
   }
   const double t = StudentT95(std::max(curves - 1, 1));
-  const Translation& at = family.translation;
   report->jackknife.clear();
   for (int i = 0; i < count; ++i) {
     Interval interval;
     interval.value = end.point.shared[i];
     if (std::isnan(family.fixed[i]) && curves > 2) {
-      // Logarithms and conductances, as for the other intervals.
-      const bool log = i == at.saturation_current || i == at.saturation_current_2;
-      const bool shunt = i == at.resistance_shunt || i == at.resistance_shunt_dark;
-      const auto scale = [&](double x) { return log ? std::log(x) : shunt ? 1 / x : x; };
+      const ParameterKind kind = family.translation.parameters[i].kind;
       double mean = 0, squares = 0;
-      for (const auto& shared : without) mean += scale(shared[i]) / curves;
+      for (const auto& shared : without) mean += ToScale(kind, shared[i]) / curves;
       for (const auto& shared : without) {
-        squares += (scale(shared[i]) - mean) * (scale(shared[i]) - mean);
+        const double off = ToScale(kind, shared[i]) - mean;
+        squares += off * off;
       }
       const double error = std::sqrt(squares * (curves - 1) / curves);
-      const double middle = scale(interval.value);
-      const double low = middle - t * error, high = middle + t * error;
-      interval.low_95 = log ? std::exp(low) : shunt ? 1 / high : low;
-      interval.high_95 = log ? std::exp(high) : shunt ? (low > 0 ? 1 / low : kInfinity) : high;
-      interval.standard_error = log     ? error * interval.value
-                                : shunt ? error * interval.value * interval.value
-                                        : error;
+      interval.standard_error = error / StepOnScale(kind, interval.value, 1);
+      const ParameterRange range = RangeAround(kind, interval.value, t * interval.standard_error);
+      interval.low_95 = range.low;
+      interval.high_95 = range.high;
     }
     report->jackknife.push_back(interval);
   }

@@ -8,11 +8,9 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
-#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/refine/joint_linear.h"
-#include "lyrefit/refine/joint_profile.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {
@@ -66,21 +64,14 @@ class Judge {
     }
     SensorErrors(spread);
     r_.reference = AtReference(family_.translation, r_.refined);
-    local_error_ = spread.local_error;
+    local_error_ = spread.local_errors;
   }
 
   double t() const { return t_; }
   const std::vector<JointLocal>& local_error() const { return local_error_; }
 
  private:
-  bool IsSaturation(int i) const {
-    return i == family_.translation.saturation_current ||
-           i == family_.translation.saturation_current_2;
-  }
-  bool IsShunt(int i) const {
-    return i == family_.translation.resistance_shunt ||
-           i == family_.translation.resistance_shunt_dark;
-  }
+  ParameterKind Kind(int i) const { return family_.translation.parameters[i].kind; }
 
   Estimate Describe(int i, const JointSpread& spread) const {
     Estimate e;
@@ -99,18 +90,9 @@ class Judge {
     }
     if (!options_.intervals || !std::isfinite(reach)) return e;
     e.interval = IntervalMethod::kSymmetric;
-    if (IsSaturation(i)) {
-      e.low_95 = e.refined * std::exp(-reach / e.refined);
-      e.high_95 = e.refined * std::exp(reach / e.refined);
-    } else if (IsShunt(i)) {
-      const double conductance = 1 / e.refined;
-      const double part = reach / (e.refined * e.refined);
-      e.low_95 = 1 / (conductance + part);
-      e.high_95 = conductance > part ? 1 / (conductance - part) : kInfinity;
-    } else {
-      e.low_95 = e.refined - reach;
-      e.high_95 = e.refined + reach;
-    }
+    const ParameterRange range = RangeAround(e.info.kind, e.refined, reach);
+    e.low_95 = range.low;
+    e.high_95 = range.high;
     return e;
   }
 
@@ -121,11 +103,11 @@ class Judge {
       e->identifiable = false;
       e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
       if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
-    } else if (i == at.resistance_shunt_dark) {
+    } else if (e->info.kind == ParameterKind::kDarkShunt) {
       // Its range is relative to the other shunt.
-      const double ratio = e->refined / end_.point.shared[at.resistance_shunt];
+      const double ratio = e->refined / end_.point.shared[e->info.with[0]];
       e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
-    } else if (i == at.resistance_shunt && std::isinf(e->bounds.upper)) {
+    } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
       const bool perfect = e->refined > kNearPerfectShunt * resistance;
       e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
     } else {
@@ -136,7 +118,9 @@ class Judge {
 
   bool NeedsProfile(int i) const {
     const Estimate& e = r_.estimates[i];
-    if (e.fixed || (IsSaturation(i) && end_.held[i]) || i == family_.translation.n_2) return false;
+    if (e.fixed || (Kind(i) == ParameterKind::kSaturation && end_.held[i]) ||
+        i == family_.translation.n_2)
+      return false;
     // An ideality and what goes with it are exact in their own coordinates.
     if (e.at_bound != BoundSide::kNone) return true;
     if (e.interval == IntervalMethod::kNone) return false;
@@ -147,20 +131,19 @@ class Judge {
   }
 
   void ProfileWhereNeeded() {
-    std::vector<JointProfileQuery> queries;
+    std::vector<ProfileQuery> queries;
     for (int i = 0; i < family_.translation.size(); ++i) {
       if (!NeedsProfile(i)) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error, {}});
+        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error});
       }
     }
-    std::vector<JointProfileSide> sides(queries.size());
+    std::vector<ProfileSide> sides(queries.size());
     SharedObserver watch(observer_, "intervals", static_cast<std::int64_t>(queries.size()));
     watch.Begin();
     ParallelFor(static_cast<int>(queries.size()), options_.threads, [&](int q) {
       if (watch.Stopped()) return;
-      queries[q].proceed = watch.Proceed();
-      sides[q] = FindJointProfileSide(problem_, end_, queries[q]);
+      sides[q] = FindProfileSide(problem_, end_, queries[q], watch.Proceed());
       watch.FinishJob();
     });
     if (watch.Stopped()) {
@@ -172,8 +155,8 @@ class Judge {
       Estimate& e = r_.estimates[i];
       e.interval = IntervalMethod::kProfile;
       e.low_95 = std::max(sides[q].value, e.bounds.lower);
-      e.high_95 = sides[q + 1].at_bound && IsShunt(i) ? kInfinity : sides[q + 1].value;
-      if (IsShunt(i) && std::isinf(e.high_95)) {
+      e.high_95 = sides[q + 1].at_bound && IsConductance(Kind(i)) ? kInfinity : sides[q + 1].value;
+      if (IsConductance(Kind(i)) && std::isinf(e.high_95)) {
         e.identifiable = false;
         e.reason = "only a lower limit is known";
       } else if (sides[q].at_bound && sides[q + 1].at_bound) {

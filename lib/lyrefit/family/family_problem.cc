@@ -176,8 +176,8 @@ class Builder {
     for (const auto& [name, range] : options_.bounds) {
       const auto i = Position(name, "bound");
       if (!i) return tl::unexpected(i.error());
-      if (*i == at_.saturation_current || *i == at_.saturation_current_2 ||
-          *i == at_.resistance_shunt_dark) {
+      const ParameterKind kind = at_.parameters[*i].kind;
+      if (kind == ParameterKind::kSaturation || kind == ParameterKind::kDarkShunt) {
         return Fail(
             fmt::format("bound: {} has no bounds of its own in a family fit: bound n or "
                         "R_sh_ref, or fix it",

@@ -6,7 +6,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
-#include "lyrefit/refine/joint_linear.h"
 
 namespace lyrefit {
 namespace {

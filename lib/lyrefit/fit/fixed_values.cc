@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/refine/coordinates.h"
 
 namespace lyrefit {
 
@@ -16,10 +15,11 @@ Expected<std::vector<double>> FixedValues(const std::map<std::string, double>& f
     bool known = false;
     for (int i = 0; i < device.size(); ++i) {
       const ParameterInfo& info = device.parameters[i];
-      const bool group = (key == "Is" && Coordinates::IsSaturation(i)) ||
-                         (key == "n" && Coordinates::IsIdeality(i));
+      const bool group = (key == "Is" && info.kind == ParameterKind::kSaturation) ||
+                         (key == "n" && info.kind == ParameterKind::kIdeality);
       if (!group && info.symbol != key && info.name != key) continue;
-      const bool must_be_positive = Coordinates::IsIdeality(i) || i == kRsh;
+      const bool must_be_positive =
+          info.kind == ParameterKind::kIdeality || info.kind == ParameterKind::kShunt;
       if (!std::isfinite(value) || value < 0 || (must_be_positive && value <= 0)) {
         return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key,
                                 value, must_be_positive ? "above 0" : "of 0 or more"));

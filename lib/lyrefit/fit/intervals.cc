@@ -7,9 +7,9 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/refine/coordinates.h"
+#include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/profile.h"
-#include "lyrefit/refine/sensitivity.h"
+#include "lyrefit/refine/spread.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -33,13 +33,16 @@ class IntervalFinder {
   std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
     MarkBounds();
     if (input_.method == Intervals::kNone) return {};
-    const Sensitivity sensitivity = FindSensitivity(input_.problem, input_.end, degrees_);
-    *condition = sensitivity.condition;
+    Spread spread = FindSpread(CurveModel(input_.problem), input_.end, input_.end.held,
+                               Variance(input_.problem, input_.end));
+    // Where a direction is open, one curve's straight lines say little of the others: profiles do.
+    if (spread.open.cols() > 0) spread = Unknown();
+    *condition = spread.condition;
     for (int i = 0; i < size_; ++i) {
-      estimates_[i].standard_error = sensitivity.standard_error[i];
+      estimates_[i].standard_error = spread.standard_error[i];
       if (!estimates_[i].fixed) Symmetric(i);
     }
-    FindCorrelations(sensitivity, correlations);
+    FindCorrelations(spread, correlations);
     if (input_.method == Intervals::kProfile && ResidualsAreNoise()) {
       ProfileWhereNeeded(/*saturation_currents=*/true);
       MarkAbsentDiodes();
@@ -56,6 +59,18 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
+  Spread Unknown() const {
+    Spread unknown;
+    unknown.standard_error.assign(size_, kUnknown);
+    unknown.correlation = Eigen::MatrixXd::Zero(size_, size_);
+    return unknown;
+  }
+
+  // Of a residual of weight 1; few points stand for many, and count as them.
+  double Variance(const RefineProblem& problem, const RefineEnd& end) const {
+    return end.mean_square * static_cast<double>(problem.voltage_V.size()) / degrees_;
+  }
+
   void MarkBounds() {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
@@ -65,27 +80,14 @@ class IntervalFinder {
     }
   }
 
-  // On the parameter's own scale: ln Is, 1 / Rsh, linear for the rest.
   void Symmetric(int i) {
     Estimate& e = estimates_[i];
     const double reach = t_ * e.standard_error;
     if (!std::isfinite(reach)) return;
-    const double value = input_.end.p[i];
     e.interval = IntervalMethod::kSymmetric;
-    if (Coordinates::IsSaturation(i)) {
-      e.low_95 = value * std::exp(-reach / value);
-      e.high_95 = value * std::exp(reach / value);
-    } else if (i == kRsh) {
-      const double conductance = 1 / value;
-      const double part = reach / (value * value);
-      e.low_95 = 1 / (conductance + part);
-      e.high_95 = conductance > part ? 1 / (conductance - part) : e.bounds.upper;
-    } else {
-      e.low_95 = value - reach;
-      e.high_95 = value + reach;
-    }
-    e.low_95 = std::max(e.low_95, e.bounds.lower);
-    e.high_95 = std::min(e.high_95, e.bounds.upper);
+    const ParameterRange range = RangeAround(e.info.kind, input_.end.p[i], reach);
+    e.low_95 = std::max(range.low, e.bounds.lower);
+    e.high_95 = std::min(range.high, e.bounds.upper);
   }
 
   bool NeedsProfile(int i) const {
@@ -103,10 +105,11 @@ class IntervalFinder {
   std::vector<ProfileQuery> Queries(bool saturation_currents) const {
     std::vector<ProfileQuery> queries;
     for (int i = 0; i < size_; ++i) {
-      if (Coordinates::IsSaturation(i) != saturation_currents || !NeedsProfile(i)) continue;
+      const bool saturation = estimates_[i].info.kind == ParameterKind::kSaturation;
+      if (saturation != saturation_currents || !NeedsProfile(i)) continue;
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, degrees_, estimates_[i].standard_error,
+        queries.push_back({i, upper, t_, Variance(few_, few_end_), estimates_[i].standard_error,
                            /*end_at_better=*/!input_.final && !Thinned()});
       }
     }
@@ -196,7 +199,7 @@ class IntervalFinder {
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "the data allow its whole range";
-      } else if (i == kRsh && e.high_95 >= e.bounds.upper) {
+      } else if (e.info.kind == ParameterKind::kShunt && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "no shunt is visible: only a lower limit is known";
       } else if (e.interval == IntervalMethod::kNone && e.at_bound == BoundSide::kNone) {
@@ -206,10 +209,10 @@ class IntervalFinder {
     }
   }
 
-  void FindCorrelations(const Sensitivity& sensitivity, std::vector<Correlation>* correlations) {
+  void FindCorrelations(const Spread& spread, std::vector<Correlation>* correlations) {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
-        const double value = sensitivity.correlation(i, j);
+        const double value = spread.correlation(i, j);
         if (std::fabs(value) <= kStrongCorrelation) continue;
         correlations->push_back({estimates_[i].info.symbol, estimates_[j].info.symbol, value});
       }

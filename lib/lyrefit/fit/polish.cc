@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "lyrefit/refine/coordinates.h"
 #include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
@@ -98,8 +97,8 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   const auto starts = SeparableStarts(single, 0, 1);
   std::vector<double> p = SeparableDescent(single, starts.at(0).p);
   for (int i = 5; i < problem.device.size(); ++i) {
-    p.push_back(Coordinates::IsSaturation(i) ? problem.lower[i]
-                                             : 0.5 * (problem.lower[i] + problem.upper[i]));
+    const bool saturation = problem.device.parameters[i].kind == ParameterKind::kSaturation;
+    p.push_back(saturation ? problem.lower[i] : 0.5 * (problem.lower[i] + problem.upper[i]));
   }
   return p;
 }

@@ -8,10 +8,20 @@ int Add(ParameterInfo info, Translation* translation) {
   return translation->size() - 1;
 }
 
+void AddDiode(ParameterInfo saturation, ParameterInfo ideality, int* is, int* n, Translation* t) {
+  saturation.kind = ParameterKind::kSaturation;
+  ideality.kind = ParameterKind::kIdeality;
+  *is = Add(std::move(saturation), t);
+  *n = Add(std::move(ideality), t);
+  t->parameters[*is].with[0] = *n;
+}
+
 void AddShunt(Translation* t) {
   if (t->spec.shunt != ShuntLaw::kExponential) return;
-  t->resistance_shunt_dark = Add({"Rsh0", "R_sh_0", "ohm", "shunt resistance in the dark"}, t);
+  t->resistance_shunt_dark =
+      Add({"Rsh0", "R_sh_0", "ohm", "shunt resistance in the dark", ParameterKind::kDarkShunt}, t);
   t->shunt_exponent = Add({"Rexp", "R_sh_exp", "", "how fast the shunt follows irradiance"}, t);
+  t->parameters[t->resistance_shunt_dark].with = {t->resistance_shunt, t->shunt_exponent};
 }
 
 }  // namespace
@@ -40,25 +50,34 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
   reference.cell_temperature_K = kReferenceTemperature_K;
   reference.cells_in_series = spec.cells_in_series;
   t.device = MakeDevice(spec.model, reference, spec.constants);
-  t.photocurrent = Add({"Iph", "I_L_ref", "A", "photocurrent at the reference"}, &t);
-  t.saturation_current = Add({"Is1", "I_o_ref", "A", "saturation current at the reference"}, &t);
-  t.n = pvsyst ? Add({"n1", "gamma_ref", "", "ideality at the reference, per cell"}, &t)
-               : Add({"n1", "n", "", "ideality, per cell"}, &t);
-  t.resistance_series = Add({"Rs", "R_s", "ohm", "series resistance"}, &t);
-  t.resistance_shunt = Add({"Rsh", "R_sh_ref", "ohm", "shunt resistance at the reference"}, &t);
-  t.alpha_sc = Add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"}, &t);
+  t.photocurrent = Add(
+      {"Iph", "I_L_ref", "A", "photocurrent at the reference", ParameterKind::kPhotocurrent}, &t);
+  AddDiode({"Is1", "I_o_ref", "A", "saturation current at the reference"},
+           pvsyst ? ParameterInfo{"n1", "gamma_ref", "", "ideality at the reference, per cell"}
+                  : ParameterInfo{"n1", "n", "", "ideality, per cell"},
+           &t.saturation_current, &t.n, &t);
+  t.resistance_series = Add({"Rs", "R_s", "ohm", "series resistance", ParameterKind::kSeries}, &t);
+  t.resistance_shunt = Add(
+      {"Rsh", "R_sh_ref", "ohm", "shunt resistance at the reference", ParameterKind::kShunt}, &t);
+  t.alpha_sc = Add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc",
+                    ParameterKind::kPhotocurrent, 0.01},
+                   &t);
   t.bandgap = Add({"Eg", "EgRef", "eV", "band gap at the reference"}, &t);
   if (pvsyst) {
-    t.n_slope = Add({"mu", "mu_gamma", "1/K", "temperature coefficient of the ideality"}, &t);
+    t.n_slope = Add({"mu", "mu_gamma", "1/K", "temperature coefficient of the ideality",
+                     ParameterKind::kPlain, 0.01},
+                    &t);
   } else {
     t.bandgap_slope =
-        Add({"dEg", "dEgdT", "1/K", "relative temperature coefficient of the band gap"}, &t);
+        Add({"dEg", "dEgdT", "1/K", "relative temperature coefficient of the band gap",
+             ParameterKind::kPlain, 0.01},
+            &t);
   }
   AddShunt(&t);
   if (spec.model == Model::kDoubleDiode) {
-    t.saturation_current_2 =
-        Add({"Is2", "I_o_ref_2", "A", "saturation current of diode 2 at the reference"}, &t);
-    t.n_2 = Add({"n2", "n_2", "", "ideality of diode 2, per cell"}, &t);
+    AddDiode({"Is2", "I_o_ref_2", "A", "saturation current of diode 2 at the reference"},
+             {"n2", "n_2", "", "ideality of diode 2, per cell"}, &t.saturation_current_2, &t.n_2,
+             &t);
   }
   if (spec.recombination) {
     AddRecombination(&t.device);

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "lyrefit/law/translation.h"
+#include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
 
@@ -69,26 +71,30 @@ struct JointEnd {
   bool converged = false;
   bool stopped = false;  // as `proceed` asked
   int iterations = 0;
-  std::vector<bool> held;  // shared parameters that are fixed or at a bound
-  // Largest cosine between the residuals and a column of the Jacobian along which a shared
-  // parameter is free to move downhill: 0 at an exact optimum.
-  double projected_gradient = 1;
+  std::vector<bool> held;         // see RefineEnd
+  double projected_gradient = 1;  // of the shared parameters, see RefineEnd
 };
 
 struct JointOptions {
-  int max_iterations = 500;
-  double function_tolerance = 1e-14;
-  int max_rounds = 12;  // of settling which bounds are active
-  // Asked before every step; false ends the fit at the best point so far. May be empty.
+  double function_tolerance = 1e-15;  // as in RefineOptions
+  // Asked once an iteration; false ends the fit at the best point so far. May be empty.
   std::function<bool()> proceed;
 };
 
-// Bounded least squares from `start` by Ceres: the local unknowns are eliminated by their Schur
-// complement. First with bounds, then in rounds of (hold what presses against its bound, solve free
-// in the rest, let in again what wants to), as Refine does. Saturation currents have no bounds of
-// their own: a second diode fades to 1e-11 of the largest current at the largest voltage, which
-// counts as absent (held).
-JointEnd RefineJointly(const JointProblem& problem, JointPoint start,
+// RefineModel of a joint problem. Of the saturation currents only that of a second diode may
+// vanish; it then comes back with a size that shows nowhere, so that its logarithm is a number.
+JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
                        const JointOptions& options = {});
+
+// FindSpread of a joint problem at the end of its fit, `variance` that of a point of weight 1.
+struct JointSpread : Spread {
+  std::vector<JointLocal> local_errors;  // standard errors of the curves' own unknowns
+  double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors
+};
+JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
+
+// FindProfileSide of a shared parameter; `proceed` as in JointOptions.
+ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
+                            const ProfileQuery& query, const std::function<bool()>& proceed = {});
 
 }  // namespace lyrefit

@@ -5,226 +5,162 @@
 #include <utility>
 
 #include "lyrefit/refine/coordinates.h"
-#include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kMaxRefits = 32;
-constexpr int kGridStarts = 1;
-constexpr int kProposals = 8;       // then by bisection
-constexpr int kMaxIterations = 20;  // of one refit
-constexpr int kMaxRounds = 3;
-constexpr int kThoroughIterations = 200;  // of those that have the last word on an end
-constexpr int kThoroughRounds = 10;
-constexpr double kHopeless = 10;  // of t: no exchange of diodes brings a saturation current so far
+constexpr int kProposals = 8;           // then by bisection
+constexpr double kBeyond = 1.1;         // of the way: the next place after one found to be inside
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
 // What a refit may still fall by when it ends, in parts of the rise that is looked for.
 constexpr double kSlack = 1e-3;
-constexpr double kLoosest = 1e-6;  // the same in parts of the mean square, at most
-
-// The scale on which a profile is closest to a straight line: ln Is, 1 / Rsh, the rest as they are.
-double ToScale(int i, double value) {
-  if (Coordinates::IsSaturation(i)) return std::log(value);
-  return i == kRsh ? 1 / value : value;
-}
-double FromScale(int i, double scaled) {
-  if (Coordinates::IsSaturation(i)) return std::exp(scaled);
-  return i == kRsh ? 1 / scaled : scaled;
-}
+constexpr double kLoosest = 1e-6;    // the same in parts of the mean square, at most
+constexpr double kEndless = 60;      // logarithm that stands for an infinite way
+constexpr double kVanished = 1e-12;  // of its bound: where a saturation current of 0 is begun from
 
 class Side {
  public:
-  Side(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
-       const std::function<bool()>& stop)
-      : problem_(problem),
-        best_(best),
+  Side(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
+       const ProfileRefits& refits)
+      : best_(best),
         query_(query),
-        warm_(best.p),
-        looked_for_(query.t * query.t / query.degrees_of_freedom) {
-    how_.function_tolerance = std::min(kSlack * looked_for_, kLoosest);
-    how_.max_iterations = kMaxIterations;
-    how_.max_rounds = kMaxRounds;
-    how_.let_diodes_in = false;  // the descent before it does that
-    how_.stop = [this, &stop] { return stopped_ = stopped_ || (stop && stop()); };
-  }
+        refits_(refits),
+        parameter_(model.shape().parameters[query.parameter]),
+        bounds_(BoundsAt(model.shape(), query.parameter, best.p)),
+        unit_(query.variance / model.shape().points),
+        rise_at_end_(query.t * query.t * unit_),
+        tolerance_(std::min(kSlack * rise_at_end_ / best.mean_square, kLoosest)),
+        warm_(best),
+        lowest_(best.mean_square) {}
 
   ProfileSide Find() {
-    const int i = query_.parameter;
-    const double bound = query_.upper ? problem_.upper[i] : problem_.lower[i];
+    const double bound = query_.upper ? bounds_.high : bounds_.low;
+    // A saturation current that neither may vanish nor is bounded has no end.
+    const bool zero = IsSaturation() && bound <= 0;
+    const bool tried = std::isfinite(Scaled(bound)) || (zero && parameter_.may_vanish);
     side_.value = bound;
     side_.at_bound = true;
-    if (best_.p[i] == bound) return Finish();
-    how_.enough = best_.mean_square * (1 + looked_for_);
-    if (Rise(bound) <= query_.t * (1 + 1e-9)) return Finish();
-    how_.enough = 0;
+    if (best_.p[query_.parameter] == bound) return Finish();
+    if (tried && Rise(bound, best_.mean_square + rise_at_end_) <= query_.t * (1 + 1e-9)) {
+      return Finish();
+    }
     side_.at_bound = false;
     const double start = StartOnScale(bound);
-    const bool unbounded = bound <= 0 && Coordinates::IsSaturation(i);
-    const double end = unbounded ? start - 60 : ToScale(i, bound);
-    double far = end;     // where the rise is above t
-    double near = start;  // where it is below
-    double x = FirstGuess(start, far);
-    warm_ = best_.p;
-    side_.settled = false;
-    while (side_.refits < kMaxRefits && !Ended()) {
-      const double rise = Rise(FromScale(i, x));
-      (rise > query_.t ? far : near) = x;
-      side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
-      // Where the refits jump from one valley to another there is no place at the threshold.
-      if (!side_.settled && Length(near, far) < kCloseEnough * Length(start, far)) {
-        side_.settled = true;
-        x = far;
-      }
-      if (side_.settled && IsOutside(FromScale(i, x))) break;
-      if (side_.settled) {
-        side_.settled = false;
-        near = x;
-        far = end;
-        x = 0.5 * (near + far);
-        continue;
-      }
-      // The rise is close to proportional to the distance; fall back on bisection outside the
-      // bracket.
-      const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
-      const bool inside = std::min(near, far) < proposal && proposal < std::max(near, far);
-      x = inside && side_.refits < kProposals ? proposal : 0.5 * (near + far);
-    }
-    if (side_.settled) side_.value = FromScale(i, x);
-    if (!side_.settled && !unbounded) side_.value = FromScale(i, far);
+    const bool endless = zero || !std::isfinite(bound);
+    const double end = endless ? start + (query_.upper ? kEndless : -kEndless) : Scaled(bound);
+    warm_ = best_;
+    Approach(start, end);
+    if (!side_.settled && !endless) side_.value = Natural(far_);
     return Finish();
   }
 
  private:
-  bool Ended() const { return stopped_ || (query_.end_at_better && !side_.better.empty()); }
-
-  // Distance of two places on the scale; of saturation currents in ampere, since the logarithm of a
-  // vanished one is far from anything.
-  double Length(double a, double b) const {
-    const bool saturation = Coordinates::IsSaturation(query_.parameter);
-    return saturation ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
-  }
-
-  // Whether no start that needs no luck leads into a valley below the threshold either. What a
-  // single diode does has one valley.
-  bool IsOutside(double value) {
-    if (DiodeCount(problem_.device) == 1) return true;
-    const RefineProblem held = Held(value);
-    std::vector<double> start = best_.p;
-    start[query_.parameter] = value;
-    RefineOptions how = how_;
-    how.max_iterations = kThoroughIterations;
-    how.max_rounds = kThoroughRounds;
-    how.let_diodes_in = true;
-    how.enough = best_.mean_square * (1 + looked_for_ * (1 - 2 * kCloseEnough));
-    std::vector<std::vector<double>> starts = {start};
-    for (const SeparableStart& grid : SeparableStarts(held, best_.p[kRs], kGridStarts)) {
-      starts.push_back(grid.p);
-    }
-    for (const std::vector<double>& from : starts) {
-      RefineEnd end = RefineFrom(held, from, how);
-      if (end.mean_square > how.enough) continue;
-      warm_ = std::move(end.p);
-      return false;
-    }
-    return true;
-  }
-
-  RefineProblem Held(double value) const {
-    RefineProblem held = problem_;
-    held.lower[query_.parameter] = held.upper[query_.parameter] = value;
-    return held;
-  }
+  bool IsSaturation() const { return parameter_.kind == ParameterKind::kSaturation; }
+  bool Ended() const { return side_.stopped || (query_.end_at_better && !side_.better.empty()); }
+  double Scaled(double value) const { return ToScale(parameter_.kind, value); }
+  double Natural(double x) const { return FromScale(parameter_.kind, x); }
 
   ProfileSide Finish() {
     side_.settled = side_.settled && !Ended();
     return std::move(side_);
   }
 
+  // The crossing between the optimum and `end`, where the rise is above t.
+  void Approach(double start, double end) {
+    far_ = end;           // where the rise is above t
+    double near = start;  // where it is below
+    double x = FirstGuess(start, end);
+    int bisect_after = kProposals;
+    side_.settled = false;
+    while (side_.refits < kMaxRefits && !Ended()) {
+      const double rise = Rise(Natural(x), 0);
+      (rise > query_.t ? far_ : near) = x;
+      side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
+      // Where the refits jump from one valley to another there is no place at the threshold.
+      if (!side_.settled && Length(near, far_) < kCloseEnough * Length(start, far_)) {
+        side_.settled = true;
+        x = far_;
+      }
+      if (side_.settled && !InsideElsewhere(Natural(x))) break;
+      if (side_.settled) {
+        side_.settled = false;
+        near = x;
+        far_ = end;
+        x = start + kBeyond * (x - start);
+        bisect_after = side_.refits + kProposals;
+        if (std::fabs(x - start) >= std::fabs(end - start)) x = 0.5 * (near + far_);
+        continue;
+      }
+      // The rise is close to proportional to the distance; fall back on bisection outside the
+      // bracket.
+      const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
+      const bool inside = std::min(near, far_) < proposal && proposal < std::max(near, far_);
+      x = inside && side_.refits < bisect_after ? proposal : 0.5 * (near + far_);
+    }
+    if (side_.settled) side_.value = Natural(x);
+  }
+
+  // Distance of two places on the scale; of saturation currents in ampere, since the logarithm of a
+  // vanished one is far from anything.
+  double Length(double a, double b) const {
+    return IsSaturation() ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
+  }
+
   // The optimum on the scale, moved inside where it has no place there (a vanished diode).
   double StartOnScale(double bound) const {
-    const int i = query_.parameter;
-    const bool vanished = Coordinates::IsSaturation(i) && best_.p[i] <= 0;
-    return ToScale(i, vanished ? 1e-12 * bound : best_.p[i]);
+    const double value = best_.p[query_.parameter];
+    return Scaled(IsSaturation() && value <= 0 ? kVanished * bound : value);
   }
 
   double FirstGuess(double start, double far) const {
-    const int i = query_.parameter;
-    double step = query_.standard_error;
-    if (Coordinates::IsSaturation(i)) step /= best_.p[i];
-    if (i == kRsh) step /= best_.p[i] * best_.p[i];
-    step *= query_.t;
+    double step =
+        query_.t * StepOnScale(parameter_.kind, best_.p[query_.parameter], query_.standard_error);
     const double room = std::fabs(far - start);
     if (!(step > 0) || step > 0.5 * room) step = 0.1 * room;
     return far > start ? start + step : start - step;
   }
 
-  // sqrt of the rise of the refitted sum of squares in units of the residual variance.
-  double Rise(double value) {
-    const int i = query_.parameter;
+  // sqrt of the rise of the refitted sum of squares in units of the variance.
+  double Rise(double value, double enough) {
     ++side_.refits;
-    const RefineProblem held = Held(value);
-    std::vector<double> start = warm_;
-    start[i] = value;
-    RefineEnd end = RefineFrom(held, start, how_);
-    // Before a place counts as outside: the diodes may have changed their parts there.
-    const double hopeless = Coordinates::IsSaturation(i) ? kHopeless * query_.t : HUGE_VAL;
-    const double outside = (1 - kCloseEnough) * query_.t;
-    for (int d = 0; d < DiodeCount(problem_.device); ++d) {
-      if (!(RiseOf(end) > outside && RiseOf(end) < hopeless)) break;
-      if (!TradePlaces(d, &start)) continue;
-      start[i] = value;
-      RefineEnd other = Refine(held, start, how_);
-      if (other.mean_square < end.mean_square) end = std::move(other);
-    }
+    RefineEnd end = refits_.refit(value, warm_, enough, tolerance_);
+    side_.stopped = side_.stopped || end.stopped;
     if (end.mean_square < lowest_ * (1 - kBetter)) {
       lowest_ = end.mean_square;
       side_.better = end.p;
     }
-    const double rise = RiseOf(end);
-    warm_ = std::move(end.p);
-    return rise;
-  }
-
-  double RiseOf(const RefineEnd& end) const {
-    const double rise = (end.mean_square / best_.mean_square - 1) * query_.degrees_of_freedom;
+    const double rise = (end.mean_square - best_.mean_square) / unit_;
+    warm_ = std::move(end);
     return std::sqrt(std::max(rise, 0.0));
   }
 
-  // The optimum with the diode of the profiled parameter and diode d exchanged, where both have the
-  // same bounds.
-  bool TradePlaces(int d, std::vector<double>* p) const {
-    const int i = query_.parameter;
-    if (!Coordinates::IsSaturation(i) && !Coordinates::IsIdeality(i)) return false;
-    const int own = Coordinates::IsSaturation(i) ? i : i - 1;
-    const int other = SaturationCurrentIndex(d);
-    if (own == other) return false;
-    *p = best_.p;
-    for (const int k : {0, 1}) {
-      if (problem_.lower[own + k] != problem_.lower[other + k]) return false;
-      if (problem_.upper[own + k] != problem_.upper[other + k]) return false;
-      std::swap((*p)[own + k], (*p)[other + k]);
-    }
-    return true;
+  bool InsideElsewhere(double value) {
+    if (!refits_.elsewhere) return false;
+    const double enough = best_.mean_square + rise_at_end_ * (1 - 2 * kCloseEnough);
+    return refits_.elsewhere(value, enough, tolerance_, &warm_);
   }
 
-  const RefineProblem& problem_;
   const RefineEnd& best_;
   const ProfileQuery& query_;
-  std::vector<double> warm_;
-  double looked_for_;  // rise of the mean square at the end of the interval, relative
-  double lowest_ = best_.mean_square;
-  bool stopped_ = false;
-  RefineOptions how_;
+  const ProfileRefits& refits_;
+  const FitParameter& parameter_;
+  const ParameterRange bounds_;
+  const double unit_;         // of the squared rise, in mean squares
+  const double rise_at_end_;  // of the mean square
+  const double tolerance_;
+  FitPoint warm_;
+  double lowest_;
+  double far_ = 0;
   ProfileSide side_;
 };
 
 }  // namespace
 
-ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& stop) {
-  return Side(problem, best, query, stop).Find();
+ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
+                            const ProfileRefits& refits) {
+  return Side(model, best, query, refits).Find();
 }
 
 }  // namespace lyrefit

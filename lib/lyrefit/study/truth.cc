@@ -69,7 +69,7 @@ void CountInterval(const Pair& pair, int index, TruthParameter* result) {
 
 // What the fits of one device say together. Averaged is the value, of the shunt its inverse.
 void SumUpOneTruth(const std::vector<Pair>& pairs, int index, TruthParameter* result) {
-  const bool inverse = index == kRsh;
+  const bool inverse = IsConductance(result->info.kind);
   const auto averaged = [&](double value) { return inverse ? 1 / value : value; };
   const double truth = averaged(pairs[0].row->values[index]);
   double mean = 0, square = 0;
@@ -151,7 +151,8 @@ void CompareJoint(const FamilyReport& report, const TruthRow& truth, TruthCompar
     TruthParameter& p = result->parameters[i];
     const double value = truth.values[i];
     p.joint = e.refined;
-    p.joint_error = i == kRsh ? value / e.refined - 1 : e.refined / value - 1;
+    const bool inverse = IsConductance(e.info.kind);
+    p.joint_error = inverse ? value / e.refined - 1 : e.refined / value - 1;
     p.by_points = {e.refined, e.standard_error, e.low_95, e.high_95};
     if (!report.jackknife.empty()) p.by_curves = report.jackknife[positions[i]];
   }

@@ -1,11 +1,10 @@
-#include "lyrefit/refine/jacobian.h"
+#include "lyrefit/refine/linearize.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lyrefit/refine/coordinates.h"
-#include "lyrefit/refine/residuals.h"
+#include "lyrefit/refine/curve_model.h"
 #include "refine/test_curves.h"
 
 namespace lyrefit {
@@ -16,10 +15,14 @@ TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
     const RefineProblem problem =
         ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 1e-3, objective);
     const std::vector<bool> held = {false, false, false, false, false, true, false};
-    const Linearization now = Linearize(problem, kDoubleTruth, held);
+    const CurveModel model(problem);
+    const Linearization now = Linearize(model, {kDoubleTruth, {}}, held);
     ASSERT_EQ(now.parameter, (std::vector<int>{0, 1, 2, 3, 4, 6}));
-    const Coordinates coordinates(problem, kDoubleTruth, held);
-    const CurveResiduals residuals(problem, coordinates, 1.0);
+    const Coordinates coordinates(model.shape(), kDoubleTruth, held);
+    const auto evaluate = [&](const std::vector<double>& at, std::vector<double>* residuals) {
+      return EvaluateBlock(model, coordinates, 0, at.data(), nullptr, 1.0, residuals->data(),
+                           nullptr, nullptr);
+    };
     const std::vector<double> theta = coordinates.Start();
     const int points = static_cast<int>(problem.voltage_V.size());
     for (int c = 0; c < coordinates.size(); ++c) {
@@ -27,9 +30,9 @@ TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
       std::vector<double> at = theta;
       const double step = 1e-6 * (1 + std::fabs(theta[c]));
       at[c] = theta[c] + step;
-      ASSERT_TRUE(residuals.Evaluate(at.data(), up.data(), nullptr));
+      ASSERT_TRUE(evaluate(at, &up));
       at[c] = theta[c] - step;
-      ASSERT_TRUE(residuals.Evaluate(at.data(), down.data(), nullptr));
+      ASSERT_TRUE(evaluate(at, &down));
       const double largest = now.jacobian.col(c).cwiseAbs().maxCoeff();
       for (int k = 0; k < points; ++k) {
         EXPECT_NEAR(now.jacobian(k, c), (up[k] - down[k]) / (2 * step), 1e-6 * largest)
@@ -37,16 +40,6 @@ TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
       }
     }
   }
-}
-
-TEST(Coordinates, GoThereAndBack) {
-  const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                              kDoubleTruth, 0, Objective::kSolvedCurrent);
-  const Coordinates coordinates(problem, kDoubleTruth, std::vector<bool>(7, false));
-  const std::vector<double> theta = coordinates.Start();
-  std::vector<double> p(7);
-  coordinates.ToParameters(theta.data(), p.data());
-  for (int i = 0; i < 7; ++i) EXPECT_NEAR(p[i] / kDoubleTruth[i], 1, 1e-13);
 }
 
 }  // namespace

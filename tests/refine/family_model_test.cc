@@ -1,12 +1,11 @@
-#include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/family_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "family/made_family.h"
-#include "lyrefit/refine/joint_linear.h"
-#include "lyrefit/refine/joint_residuals.h"
+#include "lyrefit/refine/linearize.h"
 
 namespace lyrefit {
 namespace {
@@ -15,11 +14,8 @@ double Total(const JointEnd& end) { return end.squares + end.prior_squares; }
 
 double CostAt(const JointProblem& problem, const JointPoint& point) {
   const std::vector<bool> held(problem.shared(), true);
-  return LinearizeJointly(problem, point, held).residual.squaredNorm();
-}
-
-JointPoint PointAt(const JointProblem& problem, std::vector<double> shared) {
-  return {std::move(shared), std::vector<JointLocal>(problem.curves.size(), {0, 0})};
+  const FamilyModel model(problem);
+  return Linearize(model, model.Pack(point), held).residual.squaredNorm();
 }
 
 // A problem with all four kinds of own unknowns.
@@ -44,7 +40,7 @@ class EveryLaw : public testing::TestWithParam<Law> {
   std::vector<double> truth_ = MadeTruth(law_);
 };
 
-TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
+TEST_P(EveryLaw, LinearizeAgreesWithCentralDifferences) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     JointProblem problem =
         WithLocals(MadeProblem(MadeSet(law_, truth_, kSixPlaces, 9, 2e-3), law_, truth_));
@@ -54,57 +50,41 @@ TEST_P(EveryLaw, EvaluateJointCurveAgreesWithCentralDifferences) {
       problem.lower[i] = truth_[i] - 0.1 - 0.3 * std::fabs(truth_[i]);
       problem.upper[i] = truth_[i] + 0.1 + 0.3 * std::fabs(truth_[i]);
     }
-    const JointCoordinates coordinates(problem, truth_, std::vector<bool>(problem.shared(), false));
+    const FamilyModel model(problem);
+    const std::vector<bool> none(problem.shared(), false);
+    const FitPoint point{truth_, std::vector<double>(model.shape().locals(), 0.01)};
+    const Coordinates coordinates(model.shape(), truth_, none);
     const std::vector<double> theta = coordinates.Start();
+    const Linearization now = Linearize(model, point, none);
+    const double* local = point.local.data();
     for (int c = 0; c < 4; ++c) {
-      const JointShape shape = ShapeOf(problem.curves[c]);
-      std::vector<double> own(shape.locals, 0.01);
-      std::vector<double> at(shape.residuals), up(at), down(at);
-      RowMatrix shared, local;
-      ASSERT_TRUE(EvaluateJointCurve(problem, coordinates, c, theta.data(), own.data(), 1e-3,
-                                     at.data(), &shared, &local));
-      const auto differ = [&](std::vector<double> moved, bool is_shared, int k, double largest,
-                              const RowMatrix& jacobian) {
+      const FitBlock& block = model.shape().blocks[c];
+      const RowMatrix shared = now.jacobian.middleRows(now.first_row[c], block.residuals);
+      const auto differ = [&](bool is_shared, int k, double largest, const RowMatrix& jacobian) {
+        const std::vector<double> own(local, local + block.locals);
+        std::vector<double> moved = is_shared ? theta : own;
+        std::vector<double> up(block.residuals), down(up);
         const double step = 1e-5 * (1 + std::fabs(moved[k])), middle = moved[k];
         const auto evaluate = [&](double x, std::vector<double>* out) {
           moved[k] = x;
-          return EvaluateJointCurve(
-              problem, coordinates, c, is_shared ? moved.data() : theta.data(),
-              is_shared ? own.data() : moved.data(), 1e-3, out->data(), nullptr, nullptr);
+          return EvaluateBlock(model, coordinates, c, is_shared ? moved.data() : theta.data(),
+                               is_shared ? own.data() : moved.data(), 1, out->data(), nullptr,
+                               nullptr);
         };
         ASSERT_TRUE(evaluate(middle + step, &up));
         ASSERT_TRUE(evaluate(middle - step, &down));
-        for (int r = 0; r < shape.residuals; ++r) {
+        for (int r = 0; r < block.residuals; ++r) {
           EXPECT_NEAR(jacobian(r, k), (up[r] - down[r]) / (2 * step), 1e-5 * largest)
               << ToText(objective) << " curve " << c << (is_shared ? " shared " : " local ") << k;
         }
       };
       for (int k = 0; k < coordinates.size(); ++k) {
-        differ(theta, true, k, shared.col(k).cwiseAbs().maxCoeff() + 1e-2, shared);
+        differ(true, k, shared.col(k).cwiseAbs().maxCoeff() + 1e-5, shared);
       }
-      for (int k = 0; k < shape.locals; ++k) {
-        differ(own, false, k, local.col(k).cwiseAbs().maxCoeff(), local);
+      for (int k = 0; k < block.locals; ++k) {
+        differ(false, k, now.local[c].col(k).cwiseAbs().maxCoeff(), now.local[c]);
       }
-    }
-  }
-}
-
-TEST_P(EveryLaw, NaturalSlopeAgreesWithCentralDifferences) {
-  const JointProblem problem = MadeProblem(MadeSet(law_, truth_, kSixPlaces, 5, 0), law_, truth_);
-  const std::vector<bool> none(problem.shared(), false);
-  const JointLinear now = LinearizeJointly(problem, PointAt(problem, truth_), none);
-  const JointCoordinates coordinates(problem, truth_, none);
-  for (int k = 0; k < coordinates.size(); ++k) {
-    std::vector<double> up = coordinates.Start(), down = up;
-    const double step = 1e-6 * (1 + std::fabs(up[k]));
-    up[k] += step;
-    down[k] -= step;
-    std::vector<double> high(problem.shared()), low(problem.shared());
-    coordinates.ToShared(up.data(), high.data());
-    coordinates.ToShared(down.data(), low.data());
-    for (int i = 0; i < problem.shared(); ++i) {
-      const double slope = (high[i] - low[i]) / (2 * step);
-      EXPECT_NEAR(now.natural_slope(i, k), slope, 1e-5 * std::fabs(slope) + 1e-15) << i << " " << k;
+      local += block.locals;
     }
   }
 }
@@ -179,7 +159,8 @@ TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
   EXPECT_TRUE(end.converged);
   EXPECT_NEAR(CostAt(problem, end.point), Total(end), 1e-12 * Total(end));
   EXPECT_GT(end.prior_squares, 0);
-  const JointLinear now = LinearizeJointly(problem, end.point, end.held);
+  const FamilyModel model(problem);
+  const Linearization now = Linearize(model, model.Pack(end.point), end.held);
   for (std::size_t c = 0; c < now.local.size(); ++c) {
     const auto residual = now.residual.segment(now.first_row[c], now.local[c].rows());
     for (int k = 0; k < now.local[c].cols(); ++k) {

@@ -1,19 +1,19 @@
+#include "lyrefit/refine/spread.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "family/made_family.h"
-#include "lyrefit/refine/joint_linear.h"
-#include "lyrefit/refine/joint_profile.h"
+#include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/refine.h"
+#include "refine/test_curves.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kNoise_A = 1e-3;
-
-JointPoint PointAt(const JointProblem& problem, std::vector<double> shared) {
-  return {std::move(shared), std::vector<JointLocal>(problem.curves.size(), {0, 0})};
-}
 
 struct Scatter {
   double sum = 0, squares = 0, claimed = 0;
@@ -51,12 +51,12 @@ TEST(FindJointSpread, IsTheScatterOfRepeatedMeasurements) {
     for (int i = 0; i < law.size(); ++i) {
       if (!end.held[i]) shared[i].Add(end.point.shared[i] - truth[i], spread.standard_error[i]);
     }
-    irradiance.Add(end.point.local[1][0], spread.local_error[1][0]);
-    temperature.Add(end.point.local[2][1], spread.local_error[2][1]);
-    prior.Add(end.point.local[3][1] - off_K, spread.local_error[3][1]);
+    irradiance.Add(end.point.local[1][0], spread.local_errors[1][0]);
+    temperature.Add(end.point.local[2][1], spread.local_errors[2][1]);
+    prior.Add(end.point.local[3][1] - off_K, spread.local_errors[3][1]);
     EXPECT_GT(spread.local_degrees, 2);
     EXPECT_LT(spread.local_degrees, 3);
-    EXPECT_TRUE(std::isnan(spread.local_error[0][0]));
+    EXPECT_TRUE(std::isnan(spread.local_errors[0][0]));
   }
   for (int i = 0; i < law.size(); ++i) {
     if (shared[i].count == 0) continue;
@@ -130,55 +130,39 @@ TEST(FindJointSpread, LosesTheScaleOfIrradianceWhereEveryCurveHasItsOwn) {
   EXPECT_TRUE(std::isnan(spread.standard_error[law.photocurrent]));
   EXPECT_TRUE(std::isnan(spread.standard_error[law.alpha_sc]));
   EXPECT_GT(spread.standard_error[law.n], 0);
-  for (const JointLocal& error : spread.local_error) EXPECT_TRUE(std::isnan(error[0]));
+  for (const JointLocal& error : spread.local_errors) EXPECT_TRUE(std::isnan(error[0]));
 }
 
-TEST(FindJointProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
-  JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
-  problem.curves[1].irradiance_sd = HUGE_VAL;
-  const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
-  const double variance = 9e-6, t = 2;
-  const JointSpread spread = FindJointSpread(problem, best, variance);
-  const auto rise = [&](int i, double value) {
-    JointProblem held = problem;
-    held.lower[i] = held.upper[i] = value;
-    const JointEnd end = RefineJointly(held, best.point);
-    return std::sqrt((end.squares - best.squares) / variance);
-  };
-  for (int i = 0; i < law.size(); ++i) {
-    if (best.held[i]) continue;
-    for (const bool upper : {false, true}) {
-      const JointProfileSide side = FindJointProfileSide(
-          problem, best, {i, upper, t, variance, spread.standard_error[i], {}});
-      EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
-      EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
-      EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
-      // Nothing on the way crosses the threshold.
-      const double middle = 0.5 * (side.value + best.point.shared[i]);
-      EXPECT_LT(rise(i, middle), t) << law.parameters[i].name;
+TEST(FindSpread, IsTheScatterOfRepeatedMeasurements) {
+  constexpr int kRepeats = 400;
+  std::vector<double> mean(5), square(5), claimed(5);
+  for (int run = 0; run < kRepeats; ++run) {
+    const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                                kSingleTruth, 1e-3, Objective::kSolvedCurrent, run);
+    const RefineEnd end = Refine(problem, kSingleTruth);
+    const Spread spread = SpreadOf(problem, end, 35);
+    for (int i = 0; i < 5; ++i) {
+      mean[i] += end.p[i] / kRepeats;
+      square[i] += end.p[i] * end.p[i] / kRepeats;
+      claimed[i] += spread.standard_error[i] / kRepeats;
     }
+  }
+  for (int i = 0; i < 5; ++i) {
+    const double scatter = std::sqrt(square[i] - mean[i] * mean[i]);
+    EXPECT_NEAR(claimed[i] / scatter, 1, 0.15) << i;
+    EXPECT_NEAR(mean[i], kSingleTruth[i],
+                5 * scatter / std::sqrt(kRepeats) + 0.02 * kSingleTruth[i])
+        << i;
   }
 }
 
-TEST(FindJointProfileSide, StopsAtABoundThatTheDataAllow) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> truth = MadeTruth(law);
-  truth[law.resistance_series] = 0;
-  truth[law.resistance_shunt] = 1e7;
-  const JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
-  const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
-  const JointProfileSide low =
-      FindJointProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0, {}});
-  EXPECT_TRUE(low.at_bound);
-  EXPECT_EQ(low.value, 0);
-  EXPECT_TRUE(
-      FindJointProfileSide(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0, {}}).at_bound);
-  const JointProfileSide limit =
-      FindJointProfileSide(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0, {}});
-  EXPECT_FALSE(limit.at_bound);
-  EXPECT_GT(limit.value, 300);
+TEST(FindSpread, SaysNothingOfHeldParameters) {
+  RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
+                                        1e-3, Objective::kSolvedCurrent);
+  problem.lower[2] = problem.upper[2] = 1.2;
+  const Spread spread = SpreadOf(problem, Refine(problem, kSingleTruth), 36);
+  EXPECT_TRUE(std::isnan(spread.standard_error[2]));
+  EXPECT_GT(spread.standard_error[1], 0);
 }
 
 }  // namespace

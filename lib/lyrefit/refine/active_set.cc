@@ -1,0 +1,333 @@
+#include "lyrefit/refine/active_set.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lyrefit/refine/linearize.h"
+#include "lyrefit/refine/solve.h"
+#include "lyrefit/refine/vanishing.h"
+
+namespace lyrefit {
+namespace {
+
+// Cosine below which a gradient counts as zero when a bound is released or a diode let in.
+constexpr double kFlat = 1e-8;
+// How often a parameter may be let go, and a diode let in, times the number of parameters.
+constexpr int kMostReleased = 2;
+constexpr int kMostLetIn = 1;
+// Length of a column, in residuals, below which a unit of its coordinate changes nothing.
+constexpr double kNoInfluence = 1e-12;
+// Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
+constexpr double kWorse = 1e-9;
+constexpr double kNoLoss = 1e-12;  // the same, of what may be taken out
+
+class ActiveSet {
+ public:
+  ActiveSet(const FitModel& model, FitPoint start, const RefineOptions& options)
+      : model_(model), shape_(model.shape()), options_(options) {
+    CHECK_EQ(static_cast<int>(start.p.size()), shape_.size());
+    now_.at = std::move(start);
+    now_.at.local.resize(shape_.locals(), 0);
+    for (const FitParameter& parameter : shape_.parameters) fixed_.push_back(parameter.fixed());
+    now_.held = fixed_;
+    refused_.assign(fixed_.size(), false);
+    Clamp();
+    Measure();
+    Remember();
+    if (TakeOutFaded()) Measure();
+  }
+
+  RefineEnd Run() {
+    if (!Ended()) {
+      Solve(/*bounded=*/true, std::max(options_.function_tolerance, options_.first_tolerance),
+            options_.first_iterations);
+    }
+    Remember();
+    bool settled = false;
+    for (int round = 0; round < options_.max_rounds && !settled && !Ended(); ++round) {
+      HoldWhatPresses();
+      if (SolveFree()) {
+        KeepIfBetter();
+        settled = !ReleaseOne() && !LetDiodeIn();
+      }
+      Remember();
+    }
+    return End(settled && now_.converged);
+  }
+
+  RefineEnd RunPlainly() {
+    Solve(/*bounded=*/true, options_.function_tolerance, options_.max_iterations);
+    return End(now_.converged);
+  }
+
+ private:
+  struct State {
+    FitPoint at;
+    std::vector<bool> held;
+    double mean_square = HUGE_VAL;
+    bool converged = false;  // the solve that led here
+  };
+
+  int size() const { return shape_.size(); }
+  bool Ended() const { return stopped_ || now_.mean_square <= options_.enough; }
+  void Measure() { now_.mean_square = model_.MeanSquare(now_.at); }
+
+  void Clamp() {
+    std::vector<double>& p = now_.at.p;
+    for (int i = 0; i < size(); ++i) {  // a shunt stands before the dark one that follows it
+      const ParameterRange range = BoundsAt(shape_, i, p);
+      p[i] = std::min(std::max(p[i], range.low), range.high);
+    }
+  }
+
+  // Holding and letting go may lead uphill on a curve that the model does not describe.
+  void Remember() {
+    if (best_.held.empty() || now_.mean_square < best_.mean_square) best_ = now_;
+  }
+
+  // Of the settled places the lowest: what was let go from there and led nowhere is not asked
+  // again.
+  void KeepIfBetter() {
+    if (settled_.held.empty() || now_.mean_square < settled_.mean_square) {
+      settled_ = now_;
+      refused_.assign(refused_.size(), false);
+      return;
+    }
+    if (last_released_ < 0) return;
+    refused_[last_released_] = true;
+    last_released_ = -1;
+    now_ = settled_;
+  }
+
+  RefineEnd End(bool converged) {
+    if (!(now_.mean_square <= best_.mean_square * (1 + kWorse))) {
+      now_ = best_;
+      converged = false;
+    }
+    RefineEnd end;
+    static_cast<FitPoint&>(end) = now_.at;
+    end.held = now_.held;
+    end.mean_square = now_.mean_square;
+    end.iterations = iterations_;
+    end.projected_gradient = ProjectedGradient();
+    end.converged = converged;
+    end.stopped = stopped_;
+    return end;
+  }
+
+  // One solve over what is not held; keeps the better of before and after. Returns its coordinates.
+  std::vector<double> Solve(bool bounded, double function_tolerance, int max_iterations) {
+    const Coordinates coordinates(shape_, now_.at.p, now_.held);
+    std::vector<double> theta = coordinates.Start();
+    now_.converged = theta.empty() && now_.at.local.empty();
+    // No place to take a step from.
+    if (now_.converged || !std::isfinite(now_.mean_square)) return theta;
+    if (!coordinates.Sane(theta.data())) return theta;
+    SolveOptions how;
+    how.bounded = bounded;
+    how.max_iterations = max_iterations;
+    how.function_tolerance = function_tolerance;
+    how.trust_radius = options_.trust_radius;
+    how.unit_A = std::max(std::sqrt(now_.mean_square), 1e-13 * shape_.current_scale_A);
+    how.enough = options_.enough / (how.unit_A * how.unit_A) * shape_.points;
+    how.stop = options_.stop;
+    SolveEnd end = SolveModel(model_, coordinates, now_.at.local, how);
+    iterations_ += end.iterations;
+    now_.converged = end.converged;
+    stopped_ = stopped_ || end.stopped;
+    FitPoint there{std::vector<double>(size()), std::move(end.local)};
+    coordinates.ToParameters(end.theta.data(), there.p.data());
+    const double mean_square = model_.MeanSquare(there);
+    if (!(mean_square <= now_.mean_square)) return theta;
+    now_.at = std::move(there);
+    now_.mean_square = mean_square;
+    return std::move(end.theta);
+  }
+
+  // Puts the parameter of a coordinate on one of its bounds and holds it there.
+  void Hold(const Coordinates& coordinates, int k, bool lower) {
+    const int i = coordinates.parameter(k);
+    now_.at.p[i] = coordinates.AtBound(k, lower, now_.at.p);
+    now_.held[i] = true;
+  }
+
+  void HoldWhatPresses() {
+    const Linearization now = Linearize(model_, now_.at, now_.held);
+    const Coordinates coordinates(shape_, now_.at.p, now_.held);
+    const std::vector<double> theta = coordinates.Start();
+    bool any = false;
+    for (int k = 0; k < coordinates.size(); ++k) {
+      const double slope = now.jacobian.col(k).dot(now.residual);
+      const double near = 1e-6 * (1 + std::fabs(theta[k]));
+      const bool low = theta[k] - coordinates.lower(k) < near && slope > 0;
+      const bool high = coordinates.upper(k) - theta[k] < near && slope < 0;
+      if (low || high) Hold(coordinates, k, low);
+      any = any || low || high;
+    }
+    if (TakeOutFaded() || any) Measure();
+  }
+
+  // Solves without bounds. True if the answer lies inside them; else goes as far as the first bound
+  // on the way there and holds that parameter.
+  bool SolveFree() {
+    const State before = now_;
+    const Coordinates coordinates(shape_, before.at.p, before.held);
+    const std::vector<double> from = coordinates.Start();
+    const std::vector<double> to =
+        Solve(/*bounded=*/false, options_.function_tolerance, options_.max_iterations);
+    int first = -1;
+    bool lower = false;
+    double reach = 1;
+    for (int k = 0; k < coordinates.size(); ++k) {
+      const double end = coordinates.Own(k, to), begin = coordinates.Own(k, from);
+      const double low = coordinates.OwnLower(k), high = coordinates.OwnUpper(k);
+      if (end >= low && end <= high) continue;
+      const double fraction = end == begin ? 0 : ((end < low ? low : high) - begin) / (end - begin);
+      if (first >= 0 && fraction >= reach) continue;
+      first = k;
+      lower = end < low;
+      reach = std::min(std::max(fraction, 0.0), 1.0);
+    }
+    if (first < 0) {
+      Clamp();  // rounding
+      return !FadesWithoutLoss();
+    }
+    std::vector<double> theta = from;
+    for (std::size_t k = 0; k < theta.size(); ++k) theta[k] += reach * (to[k] - from[k]);
+    for (std::size_t k = 0; k < now_.at.local.size(); ++k) {
+      const double way = now_.at.local[k] - before.at.local[k];
+      now_.at.local[k] = before.at.local[k] + reach * way;
+    }
+    coordinates.ToParameters(theta.data(), now_.at.p.data());
+    Clamp();
+    Hold(coordinates, first, lower);
+    TakeOutFaded();
+    Measure();
+    if (now_.mean_square > before.mean_square) {
+      now_.at = before.at;
+      Hold(coordinates, first, lower);
+      Measure();
+    }
+    return false;
+  }
+
+  // Takes out what has faded if nothing is lost by it; the rest is then solved once more.
+  bool FadesWithoutLoss() {
+    State before = now_;
+    if (!TakeOutFaded()) return false;
+    Measure();
+    if (now_.mean_square <= before.mean_square * (1 + kNoLoss)) return true;
+    now_ = std::move(before);
+    return false;
+  }
+
+  bool TakeOutFaded() { return RemoveFaded(shape_, &now_.at.p, &now_.held); }
+
+  // Signed cosine of the residuals with each parameter that is neither fixed nor absent; 0 where it
+  // sits at a bound and would leave it, and of all others.
+  std::vector<double> FreeCosines() const {
+    std::vector<bool> held = fixed_;
+    HoldAbsent(shape_, now_.at.p, &held);
+    const Linearization now = Linearize(model_, now_.at, held);
+    const Coordinates coordinates(shape_, now_.at.p, held);
+    const std::vector<double> theta = coordinates.Start();
+    std::vector<double> cosines(size(), 0);
+    const double norm = now.residual.norm();
+    for (int k = 0; k < coordinates.size(); ++k) {
+      const int i = coordinates.parameter(k);
+      const double column = now.jacobian.col(k).norm();
+      if (!(column > kNoInfluence * norm) || !(norm > 0)) continue;
+      const double cosine = now.jacobian.col(k).dot(now.residual) / (column * norm);
+      DCHECK(std::isfinite(cosine));
+      if (now_.held[i]) {
+        const double own = coordinates.Own(k, theta);
+        const bool low = own - coordinates.OwnLower(k) < coordinates.OwnUpper(k) - own;
+        if (low ? cosine > 0 : cosine < 0) continue;
+      }
+      cosines[i] = cosine;
+    }
+    return cosines;
+  }
+
+  double ProjectedGradient() const {
+    double largest = 0;
+    for (const double cosine : FreeCosines()) largest = std::max(largest, std::fabs(cosine));
+    return largest;
+  }
+
+  // Lets the held parameter that most wants back into its range move again.
+  bool ReleaseOne() {
+    const std::vector<double> cosines = FreeCosines();
+    int best = -1;
+    double largest = kFlat;
+    for (int i = 0; i < size(); ++i) {
+      if (!now_.held[i] || refused_[i] || std::fabs(cosines[i]) <= largest) continue;
+      largest = std::fabs(cosines[i]);
+      best = i;
+    }
+    if (best < 0 || ++released_ > kMostReleased * size()) return false;
+    now_.held[best] = false;
+    last_released_ = best;
+    return true;
+  }
+
+  // Puts a vanished diode where the residuals ask for one and solves on; keeps it only if that
+  // pays.
+  bool LetDiodeIn() {
+    if (!options_.let_in || Ended()) return false;
+    for (int i = 0; i < size(); ++i) {
+      const FitParameter& is = shape_.parameters[i];
+      const bool vanished = is.may_vanish && now_.held[i] && now_.at.p[i] <= 0;
+      if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
+      if (few_ == nullptr) few_ = model_.Few();
+      const Comeback diode = FindComeback(model_, few_.get(), now_.at, i);
+      if (!(diode.cosine > kFlat)) continue;
+      ++let_in_;
+      const State before = now_;
+      const int n = is.with[0];
+      now_.at.p[i] = std::min(diode.size, is.upper);
+      now_.at.p[n] = diode.n;
+      now_.held[i] = false;
+      now_.held[n] = fixed_[n];
+      Measure();
+      Solve(/*bounded=*/true, options_.first_tolerance, options_.first_iterations);
+      if (now_.mean_square < before.mean_square * (1 - 1e-13)) {
+        last_released_ = -1;
+        return true;
+      }
+      now_ = before;
+    }
+    return false;
+  }
+
+  const FitModel& model_;
+  const ModelShape& shape_;
+  const RefineOptions& options_;
+  std::vector<bool> fixed_;
+  State now_;
+  State best_;     // of all places on the way
+  State settled_;  // of those inside the bounds that a free solve came to
+  std::vector<bool> refused_;
+  int last_released_ = -1;
+  int released_ = 0;
+  int let_in_ = 0;
+  int iterations_ = 0;
+  bool stopped_ = false;
+  std::unique_ptr<FitModel> few_;  // filled where needed
+};
+
+}  // namespace
+
+RefineEnd RefineModel(const FitModel& model, FitPoint start, const RefineOptions& options) {
+  return ActiveSet(model, std::move(start), options).Run();
+}
+
+RefineEnd RefineModelPlainly(const FitModel& model, FitPoint start, const RefineOptions& options) {
+  return ActiveSet(model, std::move(start), options).RunPlainly();
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "lyrefit/refine/model.h"
+#include "lyrefit/refine/problem.h"
+
+namespace lyrefit {
+
+// One curve of a device as a model: one block without unknowns of its own, mean squares by the
+// kernel.
+class CurveModel : public FitModel {
+ public:
+  // Keeps a reference.
+  explicit CurveModel(const RefineProblem& problem);
+
+  bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
+                double* local_slopes) const override;
+  double MeanSquare(const FitPoint& point) const override;
+  std::unique_ptr<FitModel> Few() const override;
+
+ private:
+  explicit CurveModel(std::unique_ptr<RefineProblem> own);
+
+  std::unique_ptr<RefineProblem> own_;  // null: somebody else's
+  const RefineProblem& problem_;
+};
+
+}  // namespace lyrefit

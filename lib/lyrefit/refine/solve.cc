@@ -1,0 +1,128 @@
+#include "lyrefit/refine/solve.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "lyrefit/refine/finite.h"
+#include "lyrefit/refine/linearize.h"
+
+namespace lyrefit {
+namespace {
+
+// A block of residuals over two blocks of unknowns: the coordinates, then its own; either may be
+// missing.
+class BlockCost : public ceres::CostFunction {
+ public:
+  BlockCost(const FitModel& model, const Coordinates& coordinates, int block, double unit_A)
+      : model_(model), coordinates_(coordinates), block_(block), unit_A_(unit_A) {
+    const FitBlock& size = model.shape().blocks[block];
+    set_num_residuals(size.residuals);
+    if (coordinates.size() > 0) mutable_parameter_block_sizes()->push_back(coordinates.size());
+    if (size.locals > 0) mutable_parameter_block_sizes()->push_back(size.locals);
+  }
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const bool shared = coordinates_.size() > 0;
+    const std::size_t own = shared ? 1 : 0;
+    const bool local = parameter_block_sizes().size() > own;
+    const bool slopes = jacobians != nullptr;
+    return EvaluateBlock(model_, coordinates_, block_, shared ? x[0] : nullptr,
+                         local ? x[own] : nullptr, unit_A_, residuals,
+                         slopes && shared ? jacobians[0] : nullptr,
+                         slopes && local ? jacobians[own] : nullptr);
+  }
+
+ private:
+  const FitModel& model_;
+  const Coordinates& coordinates_;
+  int block_;
+  double unit_A_;
+};
+
+// Ends a solve where it stands when asked to, or when it is low enough.
+class StopAsked : public ceres::IterationCallback {
+ public:
+  explicit StopAsked(const SolveOptions& options) : options_(options) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    stopped_ = stopped_ || (options_.stop && options_.stop());
+    const bool end = stopped_ || 2 * summary.cost <= options_.enough;
+    return end ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  const SolveOptions& options_;
+  bool stopped_ = false;
+};
+
+void SetBounds(const Coordinates& coordinates, std::vector<double>* theta, ceres::Problem* solver) {
+  for (int k = 0; k < coordinates.size(); ++k) {
+    const double lower = coordinates.lower(k), upper = coordinates.upper(k);
+    if (std::isfinite(lower)) solver->SetParameterLowerBound(theta->data(), k, lower);
+    if (std::isfinite(upper)) solver->SetParameterUpperBound(theta->data(), k, upper);
+    (*theta)[k] = std::min(std::max((*theta)[k], lower), upper);
+  }
+}
+
+ceres::Solver::Options CeresOptions(const SolveOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.max_num_iterations = options.max_iterations;
+  solver.function_tolerance = options.function_tolerance;
+  solver.gradient_tolerance = 1e-15;
+  solver.parameter_tolerance = 1e-15;
+  solver.initial_trust_region_radius = options.trust_radius;
+  solver.logging_type = ceres::SILENT;
+  solver.max_num_consecutive_invalid_steps = 20;
+  return solver;
+}
+
+}  // namespace
+
+SolveEnd SolveModel(const FitModel& model, const Coordinates& coordinates,
+                    std::vector<double> local, const SolveOptions& options) {
+  SolveEnd end;
+  end.theta = coordinates.Start();
+  end.local = std::move(local);
+  end.converged = end.theta.empty() && end.local.empty();  // nothing to find
+  // Ceres writes to the log when it is handed a number that is not finite.
+  if (end.converged || !AllFinite(end.theta.data(), end.theta.size()) ||
+      !AllFinite(end.local.data(), end.local.size()))
+    return end;
+  ceres::Problem solver;
+  auto order = std::make_shared<ceres::ParameterBlockOrdering>();
+  // All locals lie side by side, since Ceres orders what it eliminates by address: in pieces, the
+  // last bits of a fit would hang on where they happened to lie.
+  double* own = end.local.data();
+  for (std::size_t b = 0; b < model.shape().blocks.size(); ++b) {
+    const int locals = model.shape().blocks[b].locals;
+    std::vector<double*> unknowns;
+    if (!end.theta.empty()) unknowns.push_back(end.theta.data());
+    if (locals > 0) unknowns.push_back(own);
+    if (locals > 0) order->AddElementToGroup(own, 0);
+    own += locals;
+    if (unknowns.empty()) continue;
+    solver.AddResidualBlock(new BlockCost(model, coordinates, static_cast<int>(b), options.unit_A),
+                            nullptr, unknowns);
+  }
+  if (options.bounded) SetBounds(coordinates, &end.theta, &solver);
+  ceres::Solver::Options how = CeresOptions(options);
+  if (!end.theta.empty() && !end.local.empty()) {
+    order->AddElementToGroup(end.theta.data(), 1);
+    how.linear_solver_ordering = order;
+    how.linear_solver_type = ceres::DENSE_SCHUR;
+  }
+  StopAsked stop(options);
+  how.callbacks.push_back(&stop);
+  ceres::Solver::Summary summary;
+  ceres::Solve(how, &solver, &summary);
+  end.iterations = static_cast<int>(summary.iterations.size());
+  end.converged = summary.termination_type == ceres::CONVERGENCE;
+  end.stopped = stop.stopped();
+  return end;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,69 @@
+#include "lyrefit/refine/vanishing.h"
+
+#include <gtest/gtest.h>
+
+#include "lyrefit/refine/refine.h"
+#include "refine/test_curves.h"
+
+namespace lyrefit {
+namespace {
+
+RefineProblem Problem(Model truth, int points = 40) {
+  return ModuleProblem(truth, Model::kDoubleDiode,
+                       truth == Model::kDoubleDiode ? kDoubleTruth : kSingleTruth, 1e-4,
+                       Objective::kSolvedCurrent, 1, points);
+}
+
+TEST(RemoveFaded, TakesOutADiodeThatShowsNowhereWithItsIdeality) {
+  const RefineProblem problem = Problem(Model::kDoubleDiode);
+  const CurveModel model(problem);
+  std::vector<bool> held(7, false);
+  std::vector<double> p = kDoubleTruth;
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_EQ(p, kDoubleTruth);
+  p[5] = 1e-15;
+  EXPECT_TRUE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_EQ(p[5], 0);
+  EXPECT_EQ(held, (std::vector<bool>{false, false, false, false, false, true, true}));
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held)) << "once";
+}
+
+TEST(RemoveFaded, LeavesADiodeWhoseBoundIsAbove0) {
+  RefineProblem problem = Problem(Model::kDoubleDiode);
+  problem.lower[5] = 1e-20;
+  const CurveModel model(problem);
+  std::vector<bool> held(7, false);
+  std::vector<double> p = kDoubleTruth;
+  p[5] = 1e-15;
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_EQ(p[5], 1e-15);
+}
+
+TEST(FindComeback, FindsTheDiodeThatTheResidualsAskFor) {
+  for (const int points : {40, 2000}) {  // the latter by few that stand for them
+    const RefineProblem problem = Problem(Model::kDoubleDiode, points);
+    const CurveModel model(problem);
+    FitPoint without{kDoubleTruth, {}};
+    without.p[5] = 0;
+    const auto few = model.Few();
+    EXPECT_EQ(few != nullptr, points == 2000);
+    const Comeback diode = FindComeback(model, few.get(), without, 5);
+    EXPECT_GT(diode.cosine, 0.9);
+    EXPECT_NEAR(diode.n, kDoubleTruth[6], 0.1);
+    EXPECT_NEAR(diode.size / kDoubleTruth[5], 1, 0.6);
+  }
+}
+
+TEST(FindComeback, FindsNoneWhereTheDiodesAreAllThere) {
+  const RefineProblem problem = Problem(Model::kSingleDiode);
+  const CurveModel model(problem);
+  std::vector<double> p = kSingleTruth;
+  p[kIph] *= 1.1;  // more current everywhere: a diode would have to give it back
+  p.insert(p.end(), {0, 1.5});
+  EXPECT_GT(FindComeback(model, nullptr, {p, {}}, 5).cosine, 0);
+  p[kIph] *= 0.8;
+  EXPECT_EQ(FindComeback(model, nullptr, {p, {}}, 5).cosine, 0);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -18,6 +18,7 @@ constexpr char kFitFooter[] =
     "  lyrefit fit data/rtc_france --model sd\n"
     "  lyrefit fit module.csv --cells 36 --temperature-C 45 --model auto --plot module.svg\n"
     "  lyrefit fit cell.csv --model dd --fix n2=2 --bound Rs=0:0.1 --json -\n"
+    "  lyrefit fit module.csv --cells 60 --temperature-C 45 --with shading:w=0.333\n"
     "  lyrefit fit roof/*.csv --cells 60 --temperature-C 45 --csv table.csv\n"
     "  lyrefit fit folder_of_curves --family desoto --pvlib module.json --plot module.svg\n"
     "  lyrefit fit sweeps.csv --family auto --irradiance-accuracy 2% --leave-out 17,18\n"
@@ -69,6 +70,7 @@ void FitCommand::AddModelFlags() {
   AddListFlag(verb_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
       .Type("P=VALUE")
       .Group("Model");
+  AddWithFlag(verb_, "Model", &with_list_);
 }
 
 void FitCommand::AddSearchFlags() {
@@ -114,6 +116,13 @@ Expected<void> FitCommand::SetFixed() {
     const auto assignment = ParseAssignment("--fix", text);
     if (!assignment) return tl::unexpected(assignment.error());
     options_.fixed[assignment->first] = assignment->second;
+  }
+  auto with = ParseWith(with_list_);
+  if (!with) return tl::unexpected(with.error());
+  options_.with = std::move(*with);
+  options_.force_effects = verb_->Forced() && !options_.with.empty();
+  if (auto_model_ && !options_.with.empty()) {
+    return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
   }
   return {};
 }

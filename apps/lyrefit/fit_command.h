@@ -41,6 +41,7 @@ class FitCommand {
   bool no_polish_ = false;
   BoundsFlags bounds_;
   std::vector<std::string> fix_list_;
+  std::vector<std::string> with_list_;
   std::string kernel_;
   FamilyFlags family_;
   ReportFlags output_;

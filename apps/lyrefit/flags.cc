@@ -7,6 +7,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/report/plot.h"
 #include "output.h"
 
@@ -104,6 +105,44 @@ Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag
   const std::optional<double> value = sides.size() == 2 ? ParseNumber(sides[1]) : std::nullopt;
   if (!value || sides[0].empty()) return Misread(flag, "PARAMETER=VALUE such as n2=2", text);
   return std::pair(sides[0], *value);
+}
+
+Flag AddWithFlag(Verb* verb, const std::string& group, std::vector<std::string>* target) {
+  return AddListFlag(verb, "--with",
+                     "an effect beside the diodes, as diagnose --explain names it, its parameters "
+                     "free, held (d=0.3) or within a range (d=0:0.5); once for each",
+                     target)
+      .Type("EFFECT[:P=VALUE|LOW:HIGH,...]")
+      .Group(group);
+}
+
+Expected<std::vector<EffectUse>> ParseWith(const std::vector<std::string>& texts) {
+  std::vector<EffectUse> uses;
+  for (const std::string& text : texts) {
+    const std::size_t colon = text.find(':');
+    EffectUse use;
+    use.effect = FindEffect(text.substr(0, colon));
+    if (use.effect == nullptr) {
+      return Fail("--with: there is no effect '" + text.substr(0, colon) +
+                  "'; lyrefit diagnose --explain lists them");
+    }
+    for (std::size_t at = colon; at != std::string::npos;) {
+      const std::size_t next = text.find(',', at + 1);
+      const std::string item = text.substr(at + 1, next - at - 1);
+      if (item.find(':') != std::string::npos) {
+        const auto range = ParseRange("--with", item);
+        if (!range) return tl::unexpected(range.error());
+        use.ranges[range->first] = range->second;
+      } else {
+        const auto assignment = ParseAssignment("--with", item);
+        if (!assignment) return tl::unexpected(assignment.error());
+        use.ranges[assignment->first] = {assignment->second, assignment->second};
+      }
+      at = next;
+    }
+    uses.push_back(std::move(use));
+  }
+  return uses;
 }
 
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text) {

@@ -14,6 +14,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/law/extension.h"
 #include "lyrefit/report/json_report.h"
 
 namespace lyrefit {
@@ -90,6 +91,10 @@ Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std
 // "n2=2" given to `flag`, as symbol and value.
 Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag,
                                                          const std::string& text);
+
+// --with EFFECT[:NAME=VALUE|LOW:HIGH,...], once for each.
+Flag AddWithFlag(Verb* verb, const std::string& group, std::vector<std::string>* target);
+Expected<std::vector<EffectUse>> ParseWith(const std::vector<std::string>& texts);
 
 // "0:0.6:50" given to `flag`: that many even steps, both ends included.
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text);

@@ -18,6 +18,7 @@ constexpr char kSimulateFooter[] =
     "  lyrefit simulate --set Iph=0.76 --set Is1=3e-7 --set n1=1.48 --set Rs=0.036 --set Rsh=54\n"
     "      --temperature-C 33 --noise-A 0.0005 --seed 1 --out cell.csv\n"
     "  lyrefit simulate --from fit.json --voltages 0:0.6:61\n"
+    "  lyrefit simulate --from fit.json --with shading:d=0.3,w=0.3333\n"
     "\n"
     "Beside NAME.csv a file NAME.json holds the conditions; lyrefit fit NAME.csv reads both.";
 
@@ -50,6 +51,7 @@ SimulateCommand::SimulateCommand(CommandLine* line)
       .Type("FILE")
       .Reads();
   AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
+  AddWithFlag(verb_, "Device", &with_list_);
   AddConditionFlags(verb_, &conditions_);
   verb_->AddOption("--voltages", &voltages_, "even steps in volt, both ends included")
       .Type("FROM:TO:COUNT")
@@ -104,9 +106,16 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
     if (!fit) return fit;
     options.parameters = fit->parameters;
     options.conditions = fit->conditions;
+    options.with = fit->with;
+    options.taken = fit->taken;
+    options.force_effects = fit->force_effects;
     if (!verb_->Given("--model")) options.model = fit->model;
     if (!verb_->Given("--constants")) options.constants = fit->constants;
   }
+  auto with = ParseWith(with_list_);
+  if (!with) return tl::unexpected(with.error());
+  options.with.insert(options.with.end(), with->begin(), with->end());
+  options.force_effects = options.force_effects || verb_->Forced();
   for (const std::string& text : set_list_) {
     const auto assignment = ParseAssignment("--set", text);
     if (!assignment) return tl::unexpected(assignment.error());

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/law/current.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/held_out.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 namespace {

@@ -9,8 +9,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/model_points.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fit_watch.h"
@@ -18,11 +16,14 @@
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/polish_extended.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/model_points.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -43,6 +44,27 @@ struct Job {
   FitWatch watch;
 };
 
+Expected<void> AddEffects(Job* job, FitReport* report) {
+  const FitOptions& options = job->options;
+  if (options.with.empty()) return {};
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "a model with effects is fitted to the solved current: it has no explicit "
+        "right-hand side for the measured one");
+  }
+  if (options.floor) return Fail("a floor is that of diodes alone: leave out the effects or it");
+  auto device = Extend(report->device, options.model, options.constants, job->curve, options.with,
+                       options.force_effects);
+  if (!device) return tl::unexpected(device.error());
+  report->device = std::move(*device);
+  for (const ParameterBounds& bounds : report->device.extension->bounds) {
+    job->bounds.push_back(bounds);
+    job->fixed.push_back(kUnknown);
+  }
+  for (const EffectUse& use : options.with) report->causes.push_back(use.effect->id);
+  return {};
+}
+
 Expected<void> Prepare(Job* job, FitReport* report) {
   const IvCurve& curve = job->curve;
   const FitOptions& options = job->options;
@@ -60,6 +82,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   if (!fixed) return tl::unexpected(fixed.error());
   job->bounds = std::move(*bounds);
   job->fixed = std::move(*fixed);
+  if (auto extended = AddEffects(job, report); !extended) return extended;
   std::vector<double> lower, upper;
   for (int i = 0; i < report->device.size(); ++i) {
     ParameterBounds& b = job->bounds[i];
@@ -165,7 +188,8 @@ void FillResults(const Job& job, FitReport* report) {
   report->nNsVth = p[IdealityIndex(0)] * device.module_thermal_voltage_V;
   report->measured = FindKeyPoints(curve.voltage_V, curve.current_A);
   report->simulated = ModelKeyPoints(device, p.data());
-  report->model_current_A = SolveCurrents(device, p.data(), curve.voltage_V, *job.problem.kernel);
+  report->model_current_A =
+      SolveCurrents(device, p.data(), job.problem.points, *job.problem.kernel);
   report->residual_A.clear();
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
@@ -211,6 +235,8 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   for (const auto& [key, range] : options.bounds.overrides) {
     echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
   }
+  for (const EffectUse& use : options.with) echo("with", DescribeUse(use), "");
+  echo("force", options.force_effects ? "yes" : "no", "no");
   for (const auto& [key, value] : options.fixed)
     echo("fix", fmt::format("{}={:g}", key, value), "");
   echo("searcher", options.searcher ? "custom" : "", "");
@@ -265,8 +291,11 @@ void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
 // Polishes, finds intervals around what is usable, and says where the polish ended.
 void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, FitReport* report) {
   const FitOptions& options = job->options;
-  const auto starts = CollectStarts(job->few, elites, kGridStarts);
-  PolishResult polish = PolishStarts(job->problem, job->few, starts, &job->watch);
+  const bool extended = report->device.extension != nullptr;
+  const auto starts = extended ? CollectExtendedStarts(job->problem, elites)
+                               : CollectStarts(job->few, elites, kGridStarts);
+  PolishResult polish = extended ? PolishExtended(job->problem, starts, &job->watch)
+                                 : PolishStarts(job->problem, job->few, starts, &job->watch);
   report->polished = true;
   report->refine = polish.report;
   report->best_bird_polished = polish.first.p;
@@ -288,6 +317,30 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Effects are fitted in numbers of their own; people read them in units.
+void QuoteEffects(FitReport* report) {
+  const Device& device = report->device;
+  if (device.extension == nullptr) return;
+  const std::vector<double> refined = Reported(device, report->refined);
+  const std::vector<double> searched = Reported(device, report->searched);
+  for (int i = device.extension->law.base_size(); i < device.size(); ++i) {
+    Estimate& e = report->estimates[i];
+    const double factor = FactorOf(device, report->refined, i);
+    for (double* value : {&e.bounds.lower, &e.bounds.upper, &e.bounds.search_lower,
+                          &e.bounds.search_upper, &e.low_95, &e.high_95}) {
+      *value *= factor;
+    }
+    e.standard_error *= std::fabs(factor);
+    if (factor < 0) {
+      std::swap(e.bounds.lower, e.bounds.upper);
+      std::swap(e.bounds.search_lower, e.bounds.search_upper);
+      std::swap(e.low_95, e.high_95);
+    }
+    e.searched = searched[i];
+    if (report->polished) e.refined = refined[i];
+  }
 }
 
 }  // namespace
@@ -322,6 +375,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     FillResults(job, &report);
   }
   report.interrupted = job.watch.stopped();
+  QuoteEffects(&report);
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);
   report.interrupted = job.watch.stopped();

@@ -8,9 +8,10 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/kernel.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/extension.h"
+#include "lyrefit/law/kernel.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -44,6 +45,10 @@ struct FitOptions {
   ConstantSet constants = ConstantSet::kCodata;
   BoundsSpec bounds;                    // physical ones derived from the curve unless said
   std::map<std::string, double> fixed;  // by symbol or name: "n2" -> 2
+  // Effects beside the diodes (FindEffect, or your own), searched, polished and reported like them;
+  // see law/extension.h. The objective is then the solved current.
+  std::vector<EffectUse> with;
+  bool force_effects = false;  // also those that data of this kind cannot show
   SearchOptions search;
   SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
   bool random_baseline =

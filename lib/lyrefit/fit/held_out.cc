@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/law/current.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 #include "lyrefit/refine/thin.h"

@@ -9,8 +9,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kAgree = 1e-9;      // relative, of RMSE: two ends are the same
-constexpr double kBetter = 1e-12;    // relative, of RMSE: one end is better than another
 constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents have come to the same curve
 // Of the RMSE: ends on few points so close to the best may be the best on all points.
 constexpr double kMayBeBest = 1e-3;
@@ -150,14 +148,37 @@ void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& 
   }
 }
 
-void Conclude(bool stopped, bool converged, RefineReport* report) {
-  report->termination = stopped ? "interrupted" : converged ? "converged" : "no convergence";
-  report->message = stopped     ? "not every start was polished"
-                    : converged ? "bounds settled and least squares converged"
-                                : "least squares stopped before its tolerance was reached";
-}
-
 }  // namespace
+
+PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
+                        std::vector<RefineEnd> ends, bool stopped,
+                        std::chrono::steady_clock::time_point begin) {
+  PolishResult result;
+  RefineReport& report = result.report;
+  for (std::size_t s = 0; s < ends.size(); ++s) {
+    const double end_rmse = std::sqrt(ends[s].mean_square);
+    report.starts.push_back(
+        {starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse, false});
+    if (report.winner < 0 || end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
+      report.winner = static_cast<int>(s);
+    }
+  }
+  result.first = ends[0];
+  result.best = std::move(ends[report.winner]);
+  const double best_rmse = report.starts[report.winner].end_rmse_A;
+  for (StartReport& start : report.starts) {
+    start.agrees = start.end_rmse_A <= best_rmse * (1 + kAgree);
+    report.agreeing += start.agrees;
+  }
+  report.projected_gradient = result.best.projected_gradient;
+  const bool converged = result.best.converged;
+  report.termination = stopped ? "interrupted" : converged ? "converged" : "no convergence";
+  report.message = stopped     ? "not every start was polished"
+                   : converged ? "bounds settled and least squares converged"
+                               : "least squares stopped before its tolerance was reached";
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
 
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
                                        const std::vector<std::vector<double>>& elites, int grid) {
@@ -205,28 +226,9 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few
   }
   if (few.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
 
-  PolishResult result;
-  RefineReport& report = result.report;
-  for (int s = 0; s < count; ++s) {
-    const double end_rmse = std::sqrt(ends[groups.Leader(s)].mean_square);
-    report.starts.push_back(
-        {starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse, false});
-    if (report.winner < 0 || end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
-      report.winner = s;
-    }
-  }
-  result.first = ends[0];
-  result.best = ends[groups.Leader(report.winner)];
-  const double best_rmse = report.starts[report.winner].end_rmse_A;
-  for (StartReport& start : report.starts) {
-    start.agrees = start.end_rmse_A <= best_rmse * (1 + kAgree);
-    report.agreeing += start.agrees;
-  }
-  report.projected_gradient = result.best.projected_gradient;
-  stopped = stopped || watch->stopped();
-  Conclude(stopped, result.best.converged, &report);
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  std::vector<RefineEnd> end_of;
+  for (int s = 0; s < count; ++s) end_of.push_back(ends[groups.Leader(s)]);
+  return ReportEnds(problem, starts, std::move(end_of), stopped || watch->stopped(), begin);
 }
 
 }  // namespace lyrefit

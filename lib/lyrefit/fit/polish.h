@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct PolishResult {
   RefineEnd first;
   RefineReport report;
 };
+
+constexpr double kAgree = 1e-9;    // relative, of RMSE: two ends are the same
+constexpr double kBetter = 1e-12;  // relative, of RMSE: one end is better than another
+
+// What came of the first so many starts, each with its end.
+PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
+                        std::vector<RefineEnd> ends, bool stopped,
+                        std::chrono::steady_clock::time_point begin);
 
 // Separable descent from one start after the other, until three (of a single diode: two) have come
 // to the same best curve or no start is left; then one bounded least-squares solve for each curve

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/law/current.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/current.h"
 
 namespace lyrefit {
 

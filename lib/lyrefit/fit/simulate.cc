@@ -9,7 +9,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/base/version.h"
 #include "lyrefit/curve/json_text.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 
@@ -151,45 +153,143 @@ Expected<void> ReadConditions(const json& fit, const std::string& text, const st
 
 }  // namespace
 
+namespace {
+
+// Every parameter of every effect at one value.
+Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
+  std::vector<EffectUse> uses = options.with;
+  for (EffectUse& use : uses) {
+    const std::vector<EffectParameter>& infos = use.effect->parameters;
+    for (const auto& [key, range] : use.ranges) {
+      if (range.first == range.second) continue;
+      return Fail(fmt::format("{}: a simulation needs one value of {}, found {:g}:{:g}",
+                              use.effect->id, key, range.first, range.second));
+    }
+    const auto given = [&](const EffectParameter& info) {
+      return use.ranges.count(info.symbol) + use.ranges.count(info.name) > 0;
+    };
+    if (!infos.empty() && !given(infos.front())) {
+      return Fail(fmt::format("{}: a simulation needs its strength, {} ({})", use.effect->id,
+                              infos.front().symbol, infos.front().doc));
+    }
+  }
+  return uses;
+}
+
+// The device with its effects, and the parameters of both.
+Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const IvCurve& taken,
+                                         std::vector<double> p, Device* device) {
+  auto uses = SettledUses(options);
+  if (!uses) return tl::unexpected(uses.error());
+  auto extended =
+      Extend(*device, options.model, options.constants, taken, *uses, options.force_effects);
+  if (!extended) return tl::unexpected(extended.error());
+  *device = std::move(*extended);
+  const std::vector<double>& usual = device->extension->usual;
+  p.insert(p.end(), usual.begin(), usual.end());
+  return p;
+}
+
+}  // namespace
+
 Expected<IvCurve> Simulate(const SimulateOptions& options) {
   if (auto checked = CheckOptions(options); !checked) return tl::unexpected(checked.error());
-  const Device device = MakeDevice(options.model, options.conditions, options.constants);
-  const Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
+  Device device = MakeDevice(options.model, options.conditions, options.constants);
+  Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
-  Expected<std::vector<double>> voltages = Voltages(options, device, *parameters);
+  const bool as_taken = options.taken.has_value() && options.voltage_V.empty();
+  Expected<std::vector<double>> voltages =
+      as_taken ? options.taken->voltage_V : Voltages(options, device, *parameters);
   if (!voltages) return tl::unexpected(voltages.error());
   IvCurve curve;
+  if (as_taken) curve = *options.taken;
   curve.name = options.name;
   curve.conditions = options.conditions;
   curve.voltage_V = std::move(*voltages);
   curve.current_A.assign(curve.voltage_V.size(), 0);
   if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
   curve.current_A = SolveCurrents(device, parameters->data(), curve.voltage_V);
+  if (!options.with.empty()) {
+    parameters = AddEffects(options, options.taken.value_or(curve), *parameters, &device);
+    if (!parameters) return tl::unexpected(parameters.error());
+    const bool own = as_taken || !options.taken.has_value();
+    curve.current_A = own ? SolveCurrents(device, parameters->data(),
+                                          MakePointSet(curve.voltage_V, curve.current_A))
+                          : SolveCurrents(device, parameters->data(), curve.voltage_V);
+    for (const double current : curve.current_A) {
+      if (!std::isfinite(current)) return Fail("the device has no current there");
+    }
+  }
   AddNoise(options, &curve);
   return curve;
 }
 
-// An extended model is more than its diodes and its one curve.
-Expected<void> RefuseExtended(const json& fit, const std::string& path) {
-  const json causes = At(fit, "/causes");
-  std::string names;
-  for (const json& cause : causes) {
-    if (cause.is_string()) names += (names.empty() ? "" : ", ") + cause.get<std::string>();
-  }
-  if (!names.empty()) {
-    return Fail("a model extended by " + names +
-                    ", which cannot be simulated yet: expected a report of lyrefit fit",
-                path);
-  }
+namespace {
+
+// A model of many curves is more than its one curve.
+Expected<void> RefuseMany(const json& fit, const std::string& path) {
   const json curves = At(fit, "/curves");
   if (curves.is_number() && curves.get<double>() > 1) {
     return Fail("a model of " + curves.dump() +
                     " curves under conditions of their own, which cannot be simulated yet: "
-                    "expected a report of lyrefit fit of one curve",
+                    "expected a report of one curve",
                 path);
   }
   return {};
 }
+
+std::vector<double> NumbersAt(const json& document, const char* pointer) {
+  std::vector<double> values;
+  for (const json& value : At(document, pointer)) {
+    values.push_back(value.is_number() ? value.get<double>()
+                                       : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+// Effects with the values the report answers with, and the measurement they act in.
+Expected<void> ReadEffects(const json& fit, bool polished, const std::string& path,
+                           SimulateOptions* options) {
+  const json causes = At(fit, "/causes");
+  if (!causes.is_array() || causes.empty()) return {};
+  const json version = At(fit, "/lyrefit_version");
+  if (version != Version() || !At(fit, "/law").is_object()) {
+    return Fail(
+        fmt::format("a model with effects, written by lyrefit {}, which this one ({}) does "
+                    "not read: fit it again",
+                    version.is_string() ? version.get<std::string>() : "of no version", Version()),
+        path);
+  }
+  for (const json& cause : causes) {
+    EffectUse use;
+    use.effect = cause.is_string() ? FindEffect(cause.get<std::string>()) : nullptr;
+    if (use.effect == nullptr) return Fail("there is no effect " + cause.dump(), path);
+    for (const EffectParameter& info : use.effect->parameters) {
+      const std::string name = fmt::format("{}_{}", use.effect->id, info.name);
+      const auto value =
+          AnsweredValue(At(fit, "/parameters").value(name, json()), polished, name, path);
+      if (!value) return tl::unexpected(value.error());
+      use.ranges[info.symbol] = {*value, *value};
+    }
+    options->with.push_back(std::move(use));
+  }
+  IvCurve taken;
+  taken.name = options->name;
+  taken.conditions = options->conditions;
+  taken.irradiance_known = true;
+  taken.voltage_V = NumbersAt(fit, "/data/voltage_V");
+  taken.current_A = NumbersAt(fit, "/data/current_A");
+  taken.time_s = NumbersAt(fit, "/law/time_s");
+  taken.irradiance_W_m2 = NumbersAt(fit, "/law/irradiance_Wm2");
+  const json bypass = At(fit, "/law/bypass_diodes");
+  if (bypass.is_number_integer()) taken.notes.bypass_diodes = bypass.get<int>();
+  if (auto valid = Validate(taken); !valid) return Fail(valid.error().message, path);
+  options->taken = std::move(taken);
+  options->force_effects = true;  // they were fitted to it
+  return {};
+}
+
+}  // namespace
 
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
   const Expected<std::string> text = ReadTextFile(path, kLargestFitFile);
@@ -206,7 +306,7 @@ Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
   if (!model || !constants || !parameters.is_object()) {
     return Fail("expected a fit report as lyrefit writes it: model, constants, parameters", path);
   }
-  if (auto plain = RefuseExtended(*fit, path); !plain) return tl::unexpected(plain.error());
+  if (auto one = RefuseMany(*fit, path); !one) return tl::unexpected(one.error());
   SimulateOptions options;
   options.model = *model;
   options.constants = *constants;
@@ -220,6 +320,9 @@ Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
         AnsweredValue(parameters.value(info.name, json()), polished, info.name, path);
     if (!value) return tl::unexpected(value.error());
     options.parameters[info.symbol] = *value;
+  }
+  if (auto read = ReadEffects(*fit, polished, path, &options); !read) {
+    return tl::unexpected(read.error());
   }
   return options;
 }

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/device.h"
+#include "lyrefit/law/extension.h"
 
 namespace lyrefit {
 
@@ -18,6 +20,13 @@ struct SimulateOptions {
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<double> voltage_V;  // empty: `points` even steps from 0 to 2 % beyond open circuit
   int points = 100;
+  // Effects beside the diodes; every parameter of them is held at one value, those not given at the
+  // effect's usual one, but its strength, the first, must be given. They act as in `taken`, a
+  // measurement with its order and times, whose readings are simulated where no voltages are given;
+  // without it, as in the simulated sweep itself.
+  std::vector<EffectUse> with;
+  std::optional<IvCurve> taken;
+  bool force_effects = false;  // also those that such data cannot show
   // Independent Gaussian noise on every current, of the two parts' root of the sum of squares.
   double noise_A = 0;         // standard deviation, constant part
   double noise_relative = 0;  // standard deviation, part of |current|
@@ -30,8 +39,10 @@ struct SimulateOptions {
 // open-circuit voltage to end at, options outside their ranges.
 Expected<IvCurve> Simulate(const SimulateOptions& options);
 
-// Model, parameters, conditions, constants and name of a JSON fit report, ready to be simulated. An
-// infinite shunt resistance, null in JSON, is read back as infinite.
+// Model, parameters, conditions, constants and effects of a JSON fit report, ready to be simulated:
+// of an extended one its own readings, to 1e-9 of its currents. An infinite shunt resistance, null
+// in JSON, is read back as infinite. Errors besides: an effect nobody knows, an extended report of
+// another version of lyrefit.
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path);
 
 }  // namespace lyrefit

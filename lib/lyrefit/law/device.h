@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct EnumTable<Objective> {
   };
 };
 
+struct Extension;
+
 // A device model: a sum of terms over the junction voltage behind one series resistance. Parameter
 // vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3,
 // n3, so that a model's vector starts with that of the model with one diode less; what
@@ -47,6 +50,9 @@ struct Device {
   std::vector<Term> terms;
   int resistance_series = -1;           // position of Rs
   double module_thermal_voltage_V = 0;  // Ns Vt
+  // Effects beside the diodes, and the measurement in which they act; see extension.h. Their
+  // parameters stand last. None: the device alone.
+  std::shared_ptr<const Extension> extension;
 
   int size() const { return static_cast<int>(parameters.size()); }
   // Position of the parameter with this symbol ("Rs") or name ("resistance_series").

@@ -3,7 +3,10 @@
 #include <glog/logging.h>
 
 #include <cstring>
+#include <limits>
 #include <numeric>
+
+#include "lyrefit/law/extension.h"
 
 namespace lyrefit {
 
@@ -82,8 +85,30 @@ const std::vector<Kernel>& AvailableKernels() {
 
 const Kernel& FastestKernel() { return AvailableKernels().back(); }
 
+namespace {
+
+// Weighted like the kernels' sums.
+double ExtendedMeanSquare(const Device& device, Objective objective, const double* p,
+                          const PointSet& points) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (objective == Objective::kMeasuredCurrent) return kNone;  // no explicit right-hand side
+  CHECK_EQ(points.size, static_cast<int>(device.extension->readings.points.size()));
+  std::vector<double> current_A(points.size);
+  if (!ExtendedCurrents(device, p, current_A.data(), nullptr)) return kNone;
+  double sum = 0;
+  for (int k = 0; k < points.size; ++k) {
+    const int block = k / Block::kLanes, lane = k % Block::kLanes;
+    const double residual = current_A[k] - points.current_A[block].lane[lane];
+    sum += residual * residual * points.weight[block].lane[lane];
+  }
+  return sum * points.inverse_size;
+}
+
+}  // namespace
+
 double MeanSquare(const Device& device, Objective objective, const double* p,
                   const PointSet& points, const Kernel& kernel) {
+  if (device.extension != nullptr) return ExtendedMeanSquare(device, objective, p, points);
   const PreparedDevice prepared = Prepare(device, p);
   if (objective == Objective::kMeasuredCurrent) {
     return kernel.measured_mean_square(prepared, points);
@@ -94,6 +119,12 @@ double MeanSquare(const Device& device, Objective objective, const double* p,
 
 std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
                                   const Kernel& kernel) {
+  if (device.extension != nullptr) {
+    std::vector<double> current_A(device.extension->readings.points.size());
+    CHECK_EQ(points.size, static_cast<int>(current_A.size()));
+    const bool fine = ExtendedCurrents(device, p, current_A.data(), nullptr);
+    return fine ? current_A : std::vector<double>(current_A.size(), std::nan(""));
+  }
   const PreparedDevice prepared = Prepare(device, p);
   std::vector<Block> current(points.voltage_V.size());
   kernel.solve_currents(prepared, points, JunctionVoltageLimit(prepared, points.largest_voltage_V),
@@ -106,6 +137,7 @@ std::vector<double> SolveCurrents(const Device& device, const double* p, const P
 std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V, const Kernel& kernel) {
   if (voltage_V.empty()) return {};
+  if (device.extension != nullptr) return ExtendedCurrents(device, p, voltage_V);
   const std::vector<double> no_current(voltage_V.size(), 0.0);
   return SolveCurrents(device, p, MakePointSet(voltage_V, no_current), kernel);
 }

@@ -41,7 +41,9 @@ struct Kernel {
 const std::vector<Kernel>& AvailableKernels();
 const Kernel& FastestKernel();
 
-// Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root.
+// Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. Of
+// an extended device (extension.h) the points are its measurement's, and there is no
+// measured-current residual: NaN.
 double MeanSquare(const Device& device, Objective objective, const double* p,
                   const PointSet& points, const Kernel& kernel = FastestKernel());
 
@@ -49,7 +51,7 @@ double MeanSquare(const Device& device, Objective objective, const double* p,
 std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
                                   const Kernel& kernel = FastestKernel());
 
-// The same for plain voltages.
+// The same for plain voltages; of an extended device as a sweep over them in their order.
 std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V,
                                   const Kernel& kernel = FastestKernel());

@@ -74,7 +74,7 @@ std::vector<ReadingBlock> BlocksOf(const Readings& readings) {
   return blocks;
 }
 
-bool IsSame(const Pack& a, const Pack& b) { return All(!(a < b) & !(b < a)); }
+bool IsSame(const Pack& a, const Pack& b) { return All((!(a < b)) & (!(b < a))); }
 template <int N>
 bool IsSame(const Dual<N, Pack>& a, const Dual<N, Pack>& b) {
   if (!IsSame(a.a, b.a)) return false;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lyrefit/law/current.h"
+#include "lyrefit/law/extension.h"
 
 namespace lyrefit {
 namespace {
@@ -18,9 +19,22 @@ double Bisect(const F& f, double a, double b) {
   return 0.5 * (a + b);
 }
 
+// Of a fine sweep from short circuit to a little beyond open circuit.
+KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
+  constexpr int kSteps = 2000;
+  Device base = device;
+  base.extension = nullptr;
+  const double voc = ModelKeyPoints(base, p).open_circuit_voltage_V;
+  if (!(voc > 0)) return FindKeyPoints({}, {});
+  std::vector<double> voltage_V;
+  for (int k = 0; k <= kSteps; ++k) voltage_V.push_back(1.05 * voc * k / kSteps);
+  return FindKeyPoints(voltage_V, ExtendedCurrents(device, p, voltage_V));
+}
+
 }  // namespace
 
 KeyPoints ModelKeyPoints(const Device& device, const double* p) {
+  if (device.extension != nullptr) return ExtendedKeyPoints(device, p);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   KeyPoints points{kNone, kNone, kNone, kNone, kNone, kNone};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;

@@ -1,8 +1,10 @@
 #include "lyrefit/refine/model_current.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lyrefit/base/dual.h"
+#include "lyrefit/law/extension.h"
 
 namespace lyrefit {
 namespace {
@@ -43,6 +45,12 @@ void ModelCurrents(const Device& device, Objective objective, const double* p,
                    const CurvePoints& points, const Kernel& kernel, double* current,
                    double* slopes) {
   const bool measured = objective == Objective::kMeasuredCurrent;
+  if (device.extension != nullptr) {
+    if (measured || !ExtendedCurrents(device, p, current, slopes)) {
+      current[0] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return;
+  }
   const std::vector<double> at =
       measured ? points.current_A : SolveCurrents(device, p, points.set, kernel);
   std::copy(at.begin(), at.end(), current);

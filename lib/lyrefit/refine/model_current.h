@@ -18,7 +18,7 @@ struct CurvePoints {
 // right-hand side at the measured current, or the solved current. Where `slopes` is given, its
 // derivatives by the device's parameters, row by row: those of the explicit right-hand side, at the
 // root divided by 1 - Rs F' (the implicit function theorem; differentiating the Newton iteration
-// would cost more and be less exact).
+// would cost more and be less exact). NaN where an extended law cannot be evaluated.
 void ModelCurrents(const Device& device, Objective objective, const double* p,
                    const CurvePoints& points, const Kernel& kernel, double* current,
                    double* slopes);

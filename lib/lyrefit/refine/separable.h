@@ -8,7 +8,8 @@
 namespace lyrefit {
 
 // The measured-current problem is linear in Iph, Is and 1/Rsh once Rs and the n are given. Both
-// functions below live on that: only Rs and n move, the rest is solved exactly within its bounds.
+// functions below live on that: only Rs and n move, the rest is solved exactly within its bounds. A
+// device with effects is not linear in these: it has no such starts, and descends nowhere.
 
 struct SeparableStart {
   std::string origin;  // "grid n = 1.14, 2; Rs = 0.036 ohm"

@@ -187,6 +187,7 @@ class Descent {
 
 std::vector<double> SeparableDescent(const RefineProblem& problem, const std::vector<double>& start,
                                      double tolerance) {
+  if (problem.device.extension != nullptr) return start;  // not linear in anything
   Descent descent(problem, start, tolerance);
   if (problem.objective == Objective::kMeasuredCurrent) {
     descent.Run();

@@ -151,6 +151,7 @@ class Grid {
 
 std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint,
                                             int count) {
+  if (problem.device.extension != nullptr) return {};
   return Grid(problem, rs_hint).Best(count);
 }
 

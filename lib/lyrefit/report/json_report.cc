@@ -136,6 +136,17 @@ Json DataJson(const FitReport& report, JsonPoints points) {
   return json;
 }
 
+// Effects beside the diodes. Of the measurement in which they act all readings are kept.
+Json LawJson(const FitReport& report) {
+  const IvCurve& curve = report.curve;
+  Json law = {
+      {"effects", report.causes},
+      {"bypass_diodes", curve.notes.bypass_diodes ? Json(*curve.notes.bypass_diodes) : Json()}};
+  if (!curve.time_s.empty()) law["time_s"] = curve.time_s;
+  if (!curve.irradiance_W_m2.empty()) law["irradiance_Wm2"] = curve.irradiance_W_m2;
+  return law;
+}
+
 }  // namespace
 
 Json FitJson(const FitReport& report, JsonPoints points) {
@@ -148,6 +159,9 @@ Json FitJson(const FitReport& report, JsonPoints points) {
   json["bounds"] = report.bounds_name;
   if (!report.causes.empty()) json["causes"] = report.causes;
   if (report.curves > 1) json["curves"] = report.curves;
+  const bool extended = report.device.extension != nullptr;
+  if (extended) json["law"] = LawJson(report);
+  if (extended) points = JsonPoints::kAll;
   AddAnswer(report, &json);
   AddEvidence(report, &json);
   json["data"] = DataJson(report, points);

@@ -1,0 +1,342 @@
+#include "lyrefit/law/extension.h"
+
+#include <fmt/format.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lyrefit/diagnose/make_readings.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kMostParameters = 20;
+
+// As a fit of one curve has it: at its own irradiance and temperature, with the stated cells.
+Expected<Readings> ReadingsOf(const IvCurve& curve) {
+  CurveSet set;
+  set.curves = {curve};
+  auto measurement = MakeReadings(set);
+  if (!measurement) return tl::unexpected(measurement.error());
+  Readings readings = std::move(measurement->readings);
+  double light = 0;
+  for (const Reading& r : readings.points) light += r.irradiance;
+  light /= static_cast<double>(readings.points.size());
+  const double cells = curve.conditions.cells_in_series;
+  const double ratio = readings.scale.cells / cells;
+  for (Reading& r : readings.points) {
+    r.irradiance = light > 0 ? r.irradiance / light : 1;
+    r.voltage *= ratio;
+  }
+  readings.scale.cells = readings.traits.cells = curve.conditions.cells_in_series;
+  readings.scale.rate_V_per_s *= ratio;
+  readings.scale.reach_V *= ratio;
+  readings.pivot_voltage *= ratio;
+  readings.reference_temperature_K = curve.conditions.cell_temperature_K;
+  readings.traits.module = readings.scale.cells > 1;
+  readings.scale.saturation_2_unit = Saturation2Unit(readings);
+  return readings;
+}
+
+std::optional<int> FindParameter(const Effect& effect, const std::string& key) {
+  for (int k = 0; k < effect.size(); ++k) {
+    if (key == effect.parameters[k].symbol || key == effect.parameters[k].name) return k;
+  }
+  return std::nullopt;
+}
+
+std::string SymbolsOf(const Effect& effect) {
+  std::string list;
+  for (const EffectParameter& info : effect.parameters) {
+    list += (list.empty() ? "" : ", ") + std::string(info.symbol);
+  }
+  return list.empty() ? "none" : list;
+}
+
+// The effect's own number of parameter k that is reported as `value`, the others at `p`.
+double InnerValue(const Effect& effect, int k, double value, std::vector<double> p,
+                  const ReadingScale& scale) {
+  const EffectParameter& info = effect.parameters[k];
+  const auto reported = [&](double x) {
+    p[k] = x;
+    return x * info.ReportedFactor(p.data(), scale);
+  };
+  if (info.convert == nullptr) return value / info.ReportedFactor(p.data(), scale);
+  // A factor that does not know the parameter itself leads straight back; else by halving, since
+  // what is reported rises or falls all the way.
+  const double middle = 0.5 * (info.lower + info.upper);
+  const double straight = value / (reported(middle) / middle);
+  if (std::fabs(reported(straight) - value) <= 1e-12 * std::fabs(value)) return straight;
+  double low = info.lower, high = info.upper;
+  const bool rises = reported(low) < reported(high);
+  for (int step = 0; step < 200 && low < high; ++step) {
+    const double x = 0.5 * (low + high);
+    if (x == low || x == high) break;
+    ((reported(x) < value) == rises ? low : high) = x;
+  }
+  return 0.5 * (low + high);
+}
+
+// Parameters that factors of others depend on come after the first, so they are settled first.
+std::vector<double> InnerValues(const Effect& effect, const std::vector<double>& reported,
+                                const ReadingScale& scale) {
+  std::vector<double> p;
+  for (const EffectParameter& info : effect.parameters) p.push_back(info.neutral);
+  for (int k = effect.size() - 1; k >= 0; --k) p[k] = InnerValue(effect, k, reported[k], p, scale);
+  return p;
+}
+
+std::vector<double> ReportedValues(const Effect& effect, const double* p,
+                                   const ReadingScale& scale) {
+  std::vector<double> reported;
+  for (int k = 0; k < effect.size(); ++k) {
+    reported.push_back(p[k] * effect.parameters[k].ReportedFactor(p, scale));
+  }
+  return reported;
+}
+
+Error Unfit(const Effect& effect, const std::string& why) {
+  Error error;
+  error.message = fmt::format("{}: {}", effect.id, why);
+  return error;
+}
+
+// One effect's bounds, what a fit holds and where it begins.
+Expected<void> AddUse(const EffectUse& use, Extension* extension) {
+  const Effect& effect = *use.effect;
+  const ReadingScale& scale = extension->readings.scale;
+  std::vector<double> usual;
+  for (const EffectParameter& info : effect.parameters) usual.push_back(info.neutral);
+  std::vector<double> reported = ReportedValues(effect, usual.data(), scale);
+  std::vector<char> asked(effect.parameters.size(), 0);
+  for (const auto& [key, range] : use.ranges) {
+    const auto k = FindParameter(effect, key);
+    if (!k) {
+      return tl::unexpected(
+          Unfit(effect, fmt::format("has no parameter '{}', expected {}", key, SymbolsOf(effect))));
+    }
+    if (!(range.first <= range.second)) {
+      return tl::unexpected(
+          Unfit(effect, fmt::format("{} = {:g}:{:g} is reversed", key, range.first, range.second)));
+    }
+    asked[*k] = 1;
+    reported[*k] = 0.5 * (range.first + range.second);
+  }
+  usual = InnerValues(effect, reported, scale);
+  const std::vector<double> factors = ReportedValues(effect, usual.data(), scale);
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    double lower = info.lower, upper = info.upper;
+    for (const auto& [key, range] : use.ranges) {
+      if (FindParameter(effect, key) != k) continue;
+      const double a = InnerValue(effect, k, range.first, usual, scale);
+      const double b = InnerValue(effect, k, range.second, usual, scale);
+      const double slack = 1e-9 * (upper - lower);
+      if (!(std::min(a, b) >= lower - slack && std::max(a, b) <= upper + slack)) {
+        const double factor =
+            usual[k] != 0 ? factors[k] / usual[k] : info.ReportedFactor(usual.data(), scale);
+        const double p = info.lower * factor, q = info.upper * factor;
+        return tl::unexpected(
+            Unfit(effect, fmt::format("{} = {:g}:{:g} is outside {:g} to {:g} {}", key, range.first,
+                                      range.second, std::min(p, q), std::max(p, q), info.unit)));
+      }
+      lower = std::max(lower, std::min(a, b));
+      upper = std::min(upper, std::max(a, b));
+    }
+    if (info.held && asked[k] == 0) lower = upper = usual[k];
+    usual[k] = std::min(std::max(usual[k], lower), upper);
+    extension->bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
+  }
+  extension->usual.insert(extension->usual.end(), usual.begin(), usual.end());
+  return {};
+}
+
+void AddInfos(const Extension& extension, std::vector<ParameterInfo>* infos) {
+  for (const EffectUse& use : extension.uses) {
+    for (const EffectParameter& info : use.effect->parameters) {
+      infos->push_back({fmt::format("{}.{}", use.effect->id, info.symbol),
+                        fmt::format("{}_{}", use.effect->id, info.name), info.unit, info.doc,
+                        ParameterKind::kPlain, 0.1 * (info.upper - info.lower)});
+    }
+  }
+}
+
+Expected<void> CheckTogether(const std::vector<EffectUse>& uses, int base_size) {
+  int size = base_size;
+  for (std::size_t a = 0; a < uses.size(); ++a) {
+    size += uses[a].effect->size();
+    for (std::size_t b = 0; b < a; ++b) {
+      if (uses[a].effect == uses[b].effect)
+        return tl::unexpected(Unfit(*uses[a].effect, "is there twice"));
+      if (Exclude(*uses[a].effect, *uses[b].effect)) {
+        return tl::unexpected(
+            Unfit(*uses[a].effect, fmt::format("cannot stand beside {}: each divides the cells in "
+                                               "its own way",
+                                               uses[b].effect->id)));
+      }
+    }
+  }
+  if (size > kMostParameters) {
+    return Fail(fmt::format("{} parameters are too many for one law, expected {} at most", size,
+                            kMostParameters));
+  }
+  return {};
+}
+
+// Shares of cells, named share..., that are held at more than there is.
+Expected<void> CheckShares(const Extension& extension) {
+  int at = 0;
+  for (const EffectUse& use : extension.uses) {
+    double least = 0;
+    for (const EffectParameter& info : use.effect->parameters) {
+      const bool share = std::string(info.name).find("share") != std::string::npos;
+      if (share) least += extension.bounds[at].lower;
+      ++at;
+    }
+    if (least > 1 - 1e-9) {
+      return tl::unexpected(Unfit(*use.effect, fmt::format("shares of {:g} in all leave no cell "
+                                                           "for the rest, expected less than 1",
+                                                           least)));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
+                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force) {
+  if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
+  auto readings = ReadingsOf(curve);
+  if (!readings) return tl::unexpected(readings.error());
+  auto extension = std::make_shared<Extension>();
+  extension->readings = std::move(*readings);
+  extension->law.natural = true;
+  extension->law.model = model;
+  extension->law.constants = constants;
+  extension->uses = uses;
+  for (const EffectUse& use : uses) {
+    const Effect& effect = *use.effect;
+    if (effect.parameters.empty()) {
+      return tl::unexpected(
+          Unfit(effect, "has no parameters: it is found in the values, not fitted"));
+    }
+    const auto why_not = effect.why_not != nullptr ? effect.why_not(extension->readings.traits)
+                                                   : std::optional<std::string>();
+    if (why_not && !force) {
+      return tl::unexpected(Unfit(effect, *why_not + " (--force fits it all the same)"));
+    }
+    extension->law.effects.push_back(&effect);
+    if (auto added = AddUse(use, extension.get()); !added) return tl::unexpected(added.error());
+  }
+  if (auto fine = CheckShares(*extension); !fine) return tl::unexpected(fine.error());
+  Device device = base;
+  AddInfos(*extension, &device.parameters);
+  device.extension = std::move(extension);
+  return device;
+}
+
+std::vector<double> Reported(const Device& device, std::vector<double> p) {
+  if (device.extension == nullptr) return p;
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const int first = extension.law.Offset(static_cast<int>(e));
+    const std::vector<double> values =
+        ReportedValues(*extension.uses[e].effect, p.data() + first, extension.readings.scale);
+    std::copy(values.begin(), values.end(), p.begin() + first);
+  }
+  return p;
+}
+
+std::vector<double> Inner(const Device& device, std::vector<double> reported) {
+  if (device.extension == nullptr) return reported;
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const Effect& effect = *extension.uses[e].effect;
+    const int first = extension.law.Offset(static_cast<int>(e));
+    const std::vector<double> own(reported.begin() + first,
+                                  reported.begin() + first + effect.size());
+    const std::vector<double> values = InnerValues(effect, own, extension.readings.scale);
+    std::copy(values.begin(), values.end(), reported.begin() + first);
+  }
+  return reported;
+}
+
+double FactorOf(const Device& device, const std::vector<double>& p, int i) {
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const Effect& effect = *extension.uses[e].effect;
+    const int first = extension.law.Offset(static_cast<int>(e));
+    if (i < first || i >= first + effect.size()) continue;
+    return effect.parameters[i - first].ReportedFactor(p.data() + first, extension.readings.scale);
+  }
+  return 1;
+}
+
+std::string DescribeUse(const EffectUse& use) {
+  std::string text = use.effect->id;
+  char separator = ':';
+  for (const auto& [key, range] : use.ranges) {
+    text += separator + key + "=" + fmt::format("{:g}", range.first);
+    if (range.second != range.first) text += fmt::format(":{:g}", range.second);
+    separator = ',';
+  }
+  return text;
+}
+
+namespace {
+
+bool InAmpere(const Law& law, const Readings& readings, const double* p, double* current_A,
+              double* jacobian) {
+  LawWorkspace workspace;
+  if (!EvaluateLaw(law, readings, p, &workspace, current_A, jacobian)) return false;
+  const std::size_t count = readings.points.size();
+  for (std::size_t k = 0; k < count; ++k) current_A[k] *= readings.scale.current_A;
+  for (std::size_t k = 0; jacobian != nullptr && k < count * law.size(); ++k) {
+    jacobian[k] *= readings.scale.current_A;
+  }
+  return true;
+}
+
+// The same measurement at other voltages.
+Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage_V) {
+  Readings other = readings;
+  const Reading usual = readings.points.front();
+  double light = 0;
+  for (const Reading& r : readings.points) light += r.irradiance;
+  light /= static_cast<double>(readings.points.size());
+  const int count = static_cast<int>(voltage_V.size());
+  other.points.assign(count, usual);
+  for (int k = 0; k < count; ++k) {
+    Reading& r = other.points[k];
+    r.voltage = voltage_V[k] / readings.scale.cells;
+    r.irradiance = light;
+    r.x = count > 1 ? static_cast<double>(k) / (count - 1) - 0.5 : 0;
+    const bool rises = k > 0 ? voltage_V[k] >= voltage_V[k - 1] : true;
+    r.rate = rises ? 1 : -1;
+    r.current = 0;
+  }
+  return other;
+}
+
+}  // namespace
+
+bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian) {
+  const Extension& extension = *device.extension;
+  return InAmpere(extension.law, extension.readings, p, current_A, jacobian);
+}
+
+std::vector<double> ExtendedCurrents(const Device& device, const double* p,
+                                     const std::vector<double>& voltage_V) {
+  const Extension& extension = *device.extension;
+  const Readings readings = AtVoltages(extension.readings, voltage_V);
+  std::vector<double> current_A(voltage_V.size());
+  if (!InAmpere(extension.law, readings, p, current_A.data(), nullptr)) {
+    std::fill(current_A.begin(), current_A.end(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return current_A;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/law/device.h"
+#include "lyrefit/law/law.h"
+#include "lyrefit/law/reading.h"
+
+namespace lyrefit {
+
+// An effect that a model is to have, and what is known of its parameters: by symbol or name, in the
+// units of reports, [low, high]; equal ends hold the parameter there.
+struct EffectUse {
+  const Effect* effect = nullptr;
+  std::map<std::string, std::pair<double, double>> ranges;
+};
+
+// A device extended by effects in the measurement of one curve (one sweep, or up and down). Effects
+// are computed in numbers of their own (law/effect.h: voltages per cell, currents in parts of a
+// scale), in which their parameters stand in the device's vector; Reported and Inner lead from
+// there to the units of people and back.
+struct Extension {
+  Law law;
+  Readings readings;
+  std::vector<EffectUse> uses;
+  std::vector<ParameterBounds> bounds;  // of the effects' parameters, in numbers of their own
+  std::vector<double> usual;            // where a fit begins or what it holds, the same
+};
+
+// `base` with the effects, as the curve was taken. `force`: also effects that data of this kind
+// cannot show. Errors: no effect twice, none that cannot stand beside another, no parameter that is
+// not the effect's, ranges inside its bounds, shares of cells that do not add up to more than 1, at
+// most 20 parameters in all; an effect these data cannot show, and why.
+Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
+                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force);
+
+// A device's whole parameter vector with those of the effects in the units of reports, and back.
+std::vector<double> Reported(const Device& device, std::vector<double> p);
+std::vector<double> Inner(const Device& device, std::vector<double> reported);
+
+// What parameter i is multiplied by on its way to a report, the others at `p`.
+double FactorOf(const Device& device, const std::vector<double>& p, int i);
+
+// "shading:d=0.3,w=0.2:0.4", as it was asked for.
+std::string DescribeUse(const EffectUse& use);
+
+// Currents at the measured readings, and their derivatives by all parameters where asked for. False
+// where the law cannot be evaluated.
+bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian);
+
+// At other voltages, read one after the other at the measurement's mean pace.
+std::vector<double> ExtendedCurrents(const Device& device, const double* p,
+                                     const std::vector<double>& voltage_V);
+
+}  // namespace lyrefit

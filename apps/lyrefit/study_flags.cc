@@ -29,6 +29,7 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
   AddEnumFlag(verb, "--objective", "which residual is squared", &flags->options.objective)
       .Group("Model");
   AddEnumFlag(verb, "--constants", "values of k and q", &flags->options.constants).Group("Model");
+  AddWithFlag(verb, "Model", &flags->with);
   AddBoundsFlags(verb, "Model", &flags->bounds);
   const auto number = [verb](const char* name, auto* target, const std::string& doc) {
     verb->AddOption(name, target, doc + " (default " + NumberText(*target) + ")")

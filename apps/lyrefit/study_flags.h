@@ -23,6 +23,7 @@ struct StudyFlags {
   ConditionFlags conditions;
   CompareOptions options;
   SearchOptions search;
+  std::vector<std::string> with;
   bool no_polish = false;
   std::string json_file;
   std::string csv_file;

@@ -36,6 +36,13 @@ int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Conten
   const auto models = ParseModels(flags.models);
   if (!models) return Refuse(models.error());
   options.models = *models;
+  auto with = ParseWith(flags.with);
+  if (!with) return Refuse(with.error());
+  options.with = std::move(*with);
+  options.force_effects = verb.Forced() && !options.with.empty();
+  if (!options.with.empty() && !verb.Given("--objective")) {
+    options.objective = Objective::kSolvedCurrent;
+  }
   if (auto checked = verb.CheckFiles(); !checked) return Refuse(checked.error());
   const auto curves = ReadStudyCurves(flags);
   if (!curves) return Refuse(curves.error());

@@ -161,6 +161,7 @@ Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
   for (EffectUse& use : uses) {
     const std::vector<EffectParameter>& infos = use.effect->parameters;
     for (const auto& [key, range] : use.ranges) {
+      if (auto known = CheckParameter(use, key); !known) return tl::unexpected(known.error());
       if (range.first == range.second) continue;
       return Fail(fmt::format("{}: a simulation needs one value of {}, found {:g}:{:g}",
                               use.effect->id, key, range.first, range.second));

@@ -103,64 +103,75 @@ Error Unfit(const Effect& effect, const std::string& why) {
   return error;
 }
 
-// One effect's bounds, what a fit holds and where it begins.
-Expected<void> AddUse(const EffectUse& use, Extension* extension) {
-  const Effect& effect = *use.effect;
-  const ReadingScale& scale = extension->readings.scale;
-  std::vector<double> usual;
-  for (const EffectParameter& info : effect.parameters) usual.push_back(info.neutral);
-  std::vector<double> reported = ReportedValues(effect, usual.data(), scale);
-  std::vector<char> asked(effect.parameters.size(), 0);
-  for (const auto& [key, range] : use.ranges) {
-    const auto k = FindParameter(effect, key);
-    if (!k) {
-      return tl::unexpected(
-          Unfit(effect, fmt::format("has no parameter '{}', expected {}", key, SymbolsOf(effect))));
-    }
-    if (!(range.first <= range.second)) {
-      return tl::unexpected(
-          Unfit(effect, fmt::format("{} = {:g}:{:g} is reversed", key, range.first, range.second)));
-    }
-    asked[*k] = 1;
-    reported[*k] = 0.5 * (range.first + range.second);
-  }
-  usual = InnerValues(effect, reported, scale);
-  const std::vector<double> factors = ReportedValues(effect, usual.data(), scale);
-  for (int k = 0; k < effect.size(); ++k) {
-    const EffectParameter& info = effect.parameters[k];
-    double lower = info.lower, upper = info.upper;
-    for (const auto& [key, range] : use.ranges) {
-      if (FindParameter(effect, key) != k) continue;
-      const double a = InnerValue(effect, k, range.first, usual, scale);
-      const double b = InnerValue(effect, k, range.second, usual, scale);
-      const double slack = 1e-9 * (upper - lower);
-      if (!(std::min(a, b) >= lower - slack && std::max(a, b) <= upper + slack)) {
-        const double factor =
-            usual[k] != 0 ? factors[k] / usual[k] : info.ReportedFactor(usual.data(), scale);
-        const double p = info.lower * factor, q = info.upper * factor;
-        return tl::unexpected(
-            Unfit(effect, fmt::format("{} = {:g}:{:g} is outside {:g} to {:g} {}", key, range.first,
-                                      range.second, std::min(p, q), std::max(p, q), info.unit)));
-      }
-      lower = std::max(lower, std::min(a, b));
-      upper = std::min(upper, std::max(a, b));
-    }
-    if (info.held && asked[k] == 0) lower = upper = usual[k];
-    usual[k] = std::min(std::max(usual[k], lower), upper);
-    extension->bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
-  }
-  extension->usual.insert(extension->usual.end(), usual.begin(), usual.end());
-  return {};
+// "0.3", or "0.2:0.4".
+std::string RangeText(const std::pair<double, double>& range) {
+  if (range.first == range.second) return fmt::format("{:g}", range.first);
+  return fmt::format("{:g}:{:g}", range.first, range.second);
 }
 
-void AddInfos(const Extension& extension, std::vector<ParameterInfo>* infos) {
-  for (const EffectUse& use : extension.uses) {
-    for (const EffectParameter& info : use.effect->parameters) {
-      infos->push_back({fmt::format("{}.{}", use.effect->id, info.symbol),
-                        fmt::format("{}_{}", use.effect->id, info.name), info.unit, info.doc,
-                        ParameterKind::kPlain, 0.1 * (info.upper - info.lower)});
-    }
+// The range that was asked for parameter k, if one was.
+std::optional<std::pair<double, double>> RangeOf(const EffectUse& use, int k) {
+  const EffectParameter& info = use.effect->parameters[k];
+  for (const char* key : {info.symbol, info.name}) {
+    if (const auto found = use.ranges.find(key); found != use.ranges.end()) return found->second;
   }
+  return std::nullopt;
+}
+
+// The middle of what was asked for, the neutral values where nothing was; in the effect's numbers.
+std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale) {
+  std::vector<double> neutral;
+  for (const EffectParameter& info : use.effect->parameters) neutral.push_back(info.neutral);
+  std::vector<double> reported = ReportedValues(*use.effect, neutral.data(), scale);
+  for (int k = 0; k < use.effect->size(); ++k) {
+    if (const auto range = RangeOf(use, k)) reported[k] = 0.5 * (range->first + range->second);
+  }
+  return InnerValues(*use.effect, reported, scale);
+}
+
+// Bounds of parameter k: the effect's own, narrower where that was asked for.
+Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vector<double>& usual,
+                                   const ReadingScale& scale) {
+  const Effect& effect = *use.effect;
+  const EffectParameter& info = effect.parameters[k];
+  double lower = info.lower, upper = info.upper;
+  if (const auto range = RangeOf(use, k)) {
+    const double a = InnerValue(effect, k, range->first, usual, scale);
+    const double b = InnerValue(effect, k, range->second, usual, scale);
+    const double slack = 1e-9 * (upper - lower);
+    if (!(std::min(a, b) >= lower - slack && std::max(a, b) <= upper + slack)) {
+      const double factor = info.ReportedFactor(usual.data(), scale);
+      const double p = lower * factor, q = upper * factor;
+      return tl::unexpected(Unfit(
+          effect,
+          fmt::format("{} = {} is outside {:g} to {:g}{}{}", info.symbol, RangeText(*range),
+                      std::min(p, q), std::max(p, q), *info.unit != 0 ? " " : "", info.unit)));
+    }
+    lower = std::max(lower, std::min(a, b));
+    upper = std::min(upper, std::max(a, b));
+  } else if (info.held) {
+    lower = upper = usual[k];
+  }
+  return ParameterBounds{lower, upper, lower, upper, SearchScale::kLinear};
+}
+
+// One effect's bounds, and where a fit begins.
+Expected<void> AddUse(const EffectUse& use, Extension* extension) {
+  for (const auto& [key, range] : use.ranges) {
+    if (auto known = CheckParameter(use, key); !known) return known;
+    if (range.first <= range.second) continue;
+    return tl::unexpected(
+        Unfit(*use.effect, fmt::format("{} = {} is reversed", key, RangeText(range))));
+  }
+  const ReadingScale& scale = extension->readings.scale;
+  const std::vector<double> usual = UsualValues(use, scale);
+  for (int k = 0; k < use.effect->size(); ++k) {
+    const auto bounds = BoundsOf(use, k, usual, scale);
+    if (!bounds) return tl::unexpected(bounds.error());
+    extension->bounds.push_back(*bounds);
+    extension->usual.push_back(std::min(std::max(usual[k], bounds->lower), bounds->upper));
+  }
+  return {};
 }
 
 Expected<void> CheckTogether(const std::vector<EffectUse>& uses, int base_size) {
@@ -206,6 +217,12 @@ Expected<void> CheckShares(const Extension& extension) {
 
 }  // namespace
 
+Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
+  if (FindParameter(*use.effect, key)) return {};
+  return tl::unexpected(Unfit(
+      *use.effect, fmt::format("has no parameter '{}', expected {}", key, SymbolsOf(*use.effect))));
+}
+
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force) {
   if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
@@ -233,9 +250,19 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
   }
   if (auto fine = CheckShares(*extension); !fine) return tl::unexpected(fine.error());
   Device device = base;
-  AddInfos(*extension, &device.parameters);
+  AddInfos(uses, &device.parameters);
   device.extension = std::move(extension);
   return device;
+}
+
+void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* infos) {
+  for (const EffectUse& use : uses) {
+    for (const EffectParameter& info : use.effect->parameters) {
+      infos->push_back({fmt::format("{}.{}", use.effect->id, info.symbol),
+                        fmt::format("{}_{}", use.effect->id, info.name), info.unit, info.doc,
+                        ParameterKind::kPlain, 0.1 * (info.upper - info.lower)});
+    }
+  }
 }
 
 std::vector<double> Reported(const Device& device, std::vector<double> p) {
@@ -279,8 +306,7 @@ std::string DescribeUse(const EffectUse& use) {
   std::string text = use.effect->id;
   char separator = ':';
   for (const auto& [key, range] : use.ranges) {
-    text += separator + key + "=" + fmt::format("{:g}", range.first);
-    if (range.second != range.first) text += fmt::format(":{:g}", range.second);
+    text += separator + key + "=" + RangeText(range);
     separator = ',';
   }
   return text;

@@ -32,6 +32,9 @@ struct Extension {
   std::vector<double> usual;            // where a fit begins or what it holds, the same
 };
 
+// Whether the effect has a parameter of this symbol or name.
+Expected<void> CheckParameter(const EffectUse& use, const std::string& key);
+
 // `base` with the effects, as the curve was taken. `force`: also effects that data of this kind
 // cannot show. Errors: no effect twice, none that cannot stand beside another, no parameter that is
 // not the effect's, ranges inside its bounds, shares of cells that do not add up to more than 1, at
@@ -48,6 +51,9 @@ double FactorOf(const Device& device, const std::vector<double>& p, int i);
 
 // "shading:d=0.3,w=0.2:0.4", as it was asked for.
 std::string DescribeUse(const EffectUse& use);
+
+// Names of the effects' parameters, "shading.d" and "shading_shading_depth", after those of a device.
+void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* infos);
 
 // Currents at the measured readings, and their derivatives by all parameters where asked for. False
 // where the law cannot be evaluated.

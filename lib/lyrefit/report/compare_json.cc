@@ -8,9 +8,10 @@ namespace {
 
 Json Seconds(double value) { return {{"seconds", Number(value)}}; }
 
-Json ReferenceJson(const ProblemResult& problem) {
+Json ReferenceJson(const ProblemResult& problem, const CompareOptions& options) {
   const Reference& reference = problem.reference;
-  const auto& infos = MakeDevice(problem.model, Conditions{}).parameters;
+  std::vector<ParameterInfo> infos = MakeDevice(problem.model, Conditions{}).parameters;
+  AddInfos(options.with, &infos);
   Json parameters = Json::object();
   for (std::size_t i = 0; i < reference.parameters.size() && i < infos.size(); ++i) {
     parameters[infos[i].name] = Number(reference.parameters[i]);
@@ -133,14 +134,14 @@ Json RankingJson(const ProblemResult& problem, const Ranking& ranking) {
           {"wilcoxon", SignedRanksJson(problem, ranking)}};
 }
 
-Json ProblemJson(const ProblemResult& problem) {
+Json ProblemJson(const ProblemResult& problem, const CompareOptions& options) {
   Json contenders = Json::array();
   for (const ContenderResult& c : problem.contenders) contenders.push_back(ContenderJson(c));
   return {{"curve", problem.curve_name},
           {"model", ToText(problem.model)},
           {"bounds", problem.bounds_name},
           {"complete", problem.complete},
-          {"reference", ReferenceJson(problem)},
+          {"reference", ReferenceJson(problem, options)},
           {"contenders", std::move(contenders)},
           {"ranking",
            {{"searched", RankingJson(problem, problem.searched)},
@@ -160,12 +161,13 @@ std::string CompareJson(const Comparison& comparison) {
   json["target_gap"] = Number(options.target_gap);
   json["polish"] = options.polish;
   json["plain_polish"] = options.plain_polish;
+  for (const EffectUse& use : options.with) json["with"].push_back(DescribeUse(use));
   json["interrupted"] = comparison.interrupted;
   json["seconds"] = Number(comparison.seconds);
   json["warnings"] = comparison.doubts;
   json["problems"] = Json::array();
   for (const ProblemResult& problem : comparison.problems) {
-    json["problems"].push_back(ProblemJson(problem));
+    json["problems"].push_back(ProblemJson(problem, options));
   }
   // Names and files may hold bytes that are not UTF-8.
   return JsonText(json, 1);

@@ -34,7 +34,9 @@ std::string CommonBudget(const Comparison& comparison) {
 }
 
 std::string ObjectiveText(const Comparison& comparison) {
-  return ToText(comparison.options.objective);
+  std::string text = ToText(comparison.options.objective);
+  for (const EffectUse& use : comparison.options.with) text += ", with " + DescribeUse(use);
+  return text;
 }
 
 // A count as whole number, "-" for NaN.

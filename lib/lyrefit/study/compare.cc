@@ -75,6 +75,8 @@ FitOptions OptionsOf(const Problem& problem, const CompareOptions& options) {
   fit.objective = options.objective;
   fit.constants = options.constants;
   fit.bounds = problem.subject.bounds;
+  fit.with = options.with;
+  fit.force_effects = options.force_effects;
   fit.random_baseline = false;
   fit.polish = options.polish;
   fit.plain_polish = options.plain_polish;
@@ -98,7 +100,9 @@ RunOutcome OutcomeOf(const FitReport& report, int run, Objective objective) {
   if (outcome.gains.empty()) {  // a search of the user's own that keeps no trace
     outcome.gains.push_back({0, report.search.evaluations, outcome.record.searched_A});
   }
-  outcome.parameters = report.refined;
+  for (const Estimate& e : report.estimates) {
+    outcome.parameters.push_back(report.polished ? e.refined : e.searched);
+  }
   return outcome;
 }
 

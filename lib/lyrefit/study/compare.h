@@ -31,6 +31,8 @@ struct CompareOptions {
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
   Objective objective = Objective::kMeasuredCurrent;  // of search, polish and every figure
   ConstantSet constants = ConstantSet::kCodata;
+  std::vector<EffectUse> with;  // of every model; see FitOptions
+  bool force_effects = false;
   std::uint64_t seed = 0;
   int runs = 50;             // of each contender on each problem: runs 0 .. runs - 1 of the seed
   double target_gap = 1e-3;  // relative distance from the reference that counts as "reached"
@@ -101,7 +103,7 @@ struct Reference {
   double lower_bound_A = kUnknown;  // proved lower bound, NaN: none
   double floor_A = kUnknown;        // what any number of diodes could reach, NaN: not known
   std::string origin;               // in plain words
-  std::vector<double> parameters;   // in the device's order
+  std::vector<double> parameters;   // in the device's order, effects in the units of reports
   bool interrupted = false;         // before there was a proof
 };
 

@@ -55,7 +55,10 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
                       {"constants", ToText(options.constants)},
                       {"polish", options.polish},
                       {"plain-polish", options.plain_polish}};
-  std::string models, names;
+  std::string models, names, effects;
+  for (const EffectUse& use : options.with)
+    effects += (effects.empty() ? "" : " ") + DescribeUse(use);
+  if (!effects.empty()) head["with"] = effects;
   for (const Model model : options.models) models += (models.empty() ? "" : ",") + ToText(model);
   for (const Contender& c : contenders) names += (names.empty() ? "" : ",") + c.name;
   head["models"] = models;

@@ -111,16 +111,52 @@ void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& ter
   }
 }
 
-void SolveLinear(const Cell<Pack>& cell, const Pack& voltage, const StringState& state,
-                 const Terms& terms, Linear* linear) {
-  Pack present[kMostKinds], mismatch[kMostKinds], string_level[kMostKinds];
-  SumKinds(cell, state, terms, linear, present, mismatch);
+// Currents of the strings, given every part's level and slope.
+void SolveStrings(const Cell<Pack>& cell, const Pack& voltage, Linear* linear, Pack* shift) {
+  Pack level[kMostKinds];
   for (int s = 0; s < cell.strings; ++s) {
-    linear->string_weight[s] = linear->string_slope[s] = string_level[s] = 0.0;
+    linear->string_weight[s] = linear->string_slope[s] = level[s] = 0.0;
   }
   for (int p = 0; p < cell.parts; ++p) {
     const int s = cell.part[p].string;
+    linear->string_weight[s] = linear->string_weight[s] + linear->weight[p];
+    linear->string_slope[s] = linear->string_slope[s] + linear->weight[p] * linear->slope[p];
+    level[s] = level[s] + linear->weight[p] * linear->level[p];
+  }
+  for (int s = 0; s < cell.strings; ++s) {
+    shift[s] = (voltage * linear->string_weight[s] - level[s]) / linear->string_slope[s];
+  }
+}
+
+// Parts that the straight lines drive far below what their bypass diode lets them: it conducts, and
+// they stay where it carries the current scale. True if there are such.
+bool ClampParts(const Cell<Pack>& cell, const StringLimits& limits, const StringState& state,
+                const Pack* shift, Linear* linear, Mask* clamped) {
+  bool any = false;
+  for (int p = 0; p < cell.parts; ++p) {
+    if (!cell.part[p].bypassed) continue;
+    const double cells = cell.part[p].cells;
+    const Pack on = -limits.reverse / cells, far = on - 3.0 / cells * limits.bypass_vt;
+    const Pack next = linear->level[p] + shift[cell.part[p].string] * linear->slope[p];
+    const Mask below = (next < far) & (on < state.part_voltage[p]) & (!clamped[p]);
+    if (!Any(below)) continue;
+    any = true;
+    clamped[p] = clamped[p] | below;
+    linear->level[p] = Choose(below, on, linear->level[p]);
+    linear->slope[p] = Choose(below, -limits.bypass_vt / cells, linear->slope[p]);
+  }
+  return any;
+}
+
+void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
+                 const StringState& state, const Terms& terms, Linear* linear) {
+  Pack present[kMostKinds], mismatch[kMostKinds], shift[kMostKinds];
+  Mask clamped[kMostKinds];
+  SumKinds(cell, state, terms, linear, present, mismatch);
+  for (int p = 0; p < cell.parts; ++p) {
+    const int s = cell.part[p].string;
     Pack into_cells = state.current[s] - present[p];
+    clamped[p] = Pack(1.0) < 0.0;
     linear->divider[p] = 1.0;
     if (cell.part[p].bypassed) {
       const Dual<1, Pack>& bypass = terms.bypass[p];
@@ -131,23 +167,24 @@ void SolveLinear(const Cell<Pack>& cell, const Pack& voltage, const StringState&
                         terms.drop[s].a) *
                        linear->divider[p];
     linear->slope[p] = (linear->stiffness[p] - terms.drop[s].v[0]) * linear->divider[p];
-    linear->string_weight[s] = linear->string_weight[s] + linear->weight[p];
-    linear->string_slope[s] = linear->string_slope[s] + linear->weight[p] * linear->slope[p];
-    string_level[s] = string_level[s] + linear->weight[p] * linear->level[p];
   }
-  Pack shift[kMostKinds];
-  for (int s = 0; s < cell.strings; ++s) {
-    shift[s] = (voltage * linear->string_weight[s] - string_level[s]) / linear->string_slope[s];
-    linear->current[s] = state.current[s] + shift[s];
+  SolveStrings(cell, voltage, linear, shift);
+  while (cell.kinds > 1 && ClampParts(cell, limits, state, shift, linear, clamped)) {
+    SolveStrings(cell, voltage, linear, shift);
   }
+  for (int s = 0; s < cell.strings; ++s) linear->current[s] = state.current[s] + shift[s];
   for (int p = 0; p < cell.parts; ++p) {
     const int s = cell.part[p].string;
     linear->part_voltage[p] = linear->level[p] + shift[s] * linear->slope[p];
     linear->part_current[p] = linear->current[s];
     if (!cell.part[p].bypassed) continue;
     const Dual<1, Pack>& bypass = terms.bypass[p];
-    linear->part_current[p] = linear->part_current[p] - bypass.a -
-                              (linear->part_voltage[p] - state.part_voltage[p]) * bypass.v[0];
+    const Pack beside = bypass.a + (linear->part_voltage[p] - state.part_voltage[p]) * bypass.v[0];
+    const Pack drop = terms.drop[s].a + terms.drop[s].v[0] * shift[s];
+    const Pack own =
+        present[p] + (linear->part_voltage[p] - linear->mean_voltage[p] + mismatch[p] + drop) /
+                         linear->stiffness[p];
+    linear->part_current[p] = Choose(clamped[p], own, linear->part_current[p] - beside);
   }
 }
 
@@ -420,7 +457,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   bool near = false;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(bench, cell, *state, &terms);
-    SolveLinear(cell, voltage, *state, terms, &linear);
+    SolveLinear(cell, limits, voltage, *state, terms, &linear);
     // Whole steps may go round in circles between exponentials that oppose each other.
     const double part = near || k < kPatience || k > kMostSteps - kPatience ? 1 : 0.5;
     const Mask done = Move(cell, limits, terms, linear, part, state);

@@ -211,7 +211,11 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
     const Pack u = state->u[g], newton = missing / point.current.v[0];
     const Pack step = NextVoltage(cell, limits, u, newton, point.current, size) - u;
     state->u[g] = u + part * step;
-    done = done & ((abs(missing) < kRounding * size) | IsShort(step, u));
+    // A bypass diode's current takes the rounding of its voltage along.
+    const int p = PartOf(cell, g);
+    Pack sum = size;
+    if (cell.part[p].bypassed) sum = sum + abs(terms.bypass[p].v[0] * state->part_voltage[p]);
+    done = done & ((abs(missing) < kRounding * sum) | IsShort(step, u));
     if (!cell.halved) continue;
     const Pack far = state->far[g], way = (part * step + point.behind) * point.follows;
     const Pack far_step = NextVoltage(cell, limits, far, way, point.far, size) - far;
@@ -336,6 +340,7 @@ class Bracketed {
 
  private:
   static constexpr int kSteps = 64;
+  static constexpr double kEnough = 1e-9;  // relative; Newton's steps do the rest
 
   // Root of a rising function: a bracket grown from `start` by doubling steps, then by turns halved
   // and cut where the line between its ends crosses 0.
@@ -351,7 +356,7 @@ class Bracketed {
       below = f(low);
       above = f(high);
     }
-    for (int k = 0; k < kSteps && Any(kRounding * (1.0 + abs(low)) < high - low); ++k) {
+    for (int k = 0; k < kSteps && Any(kEnough * (1.0 + abs(low)) < high - low); ++k) {
       const Pack middle = 0.5 * (low + high);
       const Pack cut = low - below * ((high - low) / Larger(above - below, 1e-300));
       const Pack width = high - low;

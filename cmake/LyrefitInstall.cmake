@@ -30,8 +30,12 @@ set(LYREFIT_PUBLIC_HEADERS
   law/current.h
   law/device.h
   law/effect.h
+  law/extension.h
   law/kernel.h
+  law/law.h
   law/model_points.h
+  law/pack.h
+  law/pack.inc
   law/parameter.h
   law/reading.h
   law/solve.h

@@ -64,6 +64,17 @@ TEST(Readme, CommandsRunWithWhatShips) {
   std::filesystem::current_path(before);
 }
 
+TEST(Readme, ShowsTheEffectOfOnesOwnThatIsCompiled) {
+  const std::filesystem::path project = std::filesystem::path(LYREFIT_DATA_DIR).parent_path();
+  const auto text = [&](const char* file) {
+    std::ifstream stream(project / file);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const std::string example = text("tests/package/own_effect.cc");
+  EXPECT_GT(example.size(), 500U);
+  EXPECT_NE(text("README.md").find("```cpp\n" + example + "```"), std::string::npos);
+}
+
 TEST(Readme, LeavesOutSynopsesAndWhatItSaysCannotBeRun) {
   EXPECT_FALSE(IsToBeRun("    lyrefit fit CURVE... [--model sd]"));
   EXPECT_FALSE(IsToBeRun("    lyrefit datasheet --isc A --voc V"));

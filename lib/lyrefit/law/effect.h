@@ -212,16 +212,16 @@ enum class FoundBy {
 using Probe = std::vector<double>;
 
 struct Effect {
-  const char* id;     // "nonohmic_shunt"
-  const char* title;  // "non-ohmic shunt"
-  const char* where;  // "device", "sweep", "instrument", "conditions"
-  const char* equation;
-  const char* reference;
-  const char* sentence;                     // what a technician understands
-  const char* needs;                        // data that show it
-  const char* acts;                         // where on the curve it shows
+  const char* id = "";           // "nonohmic_shunt"
+  const char* title = "";        // "non-ohmic shunt"
+  const char* where = "device";  // or "sweep", "instrument", "conditions"
+  const char* equation = "";
+  const char* reference = "";
+  const char* sentence = "";                // what a technician understands
+  const char* needs = "";                   // data that show it
+  const char* acts = "";                    // where on the curve it shows
   std::vector<const char*> confused_with;   // ids, most alike first
-  const char* separate_by;                  // the measurement that would tell it from them
+  const char* separate_by = "";             // the measurement that would tell it from them
   std::vector<EffectParameter> parameters;  // the first is the strength, unless said
   Hook<SkyStage> sky;
   Hook<CellStage> cell;

@@ -8,7 +8,7 @@
 namespace lyrefit::LYREFIT_KERNEL {
 
 #define LYREFIT_PACK_WIDTH LYREFIT_KERNEL_WIDTH
-#include "lyrefit/law/pack_impl.h"
+#include "lyrefit/law/pack.inc"
 
 template <int kValue>
 struct Constant {

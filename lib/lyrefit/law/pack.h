@@ -16,7 +16,7 @@ struct alignas(64) Block {
 namespace every_processor {
 
 #define LYREFIT_PACK_WIDTH 2
-#include "lyrefit/law/pack_impl.h"
+#include "lyrefit/law/pack.inc"
 
 template <class F>
 Pack LaneByLane(const Pack& a, F f) {

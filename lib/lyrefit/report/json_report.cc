@@ -13,9 +13,9 @@ Json ParametersJson(const FitReport& report) {
   return parameters;
 }
 
-// Null for the models that pvlib's function does not know.
+// Null for the models that pvlib's function does not know; of a model with effects, its base.
 Json SingleDiodeJson(const FitReport& report) {
-  if (report.model != Model::kSingleDiode || report.refined.size() != 5) return nullptr;
+  if (report.model != Model::kSingleDiode || report.refined.size() < 5) return nullptr;
   return {{"photocurrent", Number(report.refined[kIph])},
           {"saturation_current", Number(report.refined[SaturationCurrentIndex(0)])},
           {"resistance_series", Number(report.refined[kRs])},

@@ -1,0 +1,133 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../temp_folder.h"
+#include "cli/run_app.h"
+#include "lyrefit/base/file.h"
+
+namespace lyrefit {
+namespace {
+
+using ::nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string kShaded = "'" + std::string(LYREFIT_DATA_DIR) + "/diagnosis/shaded_module.csv'";
+const std::string kModule =
+    "simulate --set Iph=8.2 --set Is1=2e-9 --set n1=1.15 --set Rs=0.25 --set Rsh=300 --cells 60 "
+    "--temperature-C 25 ";
+
+std::string ReadFile(const std::string& file) {
+  const auto text = ReadTextFile(file, 64U << 20);
+  EXPECT_TRUE(text) << text.error().ToString();
+  return text.value_or("");
+}
+
+// The currents of a table that was written.
+std::vector<double> CurrentsOf(const std::string& csv) {
+  std::vector<double> currents;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string::npos || std::isalpha(static_cast<unsigned char>(line[0])) != 0) {
+      continue;
+    }
+    currents.push_back(std::stod(line.substr(comma + 1)));
+  }
+  return currents;
+}
+
+// Simulated from a report, the curve is the report's own.
+void ExpectSameCurve(const std::string& report_file, const json& report) {
+  const AppResult simulated = RunApp("simulate --from '" + report_file + "'");
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  const std::vector<double> currents = CurrentsOf(simulated.out);
+  const json& expected = report["data"]["model_current_A"];
+  ASSERT_EQ(currents.size(), expected.size());
+  for (std::size_t k = 0; k < currents.size(); ++k) {
+    EXPECT_NEAR(currents[k], expected[k].get<double>(), 1e-9);
+  }
+}
+
+TEST(With, AFitIsReportedAndSimulatedAgain) {
+  const TempFolder folder;
+  const std::string file = folder.Path("fit.json");
+  const AppResult fit = RunApp("fit " + kShaded + " --with shading --json '" + file + "'");
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("shading.d"));
+  EXPECT_THAT(fit.out, HasSubstr("with = shading"));
+  const json report = json::parse(ReadFile(file));
+  EXPECT_EQ(report["causes"], json::array({"shading"}));
+  EXPECT_EQ(report["law"]["bypass_diodes"], 3);
+  EXPECT_EQ(report["singlediode"]["resistance_series"],
+            report["parameters"]["resistance_series"]["refined"]);  // of the base
+  const json& depth = report["parameters"]["shading_shading_depth"];
+  EXPECT_LT(depth["low_95"], depth["refined"]);
+  EXPECT_GT(depth["high_95"], depth["refined"]);
+  ExpectSameCurve(file, report);
+}
+
+TEST(With, AnotherVersionsReportIsNotGuessedAt) {
+  const TempFolder folder;
+  const std::string file = folder.Path("fit.json");
+  ASSERT_EQ(RunApp("fit " + kShaded + " --with shading --intervals none --quiet --json '" + file + "'")
+                .exit_code,
+            0);
+  json report = json::parse(ReadFile(file));
+  report["lyrefit_version"] = "0.0.1";
+  const AppResult refused =
+      RunApp("simulate --from '" + folder.Write("old.json", report.dump()) + "'");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("a model with effects, written by lyrefit 0.0.1"));
+}
+
+TEST(With, ASimulationNeedsNoReport) {
+  const AppResult plain = RunApp(kModule + "--voltages 0:35:8");
+  const AppResult shaded =
+      RunApp(kModule + "--voltages 0:35:8 --with shading:d=0.4,w=0.3333333333");
+  ASSERT_EQ(shaded.exit_code, 0) << shaded.err;
+  const std::vector<double> full = CurrentsOf(plain.out), less = CurrentsOf(shaded.out);
+  ASSERT_EQ(less.size(), 8U);
+  EXPECT_NEAR(less.front(), full.front(), 0.02);   // the bypass diode takes it over
+  EXPECT_NEAR(less[6], 0.6 * full.front(), 0.15);  // 30 V: the shaded third rules
+}
+
+TEST(With, SaysWhatIsWrongWithAnEffect) {
+  const struct {
+    const char* with;
+    const char* said;
+  } cases[] = {
+      {"nonsense", "--with: there is no effect 'nonsense'; lyrefit diagnose --explain lists them"},
+      {"shading:q=1", "shading: has no parameter 'q', expected d, w, Vb"},
+      {"shading:d=2", "shading: d = 2 is outside 0 to 0.999"},
+      {"shading:d=a", "expected PARAMETER=VALUE"},
+      {"shading:w=0.3", "shading: a simulation needs its strength, d"},
+      {"shading:d=0.1:0.2", "shading: a simulation needs one value of d, found 0.1:0.2"},
+      {"capacitance:C0=1e-6", "capacitance: needs a sweep up and a sweep down (--force"},
+  };
+  for (const auto& c : cases) {
+    const AppResult refused = RunApp(kModule + "--with '" + c.with + "'");
+    EXPECT_EQ(refused.exit_code, 1) << c.with;
+    EXPECT_EQ(refused.out, "") << c.with;
+    EXPECT_THAT(refused.err, HasSubstr(c.said)) << c.with;
+  }
+  const AppResult automatic = RunApp("fit " + kShaded + " --model auto --with shading");
+  EXPECT_EQ(automatic.exit_code, 1);
+  EXPECT_THAT(automatic.err, HasSubstr("--model auto chooses among diodes alone"));
+}
+
+TEST(With, SearchesAreComparedOnIt) {
+  const AppResult budget =
+      RunApp("budget " + kShaded +
+             " --with shading:w=0.3333 --models sd --algorithms random --budgets 20 --runs 2");
+  ASSERT_EQ(budget.exit_code, 0) << budget.err;
+  EXPECT_THAT(budget.out, HasSubstr("solved-current, with shading:w=0.3333"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/simulate.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+SimulateOptions Module() {
+  SimulateOptions options;
+  options.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};
+  options.conditions.cells_in_series = 60;
+  options.noise_A = 0.004;
+  options.seed = 3;
+  return options;
+}
+
+const Estimate& Find(const FitReport& report, const std::string& symbol) {
+  for (const Estimate& e : report.estimates) {
+    if (e.info.symbol == symbol) return e;
+  }
+  ADD_FAILURE() << "no parameter " << symbol;
+  return report.estimates.front();
+}
+
+TEST(FitWith, FindsAShadeAndTheDeviceBehindIt) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("shading"), {{"d", {0.4, 0.4}}, {"w", {1.0 / 3, 1.0 / 3}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  fit.with = {{FindEffect("shading"), {}}};
+  const auto report = Fit(*curve, fit);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_TRUE(report->usable) << report->not_usable_because;
+  EXPECT_EQ(report->causes, std::vector<std::string>{"shading"});
+  EXPECT_NEAR(report->rmse.refined.solved_current_A, 0.004, 0.001);
+  EXPECT_TRUE(std::isnan(report->rmse.refined.measured_current_A));
+  EXPECT_LT(report->rmse.refined.solved_current_A, report->rmse.searched.solved_current_A);
+  for (const auto& [symbol, truth] :
+       {std::pair{"shading.d", 0.4}, {"shading.w", 1.0 / 3}, {"Iph", 8.2}, {"Rs", 0.25}}) {
+    const Estimate& e = Find(*report, symbol);
+    EXPECT_NEAR(e.refined, truth, 5 * e.standard_error + 1e-9) << symbol;
+    EXPECT_LT(e.low_95, e.refined) << symbol;
+    EXPECT_GT(e.high_95, e.refined) << symbol;
+    EXPECT_NE(e.interval, IntervalMethod::kNone) << symbol;
+  }
+}
+
+TEST(FitWith, GivesTheSameBitsOnAnyNumberOfThreads) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("mismatch"), {{"d", {0.1, 0.1}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve);
+  FitOptions fit;
+  fit.with = {{FindEffect("mismatch"), {}}};
+  fit.threads = 1;
+  const auto one = Fit(*curve, fit);
+  fit.threads = 4;
+  const auto four = Fit(*curve, fit);
+  ASSERT_TRUE(one && four);
+  EXPECT_EQ(one->refined, four->refined);
+  EXPECT_EQ(one->searched, four->searched);
+  for (std::size_t i = 0; i < one->estimates.size(); ++i) {
+    EXPECT_EQ(one->estimates[i].low_95, four->estimates[i].low_95);
+    EXPECT_EQ(one->estimates[i].high_95, four->estimates[i].high_95);
+  }
+}
+
+TEST(FitWith, HoldsWhatItIsTold) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("shading"), {{"d", {0.4, 0.4}}, {"w", {1.0 / 3, 1.0 / 3}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve);
+  FitOptions fit;
+  fit.with = {{FindEffect("shading"), {{"w", {1.0 / 3, 1.0 / 3}}, {"d", {0.1, 0.3}}}}};
+  const auto report = Fit(*curve, fit);
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(Find(*report, "shading.w").fixed);
+  EXPECT_EQ(Find(*report, "shading.w").refined, 1.0 / 3);
+  EXPECT_NEAR(Find(*report, "shading.d").refined, 0.3, 1e-12);
+  EXPECT_EQ(Find(*report, "shading.d").at_bound, BoundSide::kUpper);
+}
+
+// An effect of one's own: a shunt that grows with the square of the voltage.
+Effect SquareShunt() {
+  Effect e;
+  e.id = "square_shunt";
+  e.title = "shunt that grows with the voltage";
+  e.parameters = {{"s", "strength", "A/V2", "current at 1 V of a cell", 0, 1, 0, false, 1, 1}};
+  e.junction = [](const auto* p, const auto&, const auto&, const auto& voltage) {
+    return -(abs(voltage) * voltage) * p[0];
+  };
+  e.probes = [](const DataTraits&) { return std::vector<Probe>{{0.02}}; };
+  return e;
+}
+
+TEST(FitWith, TakesAnEffectOfOnesOwn) {
+  const Effect own = SquareShunt();
+  SimulateOptions options = Module();
+  options.noise_A = 0.001;
+  for (int k = 0; k < 80; ++k) options.voltage_V.push_back(-20 + 60.0 * k / 79);
+  options.with = {{&own, {{"s", {0.5, 0.5}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  const auto without = Fit(*curve, fit);
+  fit.with = {{&own, {}}};
+  const auto report = Fit(*curve, fit);
+  ASSERT_TRUE(without && report) << report.error().ToString();
+  EXPECT_LT(report->rmse.refined.solved_current_A, 0.2 * without->rmse.refined.solved_current_A);
+  const Estimate& s = Find(*report, "square_shunt.s");
+  EXPECT_LE(s.low_95, 0.5);
+  EXPECT_GE(s.high_95, 0.5);
+}
+
+TEST(FitWith, SaysWhatDoesNotGoWithEffects) {
+  const auto curve = Simulate(Module());
+  ASSERT_TRUE(curve);
+  const auto error = [&](const FitOptions& options) {
+    const auto report = Fit(*curve, options);
+    return report ? "no error" : report.error().ToString();
+  };
+  FitOptions fit;
+  fit.with = {{FindEffect("shading"), {}}};
+  fit.objective = Objective::kMeasuredCurrent;
+  EXPECT_THAT(error(fit), HasSubstr("fitted to the solved current"));
+  fit.objective = Objective::kSolvedCurrent;
+  fit.floor = true;
+  EXPECT_THAT(error(fit), HasSubstr("a floor is that of diodes alone"));
+  fit.floor = false;
+  fit.with = {{FindEffect("capacitance"), {}}};
+  EXPECT_THAT(error(fit), HasSubstr("needs a sweep up and a sweep down"));
+}
+
+}  // namespace
+}  // namespace lyrefit

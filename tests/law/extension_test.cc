@@ -1,0 +1,161 @@
+#include "lyrefit/law/extension.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/law/kernel.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<double> kModule = {8.2, 2e-9, 1.15, 0.25, 300};
+
+// A sweep up and down of a module, below 0 V at its ends, with times.
+IvCurve UpAndDown() {
+  IvCurve curve;
+  curve.name = "made";
+  curve.conditions.cells_in_series = 60;
+  for (int k = 0; k < 40; ++k) curve.voltage_V.push_back(-2 + 41.0 * k / 39);
+  for (int k = 38; k >= 0; --k) curve.voltage_V.push_back(curve.voltage_V[k]);
+  for (std::size_t k = 0; k < curve.voltage_V.size(); ++k) curve.time_s.push_back(0.01 * k);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  curve.current_A = SolveCurrents(device, kModule.data(), curve.voltage_V);
+  return curve;
+}
+
+Expected<Device> ExtendModule(const std::vector<EffectUse>& uses, bool force = true) {
+  const IvCurve curve = UpAndDown();
+  return Extend(MakeDevice(Model::kSingleDiode, curve.conditions), Model::kSingleDiode,
+                ConstantSet::kCodata, curve, uses, force);
+}
+
+EffectUse Use(const char* id, std::map<std::string, std::pair<double, double>> ranges = {}) {
+  return {FindEffect(id), std::move(ranges)};
+}
+
+std::string ErrorOf(const std::vector<EffectUse>& uses, bool force = true) {
+  const auto device = ExtendModule(uses, force);
+  return device ? "no error" : device.error().ToString();
+}
+
+class ExtensionTest : public ::testing::TestWithParam<const Effect*> {};
+
+TEST_P(ExtensionTest, LeadsToReportedUnitsAndBack) {
+  const auto device = ExtendModule({{GetParam(), {}}});
+  ASSERT_TRUE(device) << device.error().ToString();
+  const Readings& readings = device->extension->readings;
+  std::vector<Probe> probes = GetParam()->probes(readings.traits);
+  for (const Probe& probe : probes) {
+    std::vector<double> p = kModule;
+    p.insert(p.end(), probe.begin(), probe.end());
+    const std::vector<double> back = Inner(*device, Reported(*device, p));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      EXPECT_NEAR(back[i], p[i], 1e-10 * (1 + std::fabs(p[i]))) << device->parameters[i].symbol;
+    }
+  }
+}
+
+TEST_P(ExtensionTest, IsTheDeviceAloneWhereItsEffectIsNotThere) {
+  const auto device = ExtendModule({{GetParam(), {}}});
+  ASSERT_TRUE(device);
+  std::vector<double> p = kModule;
+  for (const EffectParameter& info : GetParam()->parameters) p.push_back(info.neutral);
+  const IvCurve curve = UpAndDown();
+  std::vector<double> current_A(curve.size());
+  ASSERT_TRUE(ExtendedCurrents(*device, p.data(), current_A.data(), nullptr));
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    // Below 0 V bypass diodes conduct; of cells in a string each leaks a little.
+    if (GetParam()->groups && curve.voltage_V[k] < 0) continue;
+    const double slack = GetParam()->groups ? 1e-6 : 1e-10;
+    EXPECT_NEAR(current_A[k], curve.current_A[k], slack) << curve.voltage_V[k] << " V";
+  }
+}
+
+TEST_P(ExtensionTest, DifferentiatesByTheDevicesOwnParameters) {
+  const auto device = ExtendModule({{GetParam(), {}}});
+  ASSERT_TRUE(device);
+  std::vector<double> p = kModule;
+  const Probe probe = GetParam()->probes(device->extension->readings.traits).front();
+  p.insert(p.end(), probe.begin(), probe.end());
+  const std::size_t points = UpAndDown().size(), size = p.size();
+  std::vector<double> current_A(points), jacobian(points * size), up(points), down(points);
+  ASSERT_TRUE(ExtendedCurrents(*device, p.data(), current_A.data(), jacobian.data()));
+  for (std::size_t i = 0; i < kModule.size(); ++i) {
+    const double step = 1e-5 * p[i];
+    std::vector<double> moved = p;
+    moved[i] = p[i] + step;
+    ASSERT_TRUE(ExtendedCurrents(*device, moved.data(), up.data(), nullptr));
+    moved[i] = p[i] - step;
+    ASSERT_TRUE(ExtendedCurrents(*device, moved.data(), down.data(), nullptr));
+    double largest = 0, apart = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+      const double exact = jacobian[k * size + i] * p[i];
+      const double difference = (up[k] - down[k]) / 2e-5;
+      largest = std::max(largest, std::fabs(exact));
+      apart = std::max(apart, std::fabs(exact - difference));
+    }
+    EXPECT_LE(apart, 1e-4 * largest + 1e-7) << device->parameters[i].symbol;
+  }
+}
+
+std::vector<const Effect*> WithParameters() {
+  std::vector<const Effect*> effects;
+  for (const Effect* effect : Catalogue()) {
+    // A limit at no current is no limit: clip has a place of its own where it is absent.
+    if (!effect->parameters.empty() && std::string(effect->id) != "clip") effects.push_back(effect);
+  }
+  return effects;
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, ExtensionTest, ::testing::ValuesIn(WithParameters()),
+                         [](const auto& info) { return std::string(info.param->id); });
+
+TEST(Extend, NamesParametersAfterTheirEffect) {
+  const auto device = ExtendModule({Use("shading"), Use("drift")});
+  ASSERT_TRUE(device) << device.error().ToString();
+  EXPECT_EQ(device->size(), 9);
+  EXPECT_EQ(device->Find("shading.d"), 5);
+  EXPECT_EQ(device->Find("shading_bypass_voltage"), 7);
+  EXPECT_EQ(device->Find("drift.d"), 8);
+}
+
+TEST(Extend, HoldsAndLimitsInReportedUnits) {
+  const auto device =
+      ExtendModule({Use("nonohmic_shunt", {{"m", {2, 2}}, {"shunt_strength", {0, 1e-4}}})});
+  ASSERT_TRUE(device) << device.error().ToString();
+  const std::vector<ParameterBounds>& bounds = device->extension->bounds;
+  EXPECT_EQ(bounds[1].lower, bounds[1].upper);
+  std::vector<double> p = kModule;
+  p.push_back(bounds[0].upper);
+  p.push_back(2);
+  EXPECT_NEAR(Reported(*device, p)[5], 1e-4, 1e-16);
+  EXPECT_EQ(DescribeUse(device->extension->uses[0]), "nonohmic_shunt:m=2,shunt_strength=0:0.0001");
+}
+
+TEST(Extend, SaysWhatCannotBe) {
+  EXPECT_THAT(ErrorOf({Use("shading", {{"q", {1, 1}}})}),
+              HasSubstr("shading: has no parameter 'q', expected d, w, Vb"));
+  EXPECT_THAT(ErrorOf({Use("shading", {{"d", {0.5, 2}}})}),
+              HasSubstr("shading: d = 0.5:2 is outside 0 to 0.999"));
+  EXPECT_THAT(ErrorOf({Use("shading", {{"d", {0.5, 0.1}}})}), HasSubstr("d = 0.5:0.1 is reversed"));
+  EXPECT_THAT(ErrorOf({Use("drift"), Use("drift")}), HasSubstr("drift: is there twice"));
+  EXPECT_THAT(ErrorOf({Use("shading"), Use("mismatch")}),
+              HasSubstr("mismatch: cannot stand beside shading"));
+  EXPECT_THAT(ErrorOf({Use("temp_offset")}, false),
+              HasSubstr("temp_offset: needs curves at several temperatures (--force"));
+  EXPECT_EQ(ErrorOf({Use("temp_offset")}, true), "no error");
+  EXPECT_THAT(ErrorOf({Use("outliers")}), HasSubstr("outliers: has no parameters"));
+  EXPECT_THAT(ErrorOf({Use("substrings", {{"w1", {0.6, 0.6}}, {"w2", {0.5, 0.5}}})}),
+              HasSubstr("shares of 1.1 in all leave no cell for the rest"));
+  EXPECT_THAT(ErrorOf({Use("substrings"), Use("transient"), Use("back_contact"), Use("clip"),
+                       Use("drift")}),
+              HasSubstr("21 parameters are too many for one law, expected 20 at most"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,26 @@
+#include <lyrefit/lyrefit.h>
+#include <iostream>
+
+// A shunt that grows with the square of the voltage. Every stage of an effect is written once, over
+// its number type; lower, upper and neutral value of a parameter follow its unit and description.
+lyrefit::Effect SquareShunt() {
+  lyrefit::Effect e;
+  e.id = "square_shunt";
+  e.parameters = {{"s", "strength", "", "current at 1 V, in parts of Isc", 0, 1, 0}};
+  e.junction = [](const auto* p, const auto&, const auto&, const auto& voltage) {
+    return -(abs(voltage) * voltage) * p[0];
+  };
+  e.probes = [](const lyrefit::DataTraits&) { return std::vector<lyrefit::Probe>{{0.02}}; };
+  return e;
+}
+
+int main() {
+  const lyrefit::Effect own = SquareShunt();
+  const auto curve = lyrefit::ReadCurve("data/rtc_france");
+  if (!curve) return std::cerr << curve.error().ToString() << '\n', 1;
+  lyrefit::FitOptions options;
+  options.with = {{&own, {}}, {lyrefit::FindEffect("second_diode"), {}}};
+  const auto report = lyrefit::Fit(*curve, options);
+  if (!report) return std::cerr << report.error().ToString() << '\n', 1;
+  std::cout << lyrefit::FullReport(*report);
+}

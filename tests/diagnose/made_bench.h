@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/make_readings.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
@@ -30,15 +31,9 @@ inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
 
 inline MadeBench OnTheBench(const IvCurve& curve) { return OnTheBench(SetOf({curve})); }
 
-// The effects these data can show that are fitted or scored.
+// The effects a diagnosis tries on these data.
 inline std::vector<const Effect*> Showable(const DataTraits& traits) {
-  std::vector<const Effect*> effects;
-  for (const Effect* effect : Catalogue()) {
-    if (effect->probes != nullptr && !effect->why_not(traits)) effects.push_back(effect);
-  }
-  effects.push_back(FindEffect("outliers"));
-  effects.push_back(FindEffect("unknown_structure"));
-  return effects;
+  return Candidates(Catalogue(), traits, {});
 }
 
 // Scored and judged by linear nulls of the same law.

@@ -6,10 +6,10 @@
 #include <ostream>
 #include <string>
 
+#include "law/made_readings.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/law.h"
-#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -38,9 +38,7 @@ std::vector<Place> Places() {
 
 std::vector<Place> PlacesInDevices() {
   std::vector<Place> places = Places();
-  const auto elsewhere = [](const Place& place) {
-    return std::strcmp(place.effect->where, "device") != 0;
-  };
+  const auto elsewhere = [](const Place& place) { return place.effect->where != Where::kDevice; };
   places.erase(std::remove_if(places.begin(), places.end(), elsewhere), places.end());
   return places;
 }

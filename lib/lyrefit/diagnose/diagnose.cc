@@ -14,6 +14,7 @@
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/extended_report.h"
 #include "lyrefit/diagnose/held_out.h"
+#include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/make_readings.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/values.h"
@@ -22,24 +23,6 @@
 
 namespace lyrefit {
 namespace {
-
-Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
-                                                const DiagnoseOptions& options) {
-  for (const std::string& id : options.effects) {
-    if (FindEffect(id) == nullptr) return Fail("there is no effect '" + id + "'");
-  }
-  std::vector<const Effect*> candidates;
-  for (const Effect* effect : Catalogue()) {
-    const std::string id = effect->id;
-    const bool asked = effect->found_by == FoundBy::kRequest && options.effects.empty();
-    if (asked || effect->found_by == FoundBy::kValues || !IsWanted(id, options) ||
-        effect->why_not(traits))
-      continue;
-    if (options.base == Model::kDoubleDiode && id == "second_diode") continue;
-    candidates.push_back(effect);
-  }
-  return candidates;
-}
 
 // Noise that is correlated from reading to reading makes every test see effects: where the
 // residuals of the extended model show it, everything is done again with it taken out.
@@ -146,6 +129,12 @@ void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes
     for (const std::string& id : options.effects) ids += (ids.empty() ? "" : ",") + id;
     echoes->push_back({"effects", ids, "all"});
   }
+  if (!options.own_effects.empty()) {
+    std::string ids;
+    for (const Effect* own : options.own_effects)
+      ids += (ids.empty() ? "" : ",") + std::string(own->id);
+    echoes->push_back({"own-effects", ids, "none"});
+  }
   if (!options.held_out) echoes->push_back({"held-out", "no", "yes"});
   AppendNonDefaults(options, kDiagnoseOptionRows, echoes);
 }
@@ -186,7 +175,7 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
 // Limits in the values, unless nobody wants to hear of them.
 ValueFindings LookForLimits(const Measurement& measurement, const DiagnoseOptions& options) {
   ValueFindings values = LookAtValues(measurement.readings, measurement.dark);
-  if (IsWanted("clip", options)) return values;
+  if (IsWanted(*FindEffect("clip"), options)) return values;
   values.clip_level = 0;
   values.clipped.clear();
   values.limited = false;
@@ -203,7 +192,8 @@ struct Outcome {
 
 Outcome SearchCauses(const Readings& readings, const NoiseSource& source,
                      const SelectOptions& select, const DiagnoseOptions& options,
-                     Averaged* averaged, Diagnosis* diagnosis) {
+                     const std::vector<const Effect*>& known, Averaged* averaged,
+                     Diagnosis* diagnosis) {
   const bool is_long = IsLong(readings);
   if (is_long) *averaged = Average(readings, source, select.base, select.watch);
   const Readings& seen = is_long ? averaged->readings : readings;
@@ -215,7 +205,7 @@ Outcome SearchCauses(const Readings& readings, const NoiseSource& source,
   FindRivals(select, &outcome.found);
   outcome.shown =
       is_long ? OnAllReadings(outcome.found, *averaged, readings, source) : outcome.found;
-  diagnosis->trials = DescribeTrials(readings, outcome.shown, select.candidates, options.effects);
+  diagnosis->trials = DescribeTrials(readings, outcome.shown, known, select.candidates, options);
   if (options.held_out && !Stopped(select.watch)) {
     MeasureHeldOut(seen, source.dark, source.notes, seen_source.values, select, outcome.found,
                    options.folds, options.threads, &diagnosis->gain, &diagnosis->trials);
@@ -233,6 +223,8 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   }
   if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  const auto known = KnownEffects(options);
+  if (!known) return tl::unexpected(known.error());
   auto doubts = JudgeReadings(taken.curves);
   if (!doubts) return tl::unexpected(doubts.error());
   std::vector<std::string> disorder;
@@ -241,16 +233,16 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   if (!measurement) return tl::unexpected(measurement.error());
   measurement->warnings.insert(measurement->warnings.begin(), disorder.begin(), disorder.end());
   const Readings& readings = measurement->readings;
-  auto candidates = Candidates(readings.traits, options);
-  if (!candidates) return tl::unexpected(candidates.error());
   Watch watch(observer);
-  const SelectOptions select = MakeSelectOptions(readings, options, *candidates, &watch);
+  const SelectOptions select =
+      MakeSelectOptions(readings, options, Candidates(*known, readings.traits, options), &watch);
   const ValueFindings values = LookForLimits(*measurement, options);
   const NoiseSource source{measurement->dark, set.curves.front().notes, values};
   Diagnosis diagnosis = BeginDiagnosis(set, *measurement, options);
   diagnosis.doubts = std::move(*doubts);
   Averaged averaged;
-  const Outcome outcome = SearchCauses(readings, source, select, options, &averaged, &diagnosis);
+  const Outcome outcome =
+      SearchCauses(readings, source, select, options, *known, &averaged, &diagnosis);
   if (!outcome.shown.base.usable || !outcome.shown.extended.usable) {
     return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
                                                   : ": no diode model fits these readings"));

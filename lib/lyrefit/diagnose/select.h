@@ -56,6 +56,7 @@ struct ChosenCause {
   double corrected_p = 1;     // when it entered
   Score score;                // then
   std::vector<Rival> rivals;  // every effect in its place, the best first, itself among them
+  bool in_values = false;     // it shows in the values themselves, and stays
 };
 
 struct Selection {

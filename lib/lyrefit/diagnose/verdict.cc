@@ -4,13 +4,15 @@
 
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
+#include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
-  Cause cause = MakeCause("quantisation", "values", 0);
+Cause QuantisationCause(const Effect& effect, const Readings& readings,
+                        const ValueFindings& values) {
+  Cause cause = MakeCause(effect, "values", 0);
   const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
   const double step = finest * readings.scale.current_A;
   cause.strength = {{"q", "resolution", "A", step, step, step, false}};
@@ -19,14 +21,15 @@ Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
 }
 
 Cause UnknownCause(const Selection& selection, double whiteness_after) {
-  Cause cause =
-      MakeCause("unknown_structure", "fit", std::min(selection.unknown_p, whiteness_after));
-  cause.separate_by = {FindEffect(cause.id)->separate_by};
+  const Effect& effect = *FindEffect("unknown_structure");
+  Cause cause = MakeCause(effect, "fit", std::min(selection.unknown_p, whiteness_after));
+  cause.separate_by = {effect.separate_by};
   return cause;
 }
 
-std::string VerdictSentence(const Verdict& verdict) {
-  if (verdict.unexplained && verdict.causes.front().id == "unknown_structure") {
+// `nameless`: structure alone, without a cause that fits it.
+std::string VerdictSentence(const Verdict& verdict, bool nameless) {
+  if (nameless) {
     return "Something is there that noise does not explain, and none of the known causes fits.";
   }
   if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
@@ -53,29 +56,26 @@ bool Remains(const Selection& selection, double whiteness_after) {
 
 }  // namespace
 
-bool IsWanted(const std::string& id, const DiagnoseOptions& options) {
-  const std::vector<std::string>& ids = options.effects;
-  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 Verdict Decide(const Measurement& measurement, const Selection& selection,
                const ValueFindings& values, const DiagnoseOptions& options,
                double whiteness_after) {
   const Readings& readings = measurement.readings;
   Verdict verdict;
   verdict.causes = DescribeCauses(selection, values);
-  if (IsWanted("quantisation", options) &&
+  const Effect& quantisation = *FindEffect("quantisation");
+  if (IsWanted(quantisation, options) &&
       IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
-    verdict.causes.push_back(QuantisationCause(readings, values));
+    verdict.causes.push_back(QuantisationCause(quantisation, readings, values));
   }
-  if (IsWanted("temperature_or_cells", options)) {
+  if (IsWanted(*FindEffect("temperature_or_cells"), options)) {
     for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
   constexpr double kNeverNoise = 1e-6;
   const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
-  if (unknown && verdict.causes.empty()) {
+  const bool nameless = unknown && verdict.causes.empty();
+  if (nameless) {
     verdict.unexplained = true;
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
@@ -85,7 +85,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
     if (!open.applies(readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
   }
-  verdict.sentence = VerdictSentence(verdict);
+  verdict.sentence = VerdictSentence(verdict, nameless);
   return verdict;
 }
 

@@ -8,9 +8,6 @@
 
 namespace lyrefit {
 
-// Whether an effect is among those asked for.
-bool IsWanted(const std::string& id, const DiagnoseOptions& options);
-
 // What is found, from the fits, the values and the metadata, in words. `whiteness_after`: p-value
 // of what the extended model leaves.
 Verdict Decide(const Measurement& measurement, const Selection& selection,

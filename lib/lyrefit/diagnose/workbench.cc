@@ -179,6 +179,13 @@ int Degrees(const Workbench& bench, const Law& law) {
   return std::max(bench.count() - FreeCount(bench, law), 1);
 }
 
+bool CanAdd(const Law& law, const Effect& effect) {
+  for (const Effect* other : law.effects) {
+    if (other == &effect || Exclude(*other, effect)) return false;
+  }
+  return law.size() + effect.size() <= kMostParameters;
+}
+
 double NoiseVariance(const Workbench& bench, const LawFit& fit) {
   return std::max({fit.sum / Degrees(bench, fit.law), bench.least_variance, 1e-300});
 }

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "law/made_curve.h"
 #include "lyrefit/effects/catalogue.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 namespace {

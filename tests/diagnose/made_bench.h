@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "law/made_curve.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
 #include "lyrefit/effects/catalogue.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 
@@ -21,7 +21,7 @@ struct MadeBench {
 
 inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
   MadeBench made;
-  made.measurement = std::make_unique<Measurement>(*MakeReadings(set));
+  made.measurement = std::make_unique<Measurement>(*MakeMeasurement(set));
   const Readings& readings = made.measurement->readings;
   made.bench.readings = &readings;
   made.bench.sigma.assign(readings.points.size(), sigma_A / readings.scale.current_A);

@@ -7,7 +7,6 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -15,20 +14,18 @@ namespace {
 
 class Selector {
  public:
-  Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
-           const std::vector<char>& used, const ValueFindings& values, double correlation,
+  Selector(const Measurement& measurement, const std::vector<char>& used, double correlation,
            const SelectOptions& options)
-      : readings_(readings),
-        dark_(dark),
-        notes_(notes),
-        values_(values),
+      : measurement_(measurement),
+        readings_(measurement.readings),
+        values_(measurement.values),
         options_(options),
         worth_(options.worth),
         imprints_(options.imprints),
-        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
-               used,      correlation,
-               0,         options.watch} {
-    for (const int k : values.at_lower) bench_.used[k] = 0;
+        bench_{&readings_, std::vector<double>(readings_.points.size(), 1e-3),
+               used,       correlation,
+               0,          options.watch} {
+    for (const int k : values_.at_lower) bench_.used[k] = 0;
   }
 
   Selection Run() {
@@ -65,7 +62,7 @@ class Selector {
   }
 
  private:
-  void SettleNoise() { noise_ = lyrefit::SettleNoise({dark_, notes_, values_}, &bench_, &fit_); }
+  void SettleNoise() { noise_ = lyrefit::SettleNoise(measurement_, &bench_, &fit_); }
 
   void FitBaseLaw(const Law& law) {
     fit_ = options_.start.empty() ? FitBase(bench_, law) : FitLaw(bench_, law, options_.start);
@@ -97,7 +94,7 @@ class Selector {
   void FindWorth(const Prepared& prepared) {
     if (worth_ != nullptr) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
-    const NoiseEstimator noise(readings_, dark_, bench_.used, notes_, values_.grids,
+    const NoiseEstimator noise(measurement_, bench_.used,
                                voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
     worth_ = std::make_shared<const ScoreWorth>(
         SimulateWorth(bench_, prepared, &noise, options_.draws, options_.seed));
@@ -348,9 +345,8 @@ class Selector {
     }
   }
 
+  const Measurement& measurement_;
   const Readings& readings_;
-  const std::vector<char>& dark_;
-  const DeviceNotes& notes_;
   const ValueFindings& values_;
   const SelectOptions& options_;
   std::shared_ptr<const ScoreWorth> worth_;
@@ -366,11 +362,9 @@ class Selector {
 
 }  // namespace
 
-Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
-                       const DeviceNotes& notes, const std::vector<char>& used,
-                       const ValueFindings& values, double correlation,
-                       const SelectOptions& options) {
-  return Selector(readings, dark, notes, used, values, correlation, options).Run();
+Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
+                       double correlation, const SelectOptions& options) {
+  return Selector(measurement, used, correlation, options).Run();
 }
 
 }  // namespace lyrefit

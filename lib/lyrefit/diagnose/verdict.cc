@@ -10,11 +10,11 @@
 namespace lyrefit {
 namespace {
 
-Cause QuantisationCause(const Effect& effect, const Readings& readings,
-                        const ValueFindings& values) {
+Cause QuantisationCause(const Effect& effect, const Measurement& measurement) {
   Cause cause = MakeCause(effect, "values", 0);
-  const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
-  const double step = finest * readings.scale.current_A;
+  const Grids& grids = measurement.values.grids;
+  const double step =
+      (grids.lit > 0 ? grids.lit : grids.dark) * measurement.readings.scale.current_A;
   cause.strength = {{"q", "resolution", "A", step, step, step, false}};
   cause.sentence += "; " + StrengthText(cause.strength.front());
   return cause;
@@ -57,15 +57,12 @@ bool Remains(const Selection& selection, double whiteness_after) {
 }  // namespace
 
 Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options,
-               double whiteness_after) {
-  const Readings& readings = measurement.readings;
+               const DiagnoseOptions& options, double whiteness_after) {
   Verdict verdict;
-  verdict.causes = DescribeCauses(selection, values);
+  verdict.causes = DescribeCauses(selection, measurement.values);
   const Effect& quantisation = *FindEffect("quantisation");
-  if (IsWanted(quantisation, options) &&
-      IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
-    verdict.causes.push_back(QuantisationCause(quantisation, readings, values));
+  if (IsWanted(quantisation, options) && IsCoarse(measurement, selection.noise)) {
+    verdict.causes.push_back(QuantisationCause(quantisation, measurement));
   }
   if (IsWanted(*FindEffect("temperature_or_cells"), options)) {
     for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
@@ -82,7 +79,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   verdict.found = !verdict.causes.empty();
   if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {
-    if (!open.applies(readings.traits)) continue;
+    if (!open.applies(measurement.readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
   }
   verdict.sentence = VerdictSentence(verdict, nameless);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
@@ -11,6 +11,6 @@ namespace lyrefit {
 // What is found, from the fits, the values and the metadata, in words. `whiteness_after`: p-value
 // of what the extended model leaves.
 Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options, double whiteness_after);
+               const DiagnoseOptions& options, double whiteness_after);
 
 }  // namespace lyrefit

@@ -47,7 +47,8 @@ TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   recipe.noise_A = 0;
   const auto made = MakeMeasurement(SetOf({MadeCurve(recipe)}));
   ASSERT_TRUE(made && IsLong(made->readings));
-  const Averaged averaged = Average(*made, StartingLaw(made->readings, false), nullptr);
+  const Averaged averaged =
+      Average(*made, StartingLaw(made->readings, Model::kSingleDiode), nullptr);
   const std::vector<Reading>& means = averaged.measurement.readings.points;
   EXPECT_LT(means.size(), 350U);
   EXPECT_GT(means.size(), 250U);

@@ -220,7 +220,7 @@ TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
   constexpr int kDraws = 60;
   for (int draw = 0; draw < kDraws; ++draw) {
     Settled at = WithEffect(effect(), NeutralValues(effect()));
-    at.law.second_diode = draw % 2 == 1;
+    at.law.model = draw % 2 == 1 ? Model::kDoubleDiode : Model::kSingleDiode;
     at.p.assign(at.law.size(), 0.0);
     for (int k = 0; k < at.law.size(); ++k) {
       const double lower = at.law.Lower(k), upper = at.law.Upper(k);

@@ -144,7 +144,7 @@ SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions&
   select.draws = options.draws;
   select.largest_causes = options.largest_causes;
   select.seed = options.seed;
-  select.base = StartingLaw(readings, options.base == Model::kDoubleDiode);
+  select.base = StartingLaw(readings, options.base);
   select.candidates = candidates;
   select.watch = watch;
   return select;

@@ -107,7 +107,7 @@ LawFit FitBase(const Workbench& bench, const Law& law) {
   LawFit best;
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
     std::vector<double> start = BaseStart(*bench.readings, n, resistance);
-    if (law.second_diode) start.push_back(0.05);
+    if (law.model == Model::kDoubleDiode) start.push_back(0.05);
     if (law.free_tempco) start.push_back(bench.readings->isc_tempco_per_K);
     if (law.free_bandgap) start.push_back(bench.readings->bandgap_eV);
     LawFit fit = FitLaw(bench, law, start);

@@ -50,7 +50,7 @@ Expected<std::string> ExplainEffect(const std::string& id) {
   std::string text =
       fmt::format("{} ({})\n", effect.title, effect.id) + Wrap("  ", effect.sentence) + "\n" +
       Field("equation", effect.equation) + Field("reference", effect.reference) +
-      Field("where", fmt::format("{}; {}", effect.where, effect.acts)) +
+      Field("where", fmt::format("{}; {}", ToText(effect.where), effect.acts)) +
       Field("data needed", effect.needs) + Field("confused with", ConfusedText(effect)) +
       Field("to tell", effect.separate_by);
   if (effect.probes == nullptr)
@@ -71,7 +71,7 @@ std::string EffectList() {
   TextTable table("lll");
   table.Add({"effect", "title", "where"});
   for (const Effect* effect : Catalogue()) {
-    table.Add({effect->id, effect->title, effect->where});
+    table.Add({effect->id, effect->title, ToText(effect->where)});
   }
   return table.Text() + Wrap("  ", "lyrefit diagnose --explain EFFECT says more of one.");
 }

@@ -9,11 +9,10 @@
 #include <random>
 #include <vector>
 
+#include "law/made_curve.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/make_readings.h"
-#include "lyrefit/diagnose/values.h"
-#include "made_curve.h"
+#include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
 namespace {
@@ -46,28 +45,26 @@ std::vector<std::string> Named(const Diagnosis& diagnosis) {
 TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   Recipe recipe = Long();
   recipe.noise_A = 0;
-  const auto made = MakeReadings(SetOf({MadeCurve(recipe)}));
+  const auto made = MakeMeasurement(SetOf({MadeCurve(recipe)}));
   ASSERT_TRUE(made && IsLong(made->readings));
-  const DeviceNotes notes;
-  const ValueFindings values = LookAtValues(made->readings, made->dark);
-  const Averaged averaged = Average(made->readings, {made->dark, notes, values},
-                                    StartingLaw(made->readings, false), nullptr);
-  EXPECT_LT(averaged.readings.points.size(), 350U);
-  EXPECT_GT(averaged.readings.points.size(), 250U);
+  const Averaged averaged =
+      Average(*made, StartingLaw(made->readings, Model::kSingleDiode), nullptr);
+  const std::vector<Reading>& means = averaged.measurement.readings.points;
+  EXPECT_LT(means.size(), 350U);
+  EXPECT_GT(means.size(), 250U);
   std::size_t counted = 0;
   for (std::size_t k = 0; k < averaged.members.size(); ++k) {
     counted += averaged.members[k].size();
-    EXPECT_EQ(averaged.readings.points[k].weight, averaged.members[k].size());
+    EXPECT_EQ(means[k].weight, averaged.members[k].size());
   }
   EXPECT_EQ(counted, made->readings.points.size());
   IvCurve exact = MadeCurve(recipe);
   exact.voltage_V.clear();
-  for (const Reading& r : averaged.readings.points) exact.voltage_V.push_back(r.voltage);
+  for (const Reading& r : means) exact.voltage_V.push_back(r.voltage);
   const std::vector<double> truth = SolveCurrents(MakeDevice(Model::kSingleDiode, exact.conditions),
                                                   MadeParameters(recipe).data(), exact.voltage_V);
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    EXPECT_NEAR(averaged.readings.points[k].current * made->readings.scale.current_A, truth[k],
-                1e-6);
+    EXPECT_NEAR(means[k].current * made->readings.scale.current_A, truth[k], 1e-6);
   }
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "law/made_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
+#include "law/made_curve.h"
 #include "lyrefit/effects/catalogue.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -57,23 +57,18 @@ TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
   const MadeBench made = OnTheBench(curve);
-  const Readings& readings = made.measurement->readings;
+  const Measurement& measurement = *made.measurement;
   SelectOptions options;
   options.draws = 300;
   options.candidates = {FindEffect("irr_step"), FindEffect("outliers")};
-  ValueFindings values;
-  values.rounding.assign(readings.points.size(), 0.0);
-  const std::vector<char> used(readings.points.size(), 1);
-  const Selection selection =
-      SelectCauses(readings, made.measurement->dark, {}, used, values, 0, options);
+  const std::vector<char> used(measurement.readings.points.size(), 1);
+  const Selection selection = SelectCauses(measurement, used, 0, options);
   Gain one, two;
   std::vector<Trial> trials(1);
   trials[0].effect = "irr_step";
   std::vector<Trial> again = trials;
-  MeasureHeldOut(readings, made.measurement->dark, {}, values, options, selection, 10, 1, &one,
-                 &trials);
-  MeasureHeldOut(readings, made.measurement->dark, {}, values, options, selection, 10, 2, &two,
-                 &again);
+  MeasureHeldOut(measurement, options, selection, 10, 1, &one, &trials);
+  MeasureHeldOut(measurement, options, selection, 10, 2, &two, &again);
   EXPECT_EQ(one.folds, 10);
   // Not all of it: where the step's own reading is left out, its place is a guess.
   EXPECT_LT(one.held_out_after_A, 0.7 * one.held_out_before_A);

@@ -4,11 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/diagnose/make_readings.h"
+#include "law/made_curve.h"
+#include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
 #include "lyrefit/effects/catalogue.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 
@@ -20,7 +21,7 @@ struct MadeBench {
 
 inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
   MadeBench made;
-  made.measurement = std::make_unique<Measurement>(*MakeReadings(set));
+  made.measurement = std::make_unique<Measurement>(*MakeMeasurement(set));
   const Readings& readings = made.measurement->readings;
   made.bench.readings = &readings;
   made.bench.sigma.assign(readings.points.size(), sigma_A / readings.scale.current_A);
@@ -30,15 +31,9 @@ inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
 
 inline MadeBench OnTheBench(const IvCurve& curve) { return OnTheBench(SetOf({curve})); }
 
-// The effects these data can show that are fitted or scored.
+// The effects a diagnosis tries on these data.
 inline std::vector<const Effect*> Showable(const DataTraits& traits) {
-  std::vector<const Effect*> effects;
-  for (const Effect* effect : Catalogue()) {
-    if (effect->probes != nullptr && !effect->why_not(traits)) effects.push_back(effect);
-  }
-  effects.push_back(FindEffect("outliers"));
-  effects.push_back(FindEffect("unknown_structure"));
-  return effects;
+  return Candidates(Catalogue(), traits, {});
 }
 
 // Scored and judged by linear nulls of the same law.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/diagnose/make_readings.h"
-#include "made_curve.h"
+#include "law/made_curve.h"
+#include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
 namespace {
@@ -26,7 +26,7 @@ Noisy MakeNoisy(const std::vector<Recipe>& recipes) {
     clean.push_back(MadeCurve(recipe));
   }
   Noisy made;
-  made.measurement = *MakeReadings(SetOf(noisy));
+  made.measurement = *MakeMeasurement(SetOf(noisy));
   const double scale = made.measurement.readings.scale.current_A;
   for (std::size_t c = 0; c < noisy.size(); ++c) {
     for (std::size_t k = 0; k < noisy[c].size(); ++k) {
@@ -38,8 +38,10 @@ Noisy MakeNoisy(const std::vector<Recipe>& recipes) {
 }
 
 Noise Estimate(const Noisy& made, const DeviceNotes& notes = {}, const Grids& grids = {}) {
-  return EstimateNoise(made.measurement.readings, made.measurement.dark, made.residual, made.used,
-                       notes, grids);
+  Measurement measurement = made.measurement;
+  measurement.notes = notes;
+  measurement.values.grids = grids;
+  return EstimateNoise(measurement, made.residual, made.used);
 }
 
 double Median(std::vector<double> values) {
@@ -112,7 +114,9 @@ TEST(IsCoarseTest, WeighsAGridAgainstTheNoise) {
   const Noise noise = Estimate(made);
   const double sigma = Median(noise.sigma);
   const auto coarse = [&](const Grids& grids) {
-    return IsCoarse(made.measurement.readings, made.measurement.dark, noise, grids);
+    Measurement measurement = made.measurement;
+    measurement.values.grids = grids;
+    return IsCoarse(measurement, noise);
   };
   EXPECT_FALSE(coarse({0, 0}));
   EXPECT_FALSE(coarse({0.5 * sigma, 0}));

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "law/made_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "made_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string>
 
-#include "lyrefit/diagnose/values.h"
 #include "made_bench.h"
 
 namespace lyrefit {
@@ -20,7 +19,6 @@ using ::testing::IsEmpty;
 struct Selected {
   MadeBench made;
   SelectOptions options;
-  ValueFindings values;
   Selection selection;
 
   std::vector<std::string> Ids() const {
@@ -37,10 +35,8 @@ Selected SelectFor(const IvCurve& curve, SelectOptions options = {}) {
   options.draws = 600;
   if (options.candidates.empty()) options.candidates = Showable(measurement.readings.traits);
   selected.options = options;
-  selected.values = LookAtValues(measurement.readings, measurement.dark);
   const std::vector<char> used(measurement.readings.points.size(), 1);
-  selected.selection =
-      SelectCauses(measurement.readings, measurement.dark, {}, used, selected.values, 0, options);
+  selected.selection = SelectCauses(measurement, used, 0, options);
   return selected;
 }
 
@@ -110,7 +106,8 @@ TEST(SelectCausesTest, TakesClippingFromTheValues) {
   EXPECT_NEAR(
       selected.selection.extended.p[5] * selected.made.measurement->readings.scale.current_A, 7.9,
       1e-9);
-  for (const int k : selected.values.clipped) EXPECT_EQ(selected.selection.bench.used[k], 0);
+  for (const int k : selected.made.measurement->values.clipped)
+    EXPECT_EQ(selected.selection.bench.used[k], 0);
 }
 
 TEST(SelectCausesTest, TriesEveryCandidateOnTheBaseModel) {

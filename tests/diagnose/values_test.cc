@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/diagnose/make_readings.h"
-#include "made_curve.h"
+#include "law/made_curve.h"
+#include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -24,9 +24,10 @@ std::vector<double> Rounded(std::vector<double> values, double step, double digi
 }
 
 ValueFindings Look(const IvCurve& curve) {
-  const auto made = MakeReadings(SetOf({curve}));
+  std::vector<std::string> warnings;
+  const auto made = MakeReadings(SetOf({curve}), &warnings);
   EXPECT_TRUE(made.has_value());
-  return LookAtValues(made->readings, made->dark);
+  return LookAtValues(*made);
 }
 
 TEST(FindGridTest, FindsTheStep) {
@@ -115,10 +116,11 @@ TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
   IvCurve lit = MadeCurve({}), dark = MadeDarkCurve();
   lit.current_A = Rounded(lit.current_A, 0.1);
   dark.current_A = Rounded(dark.current_A, 0.02);
-  const auto made = MakeReadings(SetOf({lit, dark}));
+  std::vector<std::string> warnings;
+  const auto made = MakeReadings(SetOf({lit, dark}), &warnings);
   ASSERT_TRUE(made.has_value());
-  const ValueFindings findings = LookAtValues(made->readings, made->dark);
-  const double scale = made->readings.scale.current_A;
+  const ValueFindings findings = LookAtValues(*made);
+  const double scale = made->scale.current_A;
   EXPECT_NEAR(findings.grids.lit * scale, 0.1, 1e-9);
   EXPECT_NEAR(findings.grids.dark * scale, 0.02, 1e-9);
 }

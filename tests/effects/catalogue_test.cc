@@ -15,7 +15,7 @@ namespace {
 class CatalogueTest : public ::testing::TestWithParam<const Effect*> {
  protected:
   const Effect& effect() const { return *GetParam(); }
-  bool IsUnknown() const { return std::strcmp(effect().id, "unknown_structure") == 0; }
+  bool IsUnknown() const { return effect().found_by == FoundBy::kWaves; }
 
   // Every probe that some kind of data asks for.
   std::vector<Probe> AllProbes() const {
@@ -33,7 +33,7 @@ class CatalogueTest : public ::testing::TestWithParam<const Effect*> {
 
 TEST_P(CatalogueTest, SaysAllThatReportsAsk) {
   const Effect& e = effect();
-  for (const char* text : {e.id, e.title, e.where, e.equation, e.sentence, e.needs, e.acts}) {
+  for (const char* text : {e.id, e.title, e.equation, e.sentence, e.needs, e.acts}) {
     ASSERT_NE(text, nullptr);
     EXPECT_STRNE(text, "");
   }
@@ -41,8 +41,7 @@ TEST_P(CatalogueTest, SaysAllThatReportsAsk) {
   ASSERT_NE(e.separate_by, nullptr);
   EXPECT_TRUE(IsUnknown() || *e.reference != '\0');
   EXPECT_STRNE(e.separate_by, "");
-  const std::set<std::string> places = {"device", "sweep", "instrument", "conditions", "unknown"};
-  EXPECT_EQ(places.count(e.where), 1U) << e.where;
+  EXPECT_EQ(e.where == Where::kUnknown, IsUnknown());
   ASSERT_NE(e.why_not, nullptr);
 }
 
@@ -91,8 +90,7 @@ TEST_P(CatalogueTest, ProbesAreFullAndInsideTheBounds) {
 // What has parameters can be seen in some kind of data, and has stages and probes to be fitted.
 TEST_P(CatalogueTest, CanBeFittedWhereItHasParameters) {
   const Effect& e = effect();
-  const bool staged = e.sky || e.cell || e.junction || e.series || e.instrument;
-  EXPECT_EQ(staged, !e.parameters.empty());
+  EXPECT_EQ(e.HasStage(), !e.parameters.empty());
   EXPECT_EQ(e.probes != nullptr, !e.parameters.empty());
   EXPECT_EQ(AllProbes().empty(), e.parameters.empty());
 }

@@ -6,10 +6,10 @@
 #include <ostream>
 #include <string>
 
+#include "law/made_readings.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/law.h"
-#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -38,9 +38,7 @@ std::vector<Place> Places() {
 
 std::vector<Place> PlacesInDevices() {
   std::vector<Place> places = Places();
-  const auto elsewhere = [](const Place& place) {
-    return std::strcmp(place.effect->where, "device") != 0;
-  };
+  const auto elsewhere = [](const Place& place) { return place.effect->where != Where::kDevice; };
   places.erase(std::remove_if(places.begin(), places.end(), elsewhere), places.end());
   return places;
 }
@@ -222,7 +220,7 @@ TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
   constexpr int kDraws = 60;
   for (int draw = 0; draw < kDraws; ++draw) {
     Settled at = WithEffect(effect(), NeutralValues(effect()));
-    at.law.second_diode = draw % 2 == 1;
+    at.law.model = draw % 2 == 1 ? Model::kDoubleDiode : Model::kSingleDiode;
     at.p.assign(at.law.size(), 0.0);
     for (int k = 0; k < at.law.size(); ++k) {
       const double lower = at.law.Lower(k), upper = at.law.Upper(k);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "law/made_readings.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/translation.h"
-#include "law/made_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -16,11 +16,10 @@ namespace {
 std::vector<double> DeviceParameters(const Law& law, const Readings& readings,
                                      const std::vector<double>& p) {
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
-  std::vector<double> device = {p[kBasePhotocurrent] * scale,
-                                SaturationCurrent(law, readings, p.data()) * scale,
-                                p[kBaseIdeality], p[kBaseResistance] * cells / scale,
-                                cells / (p[kBaseConductance] * scale)};
-  if (law.second_diode) {
+  std::vector<double> device = {
+      p[kBasePhotocurrent] * scale, SaturationCurrent(law, readings, p.data()) * scale,
+      p[kBaseIdeality], p[kBaseResistance] * cells / scale, cells / (p[kBaseConductance] * scale)};
+  if (law.model == Model::kDoubleDiode) {
     device.push_back(p[kBaseSecond] * Saturation2Unit(readings) * scale);
     device.push_back(2);
   }
@@ -32,7 +31,7 @@ TEST(LawTest, BaseIsTheDeviceOfASingleCurve) {
     for (const bool second : {false, true}) {
       const Readings readings = MadeReadings(DataKind::kReverse, cells);
       Law law;
-      law.second_diode = second;
+      law.model = second ? Model::kDoubleDiode : Model::kSingleDiode;
       const std::vector<double> p = OrdinaryCell(second);
       const std::vector<double> found = Currents(law, readings, p);
       ASSERT_FALSE(found.empty());
@@ -54,7 +53,7 @@ TEST(LawTest, BaseOfAFamilyIsTheTranslationOfDeSoto) {
   for (const bool second : {false, true}) {
     const Readings readings = MadeReadings(DataKind::kFamily, 60);
     Law law;
-    law.second_diode = second;
+    law.model = second ? Model::kDoubleDiode : Model::kSingleDiode;
     const std::vector<double> p = OrdinaryCell(second);
     const std::vector<double> known = DeviceParameters(law, readings, p);
     TranslationSpec spec;
@@ -206,7 +205,7 @@ TEST(LawTest, DerivativesAreFiniteAtAnyPivot) {
     for (const bool second : {false, true}) {
       for (const double n : {0.2, 1.2, 8.0}) {
         Law law;
-        law.second_diode = second;
+        law.model = second ? Model::kDoubleDiode : Model::kSingleDiode;
         std::vector<double> p = OrdinaryCell(second);
         p[kBaseIdeality] = n;
         const std::vector<double> jacobian = Jacobian(law, readings, p);
@@ -219,7 +218,7 @@ TEST(LawTest, DerivativesAreFiniteAtAnyPivot) {
 
 TEST(LawTest, KnowsWhereEachEffectBegins) {
   Law law;
-  law.second_diode = true;
+  law.model = Model::kDoubleDiode;
   law.effects = {FindEffect("nonohmic_shunt"), FindEffect("irr_step"), FindEffect("drift")};
   EXPECT_EQ(law.base_size(), 6);
   EXPECT_EQ(law.size(), 11);

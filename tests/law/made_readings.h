@@ -41,6 +41,8 @@ inline void AppendSweep(double from, double to, int count, double irradiance, do
     reading.curve = curve;
     reading.segment = segment;
     reading.rate = to > from ? 1.1 : -0.9;
+    reading.index = k;
+    reading.dark = irradiance == 0;
     readings->points.push_back(reading);
   }
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -20,18 +20,18 @@ struct FittedBase {
   Noise noise;
 };
 
-FittedBase FitAllReadings(const Readings& readings, const NoiseSource& source, const Law& base,
-                          Watch* watch) {
+FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch* watch) {
+  const Readings& readings = measurement.readings;
   const std::size_t count = readings.points.size();
   FittedBase shape{
       {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, watch},
       {},
       {}};
-  for (const int k : source.values.at_lower) shape.bench.used[k] = 0;
+  for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
   if (count <= kQuickToFit) shape.bench.watch = nullptr;
   shape.fit = FitBase(shape.bench, base);
   shape.bench.watch = watch;
-  if (shape.fit.usable) shape.noise = SettleNoise(source, &shape.bench, &shape.fit);
+  if (shape.fit.usable) shape.noise = SettleNoise(measurement, &shape.bench, &shape.fit);
   return shape;
 }
 
@@ -117,10 +117,10 @@ LawFit Seen(const Workbench& bench, LawFit fit) {
 }
 
 // Fitted to all readings from where the averages left it.
-LawFit Refitted(const NoiseSource& source, LawFit fit, Workbench* bench, Noise* noise) {
+LawFit Refitted(const Measurement& measurement, LawFit fit, Workbench* bench, Noise* noise) {
   fit = Seen(*bench, std::move(fit));
   if (!fit.usable) return fit;
-  *noise = SettleNoise(source, bench, &fit);
+  *noise = SettleNoise(measurement, bench, &fit);
   return fit;
 }
 
@@ -130,47 +130,48 @@ bool IsLong(const Readings& readings) {
   return 2 * static_cast<int>(readings.points.size()) >= 3 * kEnough;
 }
 
-Averaged Average(const Readings& readings, const NoiseSource& source, const Law& base,
-                 Watch* watch) {
+Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) {
+  const Readings& readings = measurement.readings;
+  const ValueFindings& values = measurement.values;
   const int count = static_cast<int>(readings.points.size());
-  const FittedBase shape = FitAllReadings(readings, source, base, watch);
+  const FittedBase shape = FitAllReadings(measurement, base, watch);
   std::vector<double> off(count, 0.0);
   std::vector<char> alone(count, shape.fit.usable ? 0 : 1);
   for (int k = 0; shape.fit.usable && k < count; ++k) {
     off[k] = readings.points[k].current - shape.fit.current[k];
   }
   for (int k = 0; shape.fit.usable && k < count; ++k) alone[k] = Sudden(shape, off, k) ? 1 : 0;
-  for (const auto* set : {&source.values.clipped, &source.values.at_lower}) {
+  for (const auto* set : {&values.clipped, &values.at_lower}) {
     for (const int k : *set) alone[k] = 1;
   }
   Averaged averaged;
-  averaged.readings = readings;
+  averaged.measurement = measurement;
+  Readings& averages = averaged.measurement.readings;
   for (int first = 0, last = 0; first < count; first = last) {
     while (last < count && readings.points[last].segment == readings.points[first].segment) ++last;
     const int size = std::min((count + kEnough / 2) / kEnough, (last - first) / kFewestInStretch);
     Divide(first, last, std::max(size, 1), alone, &averaged.members);
   }
-  std::vector<Reading>& means = averaged.readings.points;
+  std::vector<Reading>& means = averages.points;
   means.clear();
   std::vector<int> of(count);
-  averaged.values = source.values;
-  averaged.values.rounding.clear();
+  ValueFindings& of_means = averaged.measurement.values;
+  of_means.rounding.clear();
   for (const std::vector<int>& lot : averaged.members) {
     double rounding = 0;
     for (const int k : lot) {
       of[k] = static_cast<int>(means.size());
-      rounding += source.values.rounding[k] * source.values.rounding[k];
+      rounding += values.rounding[k] * values.rounding[k];
     }
-    averaged.values.rounding.push_back(std::sqrt(rounding) / static_cast<double>(lot.size()));
+    of_means.rounding.push_back(std::sqrt(rounding) / static_cast<double>(lot.size()));
     means.push_back(Mean(readings, lot, off));
   }
-  averaged.values.clipped = Translated(of, source.values.clipped);
-  averaged.values.at_lower = Translated(of, source.values.at_lower);
+  of_means.clipped = Translated(of, values.clipped);
+  of_means.at_lower = Translated(of, values.at_lower);
   std::vector<double> model(means.size(), 0.0);
   LawWorkspace workspace;
-  const bool known =
-      shape.fit.usable && EvaluateLaw(shape.fit.law, averaged.readings, shape.fit.p.data(),
-                                      &workspace, model.data(), nullptr);
+  const bool known = shape.fit.usable && EvaluateLaw(shape.fit.law, averages, shape.fit.p.data(),
+                                                     &workspace, model.data(), nullptr);
   for (std::size_t k = 0; k < means.size(); ++k) {
     const std::vector<int>& lot = averaged.members[k];
     if (known && lot.size() > 1) {
@@ -179,13 +180,14 @@ Averaged Average(const Readings& readings, const NoiseSource& source, const Law&
       means[k].current = readings.points[lot.front()].current;
     }
   }
-  averaged.readings.traits.readings = static_cast<int>(means.size());
-  SetStepTimes(&averaged.readings);
+  averages.traits.readings = static_cast<int>(means.size());
+  SetStepTimes(&averages);
   return averaged;
 }
 
-Selection OnAllReadings(const Selection& found, const Averaged& averaged, const Readings& readings,
-                        const NoiseSource& source) {
+Selection OnAllReadings(const Selection& found, const Averaged& averaged,
+                        const Measurement& measurement) {
+  const Readings& readings = measurement.readings;
   Selection all = found;
   const std::size_t count = readings.points.size();
   const auto widen = [&](Workbench* bench) {
@@ -201,8 +203,8 @@ Selection OnAllReadings(const Selection& found, const Averaged& averaged, const 
   widen(&all.bench);
   widen(&all.base_bench);
   Noise noise;
-  all.base = Refitted(source, found.base, &all.base_bench, &noise);
-  all.extended = Refitted(source, found.extended, &all.bench, &all.noise);
+  all.base = Refitted(measurement, found.base, &all.base_bench, &noise);
+  all.extended = Refitted(measurement, found.extended, &all.bench, &all.noise);
   all.outliers.clear();
   for (const int lot : found.outliers) {
     const std::vector<int>& members = averaged.members[lot];

@@ -10,8 +10,7 @@ namespace lyrefit {
 // sought. Averages are taken of the distances from a fitted base model, so that bends of the curve
 // are not averaged away.
 struct Averaged {
-  Readings readings;
-  ValueFindings values;                   // its positions and rounding, of the averages
+  Measurement measurement;                // positions and rounding of its values are the averages'
   std::vector<std::vector<int>> members;  // readings behind each average
 };
 
@@ -19,12 +18,11 @@ struct Averaged {
 bool IsLong(const Readings& readings);
 
 // Readings that clipping or a sudden value sets apart stay by themselves.
-Averaged Average(const Readings& readings, const NoiseSource& source, const Law& base,
-                 Watch* watch);
+Averaged Average(const Measurement& measurement, const Law& base, Watch* watch);
 
 // What was found in the averages, fitted to all readings: fits, noise, what is left out. Scores and
 // p-values stay those of the averages.
-Selection OnAllReadings(const Selection& found, const Averaged& averaged, const Readings& readings,
-                        const NoiseSource& source);
+Selection OnAllReadings(const Selection& found, const Averaged& averaged,
+                        const Measurement& measurement);
 
 }  // namespace lyrefit

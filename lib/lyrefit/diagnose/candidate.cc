@@ -1,8 +1,9 @@
 #include "lyrefit/diagnose/candidate.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "lyrefit/base/dense.h"
@@ -50,7 +51,7 @@ struct Raw {
 
 std::vector<Raw> Signatures(const Workbench& bench, const Effect& effect, const Imprint& imprint) {
   std::vector<Raw> raw;
-  if (std::strcmp(effect.id, "unknown_structure") == 0) {
+  if (effect.found_by == FoundBy::kWaves) {
     for (Eigen::VectorXd& wave : Waves(bench)) raw.push_back({std::move(wave), -1});
     return raw;
   }
@@ -72,6 +73,7 @@ Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& 
   Eigen::MatrixXd moved(count, static_cast<int>(probes.size()));
   LawWorkspace workspace;
   for (int k = 0; k < moved.cols(); ++k) {
+    CHECK_EQ(static_cast<int>(probes[k].size()), effect.size()) << effect.id;
     std::vector<double> p = fit.p;
     p.insert(p.end(), probes[k].begin(), probes[k].end());
     auto column = moved.col(k);
@@ -212,9 +214,9 @@ Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
   const double sum = prepared.linear.residual.squaredNorm();
   for (const Effect* effect : effects) {
     if (Stopped(bench.watch)) break;
-    const bool outliers = std::strcmp(effect->id, "outliers") == 0;
-    Candidate candidate = outliers ? PrepareOutliers(bench, prepared.linear, *effect)
-                                   : Prepare(bench, prepared.linear, *effect, *imprint);
+    const bool single = effect->found_by == FoundBy::kSingleReading;
+    Candidate candidate = single ? PrepareOutliers(bench, prepared.linear, *effect)
+                                 : Prepare(bench, prepared.linear, *effect, *imprint);
     if (prepared.degrees < 3) candidate.score.testable = false;
     if (candidate.score.testable) {
       const double best = candidate.score.directions.front().score;

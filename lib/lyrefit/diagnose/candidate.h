@@ -31,14 +31,14 @@ struct Score {
   double charge = 0;                  // 2 ln of its effective number of directions
   double catalogue = 1;               // how many such effects the whole list is worth
   double kept = 0;                    // of its best kept direction
-  int outlier = -1;                   // of `outliers`: the reading
+  int outlier = -1;                   // of what is found by single readings: the furthest off
 };
 
 // An effect on its bench: its own part of a score, and how it would show in noise.
 struct Candidate {
   Score score;
   bool two_sided = false;
-  Eigen::MatrixXf directions;  // unit columns that no two are alike; none for outliers
+  Eigen::MatrixXf directions;  // unit columns that no two are alike; none for single readings
 };
 
 // A law's candidates.
@@ -61,8 +61,8 @@ std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit&
                                            const std::vector<const Effect*>& effects,
                                            Imprints* known);
 
-// Every effect of `effects` beside the residuals of `fit`, not judged yet. "unknown_structure" is
-// scored on smooth waves along each stretch, "outliers" on single readings.
+// Every effect of `effects` beside the residuals of `fit`, not judged yet, each scored
+// on what it is found by: its probes, smooth waves along each stretch, single readings.
 Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
                     const std::vector<const Effect*>& effects, Imprints* known);
 

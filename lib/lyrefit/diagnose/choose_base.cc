@@ -46,11 +46,11 @@ Law ChooseShunt(const Workbench& bench, const Law& law) {
 
 }  // namespace
 
-Law StartingLaw(const Readings& readings, bool second_diode) {
+Law StartingLaw(const Readings& readings, Model model) {
   const DataTraits& traits = readings.traits;
   const bool temperatures = traits.temperature_levels > 1;
   Law law;
-  law.second_diode = second_diode;
+  law.model = model;
   law.bandgap_slope_per_K = readings.bandgap_slope_per_K.value_or(kDeSotoBandgapSlope_per_K);
   law.free_tempco = temperatures && !traits.tempco_known;
   law.free_bandgap = temperatures && !traits.bandgap_known;
@@ -73,9 +73,9 @@ Law ChooseLaw(const Workbench& bench, const Law& law) {
 
 std::string DescribeLaw(const Readings& readings, const Law& law) {
   const DataTraits& traits = readings.traits;
-  std::string text =
-      fmt::format("{} parameters for all readings",
-                  law.second_diode ? "two diodes (n2 = 2) and six" : "one diode and five");
+  std::string text = fmt::format(
+      "{} parameters for all readings",
+      law.model == Model::kDoubleDiode ? "two diodes (n2 = 2) and six" : "one diode and five");
   if (traits.curves > 1) {
     text += law.shunt == ShuntLaw::kInverse
                 ? ", photocurrent and 1/Rsh in proportion to light"

@@ -6,12 +6,12 @@
 
 namespace lyrefit {
 
-// The law of device/translation.h that is fitted before any cause is thought of: `fit --family`'s
+// The law of law/translation.h that is fitted before any cause is thought of: `fit --family`'s
 // De Soto, with alpha and EgRef free where nobody stated them. Where curves under several
 // irradiances or temperatures have a say, they choose: Rsh constant or in inverse proportion to
 // light, the band gap with De Soto's slope or, where the gap is stated, without. A slope that is
 // stated is believed: without it, errors of the temperatures and voltages have less to be told by.
-Law StartingLaw(const Readings& readings, bool second_diode);
+Law StartingLaw(const Readings& readings, Model model);
 
 // `law` as the readings have it. Rsh in inverse proportion only where a constant shunt beside it
 // would add nothing: one that merely grows with light is a finding.

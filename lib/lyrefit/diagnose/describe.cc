@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 
+#include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -75,7 +75,7 @@ double DevicePower(const Workbench& bench, const LawFit& fit) {
   law.effects.clear();
   std::vector<double> p(fit.p.begin(), fit.p.begin() + fit.law.base_size());
   for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
-    if (std::strcmp(fit.law.effects[e]->where, "device") != 0) continue;
+    if (fit.law.effects[e]->where != Where::kDevice) continue;
     law.effects.push_back(fit.law.effects[e]);
     const int first = fit.law.Offset(static_cast<int>(e));
     p.insert(p.end(), fit.p.begin() + first, fit.p.begin() + first + fit.law.effects[e]->size());
@@ -97,8 +97,7 @@ double DevicePower(const Workbench& bench, const LawFit& fit) {
 
 }  // namespace
 
-Cause MakeCause(const char* id, const char* evidence, double corrected_p) {
-  const Effect& effect = *FindEffect(id);
+Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) {
   Cause cause;
   cause.id = effect.id;
   cause.title = effect.title;
@@ -157,27 +156,28 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
 }
 
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
+                                  const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
-                                  const std::vector<std::string>& asked_for) {
+                                  const DiagnoseOptions& options) {
   const Workbench& bench = selection.base_bench;
   const int points = bench.count();
   const double base_aicc =
       FindInformation(selection.base.sum / points, points, FreeCount(bench, selection.base.law))
           .aicc;
   std::vector<Trial> trials;
-  for (const Effect* effect : Catalogue()) {
+  for (const Effect* effect : known) {
     Trial trial;
     trial.effect = effect->id;
     trial.title = effect->title;
     const bool allowed =
         std::find(candidates.begin(), candidates.end(), effect) != candidates.end();
-    const auto reason = effect->why_not(readings.traits);
-    const bool asked = asked_for.empty() ||
-                       std::find(asked_for.begin(), asked_for.end(), effect->id) != asked_for.end();
-    if (!asked) {
+    const auto reason = effect->WhyNot(readings.traits);
+    if (!IsWanted(*effect, options)) {
       trial.why_not = "excluded: not among the effects asked for";
     } else if (reason) {
       trial.why_not = *reason;
+    } else if (effect->found_by == FoundBy::kRequest && !allowed) {
+      trial.why_not = "only tried where it is asked for";
     } else if (effect->probes == nullptr && !allowed) {
       trial.why_not = "looked for in the values and the base model's parameters, not fitted";
     } else if (!allowed) {
@@ -212,10 +212,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
   for (std::size_t c = 0; c < selection.causes.size(); ++c) {
     const ChosenCause& chosen = selection.causes[c];
     const Effect& effect = *chosen.effect;
-    Cause cause = MakeCause(effect.id, "fit", chosen.corrected_p);
-    const bool by_values =
-        std::strcmp(effect.id, "clip") == 0 && (values.clip_level > 0 || values.limited);
-    if (by_values) cause.evidence = "values";
+    const bool by_values = chosen.in_values;
+    Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.corrected_p);
     cause.strength = DescribeParameters(bench, selection.extended, static_cast<int>(c));
     double own = 0;
     for (const Rival& rival : chosen.rivals) {
@@ -243,12 +241,11 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     causes.push_back(std::move(cause));
   }
   if (!selection.outliers.empty()) {
-    Cause cause = MakeCause("outliers", "fit", selection.outlier_p);
+    Cause cause = MakeCause(*FindEffect("outliers"), "fit", selection.outlier_p);
     cause.points = selection.outliers;
     std::sort(cause.points.begin(), cause.points.end());
-    cause.sentence = std::string(FindEffect("outliers")->sentence) + "; " +
-                     std::to_string(cause.points.size()) + " of " +
-                     std::to_string(bench.readings->points.size()) + " readings, left out";
+    cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +
+                      std::to_string(bench.readings->points.size()) + " readings, left out";
     causes.push_back(std::move(cause));
   }
   return causes;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
@@ -12,13 +12,14 @@ namespace lyrefit {
 std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
                                                int index);
 
-// One trial an effect of the catalogue, fitted or not. `asked_for`: ids; empty: all.
+// One trial for each of the `known` effects, fitted or not.
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
+                                  const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
-                                  const std::vector<std::string>& asked_for);
+                                  const DiagnoseOptions& options);
 
-// A cause of the catalogue, still without size and place. `evidence`: "fit" or "values".
-Cause MakeCause(const char* id, const char* evidence, double corrected_p);
+// A cause still without size and place. `evidence`: "fit" or "values".
+Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);
 
 // The causes found, what cannot be told from them and where they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values);

@@ -8,47 +8,31 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/extended_report.h"
 #include "lyrefit/diagnose/held_out.h"
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
-#include "lyrefit/diagnose/values.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-Expected<std::vector<const Effect*>> Candidates(const DataTraits& traits,
-                                                const DiagnoseOptions& options) {
-  for (const std::string& id : options.effects) {
-    if (FindEffect(id) == nullptr) return Fail("there is no effect '" + id + "'");
-  }
-  std::vector<const Effect*> candidates;
-  for (const Effect* effect : Catalogue()) {
-    const std::string id = effect->id;
-    const bool asked = effect->found_by == FoundBy::kRequest && options.effects.empty();
-    if (asked || effect->found_by == FoundBy::kValues || !IsWanted(id, options) ||
-        effect->why_not(traits))
-      continue;
-    if (options.base == Model::kDoubleDiode && id == "second_diode") continue;
-    candidates.push_back(effect);
-  }
-  return candidates;
-}
-
 // Noise that is correlated from reading to reading makes every test see effects: where the
 // residuals of the extended model show it, everything is done again with it taken out.
-Autocorrelation SelectWhitened(const Readings& readings, const NoiseSource& source,
-                               const SelectOptions& options, Selection* selection) {
+Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptions& options,
+                               Selection* selection) {
   // More than the largest is rather structure that no cause took away than noise.
   constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
+  const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
-  *selection = SelectCauses(readings, source.dark, source.notes, used, source.values, 0, options);
+  *selection = SelectCauses(measurement, used, 0, options);
   if (!selection->base.usable || Stopped(options.watch)) return {};
   std::vector<double> whitened;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
@@ -58,47 +42,44 @@ Autocorrelation SelectWhitened(const Readings& readings, const NoiseSource& sour
   const Autocorrelation correlation =
       EstimateAutocorrelation(readings, whitened, selection->bench.used,
                               FreeCount(selection->bench, selection->extended.law));
-  const bool coarse = IsCoarse(readings, source.dark, selection->noise, source.values.grids);
+  const bool coarse = IsCoarse(measurement, selection->noise);
   if (!coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
-    Selection again = SelectCauses(readings, source.dark, source.notes, used, source.values,
-                                   std::min(correlation.value, kLargest), options);
+    Selection again =
+        SelectCauses(measurement, used, std::min(correlation.value, kLargest), options);
     if (again.base.usable) *selection = std::move(again);
   }
   return correlation;
 }
 
-void DescribePoints(const CurveSet& set, const Measurement& measurement,
-                    const ValueFindings& values, const Selection& selection, Diagnosis* diagnosis) {
+void DescribePoints(const CurveSet& set, const Measurement& measurement, const Selection& selection,
+                    Diagnosis* diagnosis) {
   const Readings& readings = measurement.readings;
   const double scale = readings.scale.current_A;
-  for (std::size_t c = 0; c < set.curves.size(); ++c) {
-    const IvCurve& curve = set.curves[c];
+  for (const IvCurve& curve : set.curves) {
     diagnosis->curves.push_back({curve.name, curve.conditions.irradiance_W_m2,
-                                 curve.conditions.cell_temperature_K - kZeroCelsius_K,
-                                 measurement.dark[c] != 0, static_cast<int>(curve.size())});
+                                 curve.conditions.cell_temperature_K - kZeroCelsius_K, false,
+                                 static_cast<int>(curve.size())});
   }
-  std::size_t in_curve = 0;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
-    if (k == 0 || r.curve != readings.points[k - 1].curve) in_curve = 0;
     const IvCurve& curve = set.curves[r.curve];
+    diagnosis->curves[r.curve].dark = r.dark;
     DiagnosedPoint point;
     point.curve = r.curve;
     point.segment = r.segment;
-    point.voltage_V = curve.voltage_V[in_curve];
-    point.current_A = curve.current_A[in_curve];
+    point.voltage_V = curve.voltage_V[r.index];
+    point.current_A = curve.current_A[r.index];
     point.sigma_A = selection.bench.sigma[k] * scale;
     point.before_A = selection.base.current[k] * scale;
     point.after_A = selection.extended.current[k] * scale;
-    point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[in_curve];
+    point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[r.index];
     diagnosis->points.push_back(point);
-    ++in_curve;
   }
   // An instrument at its limit shows the base model no other way.
-  for (const int k : values.at_lower) {
+  for (const int k : measurement.values.at_lower) {
     DiagnosedPoint& point = diagnosis->points[k];
-    point.before_A = std::max(point.before_A, values.lower_limit * scale);
+    point.before_A = std::max(point.before_A, measurement.values.lower_limit * scale);
   }
 }
 
@@ -146,6 +127,12 @@ void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes
     for (const std::string& id : options.effects) ids += (ids.empty() ? "" : ",") + id;
     echoes->push_back({"effects", ids, "all"});
   }
+  if (!options.own_effects.empty()) {
+    std::string ids;
+    for (const Effect* own : options.own_effects)
+      ids += (ids.empty() ? "" : ",") + std::string(own->id);
+    echoes->push_back({"own-effects", ids, "none"});
+  }
   if (!options.held_out) echoes->push_back({"held-out", "no", "yes"});
   AppendNonDefaults(options, kDiagnoseOptionRows, echoes);
 }
@@ -157,7 +144,7 @@ SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions&
   select.draws = options.draws;
   select.largest_causes = options.largest_causes;
   select.seed = options.seed;
-  select.base = StartingLaw(readings, options.base == Model::kDoubleDiode);
+  select.base = StartingLaw(readings, options.base);
   select.candidates = candidates;
   select.watch = watch;
   return select;
@@ -183,15 +170,11 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   return diagnosis;
 }
 
-// Limits in the values, unless nobody wants to hear of them.
-ValueFindings LookForLimits(const Measurement& measurement, const DiagnoseOptions& options) {
-  ValueFindings values = LookAtValues(measurement.readings, measurement.dark);
-  if (IsWanted("clip", options)) return values;
-  values.clip_level = 0;
-  values.clipped.clear();
-  values.limited = false;
-  values.at_lower.clear();
-  return values;
+void ForgetLimits(ValueFindings* values) {
+  values->clip_level = 0;
+  values->clipped.clear();
+  values->limited = false;
+  values->at_lower.clear();
 }
 
 // The selection on readings or, where these are many, on averages of them.
@@ -201,24 +184,22 @@ struct Outcome {
   Autocorrelation correlation;
 };
 
-Outcome SearchCauses(const Readings& readings, const NoiseSource& source,
-                     const SelectOptions& select, const DiagnoseOptions& options,
+Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select,
+                     const DiagnoseOptions& options, const std::vector<const Effect*>& known,
                      Averaged* averaged, Diagnosis* diagnosis) {
-  const bool is_long = IsLong(readings);
-  if (is_long) *averaged = Average(readings, source, select.base, select.watch);
-  const Readings& seen = is_long ? averaged->readings : readings;
-  const NoiseSource seen_source{source.dark, source.notes,
-                                is_long ? averaged->values : source.values};
+  const bool is_long = IsLong(measurement.readings);
+  if (is_long) *averaged = Average(measurement, select.base, select.watch);
+  const Measurement& seen = is_long ? averaged->measurement : measurement;
   Outcome outcome;
-  outcome.correlation = SelectWhitened(seen, seen_source, select, &outcome.found);
+  outcome.correlation = SelectWhitened(seen, select, &outcome.found);
   if (!outcome.found.base.usable) return outcome;
   FindRivals(select, &outcome.found);
-  outcome.shown =
-      is_long ? OnAllReadings(outcome.found, *averaged, readings, source) : outcome.found;
-  diagnosis->trials = DescribeTrials(readings, outcome.shown, select.candidates, options.effects);
+  outcome.shown = is_long ? OnAllReadings(outcome.found, *averaged, measurement) : outcome.found;
+  diagnosis->trials =
+      DescribeTrials(measurement.readings, outcome.shown, known, select.candidates, options);
   if (options.held_out && !Stopped(select.watch)) {
-    MeasureHeldOut(seen, source.dark, source.notes, seen_source.values, select, outcome.found,
-                   options.folds, options.threads, &diagnosis->gain, &diagnosis->trials);
+    MeasureHeldOut(seen, select, outcome.found, options.folds, options.threads, &diagnosis->gain,
+                   &diagnosis->trials);
   }
   return outcome;
 }
@@ -233,38 +214,39 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   }
   if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  const auto known = KnownEffects(options);
+  if (!known) return tl::unexpected(known.error());
   auto doubts = JudgeReadings(taken.curves);
   if (!doubts) return tl::unexpected(doubts.error());
   std::vector<std::string> disorder;
   const CurveSet set = InOrder(taken, &disorder);
-  auto measurement = MakeReadings(set);
+  auto measurement = MakeMeasurement(set);
   if (!measurement) return tl::unexpected(measurement.error());
   measurement->warnings.insert(measurement->warnings.begin(), disorder.begin(), disorder.end());
   const Readings& readings = measurement->readings;
-  auto candidates = Candidates(readings.traits, options);
-  if (!candidates) return tl::unexpected(candidates.error());
   Watch watch(observer);
-  const SelectOptions select = MakeSelectOptions(readings, options, *candidates, &watch);
-  const ValueFindings values = LookForLimits(*measurement, options);
-  const NoiseSource source{measurement->dark, set.curves.front().notes, values};
+  const SelectOptions select =
+      MakeSelectOptions(readings, options, Candidates(*known, readings.traits, options), &watch);
+  if (!IsWanted(*FindEffect("clip"), options)) ForgetLimits(&measurement->values);
   Diagnosis diagnosis = BeginDiagnosis(set, *measurement, options);
   diagnosis.doubts = std::move(*doubts);
   Averaged averaged;
-  const Outcome outcome = SearchCauses(readings, source, select, options, &averaged, &diagnosis);
+  const Outcome outcome =
+      SearchCauses(*measurement, select, options, *known, &averaged, &diagnosis);
   if (!outcome.shown.base.usable || !outcome.shown.extended.usable) {
     return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
                                                   : ": no diode model fits these readings"));
   }
   const Selection& shown = outcome.shown;
   diagnosis.base_sentence = DescribeLaw(readings, shown.base.law);
-  diagnosis.evidence = DescribeEvidence(shown, values, outcome.correlation);
+  diagnosis.evidence = DescribeEvidence(shown, measurement->values, outcome.correlation);
   diagnosis.evidence.whiteness_p_value = Whiteness(outcome.found.base_bench, outcome.found.base);
   diagnosis.evidence.whiteness_after_p_value =
       Whiteness(outcome.found.bench, outcome.found.extended);
   diagnosis.verdict =
-      Decide(*measurement, shown, values, options, diagnosis.evidence.whiteness_after_p_value);
+      Decide(*measurement, shown, options, diagnosis.evidence.whiteness_after_p_value);
   DescribeGain(shown, &diagnosis.gain);
-  DescribePoints(set, *measurement, values, shown, &diagnosis);
+  DescribePoints(set, *measurement, shown, &diagnosis);
   AddWarnings(outcome.found, *measurement, &diagnosis);
   diagnosis.interrupted = watch.Stopped();
   if (diagnosis.interrupted) {

@@ -7,15 +7,20 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/law/device.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/law/device.h"
 
 namespace lyrefit {
+
+struct Effect;  // law/effect.h
 
 struct DiagnoseOptions {
   double level = 0.05;               // rate of false alarms over the whole catalogue
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
   std::vector<std::string> effects;  // ids to try; empty: every one the data allow
+  // Tried beside the catalogue's, their ids their own; the caller keeps them while the diagnosis
+  // runs. Each needs an id, parameters with finite bounds, a stage and probes.
+  std::vector<const Effect*> own_effects;
   std::uint64_t seed = 1;
   int draws = 2000;        // simulated nulls
   int largest_causes = 4;  // at most so many are named
@@ -40,8 +45,8 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
 // one curve (one sweep, or up and down), a lit and a dark curve (irradiance 0), or a family over
 // irradiance and temperature; the points of each curve are in the order taken.
 //
-// Errors: an unusable curve, options outside their ranges, unknown effect ids, fewer points than
-// parameters.
+// Errors: an unusable curve, options outside their ranges, unknown effect ids, own effects that
+// cannot be fitted, fewer points than parameters.
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options = {},
                              const Observer& observer = {});
 Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& options = {},

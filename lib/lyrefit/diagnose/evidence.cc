@@ -188,8 +188,9 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
 namespace {
 
 Cause Metadata(const char* evidence, double p) {
-  Cause cause = MakeCause("temperature_or_cells", evidence, p);
-  cause.separate_by = {FindEffect(cause.id)->separate_by};
+  const Effect& effect = *FindEffect("temperature_or_cells");
+  Cause cause = MakeCause(effect, evidence, p);
+  cause.separate_by = {effect.separate_by};
   return cause;
 }
 

@@ -19,7 +19,7 @@ Box SearchBox(const Selection& selection) {
   const double iph = selection.base.p[kBasePhotocurrent];
   box.lower = {0.8 * iph, -3, 0.5, 0, 0};
   box.upper = {1.2 * iph, 2, 3, 0.3, 1};
-  if (law.second_diode) {
+  if (law.model == Model::kDoubleDiode) {
     box.lower.push_back(0);
     box.upper.push_back(1);
   }
@@ -93,7 +93,7 @@ std::vector<double> Reported(const Workbench& bench, const Law& law, const std::
   std::vector<double> values = {
       p[kBasePhotocurrent] * light * scale, SaturationCurrent(law, readings, p.data()) * scale,
       p[kBaseIdeality], p[kBaseResistance] * cells / scale, cells / (p[kBaseConductance] * scale)};
-  if (law.second_diode) {
+  if (law.model == Model::kDoubleDiode) {
     values.push_back(p[kBaseSecond] * readings.scale.saturation_2_unit * scale);
     values.push_back(2);
   }
@@ -124,7 +124,7 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     for (int k = 0; k < 5; ++k) {
       if (shift.symbol == kBase[k].symbol) errors[k] = shift.standard_error;
     }
-    const int second = law.second_diode ? 1 : 0;  // and its ideality
+    const int second = law.model == Model::kDoubleDiode ? 1 : 0;  // and its ideality
     if (shift.symbol == "alpha") errors[law.TempcoAt() + second] = shift.standard_error;
     if (shift.symbol == "Eg") errors[law.BandgapAt() + second] = shift.standard_error;
   }
@@ -147,7 +147,7 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     return &report->estimates.back();
   };
   for (const Row& row : kBase) add(row);
-  if (law.second_diode) {
+  if (law.model == Model::kDoubleDiode) {
     add({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
     add({"n2", "n_2", "", "ideality of the second diode"})->fixed = true;
   }
@@ -207,7 +207,7 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool s
   const LawFit& fit = selection.extended;
   FitReport report;
   report.version = Version();
-  report.model = fit.law.second_diode ? Model::kDoubleDiode : Model::kSingleDiode;
+  report.model = fit.law.model;
   report.bounds_name = "catalogue of effects";
   report.usable = fit.usable;
   for (const Effect* effect : fit.law.effects) report.causes.push_back(effect->id);

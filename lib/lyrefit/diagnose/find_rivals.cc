@@ -13,15 +13,10 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     selection->without.push_back(FitWithout(bench, selection->extended, static_cast<int>(c)));
     const LawFit& without = selection->without.back();
     if (!without.usable || Stopped(options.watch)) continue;
-    if (selection->causes[c].score.effect == nullptr) continue;  // it shows in the values
+    if (selection->causes[c].in_values) continue;
     std::vector<const Effect*> open;
     for (const Effect* effect : options.candidates) {
-      const auto& in = selection->extended.law.effects;
-      const bool taken = std::any_of(in.begin(), in.end(), [&](const Effect* other) {
-        if (other == selection->causes[c].effect) return false;
-        return other == effect || Exclude(*other, *effect);
-      });
-      if (!taken && effect->probes != nullptr) open.push_back(effect);
+      if (effect->probes != nullptr && CanAdd(without.law, *effect)) open.push_back(effect);
     }
     const LawFit& extended = selection->extended;
     const double variance = NoiseVariance(bench, extended);
@@ -31,7 +26,7 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);
-      if (!score.testable || without.law.size() + score.effect->size() > kMostParameters) continue;
+      if (!score.testable) continue;
       if (Stopped(options.watch)) break;
       if (score.statistic < hopeless && score.effect != selection->causes[c].effect) continue;
       Rival rival{score, FitEffect(bench, without, score), 0};

@@ -72,10 +72,10 @@ std::vector<int> MakeFolds(const Readings& readings, int folds) {
   return of;
 }
 
-void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
-                    const DeviceNotes& notes, const ValueFindings& values,
-                    const SelectOptions& options, const Selection& selection, int folds,
-                    int threads, Gain* gain, std::vector<Trial>* trials) {
+void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
+                    const Selection& selection, int folds, int threads, Gain* gain,
+                    std::vector<Trial>* trials) {
+  const Readings& readings = measurement.readings;
   const std::vector<int> of = MakeFolds(readings, folds);
   const int used_folds = *std::max_element(of.begin(), of.end()) + 1;
   std::vector<Fold> results(used_folds);
@@ -93,8 +93,7 @@ void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
     inner.start = selection.base.p;
     inner.worth = selection.worth;
     inner.imprints = selection.imprints;
-    const Selection again =
-        SelectCauses(readings, dark, notes, used, values, selection.bench.correlation, inner);
+    const Selection again = SelectCauses(measurement, used, selection.bench.correlation, inner);
     Fold& result = results[f];
     if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return;
     result.before = judge.Of(again.base.current);

@@ -13,9 +13,8 @@ std::vector<int> MakeFolds(const Readings& readings, int folds);
 
 // Fills the held-out part of `gain` and of `trials`: in every fold the base model, each effect and
 // the whole selection are fitted without it and tried on it.
-void MeasureHeldOut(const Readings& readings, const std::vector<char>& dark,
-                    const DeviceNotes& notes, const ValueFindings& values,
-                    const SelectOptions& options, const Selection& selection, int folds,
-                    int threads, Gain* gain, std::vector<Trial>* trials);
+void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
+                    const Selection& selection, int folds, int threads, Gain* gain,
+                    std::vector<Trial>* trials);
 
 }  // namespace lyrefit

@@ -49,14 +49,13 @@ struct Shape {
   }
 };
 
-std::vector<NoiseDifferences::Place> FindPlaces(const Readings& readings,
-                                                const std::vector<char>& dark, bool want_dark,
+std::vector<NoiseDifferences::Place> FindPlaces(const Readings& readings, bool dark,
                                                 const std::vector<char>& used) {
   std::vector<NoiseDifferences::Place> places;
   int segment = -1, length = 0, at[3] = {};
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
-    if (used[k] == 0 || (dark[r.curve] != 0) != want_dark) continue;
+    if (used[k] == 0 || r.dark != dark) continue;
     length = r.segment == segment ? length + 1 : 1;
     segment = r.segment;
     at[0] = at[1], at[1] = at[2], at[2] = static_cast<int>(k);
@@ -71,10 +70,10 @@ std::vector<NoiseDifferences::Place> FindPlaces(const Readings& readings,
   return places;
 }
 
-NoiseDifferences FindDifferences(const Readings& readings, const std::vector<char>& dark,
-                                 bool want_dark, const std::vector<char>& used) {
+NoiseDifferences FindDifferences(const Readings& readings, bool dark,
+                                 const std::vector<char>& used) {
   NoiseDifferences d;
-  d.places = FindPlaces(readings, dark, want_dark, used);
+  d.places = FindPlaces(readings, dark, used);
   d.constant = d.relative = d.steep = Eigen::ArrayXd::Zero(d.size());
   for (int k = 0; k < d.size(); ++k) {
     const NoiseDifferences::Place& place = d.places[k];
@@ -197,8 +196,7 @@ struct NoiseEstimator::Parts {
   VoltageNoise voltage;
   std::optional<NoiseLaw> stated;
   NoiseDifferences lit, dark;
-  std::vector<char> is_dark;       // of each reading
-  std::vector<double> slope;       // dI/dV
+  std::vector<double> slope;       // dI/dV at each reading
   std::vector<double> grid_noise;  // a grid leaves no two readings closer than its own rounding
 
   NoiseLaw Estimate(const NoiseDifferences& differences,
@@ -214,21 +212,21 @@ struct NoiseEstimator::Parts {
   }
 };
 
-NoiseEstimator::NoiseEstimator(const Readings& readings, const std::vector<char>& dark,
-                               const std::vector<char>& used, const DeviceNotes& notes,
-                               const Grids& grids, VoltageNoise voltage)
-    : parts_(new Parts{readings, voltage, {}, {}, {}, {}, {}, {}}) {
+NoiseEstimator::NoiseEstimator(const Measurement& measurement, const std::vector<char>& used,
+                               VoltageNoise voltage)
+    : parts_(new Parts{measurement.readings, voltage, {}, {}, {}, {}, {}}) {
+  const Readings& readings = measurement.readings;
+  const DeviceNotes& notes = measurement.notes;
+  const Grids& grids = measurement.values.grids;
   if (notes.current_noise_constant_A && notes.current_noise_relative) {
     parts_->stated = NoiseLaw{*notes.current_noise_constant_A / readings.scale.current_A,
                               *notes.current_noise_relative, 0};
   }
-  parts_->lit = FindDifferences(readings, dark, false, used);
-  parts_->dark = FindDifferences(readings, dark, true, used);
+  parts_->lit = FindDifferences(readings, false, used);
+  parts_->dark = FindDifferences(readings, true, used);
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
-    const char is_dark = dark[readings.points[k].curve];
-    parts_->is_dark.push_back(is_dark);
     parts_->slope.push_back(SlopeAt(readings.points, k));
-    parts_->grid_noise.push_back(0.25 * (is_dark != 0 ? grids.dark : grids.lit));
+    parts_->grid_noise.push_back(0.25 * (readings.points[k].dark ? grids.dark : grids.lit));
   }
 }
 
@@ -246,7 +244,7 @@ Noise NoiseEstimator::Estimate(const std::vector<double>& residual) const {
   noise.sigma.reserve(parts_->slope.size());
   for (std::size_t k = 0; k < parts_->slope.size(); ++k) {
     const Reading& r = parts_->readings.points[k];
-    const NoiseLaw& law = parts_->is_dark[k] != 0 ? noise.dark : noise.lit;
+    const NoiseLaw& law = r.dark ? noise.dark : noise.lit;
     const double relative = law.relative * r.current, voltage = law.voltage * parts_->slope[k];
     const double deviation =
         std::sqrt(law.constant * law.constant + relative * relative + voltage * voltage);
@@ -256,20 +254,20 @@ Noise NoiseEstimator::Estimate(const std::vector<double>& residual) const {
   return noise;
 }
 
-Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
-                    const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, const Grids& grids, VoltageNoise voltage) {
-  return NoiseEstimator(readings, dark, used, notes, grids, voltage).Estimate(residual);
+Noise EstimateNoise(const Measurement& measurement, const std::vector<double>& residual,
+                    const std::vector<char>& used, VoltageNoise voltage) {
+  return NoiseEstimator(measurement, used, voltage).Estimate(residual);
 }
 
-bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,
-              const Grids& grids) {
-  for (const char class_of : {0, 1}) {
-    const double step = class_of != 0 ? grids.dark : grids.lit;
+bool IsCoarse(const Measurement& measurement, const Noise& noise) {
+  const std::vector<Reading>& points = measurement.readings.points;
+  const Grids& grids = measurement.values.grids;
+  for (const bool dark : {false, true}) {
+    const double step = dark ? grids.dark : grids.lit;
     std::vector<double> sigma;
-    for (std::size_t k = 0; k < readings.points.size(); ++k) {
-      if (dark[readings.points[k].curve] != class_of) continue;
-      sigma.push_back(noise.sigma[k] * std::sqrt(readings.points[k].weight));
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].dark != dark) continue;
+      sigma.push_back(noise.sigma[k] * std::sqrt(points[k].weight));
     }
     if (sigma.empty() || !(step > 0)) continue;
     std::nth_element(sigma.begin(), sigma.begin() + sigma.size() / 2, sigma.end());

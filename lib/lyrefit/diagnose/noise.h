@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/reading.h"
+#include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
 
@@ -15,12 +14,6 @@ struct NoiseLaw {
   double constant = 0;
   double relative = 0;
   double voltage = 0;
-};
-
-// Steps of the grids on which currents lie, in scales; 0: none.
-struct Grids {
-  double lit = 0;
-  double dark = 0;
 };
 
 // No reading is believed to be better than this.
@@ -36,12 +29,12 @@ struct Noise {
 };
 
 // From second differences of the residuals inside each monotone stretch, which smooth misfit does
-// not reach. `notes`: noise stated beforehand decides the shape, never the size. The readings stay
-// what they are: for many residuals of one measurement, as nulls have them. `readings` outlives it.
+// not reach. Noise that the notes state decides the shape, never the size. The readings stay
+// what they are: for many residuals of one measurement, as nulls have them. The measurement
+// outlives it.
 class NoiseEstimator {
  public:
-  NoiseEstimator(const Readings& readings, const std::vector<char>& dark,
-                 const std::vector<char>& used, const DeviceNotes& notes, const Grids& grids,
+  NoiseEstimator(const Measurement& measurement, const std::vector<char>& used,
                  VoltageNoise voltage = VoltageNoise::kIfInsisted);
   ~NoiseEstimator();
   NoiseEstimator(const NoiseEstimator&) = delete;
@@ -55,15 +48,13 @@ class NoiseEstimator {
 };
 
 // The same, once.
-Noise EstimateNoise(const Readings& readings, const std::vector<char>& dark,
-                    const std::vector<double>& residual, const std::vector<char>& used,
-                    const DeviceNotes& notes, const Grids& grids,
+Noise EstimateNoise(const Measurement& measurement, const std::vector<double>& residual,
+                    const std::vector<char>& used,
                     VoltageNoise voltage = VoltageNoise::kIfInsisted);
 
 // A grid coarser than this many noise deviations is a finding.
 constexpr double kCoarseGrid = 2.1;
-bool IsCoarse(const Readings& readings, const std::vector<char>& dark, const Noise& noise,
-              const Grids& grids);
+bool IsCoarse(const Measurement& measurement, const Noise& noise);
 
 // Lag-1 correlation of whitened residuals with their smooth part removed, and its standard error.
 struct Autocorrelation {

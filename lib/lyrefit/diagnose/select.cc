@@ -2,36 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <set>
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-bool Is(const Effect* effect, const char* id) { return std::strcmp(effect->id, id) == 0; }
-
 class Selector {
  public:
-  Selector(const Readings& readings, const std::vector<char>& dark, const DeviceNotes& notes,
-           const std::vector<char>& used, const ValueFindings& values, double correlation,
+  Selector(const Measurement& measurement, const std::vector<char>& used, double correlation,
            const SelectOptions& options)
-      : readings_(readings),
-        dark_(dark),
-        notes_(notes),
-        values_(values),
+      : measurement_(measurement),
+        readings_(measurement.readings),
+        values_(measurement.values),
         options_(options),
         worth_(options.worth),
         imprints_(options.imprints),
-        bench_{&readings, std::vector<double>(readings.points.size(), 1e-3),
-               used,      correlation,
-               0,         options.watch} {
-    for (const int k : values.at_lower) bench_.used[k] = 0;
+        bench_{&readings_, std::vector<double>(readings_.points.size(), 1e-3),
+               used,       correlation,
+               0,          options.watch} {
+    for (const int k : values_.at_lower) bench_.used[k] = 0;
   }
 
   Selection Run() {
@@ -68,7 +62,7 @@ class Selector {
   }
 
  private:
-  void SettleNoise() { noise_ = lyrefit::SettleNoise({dark_, notes_, values_}, &bench_, &fit_); }
+  void SettleNoise() { noise_ = lyrefit::SettleNoise(measurement_, &bench_, &fit_); }
 
   void FitBaseLaw(const Law& law) {
     fit_ = options_.start.empty() ? FitBase(bench_, law) : FitLaw(bench_, law, options_.start);
@@ -93,31 +87,23 @@ class Selector {
     start.push_back(values_.clip_level > 0 ? values_.clip_level : kNoUpperLimit);
     start.push_back(values_.limited ? values_.lower_limit : kNoLowerLimit);
     fit_ = FitLaw(bench_, law, start);
-    causes_.push_back({clip, 0, {}, {}});
+    causes_.push_back({clip, 0, {}, {}, true});
     SettleNoise();
   }
 
   void FindWorth(const Prepared& prepared) {
     if (worth_ != nullptr) return;
     const bool voltage = noise_.lit.voltage > 0 || noise_.dark.voltage > 0;
-    const NoiseEstimator noise(readings_, dark_, bench_.used, notes_, values_.grids,
+    const NoiseEstimator noise(measurement_, bench_.used,
                                voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
     worth_ = std::make_shared<const ScoreWorth>(
         SimulateWorth(bench_, prepared, &noise, options_.draws, options_.seed));
   }
 
-  // Whether an effect is there already, or something it cannot stand beside.
-  bool IsTaken(const Effect* effect) const {
-    for (const Effect* other : fit_.law.effects) {
-      if (other == effect || Exclude(*other, *effect)) return true;
-    }
-    return false;
-  }
-
   std::vector<const Effect*> Open() const {
     std::vector<const Effect*> open;
     for (const Effect* effect : options_.candidates) {
-      if (!IsTaken(effect)) open.push_back(effect);
+      if (CanAdd(fit_.law, *effect)) open.push_back(effect);
     }
     return open;
   }
@@ -145,9 +131,8 @@ class Selector {
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
     for (const Score& score : scores) {
       CountStep();
-      const bool fits = score.testable && (all || score.statistic >= hopeless) &&
-                        score.effect->probes != nullptr &&
-                        fit_.law.size() + score.effect->size() <= kMostParameters;
+      const bool fits =
+          score.testable && (all || score.statistic >= hopeless) && score.effect->probes != nullptr;
       if (!fits || Stopped(bench_.watch)) continue;
       const Effort effort = !is_there || score.statistic < hopeless ? Effort::kForTheRecord
                             : options_.in_passing                   ? Effort::kInPassing
@@ -165,9 +150,9 @@ class Selector {
     return rivals;
   }
 
-  static const Score* Find(const std::vector<Score>& scores, const char* id) {
+  static const Score* Find(const std::vector<Score>& scores, FoundBy found_by) {
     for (const Score& score : scores) {
-      if (Is(score.effect, id)) return &score;
+      if (score.effect->found_by == found_by) return &score;
     }
     return nullptr;
   }
@@ -184,7 +169,7 @@ class Selector {
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
       }
-      const Score* unknown = Find(scores, "unknown_structure");
+      const Score* unknown = Find(scores, FoundBy::kWaves);
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
       const bool later = !causes_.empty() || !outliers_.empty();
       level_ = options_.level * (later ? kLaterLevel : 1);
@@ -225,7 +210,7 @@ class Selector {
 
   static bool OutlierStandsOut(const std::vector<Score>& scores) {
     constexpr double kByFar = 2;  // times what any cause promises
-    const Score* outliers = Find(scores, "outliers");
+    const Score* outliers = Find(scores, FoundBy::kSingleReading);
     if (outliers == nullptr) return false;
     return std::all_of(scores.begin(), scores.end(), [&](const Score& score) {
       const bool other = score.testable && score.effect->probes != nullptr;
@@ -235,7 +220,7 @@ class Selector {
 
   // A single reading that is further off than any cause explains goes first.
   bool TakeOutlier(const std::vector<Score>& scores, const std::vector<Rival>& rivals) {
-    const Score* outliers = Find(scores, "outliers");
+    const Score* outliers = Find(scores, FoundBy::kSingleReading);
     if (outliers == nullptr || !outliers->testable || outliers->outlier < 0) return false;
     if (!(outliers->corrected_p < level_)) return false;
     const double most = std::max(1.0, 0.05 * static_cast<double>(readings_.points.size()));
@@ -247,9 +232,7 @@ class Selector {
     const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
     const double gain = (fit_.sum - fit.sum) / variance;
     const bool beaten = !rivals.empty() && gain - outliers->charge < rivals.front().Charged();
-    // Light that changes for a moment can bend to any single reading.
-    const bool by_moment = !rivals.empty() && (Is(rivals.front().score.effect, "transient") ||
-                                               Is(rivals.front().score.effect, "irr_step"));
+    const bool by_moment = !rivals.empty() && rivals.front().score.effect->momentary;
     if (beaten && !(by_moment && Isolated(outliers->outlier))) return false;
     bench_.used[outliers->outlier] = 0;
     outliers_.push_back(outliers->outlier);
@@ -302,18 +285,13 @@ class Selector {
     return true;
   }
 
-  // Limits that show in the values stay.
-  bool ByValues(const Effect* effect) const {
-    return Is(effect, "clip") && (values_.clip_level > 0 || values_.limited);
-  }
-
   // Every cause but the last gives its place to any effect that does better beside the others.
   void Exchange() {
     if (options_.in_passing) return;
     for (int round = 0; round < 2; ++round) {
       bool changed = false;
       for (int c = 0; c + 1 < static_cast<int>(causes_.size()); ++c) {
-        if (ByValues(causes_[c].effect)) continue;
+        if (causes_[c].in_values) continue;
         if (Stopped(bench_.watch)) return;
         changed = ExchangeOne(c) || changed;
       }
@@ -354,7 +332,7 @@ class Selector {
   // Drops causes that the later ones made idle.
   void Prune() {
     for (int c = static_cast<int>(causes_.size()) - 1; c >= 0 && causes_.size() > 1; --c) {
-      if (ByValues(causes_[c].effect)) continue;
+      if (causes_[c].in_values) continue;
       LawFit without = FitWithout(bench_, fit_, c);
       if (!without.usable || Stopped(bench_.watch)) continue;
       const double loss = (without.sum - fit_.sum) / Variance(fit_);
@@ -367,9 +345,8 @@ class Selector {
     }
   }
 
+  const Measurement& measurement_;
   const Readings& readings_;
-  const std::vector<char>& dark_;
-  const DeviceNotes& notes_;
   const ValueFindings& values_;
   const SelectOptions& options_;
   std::shared_ptr<const ScoreWorth> worth_;
@@ -385,11 +362,9 @@ class Selector {
 
 }  // namespace
 
-Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
-                       const DeviceNotes& notes, const std::vector<char>& used,
-                       const ValueFindings& values, double correlation,
-                       const SelectOptions& options) {
-  return Selector(readings, dark, notes, used, values, correlation, options).Run();
+Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
+                       double correlation, const SelectOptions& options) {
+  return Selector(measurement, used, correlation, options).Run();
 }
 
 }  // namespace lyrefit

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/noise.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
@@ -32,17 +33,6 @@ struct SelectOptions {
   Watch* watch = nullptr;
 };
 
-// What is read off the values before any fit.
-struct ValueFindings {
-  Grids grids;
-  double clip_level = 0;         // in scales; 0: none
-  std::vector<int> clipped;      // readings
-  bool limited = false;          // at the lower end too, as by a compliance limit
-  double lower_limit = 0;        // in scales
-  std::vector<int> at_lower;     // readings
-  std::vector<double> rounding;  // of each reading: standard deviation of what a coarse grid adds
-};
-
 // An effect fitted in the company of others.
 struct Rival {
   Score score;
@@ -56,6 +46,7 @@ struct ChosenCause {
   double corrected_p = 1;     // when it entered
   Score score;                // then
   std::vector<Rival> rivals;  // every effect in its place, the best first, itself among them
+  bool in_values = false;     // it shows in the values themselves, and stays
 };
 
 struct Selection {
@@ -76,21 +67,12 @@ struct Selection {
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.
-// `used` marks readings that may be looked at.
-Selection SelectCauses(const Readings& readings, const std::vector<char>& dark,
-                       const DeviceNotes& notes, const std::vector<char>& used,
-                       const ValueFindings& values, double correlation,
-                       const SelectOptions& options);
-
-// What noise is estimated from besides the residuals.
-struct NoiseSource {
-  const std::vector<char>& dark;
-  const DeviceNotes& notes;
-  const ValueFindings& values;
-};
+// `used` marks readings that may be looked at. The measurement outlives the selection.
+Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
+                       double correlation, const SelectOptions& options);
 
 // Noise from the residuals of the present law, which is then fitted anew, twice.
-Noise SettleNoise(const NoiseSource& source, Workbench* bench, LawFit* fit);
+Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit);
 
 // Fills `without` and the `rivals` of every cause: who could stand in its place.
 void FindRivals(const SelectOptions& options, Selection* selection);

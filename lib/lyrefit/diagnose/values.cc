@@ -28,8 +28,7 @@ double Sharpen(const std::vector<double>& sorted, double step) {
 }
 
 // Neighbours that show the same value share their rounding error: together they count as one.
-void AddRounding(const Readings& readings, const std::vector<char>& dark, char want_dark,
-                 double step, std::vector<double>* rounding) {
+void AddRounding(const Readings& readings, bool dark, double step, std::vector<double>* rounding) {
   const std::vector<Reading>& points = readings.points;
   for (std::size_t first = 0; step > 0 && first < points.size();) {
     std::size_t last = first;
@@ -39,7 +38,7 @@ void AddRounding(const Readings& readings, const std::vector<char>& dark, char w
     }
     const double run = static_cast<double>(last - first + 1);
     for (std::size_t k = first; k <= last; ++k) {
-      if (dark[points[k].curve] == want_dark) (*rounding)[k] = step * std::sqrt(run / 12);
+      if (points[k].dark == dark) (*rounding)[k] = step * std::sqrt(run / 12);
     }
     first = last + 1;
   }
@@ -126,25 +125,25 @@ double FindGrid(const std::vector<double>& values) {
   return 0;
 }
 
-ValueFindings LookAtValues(const Readings& readings, const std::vector<char>& dark) {
+ValueFindings LookAtValues(const Readings& readings) {
   ValueFindings findings;
   std::vector<double> currents, lit, unlit;
   double largest = 0;
   for (const Reading& r : readings.points) {
     currents.push_back(r.current);
-    (dark[r.curve] != 0 ? unlit : lit).push_back(r.current);
-    if (dark[r.curve] == 0) largest = std::max(largest, r.current);
+    (r.dark ? unlit : lit).push_back(r.current);
+    if (!r.dark) largest = std::max(largest, r.current);
   }
   findings.grids.lit = FindGrid(lit);
   findings.grids.dark = FindGrid(unlit);
   findings.rounding.assign(currents.size(), 0.0);
-  AddRounding(readings, dark, 0, findings.grids.lit, &findings.rounding);
-  AddRounding(readings, dark, 1, findings.grids.dark, &findings.rounding);
+  AddRounding(readings, false, findings.grids.lit, &findings.rounding);
+  AddRounding(readings, true, findings.grids.dark, &findings.rounding);
   // Exact repeats of the largest current; on a coarse grid they say nothing.
   std::vector<int> repeats;
   std::vector<double> below;
   for (std::size_t k = 0; k < currents.size(); ++k) {
-    if (dark[readings.points[k].curve] != 0) continue;
+    if (readings.points[k].dark) continue;
     if (currents[k] >= largest * (1 - 1e-9)) {
       repeats.push_back(static_cast<int>(k));
     } else {

@@ -4,29 +4,32 @@
 
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
+#include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-Cause QuantisationCause(const Readings& readings, const ValueFindings& values) {
-  Cause cause = MakeCause("quantisation", "values", 0);
-  const double finest = values.grids.lit > 0 ? values.grids.lit : values.grids.dark;
-  const double step = finest * readings.scale.current_A;
+Cause QuantisationCause(const Effect& effect, const Measurement& measurement) {
+  Cause cause = MakeCause(effect, "values", 0);
+  const Grids& grids = measurement.values.grids;
+  const double step =
+      (grids.lit > 0 ? grids.lit : grids.dark) * measurement.readings.scale.current_A;
   cause.strength = {{"q", "resolution", "A", step, step, step, false}};
   cause.sentence += "; " + StrengthText(cause.strength.front());
   return cause;
 }
 
 Cause UnknownCause(const Selection& selection, double whiteness_after) {
-  Cause cause =
-      MakeCause("unknown_structure", "fit", std::min(selection.unknown_p, whiteness_after));
-  cause.separate_by = {FindEffect(cause.id)->separate_by};
+  const Effect& effect = *FindEffect("unknown_structure");
+  Cause cause = MakeCause(effect, "fit", std::min(selection.unknown_p, whiteness_after));
+  cause.separate_by = {effect.separate_by};
   return cause;
 }
 
-std::string VerdictSentence(const Verdict& verdict) {
-  if (verdict.unexplained && verdict.causes.front().id == "unknown_structure") {
+// `nameless`: structure alone, without a cause that fits it.
+std::string VerdictSentence(const Verdict& verdict, bool nameless) {
+  if (nameless) {
     return "Something is there that noise does not explain, and none of the known causes fits.";
   }
   if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
@@ -53,39 +56,33 @@ bool Remains(const Selection& selection, double whiteness_after) {
 
 }  // namespace
 
-bool IsWanted(const std::string& id, const DiagnoseOptions& options) {
-  const std::vector<std::string>& ids = options.effects;
-  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options,
-               double whiteness_after) {
-  const Readings& readings = measurement.readings;
+               const DiagnoseOptions& options, double whiteness_after) {
   Verdict verdict;
-  verdict.causes = DescribeCauses(selection, values);
-  if (IsWanted("quantisation", options) &&
-      IsCoarse(readings, measurement.dark, selection.noise, values.grids)) {
-    verdict.causes.push_back(QuantisationCause(readings, values));
+  verdict.causes = DescribeCauses(selection, measurement.values);
+  const Effect& quantisation = *FindEffect("quantisation");
+  if (IsWanted(quantisation, options) && IsCoarse(measurement, selection.noise)) {
+    verdict.causes.push_back(QuantisationCause(quantisation, measurement));
   }
-  if (IsWanted("temperature_or_cells", options)) {
+  if (IsWanted(*FindEffect("temperature_or_cells"), options)) {
     for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
   constexpr double kNeverNoise = 1e-6;
   const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
-  if (unknown && verdict.causes.empty()) {
+  const bool nameless = unknown && verdict.causes.empty();
+  if (nameless) {
     verdict.unexplained = true;
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
   if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {
-    if (!open.applies(readings.traits)) continue;
+    if (!open.applies(measurement.readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
   }
-  verdict.sentence = VerdictSentence(verdict);
+  verdict.sentence = VerdictSentence(verdict, nameless);
   return verdict;
 }
 

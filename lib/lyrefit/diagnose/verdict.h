@@ -3,17 +3,14 @@
 #include <string>
 
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
 
-// Whether an effect is among those asked for.
-bool IsWanted(const std::string& id, const DiagnoseOptions& options);
-
 // What is found, from the fits, the values and the metadata, in words. `whiteness_after`: p-value
 // of what the extended model leaves.
 Verdict Decide(const Measurement& measurement, const Selection& selection,
-               const ValueFindings& values, const DiagnoseOptions& options, double whiteness_after);
+               const DiagnoseOptions& options, double whiteness_after);
 
 }  // namespace lyrefit

@@ -107,7 +107,7 @@ LawFit FitBase(const Workbench& bench, const Law& law) {
   LawFit best;
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
     std::vector<double> start = BaseStart(*bench.readings, n, resistance);
-    if (law.second_diode) start.push_back(0.05);
+    if (law.model == Model::kDoubleDiode) start.push_back(0.05);
     if (law.free_tempco) start.push_back(bench.readings->isc_tempco_per_K);
     if (law.free_bandgap) start.push_back(bench.readings->bandgap_eV);
     LawFit fit = FitLaw(bench, law, start);
@@ -177,6 +177,13 @@ int FreeCount(const Workbench& bench, const Law& law) {
 
 int Degrees(const Workbench& bench, const Law& law) {
   return std::max(bench.count() - FreeCount(bench, law), 1);
+}
+
+bool CanAdd(const Law& law, const Effect& effect) {
+  for (const Effect* other : law.effects) {
+    if (other == &effect || Exclude(*other, effect)) return false;
+  }
+  return law.size() + effect.size() <= kMostParameters;
 }
 
 double NoiseVariance(const Workbench& bench, const LawFit& fit) {

@@ -69,7 +69,11 @@ int Degrees(const Workbench& bench, const Law& law);
 // Of whitened residuals: 1 where sigma is the noise.
 double NoiseVariance(const Workbench& bench, const LawFit& fit);
 
-// What a law may have: derivatives are carried for so many.
-constexpr int kMostParameters = 20;
+// Beside the largest base an effect may have the rest.
+constexpr int kMostEffectParameters = 11;
+
+// Whether a law has room for an effect, which is not there already nor anything it cannot stand
+// beside.
+bool CanAdd(const Law& law, const Effect& effect);
 
 }  // namespace lyrefit

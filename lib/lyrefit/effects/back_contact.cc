@@ -7,7 +7,7 @@ Effect BackContact() {
   Effect e;
   e.id = "back_contact";
   e.title = "blocking back contact (rollover)";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "V = Vj - I Rs - Vt ln(1 + I / Ib)";
   e.reference = "Demtsu and Sites 2006, Thin Solid Films 510, 320";
   e.sentence = "a barrier at the back contact blocks: the curve bends over beyond open circuit";

@@ -7,7 +7,7 @@ Effect Bandgap() {
   Effect e;
   e.id = "bandgap";
   e.title = "band gap not as stated";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "Eg -> Eg + c";
   e.reference = "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010";
   e.sentence = "the open-circuit voltage falls with temperature as with another band gap";

@@ -9,7 +9,7 @@ Effect Breakdown() {
   Effect e;
   e.id = "breakdown";
   e.title = "reverse breakdown";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "I = ... - a Vj (1 - Vj / Vbr)^-3.4";
   e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
   e.sentence = "in reverse the junction begins to break down: a hot spot where a cell is shaded";

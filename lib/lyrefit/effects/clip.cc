@@ -8,7 +8,7 @@ Effect Clip() {
   Effect e;
   e.id = "clip";
   e.title = "clipped current";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "I -> max(Il, min(I, Ic))";
   e.reference = "instrument manual (range, compliance)";
   e.sentence = "the instrument ran into the end of its range: the curve is flat there";

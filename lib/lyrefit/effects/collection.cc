@@ -7,7 +7,7 @@ Effect Collection() {
   Effect e;
   e.id = "collection";
   e.title = "voltage-dependent collection";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "I = ... - Iph chi / (Vbi - Vj),  Vbi = 0.9 V a junction";
   e.reference = "Merten et al. 1998, doi:10.1109/16.661229; PVsyst";
   e.sentence = "the weaker the field in the cell, the more of the light's current is lost";

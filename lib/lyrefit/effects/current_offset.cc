@@ -7,7 +7,7 @@ Effect CurrentOffset() {
   Effect e;
   e.id = "current_offset";
   e.title = "offset of the current";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "I -> I + c";
   e.reference = "IEC 60904-1:2020 (offsets)";
   e.sentence = "the instrument shows a current where none flows";

@@ -7,7 +7,7 @@ Effect DistributedRs() {
   Effect e;
   e.id = "distributed_rs";
   e.title = "series resistance spread over the cell";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "two half cells, I = (F(Va) + F(Vb)) / 2, Vb = Va + R F(Vb) / 2";
   e.reference =
       "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "

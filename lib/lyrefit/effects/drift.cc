@@ -7,7 +7,7 @@ Effect Drift() {
   Effect e;
   e.id = "drift";
   e.title = "drift of the irradiance";
-  e.where = "sweep";
+  e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 + d x), x = -1/2 .. 1/2 over the measurement";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
   e.sentence = "the light grew or faded steadily while the curve was taken";

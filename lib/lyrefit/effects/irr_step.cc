@@ -7,7 +7,7 @@ Effect IrradianceStep() {
   Effect e;
   e.id = "irr_step";
   e.title = "step of the irradiance";
-  e.where = "sweep";
+  e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 + s) after x0";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
   e.sentence = "the light jumped while the curve was taken: a cloud edge, a lamp";

@@ -7,7 +7,7 @@ Effect IscTemperatureCoefficient() {
   Effect e;
   e.id = "isc_tempco";
   e.title = "temperature coefficient of Isc not as stated";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "alpha -> alpha + c";
   e.reference = "IEC 60891:2021";
   e.sentence = "the short-circuit current follows the temperature otherwise than stated";

@@ -9,7 +9,7 @@ Effect NonohmicShunt() {
   Effect e;
   e.id = "nonohmic_shunt";
   e.title = "non-ohmic shunt";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "I = ... - k sign(Vj) |Vj|^m";
   e.reference = "Dongaonkar et al. 2010 (space-charge-limited shunts), doi:10.1063/1.3518509";
   e.sentence = "a local defect leaks more than in proportion to the voltage, in light and in dark";

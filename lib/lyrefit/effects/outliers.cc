@@ -7,7 +7,7 @@ Effect Outliers() {
   Effect e;
   e.id = "outliers";
   e.title = "single wrong readings";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "one reading is wrong by itself";
   e.reference = "Grubbs 1969, doi:10.1080/00401706.1969.10490657";
   e.sentence = "single readings lie far off: a glitch of the instrument";

@@ -9,7 +9,7 @@ Effect Photoshunt() {
   Effect e;
   e.id = "photoshunt";
   e.title = "shunt that grows with light";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation =
       "Gsh -> Gsh + Gph G / (1000 W/m2), or 1 / Gsh exponential in G between the same ends";
   e.reference =

@@ -7,7 +7,7 @@ Effect Quantisation() {
   Effect e;
   e.id = "quantisation";
   e.title = "coarse resolution";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "I -> q round(I / q)";
   e.reference = "IEC 60904-1:2020 (resolution)";
   e.sentence = "the instrument rounds so coarsely that steps show";

@@ -7,7 +7,7 @@ Effect RsCurrent() {
   Effect e;
   e.id = "rs_current";
   e.title = "series resistance that depends on current";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "V = Vj - I Rs - Rs1 I |I|";
   e.reference =
       "Fong, McIntosh and Blakers 2013 (series resistance as a function of current), "

@@ -7,7 +7,7 @@ Effect SecondDiode() {
   Effect e;
   e.id = "second_diode";
   e.title = "second diode (recombination)";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation = "I = ... - Is2 (exp(Vj / 2 Vt) - 1)";
   e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
   e.sentence = "carriers recombine in the junction itself, which softens the knee";
@@ -23,6 +23,7 @@ Effect SecondDiode() {
   e.cell = [](const auto* p, auto* cell) {
     cell->diode[cell->diodes++] = {p[0] * cell->saturation_2_unit, 0.5 / cell->thermal_voltage};
   };
+  e.diode = 2;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   e.probes = [](const DataTraits&) { return Strengths({0.02, 0.2}); };
   return e;

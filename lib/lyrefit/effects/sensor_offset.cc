@@ -7,7 +7,7 @@ Effect SensorOffset() {
   Effect e;
   e.id = "sensor_offset";
   e.title = "offset of the irradiance sensor";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "G -> G + c";
   e.reference = "IEC 60904-10:2020 (linearity)";
   e.sentence = "the irradiance sensor is wrong by the same amount at every level";

@@ -22,7 +22,7 @@ Effect Shading() {
   Effect e;
   e.id = "shading";
   e.title = "partial shading";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation =
       "V = (1 - w) Vcell(I; Iph) + w Vcell(I - Ib; (1 - d) Iph) per cell, "
       "Ib of the bypass diode, which drops Vb at Isc";

@@ -12,7 +12,7 @@ Effect Substrings() {
   Effect e;
   e.id = "substrings";
   e.title = "substrings under a light each";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation =
       "V = sum of w_k max(Vcell(I; x_k Iph), -Vb), a real diode for the maximum, "
       "w_k and x_k of up to four groups beside the brightest";

@@ -7,7 +7,7 @@ Effect TemperatureDrift() {
   Effect e;
   e.id = "temp_drift";
   e.title = "drift of the cell temperature";
-  e.where = "sweep";
+  e.where = Where::kSweep;
   e.equation = "T -> T + r x, x = -1/2 .. 1/2 over the measurement";
   e.reference = "IEC 60904-1:2020 (temperature stable during the sweep)";
   e.sentence = "the cells warmed or cooled while the curve was taken";

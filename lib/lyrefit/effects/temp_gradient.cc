@@ -7,7 +7,7 @@ Effect TemperatureGradient() {
   Effect e;
   e.id = "temp_gradient";
   e.title = "cells warmer than the sensor, in proportion to light";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "T -> T + c G / (1000 W/m2)";
   e.reference =
       "King, Boyson and Kratochvil 2004 (back-of-module to cell difference), doi:10.2172/919131";

@@ -7,7 +7,7 @@ Effect TemperatureOffset() {
   Effect e;
   e.id = "temp_offset";
   e.title = "offset of the temperature sensor";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "T -> T + c";
   e.reference = "IEC 60904-5:2011 (equivalent cell temperature)";
   e.sentence = "the cells are warmer or colder than the sensor says, everywhere alike";

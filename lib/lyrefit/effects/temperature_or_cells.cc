@@ -7,7 +7,7 @@ Effect TemperatureOrCells() {
   Effect e;
   e.id = "temperature_or_cells";
   e.title = "temperature or number of cells not as stated";
-  e.where = "conditions";
+  e.where = Where::kConditions;
   e.equation = "n Ns T is one product: n below 1 is impossible";
   e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
   e.sentence =

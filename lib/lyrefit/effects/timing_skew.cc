@@ -7,7 +7,7 @@ Effect TimingSkew() {
   Effect e;
   e.id = "timing_skew";
   e.title = "voltage and current not read together";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "V -> V - ts dV/dt";
   e.reference = "IEC 60904-1:2020 (simultaneous readings)";
   e.sentence = "current and voltage were read one after the other, so that up and down disagree";

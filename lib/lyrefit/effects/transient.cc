@@ -7,7 +7,7 @@ Effect Transient() {
   Effect e;
   e.id = "transient";
   e.title = "passing dip of the irradiance";
-  e.where = "sweep";
+  e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 - a exp(-(x - c)^2 / 2 w^2))";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
   e.sentence = "for a short while during the sweep the light was weaker (or stronger)";

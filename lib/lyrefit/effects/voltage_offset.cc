@@ -7,7 +7,7 @@ Effect VoltageOffset() {
   Effect e;
   e.id = "voltage_offset";
   e.title = "offset of the voltage";
-  e.where = "instrument";
+  e.where = Where::kInstrument;
   e.equation = "V -> V + c";
   e.reference = "IEC 60904-1:2020 (offsets)";
   e.sentence = "the instrument shows a voltage where there is none";

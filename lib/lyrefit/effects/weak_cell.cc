@@ -7,7 +7,7 @@ Effect WeakCell() {
   Effect e;
   e.id = "weak_cell";
   e.title = "weak cells";
-  e.where = "device";
+  e.where = Where::kDevice;
   e.equation =
       "one or a few cells of a substring under light (1 - d), with a conductance g of their own; "
       "in "

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/family/held_values.h"
+#include "lyrefit/law/held_values.h"
 
 namespace lyrefit {
 namespace {

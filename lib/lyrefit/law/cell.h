@@ -61,7 +61,7 @@ void PivotDiodes(const Bench<S>& bench, const S& inverse_vt, const S& warmer, Ce
   // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
   const S saturation = exp(bench.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
   cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
-  if (!bench.law.second_diode) return;
+  if (bench.law.model == Model::kSingleDiode) return;
   cell->diode[cell->diodes++] = {bench.p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
 }
 template <class S>

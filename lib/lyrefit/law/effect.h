@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/dual.h"
+#include "lyrefit/base/enum_text.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/reading.h"
 
@@ -174,13 +175,13 @@ struct Hook {
 // factor x current_A^current x cells^cells x rate^rate of the measurement's scale, or `convert` of
 // it, in `unit`.
 struct EffectParameter {
-  const char* symbol;  // "k"
-  const char* name;    // "shunt_strength"
-  const char* unit;    // of the reported value, "A/V^m"
-  const char* doc;
-  double lower;
-  double upper;
-  double neutral;  // where the effect is not there (of the strength); where to start (others)
+  const char* symbol = "";  // "k"
+  const char* name = "";    // "shunt_strength"
+  const char* unit = "";    // of the reported value, "A/V^m"
+  const char* doc = "";
+  double lower = 0;
+  double upper = 0;
+  double neutral = 0;  // where the effect is not there (of the strength); where to start (others)
   bool searched = false;  // settled by trying the probes' values, not by descent: a step's time
   double factor = 1;
   int current = 0;
@@ -199,6 +200,18 @@ struct EffectParameter {
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };
 
+// What an effect belongs to.
+enum class Where { kDevice, kSweep, kInstrument, kConditions, kUnknown };
+
+template <>
+struct EnumTable<Where> {
+  static constexpr EnumText<Where> kRows[] = {{Where::kDevice, "device"},
+                                              {Where::kSweep, "sweep"},
+                                              {Where::kInstrument, "instrument"},
+                                              {Where::kConditions, "conditions"},
+                                              {Where::kUnknown, "unknown"}};
+};
+
 // How a diagnosis comes upon an effect.
 enum class FoundBy {
   kFit,            // by its score on the residuals, and a fit
@@ -212,9 +225,9 @@ enum class FoundBy {
 using Probe = std::vector<double>;
 
 struct Effect {
-  const char* id = "";           // "nonohmic_shunt"
-  const char* title = "";        // "non-ohmic shunt"
-  const char* where = "device";  // or "sweep", "instrument", "conditions"
+  const char* id = "";     // "nonohmic_shunt"
+  const char* title = "";  // "non-ohmic shunt"
+  Where where = Where::kDevice;
   const char* equation = "";
   const char* reference = "";
   const char* sentence = "";                // what a technician understands
@@ -228,7 +241,7 @@ struct Effect {
   Hook<JunctionStage> junction;
   Hook<SeriesStage> series;
   Hook<InstrumentStage> instrument;
-  // Why data of this kind cannot show the effect; nothing where they can.
+  // Why data of this kind cannot show the effect; nothing where they can, none where all can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
 
@@ -236,8 +249,13 @@ struct Effect {
   // Splits the cells of a string into kinds: only one effect of a law can.
   bool groups = false;
   bool momentary = false;  // lasts a moment of the sweep: it can bend to any single reading
+  int diode = 0;           // it is this diode of a device: a base of so many has it already
 
   int size() const { return static_cast<int>(parameters.size()); }
+  std::optional<std::string> WhyNot(const DataTraits& traits) const {
+    return why_not != nullptr ? why_not(traits) : std::nullopt;
+  }
+  bool HasStage() const { return sky || cell || junction || series || instrument; }
 };
 
 // Whether two different effects cannot stand in one law.

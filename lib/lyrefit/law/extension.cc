@@ -7,20 +7,19 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr int kMostParameters = 20;
 
 // As a fit of one curve has it: at its own irradiance and temperature, with the stated cells.
 Expected<Readings> ReadingsOf(const IvCurve& curve) {
   CurveSet set;
   set.curves = {curve};
-  auto measurement = MakeReadings(set);
-  if (!measurement) return tl::unexpected(measurement.error());
-  Readings readings = std::move(measurement->readings);
+  std::vector<std::string> contradictions;  // the readers of the curve have said them already
+  auto made = MakeReadings(set, &contradictions);
+  if (!made) return made;
+  Readings readings = std::move(*made);
   double light = 0;
   for (const Reading& r : readings.points) light += r.irradiance;
   light /= static_cast<double>(readings.points.size());

@@ -388,7 +388,7 @@ bool Law::Searched(int parameter) const {
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
                  double* current, double* jacobian) {
-  CHECK_LE(law.size(), 20);
+  CHECK_LE(law.size(), kMostParameters);
   if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, workspace, current, nullptr);
   if (law.size() <= 6) return Evaluate<Narrow>(law, readings, p, workspace, current, jacobian);
   if (law.size() <= 10) return Evaluate<Middle>(law, readings, p, workspace, current, jacobian);

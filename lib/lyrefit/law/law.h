@@ -12,8 +12,8 @@ namespace lyrefit {
 // Base model and causes together: one parameter vector for a whole measurement. Base parameters
 // first, then those of each effect in turn.
 //
-// Base: one diode (a second with n = 2 if asked for), five parameters for all readings, translated
-// as device/translation.h does for De Soto, Klein and Beckman 2006
+// Base: one diode (or a second with n = 2), five parameters for all readings, translated
+// as law/translation.h does for De Soto, Klein and Beckman 2006
 // (doi:10.1016/j.solener.2005.06.010):
 //   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
 //   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
@@ -31,12 +31,14 @@ enum BaseParameter {
   // Then those of alpha (relative, 1/K) and EgRef (eV) that are free: see Law.
 };
 
+// What a law may have: derivatives are carried for so many.
+constexpr int kMostParameters = 20;
+
 struct Law {
-  bool second_diode = false;  // in the base
-  // The base as a device of `model` instead: its parameters as device.h orders them, in its units,
-  // at the reference and at irradiance 1.
+  Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
+  // The base with its parameters as device.h orders them, in its units, at the reference and at
+  // irradiance 1 instead; every model.
   bool natural = false;
-  Model model = Model::kSingleDiode;
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;
   double bandgap_slope_per_K = 0;        // dEgdT
@@ -45,7 +47,8 @@ struct Law {
   bool free_bandgap = false;             // EgRef is a parameter
 
   int TempcoAt() const {  // where free
-    return natural ? 3 + 2 * static_cast<int>(model) : second_diode ? 6 : 5;
+    const int diodes = static_cast<int>(model);
+    return natural ? 3 + 2 * diodes : 4 + diodes;
   }
   int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // where free
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }

@@ -16,6 +16,8 @@ struct Reading {
   double x = 0;              // time within the measurement, scaled to -1/2 .. 1/2
   double rate = 0;           // dV/dt in parts of the measurement's rate scale, signed
   int curve = 0;             // position in the set
+  int index = 0;             // position in its curve
+  bool dark = false;         // so is its curve
   int segment = 0;           // monotone stretches of voltage, counted through the whole set
   // Of a mean of neighbouring readings: how many, and the mean square of their distances from it
   // (in current scales, the curve's own slope taken out).

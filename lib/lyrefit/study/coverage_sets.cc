@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/family/held_values.h"
+#include "lyrefit/law/held_values.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 

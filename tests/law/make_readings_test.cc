@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/law/make_readings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,23 +16,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Measurement Make(const CurveSet& set) {
-  auto measurement = MakeReadings(set);
-  EXPECT_TRUE(measurement.has_value());
-  return measurement ? *measurement : Measurement();
-}
+struct Made {
+  Readings readings;
+  std::vector<std::string> warnings;
+};
 
-TEST(FindTurnsTest, CountsMonotoneStretches) {
-  EXPECT_THAT(FindTurns({0, 1, 2, 3}), ElementsAre(0));
-  EXPECT_THAT(FindTurns({3, 2, 1, 0}), ElementsAre(0));
-  EXPECT_THAT(FindTurns({0, 1, 2, 3, 2, 1, 0}), ElementsAre(0, 4));
-  EXPECT_THAT(FindTurns({0, 2, 4, 2, 0, 2, 4}), ElementsAre(0, 3, 5));
-  EXPECT_THAT(FindTurns({1, 1, 1}), ElementsAre(0));
-}
-
-TEST(FindTurnsTest, IgnoresJitter) {
-  EXPECT_THAT(FindTurns({0, 1, 0.9, 2, 1.9, 3, 4, 3.9, 5}), ElementsAre(0));
-  EXPECT_THAT(FindTurns({0, 2, 1.9, 4, 4.1, 4, 2, 2.1, 0}), ElementsAre(0, 5));
+Made Make(const CurveSet& set) {
+  Made made;
+  auto readings = MakeReadings(set, &made.warnings);
+  EXPECT_TRUE(readings.has_value());
+  if (readings) made.readings = *readings;
+  return made;
 }
 
 TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
@@ -40,7 +34,7 @@ TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
   recipe.cells = 60;
   recipe.noise_A = 0;
   const IvCurve curve = MadeCurve(recipe);
-  const Measurement made = Make(SetOf({curve}));
+  const Made made = Make(SetOf({curve}));
   const Readings& readings = made.readings;
   EXPECT_THAT(made.warnings, IsEmpty());
   EXPECT_EQ(readings.scale.cells, 60);
@@ -53,6 +47,7 @@ TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
     EXPECT_EQ(r.irradiance, 1);
     EXPECT_EQ(r.temperature_K, 298.15);
     EXPECT_EQ(r.segment, 0);
+    EXPECT_EQ(r.index, static_cast<int>(k));
     EXPECT_NEAR(r.rate, 1, 1e-9);  // an even sweep
   }
   EXPECT_DOUBLE_EQ(readings.points.front().x, -0.5);
@@ -64,7 +59,7 @@ TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
 }
 
 TEST(MakeReadingsTest, FindsTheTraitsOfASweep) {
-  const Measurement made = Make(SetOf({MadeCurve({})}));
+  const Made made = Make(SetOf({MadeCurve({})}));
   const DataTraits& traits = made.readings.traits;
   EXPECT_TRUE(traits.single && traits.beyond_voc);
   EXPECT_FALSE(traits.reverse || traits.up_down || traits.dark || traits.only_dark ||
@@ -83,7 +78,7 @@ TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {
   IvCurve curve = MadeCurve(recipe);
   curve.notes.bypass_diodes = 3;
   for (std::size_t k = 0; k < curve.size(); ++k) curve.time_s.push_back(10 + 0.01 * k);
-  const Measurement made = Make(SetOf({curve}));
+  const Made made = Make(SetOf({curve}));
   EXPECT_TRUE(made.readings.traits.up_down && made.readings.traits.reverse);
   EXPECT_EQ(made.readings.traits.substrings, 3);
   EXPECT_EQ(made.readings.points.front().segment, 0);
@@ -95,15 +90,16 @@ TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {
 }
 
 TEST(MakeReadingsTest, FindsLightAndDark) {
-  const Measurement made = Make(SetOf({MadeCurve({}), MadeDarkCurve()}));
+  const Made made = Make(SetOf({MadeCurve({}), MadeDarkCurve()}));
   const DataTraits& traits = made.readings.traits;
   EXPECT_THAT(made.warnings, IsEmpty());
-  EXPECT_THAT(made.dark, ElementsAre(0, 1));
+  for (const Reading& r : made.readings.points) EXPECT_EQ(r.dark, r.curve == 1);
   EXPECT_TRUE(traits.dark);
   EXPECT_FALSE(traits.single || traits.only_dark || traits.up_down);
   EXPECT_EQ(traits.irradiance_levels, 1);
   EXPECT_NEAR(made.readings.scale.current_A, 8, 0.05);
   EXPECT_EQ(made.readings.points.back().irradiance, 0);
+  EXPECT_EQ(made.readings.points.back().index, 59);
   EXPECT_TRUE(traits.step_times.empty());
 }
 
@@ -118,7 +114,7 @@ TEST(MakeReadingsTest, FindsTheLevelsOfAFamily) {
       curves.back().conditions.cell_temperature_K = celsius + kZeroCelsius_K;
     }
   }
-  const Measurement made = Make(SetOf(curves));
+  const Made made = Make(SetOf(curves));
   EXPECT_EQ(made.readings.traits.curves, 12);
   EXPECT_EQ(made.readings.traits.irradiance_levels, 3);
   EXPECT_EQ(made.readings.traits.temperature_levels, 2);
@@ -128,15 +124,15 @@ TEST(MakeReadingsTest, FindsTheLevelsOfAFamily) {
 TEST(MakeReadingsTest, TheDataDecideWhatIsDark) {
   IvCurve dark = MadeDarkCurve();
   dark.conditions.irradiance_W_m2 = 1000;
-  const Measurement stated_lit = Make(SetOf({dark}));
-  EXPECT_THAT(stated_lit.dark, ElementsAre(1));
+  const Made stated_lit = Make(SetOf({dark}));
+  EXPECT_TRUE(stated_lit.readings.points.front().dark);
   EXPECT_THAT(stated_lit.warnings, ElementsAre(HasSubstr("taken as dark")));
   EXPECT_TRUE(stated_lit.readings.traits.only_dark);
   EXPECT_EQ(stated_lit.readings.points.front().irradiance, 0);
   IvCurve lit = MadeCurve({});
   lit.conditions.irradiance_W_m2 = 0;
-  const Measurement stated_dark = Make(SetOf({lit}));
-  EXPECT_THAT(stated_dark.dark, ElementsAre(0));
+  const Made stated_dark = Make(SetOf({lit}));
+  EXPECT_FALSE(stated_dark.readings.points.front().dark);
   EXPECT_THAT(stated_dark.warnings, ElementsAre(HasSubstr("taken as lit")));
   EXPECT_EQ(stated_dark.readings.points.front().irradiance, 1);
 }
@@ -150,7 +146,7 @@ TEST(MakeReadingsTest, WarnsOfSweepsThatAreNone) {
 TEST(MakeReadingsTest, WarnsOfTimesThatDoNotIncrease) {
   IvCurve curve = MadeCurve({});
   curve.time_s.assign(curve.size(), 1.0);
-  const Measurement made = Make(SetOf({curve}));
+  const Made made = Make(SetOf({curve}));
   EXPECT_THAT(made.warnings, ElementsAre(HasSubstr("the times do not increase")));
   EXPECT_FALSE(made.readings.scale.times);
   EXPECT_DOUBLE_EQ(made.readings.points.back().x, 0.5);
@@ -159,7 +155,7 @@ TEST(MakeReadingsTest, WarnsOfTimesThatDoNotIncrease) {
 TEST(MakeReadingsTest, FollowsAMonitorOfTheLight) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.irradiance_W_m2.push_back(1000 - 2. * k);
-  const Measurement made = Make(SetOf({curve}));
+  const Made made = Make(SetOf({curve}));
   EXPECT_DOUBLE_EQ(made.readings.points[50].irradiance, 0.9);
   curve.irradiance_W_m2.assign(curve.size(), 1000.0);
   EXPECT_EQ(Make(SetOf({curve})).readings.points[50].irradiance, 1);
@@ -175,20 +171,16 @@ TEST(MakeReadingsTest, TakesWhatTheNotesState) {
 }
 
 TEST(MakeReadingsTest, RefusesWhatIsNoMeasurement) {
-  EXPECT_FALSE(MakeReadings(CurveSet()));
-  Recipe few;
-  few.points = 6;
-  const auto too_few = MakeReadings(SetOf({MadeCurve(few)}));
-  ASSERT_FALSE(too_few);
-  EXPECT_THAT(too_few.error().message, HasSubstr("7 readings or more, there are 6"));
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(MakeReadings(CurveSet(), &warnings));
   Recipe module;
   module.cells = 60;
-  const auto two_devices = MakeReadings(SetOf({MadeCurve({}), MadeCurve(module)}));
+  const auto two_devices = MakeReadings(SetOf({MadeCurve({}), MadeCurve(module)}), &warnings);
   ASSERT_FALSE(two_devices);
   EXPECT_THAT(two_devices.error().message, HasSubstr("number of cells differs"));
   IvCurve broken = MadeCurve({});
   broken.current_A[7] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(MakeReadings(SetOf({broken})));
+  EXPECT_FALSE(MakeReadings(SetOf({broken}), &warnings));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/make_readings.h"
+#include "lyrefit/law/make_readings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/settle_conditions.h"
+#include "lyrefit/curve/sweep_order.h"
+#include "lyrefit/law/held_values.h"
 #include "lyrefit/law/law.h"
-#include "lyrefit/family/held_values.h"
 
 namespace lyrefit {
 namespace {
@@ -131,6 +132,8 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
     reading.x = (layout.clock[k] - first) / span - 0.5;
     reading.rate = Rate(curve, layout, cells, static_cast<int>(k), begin, end);
     reading.curve = index;
+    reading.index = static_cast<int>(k);
+    reading.dark = dark;
     reading.segment = segment;
     readings->points.push_back(reading);
   }
@@ -151,11 +154,11 @@ int Levels(std::vector<double> values, double apart) {
   return levels;
 }
 
-// Voltage at which a lit curve's current changes sign, per cell; 0 where it does not.
+// Voltage at which a lit curve's current changes sign, per cell; 0 where it does not, or is dark.
 double OpenCircuit(const std::vector<Reading>& points, int curve) {
   std::vector<std::pair<double, double>> sorted;
   for (const Reading& r : points) {
-    if (r.curve == curve) sorted.emplace_back(r.voltage, r.current);
+    if (r.curve == curve && !r.dark) sorted.emplace_back(r.voltage, r.current);
   }
   std::sort(sorted.begin(), sorted.end());
   double found = 0;
@@ -167,11 +170,11 @@ double OpenCircuit(const std::vector<Reading>& points, int curve) {
   return found;
 }
 
-void SetScales(const std::vector<char>& dark, Readings* readings) {
+void SetScales(Readings* readings) {
   double scale = 0, largest = 0, rates = 0;
   for (const Reading& r : readings->points) {
     largest = std::max(largest, std::fabs(r.current));
-    if (dark[r.curve] == 0 && r.voltage > -0.05) scale = std::max(scale, r.current);
+    if (!r.dark && r.voltage > -0.05) scale = std::max(scale, r.current);
     rates += r.rate * r.rate;
   }
   if (!(scale > 0)) scale = largest;
@@ -185,19 +188,20 @@ void SetScales(const std::vector<char>& dark, Readings* readings) {
   }
 }
 
-void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* readings) {
+void FindTraits(const CurveSet& set, Readings* readings) {
   DataTraits& traits = readings->traits;
   std::vector<double> lit_irradiance, temperature;
   traits.readings = static_cast<int>(readings->points.size());
   traits.lowest_voltage = traits.highest_voltage = readings->points.front().voltage;
+  bool any_dark = false;
   for (const Reading& r : readings->points) {
+    any_dark = any_dark || r.dark;
     traits.lowest_voltage = std::min(traits.lowest_voltage, r.voltage);
     traits.highest_voltage = std::max(traits.highest_voltage, r.voltage);
     temperature.push_back(r.temperature_K);
-    if (dark[r.curve] == 0) lit_irradiance.push_back(r.irradiance);
-    if (dark[r.curve] == 0 && r.current < -0.01) traits.beyond_voc = true;
+    if (!r.dark) lit_irradiance.push_back(r.irradiance);
+    if (!r.dark && r.current < -0.01) traits.beyond_voc = true;
   }
-  const bool any_dark = std::count(dark.begin(), dark.end(), 1) > 0;
   traits.curves = static_cast<int>(set.curves.size());
   traits.only_dark = lit_irradiance.empty();
   traits.dark = any_dark && !traits.only_dark;
@@ -210,9 +214,7 @@ void FindTraits(const CurveSet& set, const std::vector<char>& dark, Readings* re
   traits.module = traits.cells > 1;
   traits.substrings = set.curves.front().notes.bypass_diodes.value_or(0);
   for (int c = 0; c < traits.curves; ++c) {
-    if (dark[c] == 0) {
-      traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
-    }
+    traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
     std::set<int> segments;
     for (const Reading& r : readings->points) {
       if (r.curve == c) segments.insert(r.segment);
@@ -284,30 +286,6 @@ Expected<void> CheckSizes(const IvCurve& curve) {
   return {};
 }
 
-template <class T>
-void Permute(const std::vector<std::size_t>& order, std::vector<T>* values) {
-  if (values->size() != order.size()) return;
-  std::vector<T> sorted;
-  sorted.reserve(order.size());
-  for (const std::size_t k : order) sorted.push_back((*values)[k]);
-  *values = std::move(sorted);
-}
-
-void SortByVoltage(IvCurve* curve) {
-  std::vector<std::size_t> order(curve->size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return curve->voltage_V[a] < curve->voltage_V[b];
-  });
-  curve->time_s.clear();
-  curve->sweep.clear();
-  Permute(order, &curve->voltage_V);
-  Permute(order, &curve->current_A);
-  Permute(order, &curve->sigma_A);
-  Permute(order, &curve->irradiance_W_m2);
-  Permute(order, &curve->temperature_C);
-}
-
 }  // namespace
 
 void SetStepTimes(Readings* readings) {
@@ -319,53 +297,14 @@ void SetStepTimes(Readings* readings) {
   }
 }
 
-CurveSet InOrder(const CurveSet& set, std::vector<std::string>* warnings) {
-  constexpr std::size_t kShortest = 6;  // readings of a sweep, on the average
-  CurveSet ordered = set;
-  for (IvCurve& curve : ordered.curves) {
-    const std::size_t sweeps = FindTurns(curve.voltage_V).size();
-    if (sweeps < 3 || curve.size() >= kShortest * sweeps) continue;
-    SortByVoltage(&curve);
-    warnings->push_back(curve.name +
-                        ": the readings are in no order of voltage; taken as one sweep from the "
-                        "lowest to the highest, so what happened in time cannot be seen");
-  }
-  return ordered;
-}
-
-std::vector<int> FindTurns(const std::vector<double>& voltage) {
-  const auto [low, high] = std::minmax_element(voltage.begin(), voltage.end());
-  const double jitter = 0.2 * (*high - *low);
-  std::vector<int> turns = {0};
-  int direction = 0;
-  std::size_t extreme = 0;
-  for (std::size_t k = 1; k < voltage.size(); ++k) {
-    const double move = voltage[k] - voltage[extreme];
-    if (direction == 0) {
-      if (std::fabs(move) > jitter) {
-        direction = move > 0 ? 1 : -1;
-        extreme = k;
-      }
-    } else if (direction * move > 0) {
-      extreme = k;
-    } else if (std::fabs(move) > jitter) {
-      turns.push_back(static_cast<int>(extreme) + 1);
-      direction = -direction;
-      extreme = k;
-    }
-  }
-  return turns;
-}
-
-Expected<Measurement> MakeReadings(const CurveSet& set) {
-  if (set.curves.empty()) return Fail("there is no curve to diagnose");
-  Measurement measurement;
-  Readings& readings = measurement.readings;
+Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* warnings) {
+  if (set.curves.empty()) return Fail("there is no curve");
+  Readings readings;
   for (const IvCurve& curve : set.curves) {
     if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
     if (auto possible = CheckSizes(curve); !possible) return tl::unexpected(possible.error());
   }
-  readings.scale.cells = CountCells(set, &readings.traits, &measurement.warnings);
+  readings.scale.cells = CountCells(set, &readings.traits, warnings);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     const IvCurve& curve = set.curves[c];
     if (curve.conditions.cells_in_series != set.curves.front().conditions.cells_in_series) {
@@ -373,16 +312,12 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
                   ": its number of cells differs from the others'; a measurement is of "
                   "one device");
     }
-    measurement.dark.push_back(DecideDark(curve, &measurement.warnings) ? 1 : 0);
-    AppendCurve(curve, static_cast<int>(c), measurement.dark.back() != 0, readings.scale.cells,
-                LayOut(curve, &measurement.warnings), &readings);
+    const bool dark = DecideDark(curve, warnings);
+    AppendCurve(curve, static_cast<int>(c), dark, readings.scale.cells, LayOut(curve, warnings),
+                &readings);
   }
-  if (readings.points.size() < 7) {
-    return Fail("a diagnosis needs 7 readings or more, there are " +
-                std::to_string(readings.points.size()));
-  }
-  SetScales(measurement.dark, &readings);
-  FindTraits(set, measurement.dark, &readings);
+  SetScales(&readings);
+  FindTraits(set, &readings);
   readings.scale.strings = set.curves.front().conditions.strings_in_parallel;
   TakeNotes(set, &readings);
   DataTraits& traits = readings.traits;
@@ -394,7 +329,7 @@ Expected<Measurement> MakeReadings(const CurveSet& set) {
   readings.scale.reach_V =
       std::max({std::fabs(traits.lowest_voltage), std::fabs(traits.highest_voltage), 1e-3});
   readings.scale.saturation_2_unit = Saturation2Unit(readings);
-  return measurement;
+  return readings;
 }
 
 }  // namespace lyrefit

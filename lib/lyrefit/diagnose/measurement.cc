@@ -1,0 +1,22 @@
+#include "lyrefit/diagnose/measurement.h"
+
+#include "lyrefit/law/make_readings.h"
+
+namespace lyrefit {
+
+Expected<Measurement> MakeMeasurement(const CurveSet& set) {
+  constexpr std::size_t kFewest = 7;
+  Measurement measurement;
+  auto readings = MakeReadings(set, &measurement.warnings);
+  if (!readings) return tl::unexpected(readings.error());
+  if (readings->points.size() < kFewest) {
+    return Fail("a diagnosis needs 7 readings or more, there are " +
+                std::to_string(readings->points.size()));
+  }
+  measurement.readings = std::move(*readings);
+  measurement.notes = set.curves.front().notes;
+  measurement.values = LookAtValues(measurement.readings);
+  return measurement;
+}
+
+}  // namespace lyrefit

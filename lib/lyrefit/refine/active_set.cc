@@ -73,7 +73,7 @@ class ActiveSet {
   };
 
   int size() const { return shape_.size(); }
-  bool Ended() const { return stopped_ || now_.mean_square <= options_.enough; }
+  bool Ended() const { return stopped_ || hopeless_ || now_.mean_square <= options_.enough; }
   void Measure() { now_.mean_square = model_.MeanSquare(now_.at); }
 
   void Clamp() {
@@ -142,6 +142,7 @@ class ActiveSet {
     iterations_ += end.iterations;
     now_.converged = end.converged;
     stopped_ = stopped_ || end.stopped;
+    hopeless_ = end.hopeless;
     FitPoint there{std::vector<double>(size()), std::move(end.local)};
     coordinates.ToParameters(end.theta.data(), there.p.data());
     const double mean_square = model_.MeanSquare(there);
@@ -335,6 +336,7 @@ class ActiveSet {
   int let_in_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
+  bool hopeless_ = false;          // options_.to_beat is out of reach
   std::unique_ptr<FitModel> few_;  // filled where needed
 };
 

@@ -42,6 +42,7 @@ class CurveRefits {
     if (Kind() == ParameterKind::kSaturation)
       hopeless_ = best.mean_square + kHopeless * kHopeless * rise;
     how_.small = true;
+    how_.let_in = false;  // the descents do that
     how_.max_iterations = how_.first_iterations = kMaxIterations;
     how_.max_rounds = kMaxRounds;
     how_.stop = [this, stop] { return stopped_ = stopped_ || (stop && stop()); };
@@ -56,7 +57,6 @@ class CurveRefits {
     RefineOptions briefly = how_;
     briefly.first_iterations = kBriefly;
     briefly.max_rounds = 0;
-    briefly.let_in = false;
     if (enough > 0) briefly.to_beat = enough;
     RefineEnd end = RefineModel(model_, from, briefly);
     // A descent that sees further where that did not do; and before a place counts as outside,
@@ -76,6 +76,9 @@ class CurveRefits {
   // Whether a start that needs no luck leads into a valley at or below `enough`.
   bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
     Ask(value, enough, tolerance);
+    RefineOptions reach = how_;
+    reach.to_beat = enough;
+    reach.let_in = true;
     std::vector<std::vector<double>> starts = Traded(value);
     for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
       starts.push_back(std::move(grid.p));
@@ -83,7 +86,7 @@ class CurveRefits {
     starts.push_back(best_.p);
     starts.back()[i_] = value;
     for (const std::vector<double>& from : starts) {
-      RefineEnd end = RefineFrom(held_, from, how_);
+      RefineEnd end = RefineFrom(held_, from, reach);
       if (end.mean_square > enough) continue;
       *there = std::move(end);
       return true;

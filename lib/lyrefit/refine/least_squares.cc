@@ -167,8 +167,9 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     const double enough = options.function_tolerance * here.sum;
     const bool promising = predicted > enough || trust.radius < hardly_damped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
-    const bool hopeless = here.sum - kMany * predicted > options.to_beat;
-    if (end.converged || (hopeless && trust.radius >= hardly_damped)) break;
+    end.hopeless = !end.converged && trust.radius >= hardly_damped &&
+                   here.sum - kMany * predicted > options.to_beat;
+    if (end.converged || end.hopeless) break;
     if (!solved || !Evaluate(problem, &next)) {
       ++invalid;
       trust.Shorten();

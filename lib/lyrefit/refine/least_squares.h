@@ -35,8 +35,9 @@ struct LeastSquaresEnd {
   std::vector<double> p;
   double sum_of_squares = 0;
   bool converged = false;
-  bool usable = false;   // false: the start itself could not be evaluated
-  bool stopped = false;  // as `stop` asked
+  bool usable = false;    // false: the start itself could not be evaluated
+  bool stopped = false;   // as `stop` asked
+  bool hopeless = false;  // `to_beat` is out of reach
   int iterations = 0;
 };
 

@@ -115,7 +115,7 @@ SolveEnd SolveSmall(const FitModel& model, const Coordinates& coordinates,
   how.enough = options.enough;
   how.stop = options.stop;
   LeastSquaresEnd found = SolveLeastSquares(problem, coordinates.Start(), how);
-  return {std::move(found.p), {}, found.converged, found.stopped, found.iterations};
+  return {std::move(found.p), {}, found.converged, found.stopped, found.hopeless, found.iterations};
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct SolveEnd {
   std::vector<double> theta;
   std::vector<double> local;
   bool converged = false;
-  bool stopped = false;  // as `stop` asked
+  bool stopped = false;   // as `stop` asked
+  bool hopeless = false;  // `to_beat` is out of reach
   int iterations = 0;
 };
 

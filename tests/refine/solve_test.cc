@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "refine/decay_model.h"
+#include "refine/test_curves.h"
 
 namespace lyrefit {
 namespace {
@@ -70,6 +71,33 @@ TEST(SolveModel, HandsNothingToTheSolverThatIsNotFinite) {
   EXPECT_FALSE(end.converged);
   EXPECT_EQ(end.iterations, 0);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(SolveModel, EndsAlikeByEitherSolver) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  const CurveModel model(problem);
+  const Coordinates coordinates(model.shape(), {3.7, 4e-8, 1.25, 0.2, 200},
+                                std::vector<bool>(5, false));
+  SolveOptions options = Thorough();
+  options.unit_A = 3e-3;
+  for (const bool bounded : {false, true}) {
+    options.bounded = bounded;
+    options.small = false;
+    const SolveEnd ceres = SolveModel(model, coordinates, {}, options);
+    options.small = true;
+    const SolveEnd small = SolveModel(model, coordinates, {}, options);
+    EXPECT_TRUE(small.converged);
+    EXPECT_LT(small.iterations, 20);
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(small.theta[k] / ceres.theta[k], 1, 1e-5) << k;
+  }
+  options.stop = [] { return true; };
+  EXPECT_TRUE(SolveModel(model, coordinates, {}, options).stopped);
+  options.stop = {};
+  options.to_beat = 1;  // of some 35: what noise there is
+  const SolveEnd out_of_reach = SolveModel(model, coordinates, {}, options);
+  EXPECT_TRUE(out_of_reach.hopeless);
+  EXPECT_FALSE(out_of_reach.converged);
 }
 
 }  // namespace

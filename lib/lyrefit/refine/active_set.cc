@@ -47,7 +47,7 @@ class ActiveSet {
             options_.first_iterations);
     }
     Remember();
-    bool settled = false;
+    bool settled = options_.small && now_.converged && IsInside() && !LetDiodeIn();
     for (int round = 0; round < options_.max_rounds && !settled && !Ended(); ++round) {
       HoldWhatPresses();
       if (SolveFree()) {
@@ -73,7 +73,7 @@ class ActiveSet {
   };
 
   int size() const { return shape_.size(); }
-  bool Ended() const { return stopped_ || now_.mean_square <= options_.enough; }
+  bool Ended() const { return stopped_ || hopeless_ || now_.mean_square <= options_.enough; }
   void Measure() { now_.mean_square = model_.MeanSquare(now_.at); }
 
   void Clamp() {
@@ -129,16 +129,20 @@ class ActiveSet {
     if (!coordinates.Sane(theta.data())) return theta;
     SolveOptions how;
     how.bounded = bounded;
+    how.small = options_.small;
     how.max_iterations = max_iterations;
     how.function_tolerance = function_tolerance;
     how.trust_radius = options_.trust_radius;
     how.unit_A = std::max(std::sqrt(now_.mean_square), 1e-13 * shape_.current_scale_A);
-    how.enough = options_.enough / (how.unit_A * how.unit_A) * shape_.points;
+    const double per_unit = shape_.points / (how.unit_A * how.unit_A);
+    how.enough = options_.enough * per_unit;
+    how.to_beat = options_.to_beat * per_unit;
     how.stop = options_.stop;
     SolveEnd end = SolveModel(model_, coordinates, now_.at.local, how);
     iterations_ += end.iterations;
     now_.converged = end.converged;
     stopped_ = stopped_ || end.stopped;
+    hopeless_ = end.hopeless;
     FitPoint there{std::vector<double>(size()), std::move(end.local)};
     coordinates.ToParameters(end.theta.data(), there.p.data());
     const double mean_square = model_.MeanSquare(there);
@@ -146,6 +150,21 @@ class ActiveSet {
     now_.at = std::move(there);
     now_.mean_square = mean_square;
     return std::move(end.theta);
+  }
+
+  // Whether what a solve came to is a place to be: within the bounds that it did not know, and with
+  // no diode that has faded. What presses against its bound is then held there.
+  bool IsInside() {
+    FitPoint at = now_.at;
+    std::vector<bool> held = now_.held;
+    if (RemoveFaded(shape_, &at.p, &held)) return false;
+    for (int i = 0; i < size(); ++i) {
+      const ParameterRange range = BoundsAt(shape_, i, at.p);
+      if (!(at.p[i] >= range.low && at.p[i] <= range.high)) return false;
+      held[i] = held[i] || at.p[i] == range.low || at.p[i] == range.high;
+    }
+    now_.held = std::move(held);
+    return true;
   }
 
   // Puts the parameter of a coordinate on one of its bounds and holds it there.
@@ -317,6 +336,7 @@ class ActiveSet {
   int let_in_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
+  bool hopeless_ = false;          // options_.to_beat is out of reach
   std::unique_ptr<FitModel> few_;  // filled where needed
 };
 

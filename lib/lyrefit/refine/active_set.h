@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct RefineOptions {
   bool let_in = true;                 // whether what has vanished may come back
   double enough = 0;                  // A^2: a mean square at or below which nothing more is done
   std::function<bool()> stop;         // asked once an iteration; true: end where it stands
+  // Small problems are solved in fewer evaluations (SolveOptions::small) and end with their first
+  // solve where nothing speaks against it. For fits by the hundred, which need not be exact.
+  bool small = false;
+  // A mean square that a small problem gives up on when it is out of reach.
+  double to_beat = HUGE_VAL;
   // Of the first solve, which has the bounds: the rounds go on from wherever it comes to, and where
   // one is active it would creep.
   double first_tolerance = 1e-9;

@@ -9,19 +9,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kGridStarts = 1;
-constexpr int kMaxIterations = 20;  // of one refit
-constexpr int kMaxRounds = 3;
-constexpr int kThoroughIterations = 200;  // of those that have the last word on an end
-constexpr int kThoroughRounds = 10;
+constexpr int kBriefly = 12;         // iterations that do for most refits
+constexpr int kMaxIterations = 200;  // of the others
+constexpr int kMaxRounds = 10;
 constexpr double kHopeless = 10;   // of t: no exchange of diodes brings a saturation current so far
 constexpr double kInside = 0.994;  // of the rise at the end: so far from it no exchange matters
-
-RefineProblem Held(const RefineProblem& problem, int i, double value) {
-  RefineProblem held = problem;
-  held.lower[i] = held.upper[i] = value;
-  return held;
-}
 
 // The optimum with the diode of parameter i and diode d exchanged, where both have the same bounds.
 bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>* p) {
@@ -39,67 +31,120 @@ bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>
   return true;
 }
 
-}  // namespace
+// The fits behind the profile of one parameter of one curve.
+class CurveRefits {
+ public:
+  CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
+              const std::function<bool()>& stop)
+      : i_(query.parameter), best_(best), held_(problem), model_(held_) {
+    const double rise = query.t * query.t * query.variance / model_.shape().points;
+    outside_ = best.mean_square + kInside * rise;
+    if (Kind() == ParameterKind::kSaturation)
+      hopeless_ = best.mean_square + kHopeless * kHopeless * rise;
+    how_.small = true;
+    how_.let_in = false;  // the descents do that
+    how_.max_iterations = how_.first_iterations = kMaxIterations;
+    how_.max_rounds = kMaxRounds;
+    how_.stop = [this, stop] { return stopped_ = stopped_ || (stop && stop()); };
+  }
+  CurveRefits(const CurveRefits&) = delete;
+  CurveRefits& operator=(const CurveRefits&) = delete;
 
-ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& stop) {
-  const CurveModel model(problem);
-  const int i = query.parameter;
-  const bool saturation = problem.device.parameters[i].kind == ParameterKind::kSaturation;
-  const double rise = query.t * query.t * query.variance / model.shape().points;
-  const double outside = best.mean_square + kInside * rise;
-  const double hopeless = saturation ? best.mean_square + kHopeless * kHopeless * rise : HUGE_VAL;
-  bool stopped = false;
-  RefineOptions how;
-  how.max_iterations = kMaxIterations;
-  how.max_rounds = kMaxRounds;
-  how.let_in = false;  // the descent before it does that
-  how.stop = [&] { return stopped = stopped || (stop && stop()); };
-  ProfileRefits refits;
-  refits.refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
-    const RefineProblem held = Held(problem, i, value);
-    how.enough = enough;
-    how.function_tolerance = tolerance;
-    std::vector<double> from = start.p;
-    from[i] = value;
-    RefineEnd end = RefineFrom(held, from, how);
-    // Before a place counts as outside: the diodes may have changed their parts there.
-    for (int d = 0; d < DiodeCount(problem.device); ++d) {
-      if (!(end.mean_square > outside && end.mean_square < hopeless)) break;
-      std::vector<double> traded = best.p;
-      if (!TradePlaces(problem, i, d, &traded)) continue;
-      traded[i] = value;
-      RefineEnd other = Refine(held, traded, how);
-      if (other.mean_square < end.mean_square) end = std::move(other);
+  RefineEnd Refit(double value, const FitPoint& start, double enough, double tolerance) {
+    Ask(value, enough, tolerance);
+    FitPoint from = start;
+    from.p[i_] = value;
+    RefineOptions briefly = how_;
+    briefly.first_iterations = kBriefly;
+    briefly.max_rounds = 0;
+    if (enough > 0) briefly.to_beat = enough;
+    RefineEnd end = RefineModel(model_, from, briefly);
+    // A descent that sees further where that did not do; and before a place counts as outside,
+    // since the diodes may have changed their parts there.
+    const bool further = end.converged ? end.mean_square > outside_ && OfDiode()
+                                       : end.mean_square > enough && (OfDiode() || !(enough > 0));
+    if (further) TakeIfLower(RefineFrom(held_, from.p, how_), &end);
+    if (end.mean_square > outside_ && end.mean_square < hopeless_) {
+      for (std::vector<double>& traded : Traded(value)) {
+        TakeIfLower(RefineModel(model_, {std::move(traded), {}}, how_), &end);
+      }
     }
-    end.stopped = stopped;
+    end.stopped = stopped_;
     return end;
-  };
-  // Whether a start that needs no luck leads into a valley below the threshold. What a single diode
-  // does has one valley.
-  if (DiodeCount(problem.device) == 1) return FindProfileSide(model, best, query, refits);
-  refits.elsewhere = [&](double value, double enough, double tolerance, FitPoint* there) {
-    const RefineProblem held = Held(problem, i, value);
-    RefineOptions thorough = how;
-    thorough.max_iterations = kThoroughIterations;
-    thorough.max_rounds = kThoroughRounds;
-    thorough.let_in = true;
-    thorough.enough = enough;
-    thorough.function_tolerance = tolerance;
-    std::vector<std::vector<double>> starts = {best.p};
-    starts[0][i] = value;
-    for (const SeparableStart& grid : SeparableStarts(held, best.p[kRs], kGridStarts)) {
-      starts.push_back(grid.p);
+  }
+
+  // Whether a start that needs no luck leads into a valley at or below `enough`.
+  bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
+    Ask(value, enough, tolerance);
+    RefineOptions reach = how_;
+    reach.to_beat = enough;
+    reach.let_in = true;
+    std::vector<std::vector<double>> starts = Traded(value);
+    for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
+      starts.push_back(std::move(grid.p));
     }
+    starts.push_back(best_.p);
+    starts.back()[i_] = value;
     for (const std::vector<double>& from : starts) {
-      RefineEnd end = RefineFrom(held, from, thorough);
+      RefineEnd end = RefineFrom(held_, from, reach);
       if (end.mean_square > enough) continue;
       *there = std::move(end);
       return true;
     }
     return false;
+  }
+
+ private:
+  ParameterKind Kind() const { return held_.device.parameters[i_].kind; }
+  bool OfDiode() const {
+    return Kind() == ParameterKind::kSaturation || Kind() == ParameterKind::kIdeality;
+  }
+
+  static void TakeIfLower(RefineEnd other, RefineEnd* end) {
+    if (other.mean_square < end->mean_square) *end = std::move(other);
+  }
+
+  void Ask(double value, double enough, double tolerance) {
+    held_.lower[i_] = held_.upper[i_] = value;
+    model_.Fix(i_, value);
+    how_.enough = enough;
+    how_.function_tolerance = how_.first_tolerance = tolerance;
+  }
+
+  // The optima with the parameter's diode and another exchanged.
+  std::vector<std::vector<double>> Traded(double value) const {
+    std::vector<std::vector<double>> all;
+    for (int d = 0; d < DiodeCount(held_.device); ++d) {
+      std::vector<double> traded = best_.p;
+      if (!TradePlaces(held_, i_, d, &traded)) continue;
+      traded[i_] = value;
+      all.push_back(std::move(traded));
+    }
+    return all;
+  }
+
+  const int i_;
+  const RefineEnd& best_;
+  RefineProblem held_;
+  CurveModel model_;
+  double outside_ = 0;  // mean square of a place that is
+  double hopeless_ = HUGE_VAL;
+  RefineOptions how_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
+                            const ProfileQuery& query, const std::function<bool()>& stop) {
+  CurveRefits curve(problem, best, query, stop);
+  const auto bind = [&](auto member) {
+    return [&, member](auto&&... of) { return (curve.*member)(of...); };
   };
-  return FindProfileSide(model, best, query, refits);
+  ProfileRefits refits{bind(&CurveRefits::Refit), bind(&CurveRefits::Elsewhere)};
+  // What a single diode does has one valley.
+  if (DiodeCount(problem.device) == 1) refits.elsewhere = nullptr;
+  return FindProfileSide(CurveModel(problem), best, query, refits);
 }
 
 }  // namespace lyrefit

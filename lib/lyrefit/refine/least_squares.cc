@@ -123,7 +123,7 @@ bool IsTiny(const VectorXd& step, const VectorXd& p) {
 // How far the model is trusted, steered as Nielsen 1999 ("Damping parameter in Marquardt's method")
 // does it: by what a step gained of what was predicted.
 struct Trust {
-  double radius = 1e4;
+  double radius;
   double shrink = 2;
 
   void Shorten() {
@@ -148,24 +148,28 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
                         Place here) {
   // A step that is hardly damped and promises nothing need not be tried; nor one that promises so
   // little that many like it would not do.
-  constexpr double kHardlyDamped = 1e3, kLeastQuality = 1e-3, kMany = 10;
+  constexpr double kLeastQuality = 1e-3, kMany = 10;
   LeastSquaresEnd end;
   end.usable = true;
   Place next = here;
   Quadratic model = Expand(problem, here);
-  Trust trust;
+  Trust trust{options.trust_radius};
+  const double hardly_damped = 0.1 * options.trust_radius;
   int invalid = 0;
   while (!model.free.empty() && end.iterations < options.max_iterations &&
-         trust.radius > kLeastRadius && invalid <= kMostInvalid) {
+         trust.radius > kLeastRadius && invalid <= kMostInvalid && here.sum > options.enough) {
+    end.stopped = options.stop && options.stop();
+    if (end.stopped) break;
     ++end.iterations;
     const bool solved = TakeStep(problem, model, here.p, trust.radius, &next.p);
     const VectorXd step = next.p - here.p;
     const double predicted = solved ? Predicted(model, step) : 0;
     const double enough = options.function_tolerance * here.sum;
-    const bool promising = predicted > enough || trust.radius < kHardlyDamped;
+    const bool promising = predicted > enough || trust.radius < hardly_damped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
-    const bool hopeless = here.sum - kMany * predicted > options.to_beat;
-    if (end.converged || (hopeless && trust.radius >= kHardlyDamped)) break;
+    end.hopeless = !end.converged && trust.radius >= hardly_damped &&
+                   here.sum - kMany * predicted > options.to_beat;
+    if (end.converged || end.hopeless) break;
     if (!solved || !Evaluate(problem, &next)) {
       ++invalid;
       trust.Shorten();

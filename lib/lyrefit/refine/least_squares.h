@@ -24,13 +24,20 @@ struct LeastSquaresOptions {
   // A sum of squares that others reached: where steps do not promise to come near it, the descent
   // ends.
   double to_beat = std::numeric_limits<double>::infinity();
+  // Of the first step, in squared lengths of the columns: directions that are so much weaker than
+  // the columns by themselves are held back.
+  double trust_radius = 1e4;
+  double enough = 0;           // a sum of squares at or below which nothing more is done
+  std::function<bool()> stop;  // asked once a step; true: end where it stands; may be empty
 };
 
 struct LeastSquaresEnd {
   std::vector<double> p;
   double sum_of_squares = 0;
   bool converged = false;
-  bool usable = false;  // false: the start itself could not be evaluated
+  bool usable = false;    // false: the start itself could not be evaluated
+  bool stopped = false;   // as `stop` asked
+  bool hopeless = false;  // `to_beat` is out of reach
   int iterations = 0;
 };
 

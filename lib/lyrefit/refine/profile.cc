@@ -11,12 +11,14 @@ namespace {
 
 constexpr int kMaxRefits = 32;
 constexpr int kProposals = 8;           // then by bisection
+constexpr double kLeastRise = 0.05;     // of t: less is thought to be this
+constexpr double kLongest = 3;          // of the last way: how far ahead a path is thought straight
 constexpr double kBeyond = 1.1;         // of the way: the next place after one found to be inside
 constexpr double kCloseEnough = 0.003;  // of t
 constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
 // What a refit may still fall by when it ends, in parts of the rise that is looked for.
 constexpr double kSlack = 1e-3;
-constexpr double kLoosest = 1e-6;    // the same in parts of the mean square, at most
+constexpr double kLoosest = 1e-7;    // the same in parts of the mean square, at most
 constexpr double kEndless = 60;      // logarithm that stands for an infinite way
 constexpr double kVanished = 1e-12;  // of its bound: where a saturation current of 0 is begun from
 
@@ -24,35 +26,34 @@ class Side {
  public:
   Side(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
        const ProfileRefits& refits)
-      : best_(best),
+      : model_(model),
+        best_(best),
         query_(query),
         refits_(refits),
         parameter_(model.shape().parameters[query.parameter]),
         bounds_(BoundsAt(model.shape(), query.parameter, best.p)),
         unit_(query.variance / model.shape().points),
         rise_at_end_(query.t * query.t * unit_),
+        enough_(best.mean_square + rise_at_end_ * (1 - 2 * kCloseEnough)),
         tolerance_(std::min(kSlack * rise_at_end_ / best.mean_square, kLoosest)),
-        warm_(best),
         lowest_(best.mean_square) {}
 
   ProfileSide Find() {
-    const double bound = query_.upper ? bounds_.high : bounds_.low;
+    bound_ = query_.upper ? bounds_.high : bounds_.low;
     // A saturation current that neither may vanish nor is bounded has no end.
-    const bool zero = IsSaturation() && bound <= 0;
-    const bool tried = std::isfinite(Scaled(bound)) || (zero && parameter_.may_vanish);
-    side_.value = bound;
+    const bool zero = IsSaturation() && bound_ <= 0;
+    bound_counts_ = std::isfinite(Scaled(bound_)) || (zero && parameter_.may_vanish);
+    side_.value = bound_;
     side_.at_bound = true;
-    if (best_.p[query_.parameter] == bound) return Finish();
-    if (tried && Rise(bound, best_.mean_square + rise_at_end_) <= query_.t * (1 + 1e-9)) {
+    if (best_.p[query_.parameter] == bound_) return Finish();
+    if (bound_counts_ &&
+        Rise(bound_, best_, best_.mean_square + rise_at_end_) <= query_.t * (1 + 1e-9))
       return Finish();
-    }
     side_.at_bound = false;
-    const double start = StartOnScale(bound);
-    const bool endless = zero || !std::isfinite(bound);
-    const double end = endless ? start + (query_.upper ? kEndless : -kEndless) : Scaled(bound);
-    warm_ = best_;
-    Approach(start, end);
-    if (!side_.settled && !endless) side_.value = Natural(far_);
+    const double start = StartOnScale(bound_);
+    const bool endless = zero || !std::isfinite(bound_);
+    path_ = {{start, 0, best_}};
+    Approach(start, endless ? start + (query_.upper ? kEndless : -kEndless) : Scaled(bound_));
     return Finish();
   }
 
@@ -67,39 +68,116 @@ class Side {
     return std::move(side_);
   }
 
+  // A place of the path that refits took from the optimum.
+  struct Place {
+    double x;     // of the parameter, on its scale
+    double rise;  // root of the rise, in units of the variance
+    FitPoint at;
+  };
+
+  // One end of what the crossing is sought between: a place of the parameter on its scale and the
+  // logarithm of rise / t there; infinite at the optimum and where it was not measured.
+  struct Mark {
+    double x;
+    double log_rise;
+  };
+
   // The crossing between the optimum and `end`, where the rise is above t.
   void Approach(double start, double end) {
-    far_ = end;           // where the rise is above t
-    double near = start;  // where it is below
+    Mark near{start, -HUGE_VAL}, far{end, HUGE_VAL};
     double x = FirstGuess(start, end);
-    int bisect_after = kProposals;
+    int bisect_after = kProposals, last_moved = 0;
     side_.settled = false;
     while (side_.refits < kMaxRefits && !Ended()) {
-      const double rise = Rise(Natural(x), 0);
-      (rise > query_.t ? far_ : near) = x;
+      const double rise = Rise(Natural(x), Ahead(x), 0);
+      path_.push_back({x, rise, last_});
+      const int moved = rise > query_.t ? 1 : -1;
+      const double part = std::max(rise / query_.t, kLeastRise);
+      Mark& mark = moved > 0 ? far : near;
+      mark.x = x;
+      mark.log_rise = std::log(part);
+      // An end that stays twice counts half, or one side would creep (the Illinois rule).
+      if (moved == last_moved) (moved > 0 ? near : far).log_rise *= 0.5;
+      last_moved = moved;
       side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
       // Where the refits jump from one valley to another there is no place at the threshold.
-      if (!side_.settled && Length(near, far_) < kCloseEnough * Length(start, far_)) {
+      if (!side_.settled && Length(near.x, far.x) < kCloseEnough * Length(start, far.x)) {
+        if (!std::isfinite(far.log_rise) && BoundIsInside()) return;
         side_.settled = true;
-        x = far_;
+        x = far.x;
       }
       if (side_.settled && !InsideElsewhere(Natural(x))) break;
       if (side_.settled) {
+        if (BoundIsInside()) return;
         side_.settled = false;
-        near = x;
-        far_ = end;
+        near = {x, -HUGE_VAL};
+        far = {end, HUGE_VAL};
+        last_moved = 0;
         x = start + kBeyond * (x - start);
         bisect_after = side_.refits + kProposals;
-        if (std::fabs(x - start) >= std::fabs(end - start)) x = 0.5 * (near + far_);
+        if (std::fabs(x - start) >= std::fabs(end - start)) x = 0.5 * (near.x + far.x);
         continue;
       }
-      // The rise is close to proportional to the distance; fall back on bisection outside the
-      // bracket.
-      const double proposal = start + (x - start) * query_.t / std::max(rise, 0.05 * query_.t);
-      const bool inside = std::min(near, far_) < proposal && proposal < std::max(near, far_);
-      x = inside && side_.refits < bisect_after ? proposal : 0.5 * (near + far_);
+      // Bisection outside the bracket.
+      const double proposal = Proposal(near, far);
+      const bool inside = std::min(near.x, far.x) < proposal && proposal < std::max(near.x, far.x);
+      x = inside && side_.refits < bisect_after ? proposal : 0.5 * (near.x + far.x);
     }
-    if (side_.settled) side_.value = Natural(x);
+    if (side_.settled || far.log_rise < HUGE_VAL) side_.value = Natural(side_.settled ? x : far.x);
+  }
+
+  // Where the rise should be t. Between two places: by their logarithms. From the optimum: it is
+  // close to proportional to the distance, and the ratio of the two changes evenly.
+  double Proposal(const Mark& near, const Mark& far) const {
+    if (std::isfinite(near.log_rise) && std::isfinite(far.log_rise)) {
+      const double part = near.log_rise / (near.log_rise - far.log_rise);
+      return near.x + part * (far.x - near.x);
+    }
+    const Place& one = path_.back();
+    const Place& before = path_[path_.size() - 2];
+    const double start = path_.front().x, least = kLeastRise * query_.t;
+    double ratio = (one.x - start) / std::max(one.rise, least);
+    if (std::min(one.rise, before.rise) > least && one.rise != before.rise) {
+      const double change = ratio - (before.x - start) / before.rise;
+      const double part = (query_.t - one.rise) / (one.rise - before.rise) * change / ratio;
+      ratio *= 1 + std::min(std::max(part, -0.5), 0.5);
+    }
+    return start + ratio * query_.t;
+  }
+
+  // From where to refit at x: where the straight line through the last two places leads, or one of
+  // all places, whichever is lowest there.
+  FitPoint Ahead(double x) const {
+    FitPoint lowest;
+    double least = HUGE_VAL;
+    const auto consider = [&](FitPoint from) {
+      from.p[query_.parameter] = Natural(x);
+      const double mean_square = model_.MeanSquare(from);
+      if (!lowest.p.empty() && !(mean_square < least)) return;
+      least = mean_square;
+      lowest = std::move(from);
+    };
+    for (const Place& place : path_) consider(place.at);
+    if (path_.size() > 1) consider(OnLine(path_[path_.size() - 2], path_.back(), x));
+    return lowest;
+  }
+
+  FitPoint OnLine(const Place& before, const Place& one, double x) const {
+    const double part = (x - one.x) / (one.x - before.x);
+    FitPoint ahead = one.at;
+    if (!(std::fabs(part) <= kLongest)) return ahead;
+    for (int j = 0; j < model_.shape().size(); ++j) {
+      const ParameterKind kind = model_.shape().parameters[j].kind;
+      const double to = ToScale(kind, one.at.p[j]);
+      const double next = FromScale(kind, to + part * (to - ToScale(kind, before.at.p[j])));
+      if (!std::isfinite(next)) continue;  // of what has vanished
+      const ParameterRange range = BoundsAt(model_.shape(), j, ahead.p);
+      ahead.p[j] = std::min(std::max(next, range.low), range.high);
+    }
+    for (std::size_t k = 0; k < ahead.local.size(); ++k) {
+      ahead.local[k] += part * (ahead.local[k] - before.at.local[k]);
+    }
+    return ahead;
   }
 
   // Distance of two places on the scale; of saturation currents in ampere, since the logarithm of a
@@ -123,25 +201,42 @@ class Side {
   }
 
   // sqrt of the rise of the refitted sum of squares in units of the variance.
-  double Rise(double value, double enough) {
+  double Rise(double value, const FitPoint& from, double enough) {
     ++side_.refits;
-    RefineEnd end = refits_.refit(value, warm_, enough, tolerance_);
+    RefineEnd end = refits_.refit(value, from, enough, tolerance_);
     side_.stopped = side_.stopped || end.stopped;
     if (end.mean_square < lowest_ * (1 - kBetter)) {
       lowest_ = end.mean_square;
       side_.better = end.p;
     }
-    const double rise = (end.mean_square - best_.mean_square) / unit_;
-    warm_ = std::move(end);
-    return std::sqrt(std::max(rise, 0.0));
+    last_ = std::move(end);
+    return RootOfRise(end.mean_square);
   }
 
+  double RootOfRise(double mean_square) const {
+    return std::sqrt(std::max((mean_square - best_.mean_square) / unit_, 0.0));
+  }
+
+  // Whether refits from elsewhere stay below t there; the path goes on from where they ended.
   bool InsideElsewhere(double value) {
-    if (!refits_.elsewhere) return false;
-    const double enough = best_.mean_square + rise_at_end_ * (1 - 2 * kCloseEnough);
-    return refits_.elsewhere(value, enough, tolerance_, &warm_);
+    FitPoint there;
+    if (!refits_.elsewhere || !refits_.elsewhere(value, enough_, tolerance_, &there)) return false;
+    const double rise = RootOfRise(model_.MeanSquare(there));
+    path_.push_back({Scaled(value), rise, std::move(there)});
+    return true;
   }
 
+  // Once more, with what the way has shown: the data may allow the bound after all.
+  bool BoundIsInside() {
+    const bool inside = bound_counts_ && InsideElsewhere(bound_);
+    if (inside) {
+      side_.value = bound_;
+      side_.at_bound = side_.settled = true;
+    }
+    return inside;
+  }
+
+  const FitModel& model_;
   const RefineEnd& best_;
   const ProfileQuery& query_;
   const ProfileRefits& refits_;
@@ -149,10 +244,13 @@ class Side {
   const ParameterRange bounds_;
   const double unit_;         // of the squared rise, in mean squares
   const double rise_at_end_;  // of the mean square
+  const double enough_;       // a mean square that is inside for sure
   const double tolerance_;
-  FitPoint warm_;
+  FitPoint last_;            // where the last refit ended
+  std::vector<Place> path_;  // the optimum, then the refits on the way to the crossing
   double lowest_;
-  double far_ = 0;
+  double bound_ = 0;
+  bool bound_counts_ = false;  // it is a place that can be refitted at
   ProfileSide side_;
 };
 

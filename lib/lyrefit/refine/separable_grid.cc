@@ -72,7 +72,9 @@ class Grid {
         }
         return true;
       });
-      if (!seen) best.push_back(start);
+      if (seen) continue;
+      best.push_back(start);
+      best.back().origin = Origin(start.p);
     }
     return best;
   }
@@ -122,7 +124,6 @@ class Grid {
     SeparableStart start;
     start.p = ToParameters(problem_, part, rs_, idealities);
     start.mean_square = MeanSquare(problem_, start.p);
-    start.origin = Origin(start.p);
     starts_.push_back(std::move(start));
   }
 

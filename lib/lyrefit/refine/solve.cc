@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "lyrefit/refine/finite.h"
+#include "lyrefit/refine/least_squares.h"
 #include "lyrefit/refine/linearize.h"
 
 namespace lyrefit {
@@ -80,10 +83,47 @@ ceres::Solver::Options CeresOptions(const SolveOptions& options) {
   return solver;
 }
 
+constexpr int kMostSmall = 12;  // coordinates
+
+// All blocks below each other, in the coordinates.
+SolveEnd SolveSmall(const FitModel& model, const Coordinates& coordinates,
+                    const SolveOptions& options) {
+  LeastSquaresProblem problem;
+  for (const FitBlock& block : model.shape().blocks) problem.residuals += block.residuals;
+  for (int k = 0; k < coordinates.size(); ++k) {
+    problem.lower.push_back(options.bounded ? coordinates.lower(k) : -HUGE_VAL);
+    problem.upper.push_back(options.bounded ? coordinates.upper(k) : HUGE_VAL);
+  }
+  problem.evaluate = [&](const double* theta, double* residuals, double* jacobian) {
+    const int blocks = static_cast<int>(model.shape().blocks.size());
+    for (int b = 0; b < blocks; ++b) {
+      if (!EvaluateBlock(model, coordinates, b, theta, nullptr, options.unit_A, residuals, jacobian,
+                         nullptr)) {
+        return false;
+      }
+      const int rows = model.shape().blocks[b].residuals;
+      residuals += rows;
+      jacobian += static_cast<std::ptrdiff_t>(rows) * coordinates.size();
+    }
+    return true;
+  };
+  LeastSquaresOptions how;
+  how.max_iterations = options.max_iterations;
+  how.function_tolerance = options.function_tolerance;
+  how.trust_radius = options.trust_radius;
+  how.to_beat = options.to_beat;
+  how.enough = options.enough;
+  how.stop = options.stop;
+  LeastSquaresEnd found = SolveLeastSquares(problem, coordinates.Start(), how);
+  return {std::move(found.p), {}, found.converged, found.stopped, found.hopeless, found.iterations};
+}
+
 }  // namespace
 
 SolveEnd SolveModel(const FitModel& model, const Coordinates& coordinates,
                     std::vector<double> local, const SolveOptions& options) {
+  const bool small = local.empty() && coordinates.size() > 0 && coordinates.size() <= kMostSmall;
+  if (options.small && small) return SolveSmall(model, coordinates, options);
   SolveEnd end;
   end.theta = coordinates.Start();
   end.local = std::move(local);

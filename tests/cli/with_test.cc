@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "../temp_folder.h"
-#include "cli/run_app.h"
 #include "lyrefit/base/file.h"
+#include "run_app.h"
+#include "same_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -26,32 +27,6 @@ std::string ReadFile(const std::string& file) {
   const auto text = ReadTextFile(file, 64U << 20);
   EXPECT_TRUE(text) << text.error().ToString();
   return text.value_or("");
-}
-
-// The currents of a table that was written.
-std::vector<double> CurrentsOf(const std::string& csv) {
-  std::vector<double> currents;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t comma = line.find(',');
-    if (comma == std::string::npos || std::isalpha(static_cast<unsigned char>(line[0])) != 0) {
-      continue;
-    }
-    currents.push_back(std::stod(line.substr(comma + 1)));
-  }
-  return currents;
-}
-
-// Simulated from a report, the curve is the report's own.
-void ExpectSameCurve(const std::string& report_file, const json& report) {
-  const AppResult simulated = RunApp("simulate --from '" + report_file + "'");
-  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
-  const std::vector<double> currents = CurrentsOf(simulated.out);
-  const json& expected = report["data"]["model_current_A"];
-  ASSERT_EQ(currents.size(), expected.size());
-  for (std::size_t k = 0; k < currents.size(); ++k) {
-    EXPECT_NEAR(currents[k], expected[k].get<double>(), 1e-9);
-  }
 }
 
 TEST(With, AFitIsReportedAndSimulatedAgain) {
@@ -75,9 +50,10 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
 TEST(With, AnotherVersionsReportIsNotGuessedAt) {
   const TempFolder folder;
   const std::string file = folder.Path("fit.json");
-  ASSERT_EQ(RunApp("fit " + kShaded + " --with shading --intervals none --quiet --json '" + file + "'")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      RunApp("fit " + kShaded + " --with shading --intervals none --quiet --json '" + file + "'")
+          .exit_code,
+      0);
   json report = json::parse(ReadFile(file));
   report["lyrefit_version"] = "0.0.1";
   const AppResult refused =

@@ -41,7 +41,7 @@ TEST_P(CatalogueTest, SaysAllThatReportsAsk) {
   ASSERT_NE(e.separate_by, nullptr);
   EXPECT_TRUE(IsUnknown() || *e.reference != '\0');
   EXPECT_STRNE(e.separate_by, "");
-  EXPECT_EQ(e.where == Where::kUnknown, IsUnknown());
+  EXPECT_EQ(e.where == Where::kNowhere, IsUnknown());
   ASSERT_NE(e.why_not, nullptr);
 }
 

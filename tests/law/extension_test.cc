@@ -113,7 +113,7 @@ std::vector<const Effect*> WithParameters() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, ExtensionTest, ::testing::ValuesIn(WithParameters()),
-                         [](const auto& info) { return std::string(info.param->id); });
+                         [](const auto& test) { return std::string(test.param->id); });
 
 TEST(Extend, NamesParametersAfterTheirEffect) {
   const auto device = ExtendModule({Use("shading"), Use("drift")});

@@ -6,6 +6,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extension.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -198,6 +199,25 @@ IvCurve AllPoints(const CurveSet& set) {
   return all;
 }
 
+// The law as a device with effects, so that whoever reads the report can simulate it: of one curve
+// whose cells are counted as stated. The report's parameters are its own from here on.
+void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* report) {
+  const Law& law = selection.extended.law;
+  const IvCurve& curve = set.curves.front();
+  const ReadingScale& scale = selection.bench.readings->scale;
+  const bool plain = !law.free_tempco && !law.free_bandgap && !law.effects.empty();
+  if (set.curves.size() != 1 || !plain || scale.cells != curve.conditions.cells_in_series) return;
+  std::vector<EffectUse> uses;
+  for (const Effect* effect : law.effects) uses.push_back({effect, {}});
+  auto device = Extend(MakeDevice(law.model, curve.conditions), law.model, ConstantSet::kCodata,
+                       curve, uses, /*force=*/true);
+  if (!device) return;
+  report->device = std::move(*device);
+  report->refined = Inner(report->device, report->refined);
+  report->searched = Inner(report->device, report->searched);
+  report->best_bird_polished = report->refined;
+}
+
 }  // namespace
 
 FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool search,
@@ -225,6 +245,7 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool s
   }
   AddEstimates(selection, searched, &report);
   if (!search) return report;
+  AttachLaw(set, selection, &report);
   report.curve = AllPoints(set);
   report.rmse.refined.solved_current_A = RmseOf(bench, fit.current);
   report.refine.termination = "converged";

@@ -54,8 +54,8 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 
 // Every start comes this far; the best of them near enough to its end to be ranked. What is chosen
 // is fitted again with the noise it leaves.
-const LeastSquaresOptions kBriefly = {20, 1e-5};
-const LeastSquaresOptions kForRanking = {40, 1e-6};
+const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
+const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 
 // Whether the last effect of a fit ended as what it is meant to be.
 bool IsItself(const Effect& effect, const LawFit& fit) {

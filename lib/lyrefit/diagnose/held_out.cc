@@ -51,7 +51,7 @@ class Judge {
 constexpr int kRivals = 4;
 
 // From the fit to all readings it is not far.
-const LeastSquaresOptions kNearby = {8, 1e-5};
+const LeastSquaresOptions kNearby = UpTo(8, 1e-5);
 
 void AddSquares(const Squares& from, Squares* to) {
   to->sum += from.sum;

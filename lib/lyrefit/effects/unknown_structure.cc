@@ -7,7 +7,7 @@ Effect UnknownStructure() {
   Effect e;
   e.id = "unknown_structure";
   e.title = "something that no known cause explains";
-  e.where = Where::kUnknown;
+  e.where = Where::kNowhere;
   e.equation = "residuals that are not noise";
   e.reference = "";
   e.sentence = "the model misses in a systematic way, and no cause of the catalogue explains how";

@@ -201,7 +201,7 @@ struct EffectParameter {
 };
 
 // What an effect belongs to.
-enum class Where { kDevice, kSweep, kInstrument, kConditions, kUnknown };
+enum class Where { kDevice, kSweep, kInstrument, kConditions, kNowhere };
 
 template <>
 struct EnumTable<Where> {
@@ -209,7 +209,7 @@ struct EnumTable<Where> {
                                               {Where::kSweep, "sweep"},
                                               {Where::kInstrument, "instrument"},
                                               {Where::kConditions, "conditions"},
-                                              {Where::kUnknown, "unknown"}};
+                                              {Where::kNowhere, "unknown"}};
 };
 
 // How a diagnosis comes upon an effect.

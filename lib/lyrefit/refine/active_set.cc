@@ -342,11 +342,34 @@ class ActiveSet {
 
 }  // namespace
 
+namespace {
+
+// Models may take what is no number for any number at all.
+bool AreNumbers(const FitPoint& point) {
+  const auto none = [](double x) { return std::isnan(x); };
+  return std::none_of(point.p.begin(), point.p.end(), none) &&
+         std::none_of(point.local.begin(), point.local.end(), none);
+}
+
+RefineEnd Nowhere(const FitModel& model, FitPoint start) {
+  RefineEnd end;
+  static_cast<FitPoint&>(end) = std::move(start);
+  end.mean_square = HUGE_VAL;
+  for (const FitParameter& parameter : model.shape().parameters) {
+    end.held.push_back(parameter.fixed());
+  }
+  return end;
+}
+
+}  // namespace
+
 RefineEnd RefineModel(const FitModel& model, FitPoint start, const RefineOptions& options) {
+  if (!AreNumbers(start)) return Nowhere(model, std::move(start));
   return ActiveSet(model, std::move(start), options).Run();
 }
 
 RefineEnd RefineModelPlainly(const FitModel& model, FitPoint start, const RefineOptions& options) {
+  if (!AreNumbers(start)) return Nowhere(model, std::move(start));
   return ActiveSet(model, std::move(start), options).RunPlainly();
 }
 

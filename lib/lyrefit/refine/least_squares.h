@@ -31,6 +31,13 @@ struct LeastSquaresOptions {
   std::function<bool()> stop;  // asked once a step; true: end where it stands; may be empty
 };
 
+inline LeastSquaresOptions UpTo(int max_iterations, double function_tolerance) {
+  LeastSquaresOptions options;
+  options.max_iterations = max_iterations;
+  options.function_tolerance = function_tolerance;
+  return options;
+}
+
 struct LeastSquaresEnd {
   std::vector<double> p;
   double sum_of_squares = 0;

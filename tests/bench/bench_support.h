@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/fit/bounds.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/kernel.h"
-#include "lyrefit/fit/bounds.h"
 
 namespace lyrefit::bench {
 

@@ -6,10 +6,10 @@
 
 #include "benchmarks.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/translation.h"
-#include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit::bench {
 namespace {

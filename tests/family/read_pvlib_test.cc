@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
-#include "lyrefit/law/current.h"
 #include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/report/pvlib_json.h"
 
 namespace lyrefit {

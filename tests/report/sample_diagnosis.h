@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/law/kernel.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/law/kernel.h"
 #include "sample_report.h"
 
 // Diagnoses made by hand: no engine has seen them.

@@ -45,8 +45,8 @@ inline double PortableExp(double x) {
   return PortableExp<double, std::uint64_t>(x);
 }
 
-// ln(x) for finite x > 0, the same bits everywhere: a first value from the exponent bits and a line,
-// within 0.04, then Halley's steps on exp(y) = x. Error below 2 ulp of max(|ln x|, 1).
+// ln(x) for finite x > 0, the same bits everywhere: a first value from the exponent bits and a
+// line, within 0.04, then Halley's steps on exp(y) = x. Error below 2 ulp of max(|ln x|, 1).
 inline double PortableLog(double x) {
   std::int64_t bits;
   std::memcpy(&bits, &x, sizeof bits);

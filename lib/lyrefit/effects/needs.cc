@@ -19,6 +19,14 @@ WhyNot NeedsModule(const DataTraits& traits) {
   return {};
 }
 
+WhyNot NeedsBypassedModule(const DataTraits& traits) {
+  if (auto why = NeedsModule(traits)) return why;
+  if (traits.lowest_voltage < -1) {
+    return "bypass diodes let no module so far into reverse: these cells have none";
+  }
+  return {};
+}
+
 WhyNot NeedsUpDown(const DataTraits& traits) {
   if (!traits.up_down) return "needs a sweep up and a sweep down";
   return {};

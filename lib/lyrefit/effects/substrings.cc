@@ -56,7 +56,7 @@ Effect Substrings() {
   };
   e.groups = true;
   e.found_by = FoundBy::kRequest;
-  e.why_not = NeedsModule;
+  e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.3, 1.0 / 3, 0, 0, 0, 0, 0, 0, 0.5},
                               {0.3, 1.0 / 3, 0.6, 1.0 / 3, 0, 0, 0, 0, 0.5}};

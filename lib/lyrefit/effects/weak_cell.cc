@@ -50,7 +50,7 @@ Effect WeakCell() {
   };
   e.groups = true;
   e.found_by = FoundBy::kRequest;
-  e.why_not = NeedsModule;
+  e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
     for (const double deficit : {0.05, 0.15, 0.4, 0.8}) {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet_values.h"
 #include "lyrefit/family/key_point_solver.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

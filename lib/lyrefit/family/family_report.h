@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/law/translation.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/translation.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/kernel.h"
-#include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {
 namespace {

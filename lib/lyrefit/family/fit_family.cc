@@ -9,8 +9,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/family_echo.h"
 #include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
@@ -20,6 +18,8 @@
 #include "lyrefit/family/odd_curves.h"
 #include "lyrefit/family/spread_curves.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/kernel.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

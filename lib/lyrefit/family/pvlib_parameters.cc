@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/law/model_points.h"
 #include "lyrefit/family/coefficients.h"
+#include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {

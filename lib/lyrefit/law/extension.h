@@ -52,7 +52,8 @@ double FactorOf(const Device& device, const std::vector<double>& p, int i);
 // "shading:d=0.3,w=0.2:0.4", as it was asked for.
 std::string DescribeUse(const EffectUse& use);
 
-// Names of the effects' parameters, "shading.d" and "shading_shading_depth", after those of a device.
+// Names of the effects' parameters, "shading.d" and "shading_shading_depth", after those of a
+// device.
 void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* infos);
 
 // Currents at the measured readings, and their derivatives by all parameters where asked for. False

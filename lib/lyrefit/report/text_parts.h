@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/device.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/device.h"
 
 // What the text writers share.
 namespace lyrefit {

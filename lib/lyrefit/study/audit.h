@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/law/device.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/device.h"
 #include "lyrefit/study/read_audit_rows.h"
 
 namespace lyrefit {

@@ -1,4 +1,5 @@
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/law/extension.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -242,7 +243,14 @@ TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
   const FitReport& report = d.extended;
   ASSERT_EQ(report.estimates.size(), 7U);
   EXPECT_EQ(report.estimates[5].info.symbol, "irr_step.s");
-  EXPECT_TRUE(report.device.parameters.empty());  // no device has this law
+  // A device with this law, whose currents are those of the report.
+  ASSERT_NE(report.device.extension, nullptr);
+  ASSERT_EQ(report.device.size(), 7);
+  std::vector<double> current_A(d.points.size());
+  ASSERT_TRUE(ExtendedCurrents(report.device, report.refined.data(), current_A.data(), nullptr));
+  for (std::size_t k = 0; k < current_A.size(); ++k) {
+    EXPECT_NEAR(current_A[k], report.model_current_A[k], 1e-9);
+  }
   EXPECT_THAT(report.causes, testing::ElementsAre("irr_step"));
   EXPECT_EQ(report.residual_A.size(), d.points.size());
   EXPECT_GT(report.search.evaluations, 0);

@@ -34,14 +34,15 @@ struct Dual {
   T v[N];
 
   Dual() = default;  // as T itself: without a value
-  LYREFIT_INLINE Dual(const T& constant)
-      : a(constant) {  // NOLINT: numbers are duals without derivative
+  // Numbers are duals without derivative.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  LYREFIT_INLINE Dual(const T& constant) : a(constant) {
     for (T& derivative : v) derivative = T(0.0);
   }
   template <class Number,
             class = std::enable_if_t<std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>>>
-  LYREFIT_INLINE Dual(Number constant)
-      : Dual(T(static_cast<double>(constant))) {}  // NOLINT: the same
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  LYREFIT_INLINE Dual(Number constant) : Dual(T(static_cast<double>(constant))) {}
   // The unknown at position `index`.
   LYREFIT_INLINE Dual(const T& value, int index) : Dual(value) { v[index] = T(1.0); }
 

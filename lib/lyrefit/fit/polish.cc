@@ -227,6 +227,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few
   if (few.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
 
   std::vector<RefineEnd> end_of;
+  end_of.reserve(count);
   for (int s = 0; s < count; ++s) end_of.push_back(ends[groups.Leader(s)]);
   return ReportEnds(problem, starts, std::move(end_of), stopped || watch->stopped(), begin);
 }

@@ -17,7 +17,7 @@ Eigen::MatrixXf SimulateNulls(const Workbench& bench, const Prepared& prepared,
 // The same where each null estimates its noise anew and is weighted with what it found. Fewer rows
 // where a stop was asked for.
 Eigen::MatrixXf SimulateRefits(const Workbench& bench, const Prepared& prepared,
-                               const NoiseEstimator& noise,
+                               const NoiseEstimator& estimator,
                                const Eigen::Ref<const Eigen::MatrixXf>& draws);
 
 }  // namespace lyrefit

@@ -90,6 +90,7 @@ std::vector<double> InnerValues(const Effect& effect, const std::vector<double>&
 std::vector<double> ReportedValues(const Effect& effect, const double* p,
                                    const ReadingScale& scale) {
   std::vector<double> reported;
+  reported.reserve(effect.size());
   for (int k = 0; k < effect.size(); ++k) {
     reported.push_back(p[k] * effect.parameters[k].ReportedFactor(p, scale));
   }

@@ -209,8 +209,9 @@ class Side {
       lowest_ = end.mean_square;
       side_.better = end.p;
     }
+    const double rise = RootOfRise(end.mean_square);
     last_ = std::move(end);
-    return RootOfRise(end.mean_square);
+    return rise;
   }
 
   double RootOfRise(double mean_square) const {

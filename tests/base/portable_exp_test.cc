@@ -31,6 +31,17 @@ TEST(PortableExp, HasTheseBits) {
   EXPECT_EQ(PortableExp(33.3), 0x1.078401f5a3ec8p+48);
 }
 
+TEST(PortableLog, IsWithinTwoUlpOfTheLongDoubleLogarithm) {
+  RandomStream random(3);
+  for (int k = 0; k < 200000; ++k) {
+    const double x = std::exp(-600 + 1200 * random.Uniform());
+    const long double exact = std::log(static_cast<long double>(x));
+    const double error = static_cast<double>(PortableLog(x) - exact);
+    ASSERT_LE(std::fabs(error), 0x1p-51 * std::fmax(std::fabs(std::log(x)), 1.0)) << x;
+  }
+  EXPECT_NEAR(PortableLog(1.0), 0, 0x1p-51);
+}
+
 TEST(LogUpperBound, IsAboveTheLogarithmByLittle) {
   RandomStream random(2);
   for (int k = 0; k < 100000; ++k) {

@@ -231,19 +231,24 @@ void StoreRows(const Pack& values, const ReadingBlock& block, int stride, double
 }  // namespace
 
 struct LawWorkspace::State {
-  std::vector<ReadingBlock> blocks;
-  std::vector<StringState> strings;  // of each block, as the last evaluation left them
+  std::vector<ReadingBlock> own;
+  const std::vector<ReadingBlock>* blocks = nullptr;
+  std::vector<StringState> strings;  // of each block, as the last evaluation left them; or none
   bool fresh = true;
 };
 
 LawWorkspace::LawWorkspace() = default;
+LawWorkspace::LawWorkspace(const std::vector<ReadingBlock>& blocks)
+    : state_(std::make_unique<State>()) {
+  state_->blocks = &blocks;
+}
 LawWorkspace::~LawWorkspace() = default;
-void LawWorkspace::Forget() { state_.reset(); }
 LawWorkspace::State* LawWorkspace::Of(const Readings& readings) {
   if (state_ == nullptr) {
     state_ = std::make_unique<State>();
-    state_->blocks = BlocksOf(readings);
-    state_->strings.resize(state_->blocks.size());
+    state_->own = BlocksOf(readings);
+    state_->blocks = &state_->own;
+    state_->strings.resize(state_->own.size());
   }
   return state_.get();
 }
@@ -268,13 +273,14 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const bool instrument = HasInstrument(law);
   LawWorkspace::State& state = *workspace->Of(readings);
   StringLimits limits;
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    const ReadingBlock& block = state.blocks[b];
+  StringState unkept;
+  for (std::size_t b = 0; b < state.blocks->size(); ++b) {
+    const ReadingBlock& block = (*state.blocks)[b];
     if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
     const Cell<Pack>& cell = plain_cells.cell();
     const Pack& temperature = plain_cells.sky().temperature_K;
     if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
-    StringState& at = state.strings[b];
+    StringState& at = state.strings.empty() ? unkept : state.strings[b];
     const Pack& voltage = plain_cells.sky().voltage;
     Start(cell, limits, block, voltage, state.fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
@@ -296,7 +302,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
       for (int k = 0; k < size; ++k) StoreRows(recorded.v[k], block, size, jacobian + k);
     }
   }
-  state.fresh = false;
+  state.fresh = state.strings.empty();
   return true;
 }
 

@@ -65,7 +65,7 @@ TEST(Simulate, ThenFitRecoversTheParameters) {
 TEST(Simulate, LaysOutTheCellsOfAFile) {
   const TempFolder folder;
   const std::string file = folder.Write("layout.json", R"({"bypass_diode": {"voltage_V": 0.5},
-      "strings": [[{"bypass": true, "times": 2, "cells": [{"count": 20}]},
+      "strings": [[{"times": 2, "cells": [{"count": 20}]},
                    {"bypass": true, "cells": [{"count": 20, "light": 0.7}]}]]})");
   const std::string at = "--temperature-C 45 --voltages 0:36:10 ";
   const AppResult laid = RunApp(kParameters + at + "--string " + file);

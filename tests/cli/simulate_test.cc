@@ -77,7 +77,7 @@ TEST(Simulate, LaysOutTheCellsOfAFile) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-6) << k;
 
-  const AppResult other = RunApp(kDevice + "--cells 72 --string " + file);
+  const AppResult other = RunApp(kParameters + "--cells 72 --string " + file);
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_THAT(other.err, HasSubstr("laid out of 60 cells in series, the device has 72"));
   const AppResult twice = RunApp(kDevice + "--with shading:d=0.1 --string " + file);

@@ -12,7 +12,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNear_V = 2;  // a former root farther from a plain guess is no start
+constexpr double kNear_V = 2;       // a former root farther from a plain guess is no start
+constexpr double kBeside_V = 0.25;  // between readings that follow each other
 
 struct Bound {
   double lower;
@@ -124,6 +125,24 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
   for (int s = 0; s < cell.strings; ++s) {
     state->current[s] = Choose(near, state->current[s], guess.current[s]);
   }
+}
+
+// From where the last reading of the block before ended: with cells that are not alike a better
+// place than any guess. False where that is no neighbour.
+bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
+                 const Cell<Pack>& cell, StringState* state) {
+  constexpr int kLast = Block::kLanes - 1;
+  if (cell.kinds == 1 || std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
+      block.irradiance[0] != before.irradiance[kLast]) {
+    return false;
+  }
+  for (int g = 0; g < cell.kinds; ++g) {
+    state->u[g] = Pack(there.u[g][kLast]);
+    state->far[g] = Pack(there.far[g][kLast]);
+  }
+  for (int p = 0; p < cell.parts; ++p) state->part_voltage[p] = Pack(there.part_voltage[p][kLast]);
+  for (int s = 0; s < cell.strings; ++s) state->current[s] = Pack(there.current[s][kLast]);
+  return true;
 }
 
 bool HasInstrument(const Law& law) {
@@ -280,9 +299,13 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     const Cell<Pack>& cell = plain_cells.cell();
     const Pack& temperature = plain_cells.sky().temperature_K;
     if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
-    StringState& at = state.strings.empty() ? unkept : state.strings[b];
+    const bool kept = !state.strings.empty();
+    StringState& at = kept ? state.strings[b] : unkept;
     const Pack& voltage = plain_cells.sky().voltage;
-    Start(cell, limits, block, voltage, state.fresh, &at);
+    const bool follows =
+        state.fresh && b > 0 &&
+        StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
+    if (!follows) Start(cell, limits, block, voltage, state.fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
     if constexpr (!kDerivatives) {
       const Pack recorded =

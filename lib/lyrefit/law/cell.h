@@ -7,11 +7,11 @@
 #include "lyrefit/law/effect.h"
 #include "lyrefit/law/law.h"
 #include "lyrefit/law/reading.h"
+#include "lyrefit/law/term.h"
 
 // The law of one cell, over any number type: what string.h puts in series and law.cc solves.
 namespace lyrefit {
 
-constexpr double kLargestCellExponent = 200;
 // Scales per volt that a junction always conducts: so little that nobody sees it, and, of a cell in
 // a string, enough to carry the others' current in reverse, if at a huge voltage.
 constexpr double kLeastConductance = 1e-13;
@@ -154,7 +154,7 @@ void ApplyCellStages(const Bench<S>& bench, Cell<S>* cell) {
 
 template <class T>
 T Cut(const T& exponent) {
-  return Smaller(exponent, T(kLargestCellExponent));
+  return Smaller(exponent, T(kLargestExponent));
 }
 
 // What a cell adds in reverse to what its shunt carries.
@@ -208,7 +208,7 @@ inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>&
   Dual<1, Pack> current = light - voltage * (cell.conductance + leak);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<Pack>& diode = cell.diode[d];
-    current = current - (exp(Cut(voltage * diode.inverse_n_vt)) - 1.0) * diode.saturation;
+    current = current + DiodeCurrent(diode.saturation, diode.inverse_n_vt, voltage);
   }
   return HasMore(bench, cell) ? current + MoreCurrent(bench, cell, light, voltage) : current;
 }

@@ -92,9 +92,9 @@ S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell
   solved.diode_conductance = S(0.0);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<S>& diode = cell.diode[d];
+    const S current = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
     solved.diode_conductance =
-        solved.diode_conductance +
-        diode.saturation * diode.inverse_n_vt * exp(Cut(S(junction * diode.inverse_n_vt)));
+        solved.diode_conductance + (diode.saturation - current) * diode.inverse_n_vt;
   }
   solved.conductance = solved.diode_conductance + cell.conductance;
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
@@ -177,10 +177,12 @@ void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& 
   Add(-part * voltage, cell.conductance, sum);
   if (!alike) Add(-part * voltage, cell.kind[kind].leak, sum);
   for (int d = 0; d < cell.diodes; ++d) {
+    using OfTwo = Dual<2, Pack>;
     const Diode<Pack>& diode = at.plain.diode[d];
-    const Pack rise = exp(Cut(voltage * diode.inverse_n_vt));
-    Add(part * (1.0 - rise), cell.diode[d].saturation, sum);
-    Add(-part * voltage * rise * diode.saturation, cell.diode[d].inverse_n_vt, sum);
+    const OfTwo current =
+        DiodeCurrent(OfTwo(diode.saturation, 0), OfTwo(diode.inverse_n_vt, 1), OfTwo(voltage));
+    Add(part * current.v[0], cell.diode[d].saturation, sum);
+    Add(part * current.v[1], cell.diode[d].inverse_n_vt, sum);
   }
   if (HasMore(at.bench, cell)) Add(part, MoreCurrent(at.bench, cell, light, S(voltage)), sum);
 }

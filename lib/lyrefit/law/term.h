@@ -85,6 +85,14 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
   }
 }
 
+// Shockley's diode, the one place where it stands: -Is (exp(Vd / n Vt) - 1), `per_volt` being 1 /
+// (n Vt).
+template <class S, class T>
+[[gnu::always_inline]] inline T DiodeCurrent(const S& saturation, const S& per_volt, const T& vd) {
+  using std::exp;
+  return T(saturation) - exp(Smaller(vd * per_volt, T(kLargestExponent))) * saturation;
+}
+
 template <class S, class T>
 [[gnu::always_inline]] inline T RecombinationCurrent(const PreparedTerm<S>& term, const T& vd) {
   const S closest = term.b * kClosestToPole;
@@ -97,12 +105,11 @@ template <class S, class T>
 // ask for the rare one once outside.
 template <class S, class T>
 [[gnu::always_inline]] inline T UsualTermCurrent(const PreparedTerm<S>& term, const T& vd) {
-  using std::exp;
   switch (term.kind) {
     case TermKind::kPhotocurrent:
       return T(term.a);
     case TermKind::kDiode:
-      return T(term.a) - exp(Smaller(vd * term.b, T(kLargestExponent))) * term.a;
+      return DiodeCurrent(term.a, term.b, vd);
     case TermKind::kShunt:
       return -(vd * term.a);
     case TermKind::kRecombination:

@@ -42,7 +42,7 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
     linear.columns(k, 1) = -vd;
     for (int j = 2; j < count; ++j) {
       const double exponent = vd / (idealities[j - 2] * problem.device.module_thermal_voltage_V);
-      linear.columns(k, j) = 1 - std::exp(std::min(exponent, kLargestExponent));
+      linear.columns(k, j) = DiodeCurrent(1.0, 1.0, exponent);
     }
     root[k] = std::sqrt(weights[k]);
     linear.target[k] = root[k] * problem.current_A[k];

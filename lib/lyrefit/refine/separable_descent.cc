@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/dual.h"
 #include "lyrefit/law/solve.h"
+#include "lyrefit/law/term.h"
 #include "lyrefit/refine/linear_part.h"
 #include "lyrefit/refine/separable.h"
 
@@ -82,9 +84,8 @@ class Descent {
       const double root = std::sqrt(weights_[k]);
       j(k, 0) = -root * linear_.x[1] / linear_.scale[1] * current * r0;
       for (int d = 1; d < theta_.size(); ++d) {
-        const double exponent = std::min(vd * theta_[d] / vt, kLargestExponent);
-        const double slope =
-            root * linear_.x[1 + d] / linear_.scale[1 + d] * std::exp(exponent) / vt;
+        const Dual<1> diode = DiodeCurrent(1.0, 1.0, Dual<1>(vd * theta_[d] / vt, 0));
+        const double slope = -root * linear_.x[1 + d] / linear_.scale[1 + d] * diode.v[0] / vt;
         j(k, 0) -= slope * theta_[d] * current * r0;
         j(k, d) = -slope * vd;
       }

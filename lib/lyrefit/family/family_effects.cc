@@ -180,6 +180,9 @@ void QuoteFamilyEffects(FamilyReport* report) {
     jackknife.low_95 *= factor;
     jackknife.high_95 *= factor;
     if (factor < 0) std::swap(jackknife.low_95, jackknife.high_95);
+    const ParameterBounds& bounds = report->estimates[i].bounds;
+    jackknife.low_95 = std::max(jackknife.low_95, bounds.lower);
+    jackknife.high_95 = std::min(jackknife.high_95, bounds.upper);
   }
 }
 

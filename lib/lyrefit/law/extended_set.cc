@@ -21,6 +21,25 @@ void TakeConditions(const CurveSet& set, Readings* readings) {
   }
 }
 
+// The same device at other readings; not a copy of all, of which a set may have many.
+Device At(const Device& device, std::vector<Reading> points) {
+  const Extension& whole = *device.extension;
+  Extension extension;
+  extension.law = whole.law;
+  extension.uses = whole.uses;
+  extension.bounds = whole.bounds;
+  extension.usual = whole.usual;
+  extension.set = whole.set;
+  Readings& readings = extension.readings;
+  readings.scale = whole.readings.scale;
+  readings.traits = whole.readings.traits;
+  readings.reference_temperature_K = whole.readings.reference_temperature_K;
+  readings.points = std::move(points);
+  Device one = device;
+  one.extension = std::make_shared<const Extension>(std::move(extension));
+  return one;
+}
+
 }  // namespace
 
 Expected<Readings> SetReadings(const CurveSet& set, double reference_K) {
@@ -60,26 +79,19 @@ Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, dou
 }
 
 Device OfCurve(const Device& device, int curve) {
-  Extension extension = *device.extension;
-  std::vector<Reading>& points = extension.readings.points;
-  points.erase(std::remove_if(points.begin(), points.end(),
-                              [curve](const Reading& r) { return r.curve != curve; }),
-               points.end());
-  Device one = device;
-  one.extension = std::make_shared<const Extension>(std::move(extension));
-  return one;
+  std::vector<Reading> points;
+  for (const Reading& r : device.extension->readings.points) {
+    if (r.curve == curve) points.push_back(r);
+  }
+  return At(device, std::move(points));
 }
 
 Device UnderSky(const Device& device, double irradiance, double temperature_K) {
-  Extension extension = *device.extension;
   Reading reading;
   reading.irradiance = irradiance;
   reading.temperature_K = temperature_K;
   reading.dark = irradiance <= 0;
-  extension.readings.points = {reading};
-  Device one = device;
-  one.extension = std::make_shared<const Extension>(std::move(extension));
-  return one;
+  return At(device, {reading});
 }
 
 Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,

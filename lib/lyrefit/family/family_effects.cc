@@ -160,11 +160,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
 
 void QuoteFamilyEffects(FamilyReport* report) {
   const Translation& at = report->translation;
-  if (!at.extended) return;
-  if (report->without_odd) {
-    report->without_odd->shared = ReportedShared(at, report->without_odd->shared);
-  }
-  if (report->estimates.empty()) return;
+  if (!at.extended || report->estimates.empty()) return;
   const std::vector<double> p = ExtendedParameters(at, report->refined.data());
   const std::vector<double> refined = ReportedShared(at, report->refined);
   const std::vector<double> searched = ReportedShared(at, report->searched);

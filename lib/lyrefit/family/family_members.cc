@@ -68,7 +68,10 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       if (!refusal->has_value()) *refusal = judged.error();
     } else if (member.irradiance_known && !(irradiance > 0)) {
       const bool lit = IsLit(curve, isc);
-      if (!lit && !options.with.empty()) continue;  // effects know the dark
+      if (!lit && !options.with.empty()) {  // effects know the dark
+        member.joint.irradiance_W_m2 = 0;
+        continue;
+      }
       LeaveOut(lit ? fmt::format("its irradiance is stated as 0 W/m2 but it delivers {:.4g} A: "
                                  "the statement is wrong, or the curve is another's",
                                  isc)

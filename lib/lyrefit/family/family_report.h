@@ -49,7 +49,8 @@ struct FamilyCurve {
   Interval irradiance_offset_W_m2;
   Interval temperature_offset_K;
   double short_circuit_current_A = kUnknown;  // measured
-  std::vector<double> parameters;             // of the translated device, n at its own temperature
+  // Of the translated device, n at its own temperature; without effects.
+  std::vector<double> parameters;
   RmsePair rmse;
   double mean_residual_A = kUnknown;  // solved-current
   std::vector<double> residual_A;     // model - measured, solved-current

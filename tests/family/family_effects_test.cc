@@ -80,6 +80,25 @@ TEST_F(FamilyEffectsTest, ANonOhmicShuntIsFound) {
   }
 }
 
+// What is reported of the strength depends on the exponent, whose uncertainty counts.
+TEST_F(FamilyEffectsTest, StandardErrorsAreThoseOfWhatIsReported) {
+  options_.with = {UseOf("nonohmic_shunt")};
+  constexpr int kSets = 16;
+  double mean = 0, squares = 0, stated = 0;
+  for (int s = 0; s < kSets; ++s) {
+    AddMadeEffects({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, law_,
+                   truth_, 1e-3, &set_, s);
+    const FamilyReport report = Fit();
+    const Estimate& k = Of(report, "nonohmic_shunt.k");
+    mean += k.refined / kSets;
+    squares += k.refined * k.refined / kSets;
+    stated += k.standard_error / kSets;
+  }
+  const double found = std::sqrt((squares - mean * mean) * kSets / (kSets - 1));
+  EXPECT_GT(stated, 0.7 * found);
+  EXPECT_LT(stated, 1.5 * found);
+}
+
 TEST_F(FamilyEffectsTest, ASecondDiodeFollowsTheTemperature) {
   Make({UseOf("second_diode", {{"Is2", {2e-6, 2e-6}}})}, 3e-4);
   options_.with = {UseOf("second_diode")};

@@ -33,7 +33,8 @@ inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shar
 // Gives the curves of a set the currents that the device has with the effects, each of whose
 // parameters is held at one value, and noise.
 inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
-                           std::vector<double> shared, double noise_A, CurveSet* set) {
+                           std::vector<double> shared, double noise_A, CurveSet* set,
+                           std::uint64_t seed = 3) {
   shared.resize(law.size());  // without the sensors' errors
   const Expected<void> extended =
       ExtendTranslation(*set, shared[law.bandgap_slope], uses, /*force=*/true, &law);
@@ -41,7 +42,7 @@ inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
   const std::vector<double>& usual = law.extended->extension->usual;
   shared.insert(shared.end(), usual.begin(), usual.end());
   const std::vector<double> p = ExtendedParameters(law, shared.data());
-  RandomStream random(3);
+  RandomStream random(seed);
   for (std::size_t c = 0; c < set->curves.size(); ++c) {
     IvCurve& curve = set->curves[c];
     const Device device = OfCurve(*law.extended, static_cast<int>(c));

@@ -10,7 +10,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/fit/quote_effect.h"
 #include "lyrefit/law/extended_set.h"
 
 namespace lyrefit {
@@ -21,11 +20,6 @@ constexpr std::size_t kElites = 3;
 
 const Extension& ExtensionOf(const Translation& translation) {
   return *translation.extended->extension;
-}
-
-// Position of the first effect's first parameter among the shared ones.
-int FirstEffect(const Translation& translation) {
-  return translation.size() - static_cast<int>(ExtensionOf(translation).bounds.size());
 }
 
 Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& family) {
@@ -113,7 +107,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer) {
   const Extension& extension = ExtensionOf(family.translation);
-  const int first = FirstEffect(family.translation);
+  const int first = family.translation.first_effect;
   const JointProblem problem = JointProblemOn(family, options, search_curves);
   const std::vector<JointLocal> none(problem.curves.size(), {0, 0});
   JointProblem held = problem;
@@ -158,28 +152,57 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
   return chosen;
 }
 
-void QuoteFamilyEffects(FamilyReport* report) {
-  const Translation& at = report->translation;
-  if (!at.extended || report->estimates.empty()) return;
-  const std::vector<double> p = ExtendedParameters(at, report->refined.data());
-  const std::vector<double> refined = ReportedShared(at, report->refined);
-  const std::vector<double> searched = ReportedShared(at, report->searched);
-  for (int i = FirstEffect(at); i < at.size(); ++i) {
-    const int k = static_cast<int>(std::find(at.shared_of.begin(), at.shared_of.end(), i) -
-                                   at.shared_of.begin());
-    const double factor = FactorOf(*at.extended, p, k);
-    QuoteEffect(factor, searched[i], refined[i], &report->estimates[i]);
-    if (report->jackknife.empty()) continue;
-    Interval& jackknife = report->jackknife[i];
-    jackknife.value = refined[i];
-    jackknife.standard_error *= std::fabs(factor);
-    jackknife.low_95 *= factor;
-    jackknife.high_95 *= factor;
-    if (factor < 0) std::swap(jackknife.low_95, jackknife.high_95);
-    const ParameterBounds& bounds = report->estimates[i].bounds;
-    jackknife.low_95 = std::max(jackknife.low_95, bounds.lower);
-    jackknife.high_95 = std::min(jackknife.high_95, bounds.upper);
+namespace {
+
+// Of what is reported at the corners of the effect's box, the extremes of shared parameter i.
+ParameterRange ReportedRange(const FamilyProblem& family, int i, int first, int size) {
+  ParameterRange range{kInfinity, -kInfinity};
+  std::vector<double> shared;
+  for (const ParameterBounds& b : family.bounds) shared.push_back(b.lower);
+  for (int corner = 0; corner < 1 << size; ++corner) {
+    for (int k = 0; k < size; ++k) {
+      const ParameterBounds& b = family.bounds[first + k];
+      shared[first + k] = (corner >> k & 1) != 0 ? b.upper : b.lower;
+    }
+    const double value = ReportedShared(family.translation, shared)[i];
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
   }
+  return range;
+}
+
+// Bounds of shared parameter i as reported, where the others are as in `own`.
+ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> own, int i) {
+  const auto reported = [&](double value) {
+    own[i] = value;
+    return ReportedShared(family.translation, own)[i];
+  };
+  const ParameterBounds& bounds = family.bounds[i];
+  const double a = reported(bounds.lower), b = reported(bounds.upper);
+  return {std::min(a, b), std::max(a, b), std::min(a, b), std::max(a, b), bounds.scale};
+}
+
+}  // namespace
+
+QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end) {
+  QuotedFit quoted{family, problem, end};
+  const Translation& at = family.translation;
+  if (!at.extended) return quoted;
+  quoted.problem.quoted = true;
+  quoted.end.point.shared = ReportedShared(at, end.point.shared);
+  int first = at.first_effect;
+  for (const EffectUse& use : ExtensionOf(at).uses) {
+    const int size = use.effect->size();
+    for (int i = first; i < first + size; ++i) {
+      const ParameterRange range = ReportedRange(family, i, first, size);
+      const bool fixed = !std::isnan(family.fixed[i]);
+      quoted.family.bounds[i] = ReportedBounds(family, end.point.shared, i);
+      quoted.problem.lower[i] = fixed ? quoted.end.point.shared[i] : range.low;
+      quoted.problem.upper[i] = fixed ? quoted.end.point.shared[i] : range.high;
+    }
+    first += size;
+  }
+  return quoted;
 }
 
 }  // namespace lyrefit

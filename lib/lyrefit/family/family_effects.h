@@ -22,7 +22,13 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer);
 
-// The report's effects in the units of people.
-void QuoteFamilyEffects(FamilyReport* report);
+// A joint fit as it is judged: with the effects' parameters in the units of reports. Without
+// effects as it is.
+struct QuotedFit {
+  FamilyProblem family;
+  JointProblem problem;
+  JointEnd end;
+};
+QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end);
 
 }  // namespace lyrefit

@@ -234,7 +234,8 @@ void Refine(Job* job, FamilyReport* report) {
                                         : "no convergence";
   report->projected_gradient = end.projected_gradient;
   report->rmse.refined = FamilyRmse(problem, end.point);
-  JudgeFamily(job->family, job->options, problem, end, job->observer, report);
+  const QuotedFit quoted = Quote(job->family, problem, end);
+  JudgeFamily(quoted.family, job->options, quoted.problem, quoted.end, job->observer, report);
   FillCurves(*job, problem, end, report);
   job->stopped = job->stopped || end.stopped || report->interrupted;
   if (!job->stopped) {
@@ -281,7 +282,6 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   } else {
     report.refined = report.searched;
   }
-  QuoteFamilyEffects(&report);
   report.interrupted = job.stopped;
   report.doubts = DoubtsOfKept(set, report);
   report.warnings = report.doubts;

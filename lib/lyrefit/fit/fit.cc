@@ -17,7 +17,6 @@
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
-#include "lyrefit/fit/quote_effect.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
@@ -45,7 +44,7 @@ struct Job {
   FitWatch watch;
 };
 
-Expected<void> ExtendJob(Job* job, FitReport* report) {
+Expected<void> AddEffects(Job* job, FitReport* report) {
   const FitOptions& options = job->options;
   if (options.with.empty()) return {};
   if (options.objective == Objective::kMeasuredCurrent) {
@@ -83,7 +82,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   if (!fixed) return tl::unexpected(fixed.error());
   job->bounds = std::move(*bounds);
   job->fixed = std::move(*fixed);
-  if (auto extended = ExtendJob(job, report); !extended) return extended;
+  if (auto extended = AddEffects(job, report); !extended) return extended;
   std::vector<double> lower, upper;
   for (int i = 0; i < report->device.size(); ++i) {
     ParameterBounds& b = job->bounds[i];
@@ -320,14 +319,27 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+// Effects are fitted in numbers of their own; people read them in units.
 void QuoteEffects(FitReport* report) {
   const Device& device = report->device;
   if (device.extension == nullptr) return;
   const std::vector<double> refined = Reported(device, report->refined);
   const std::vector<double> searched = Reported(device, report->searched);
   for (int i = device.extension->law.base_size(); i < device.size(); ++i) {
-    QuoteEffect(FactorOf(device, report->refined, i), searched[i],
-                report->polished ? refined[i] : kUnknown, &report->estimates[i]);
+    Estimate& e = report->estimates[i];
+    const double factor = FactorOf(device, report->refined, i);
+    for (double* value : {&e.bounds.lower, &e.bounds.upper, &e.bounds.search_lower,
+                          &e.bounds.search_upper, &e.low_95, &e.high_95}) {
+      *value *= factor;
+    }
+    e.standard_error *= std::fabs(factor);
+    if (factor < 0) {
+      std::swap(e.bounds.lower, e.bounds.upper);
+      std::swap(e.bounds.search_lower, e.bounds.search_upper);
+      std::swap(e.low_95, e.high_95);
+    }
+    e.searched = searched[i];
+    if (report->polished) e.refined = refined[i];
   }
 }
 

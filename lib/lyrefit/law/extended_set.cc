@@ -109,6 +109,7 @@ Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
                   at.resistance_shunt};
   if (at.n_2 >= 0) at.shared_of.insert(at.shared_of.end(), {at.saturation_current_2, at.n_2});
   at.shared_of.insert(at.shared_of.end(), {at.alpha_sc, at.bandgap});
+  at.first_effect = at.size();
   for (int i = at.size(); static_cast<int>(at.shared_of.size()) < device->size(); ++i) {
     at.shared_of.push_back(i);
   }
@@ -124,12 +125,27 @@ std::vector<double> ExtendedParameters(const Translation& translation, const dou
   return p;
 }
 
-std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared) {
+namespace {
+
+// Shared parameters whose device's `change` changes.
+template <class F>
+std::vector<double> Changed(const Translation& translation, std::vector<double> shared,
+                            const F& change) {
   if (!translation.extended || shared.empty()) return shared;
   const std::vector<double> p =
-      Reported(*translation.extended, ExtendedParameters(translation, shared.data()));
+      change(*translation.extended, ExtendedParameters(translation, shared.data()));
   for (std::size_t k = 0; k < p.size(); ++k) shared[translation.shared_of[k]] = p[k];
   return shared;
+}
+
+}  // namespace
+
+std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared) {
+  return Changed(translation, std::move(shared), Reported);
+}
+
+std::vector<double> InnerShared(const Translation& translation, std::vector<double> shared) {
+  return Changed(translation, std::move(shared), Inner);
 }
 
 }  // namespace lyrefit

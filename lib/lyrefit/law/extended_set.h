@@ -32,8 +32,9 @@ Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
                                  Translation* translation);
 
 // Parameters of `translation.extended` of shared ones; and shared ones with those of the effects in
-// the units of reports.
+// the units of reports, and back.
 std::vector<double> ExtendedParameters(const Translation& translation, const double* shared);
 std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared);
+std::vector<double> InnerShared(const Translation& translation, std::vector<double> shared);
 
 }  // namespace lyrefit

@@ -79,6 +79,7 @@ struct Translation {
   // effects are the last shared ones, in numbers of their own.
   std::optional<Device> extended;
   std::vector<int> shared_of;
+  int first_effect = -1;
 
   int size() const { return static_cast<int>(parameters.size()); }
   std::optional<int> Find(const std::string& symbol_or_name) const;

@@ -66,7 +66,8 @@ const Device& DeviceOf(const JointProblem& problem, int curve) {
 
 std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve) {
   if (problem.translation.extended) {
-    return ExtendedParameters(problem.translation, point.shared.data());
+    const std::vector<double> p = ExtendedParameters(problem.translation, point.shared.data());
+    return problem.quoted ? Inner(*problem.translation.extended, p) : p;
   }
   const TrueConditions at = ConditionsAt(problem, point, curve);
   std::vector<double> device(problem.translation.device.size());

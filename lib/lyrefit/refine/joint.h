@@ -40,6 +40,10 @@ struct JointProblem {
   std::vector<double> lower;
   std::vector<double> upper;
   double noise_A = 1;  // of a point of weight 1: what priors are weighed against
+  // The effects' parameters are in the units of reports. What is reported of one may depend on
+  // others (the strength k of k |V|^m on m), so intervals are found in these numbers; fits are not,
+  // since there such parameters hang together.
+  bool quoted = false;
 
   // Natural sizes that the coordinates are scaled by.
   double current_scale_A = 1;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lyrefit/law/make_readings.h"
+#include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {
 namespace {
@@ -35,6 +36,7 @@ Device At(const Device& device, std::vector<Reading> points) {
   readings.traits = whole.readings.traits;
   readings.reference_temperature_K = whole.readings.reference_temperature_K;
   readings.points = std::move(points);
+  extension.blocks = BlocksOf(readings);
   Device one = device;
   one.extension = std::make_shared<const Extension>(std::move(extension));
   return one;

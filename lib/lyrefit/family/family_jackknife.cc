@@ -4,6 +4,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extended_set.h"
 
 namespace lyrefit {
 
@@ -23,7 +24,7 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
     JointOptions quick;
     quick.function_tolerance = 1e-9;
     quick.proceed = watch.Proceed();
-    without[c] = RefineJointly(rest, start, quick).point.shared;
+    without[c] = ReportedShared(family.translation, RefineJointly(rest, start, quick).point.shared);
     watch.FinishJob();
   });
   if (watch.Stopped()) {
@@ -31,10 +32,11 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
     return;
   }
   const double t = StudentT95(std::max(curves - 1, 1));
+  const std::vector<double> whole = ReportedShared(family.translation, end.point.shared);
   report->jackknife.clear();
   for (int i = 0; i < count; ++i) {
     Interval interval;
-    interval.value = end.point.shared[i];
+    interval.value = whole[i];
     if (std::isnan(family.fixed[i]) && curves > 2) {
       const ParameterKind kind = family.translation.parameters[i].kind;
       double mean = 0, squares = 0;

@@ -10,6 +10,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
@@ -29,6 +30,10 @@ Interval Symmetric(double value, double standard_error, double t) {
 }
 
 KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
+  if (translation.extended) {
+    return ModelKeyPoints(UnderSky(*translation.extended, 1, kReferenceTemperature_K),
+                          ExtendedParameters(translation, shared.data()).data());
+  }
   const TranslatedDevice at =
       TranslateTo(translation, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);
   return ModelKeyPoints(at.device, at.parameters.data());
@@ -49,6 +54,8 @@ class Judge {
     const std::vector<double>& shared = end_.point.shared;
     const int count = family_.translation.size();
     r_.refined.assign(shared.begin(), shared.begin() + count);
+    r_.refined = InnerShared(family_.translation, std::move(r_.refined));
+    searched_ = ReportedShared(family_.translation, r_.searched);
     JointSpread spread = FindJointSpread(problem_, end_, problem_.noise_A * problem_.noise_A);
     const double degrees = JointDegrees(problem_, family_.free_parameters, spread.local_degrees);
     variance_ = end_.squares / degrees;
@@ -78,7 +85,7 @@ class Judge {
     e.info = family_.translation.parameters[i];
     e.bounds = family_.bounds[i];
     e.fixed = !std::isnan(family_.fixed[i]);
-    e.searched = r_.searched.empty() ? kUnknown : r_.searched[i];
+    e.searched = searched_.empty() ? kUnknown : searched_[i];
     e.refined = end_.point.shared[i];
     if (e.fixed) return e;
     if (end_.held[i]) MarkHeld(i, &e);
@@ -243,6 +250,7 @@ class Judge {
   const JointEnd& end_;
   const Observer& observer_;
   FamilyReport& r_;
+  std::vector<double> searched_;
   double variance_ = 0;
   double t_ = 2;
   std::vector<JointLocal> local_error_;

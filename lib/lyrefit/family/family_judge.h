@@ -8,6 +8,7 @@ namespace lyrefit {
 
 // Fills estimates, sensor errors, coefficients, correlations, key points at the reference, offsets
 // of the curves and the noise of `report` from the end of a joint fit on the curves `fitted`.
+// All of it is in the units of reports (Quote) but the report's `refined`, which it fills as well.
 // Stopped by the observer, it leaves out the profiles and marks the report as interrupted.
 void JudgeFamily(const FamilyProblem& family, const FamilyOptions& options,
                  const JointProblem& problem, const JointEnd& end, const Observer& observer,

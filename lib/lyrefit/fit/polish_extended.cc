@@ -31,27 +31,6 @@ std::vector<double> PolishedBase(const RefineProblem& problem) {
   return RefineFrom(alone, starts.at(0).p).p;
 }
 
-// Probes of all effects, one effect at a time; the others at what is usual.
-std::vector<std::vector<double>> Probes(const RefineProblem& problem) {
-  const Extension& extension = *problem.device.extension;
-  const int base = extension.law.base_size();
-  std::vector<std::vector<double>> probes = {extension.usual};
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
-    if (effect.probes == nullptr) continue;
-    const int first = extension.law.Offset(static_cast<int>(e)) - base;
-    for (const Probe& probe : effect.probes(extension.readings.traits)) {
-      std::vector<double> p = extension.usual;
-      for (int k = 0; k < effect.size(); ++k) {
-        const ParameterBounds& bounds = extension.bounds[first + k];
-        p[first + k] = std::min(std::max(probe[k], bounds.lower), bounds.upper);
-      }
-      probes.push_back(p);
-    }
-  }
-  return probes;
-}
-
 struct Trial {
   std::vector<double> p;
   double mean_square = HUGE_VAL;
@@ -64,7 +43,7 @@ std::vector<PolishStart> CollectExtendedStarts(const RefineProblem& problem,
   std::vector<PolishStart> starts = {{"best bird", elites.at(0)}};
   const std::vector<double> base = PolishedBase(problem);
   std::vector<Trial> trials;
-  for (const std::vector<double>& probe : Probes(problem)) {
+  for (const std::vector<double>& probe : EffectStarts(*problem.device.extension)) {
     Trial trial;
     trial.p = base;
     trial.p.insert(trial.p.end(), probe.begin(), probe.end());

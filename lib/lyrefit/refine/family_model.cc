@@ -2,12 +2,14 @@
 
 #include <glog/logging.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
@@ -36,6 +38,10 @@ ModelShape ShapeOf(const JointProblem& problem) {
   shape.voltage_scale_V = problem.voltage_scale_V;
   shape.thermal_voltage_V = at.device.module_thermal_voltage_V;
   shape.parameters = MakeFitParameters(at.parameters, problem.lower, problem.upper);
+  for (int i = at.first_effect; problem.quoted && i < at.size(); ++i) {
+    FitParameter& p = shape.parameters[i];
+    if (!p.fixed()) p.step = 0.1 * (p.upper - p.lower);
+  }
   shape.parameters[problem.irradiance_offset()].step = 100;
   shape.parameters[problem.temperature_offset()].step = 10;
   const double perfect = shape.resistance_scale() / kPerfectConductance;
@@ -45,10 +51,53 @@ ModelShape ShapeOf(const JointProblem& problem) {
   return shape;
 }
 
+// Derivatives of an effect's own numbers by what is reported, at the device's parameters `p`.
+Eigen::MatrixXd OwnByReported(const Device& device, const std::vector<double>& p, int first,
+                              const Effect& effect) {
+  constexpr double kStep = 1e-6;  // of a parameter's range
+  const int size = effect.size();
+  Eigen::MatrixXd slopes(size, size);
+  for (int k = 0; k < size; ++k) {
+    const double step = kStep * (effect.parameters[k].upper - effect.parameters[k].lower);
+    std::vector<double> above = p, below = p;
+    above[first + k] += step;
+    below[first + k] -= step;
+    above = Reported(device, above);
+    below = Reported(device, below);
+    for (int j = 0; j < size; ++j) {
+      slopes(j, k) = (above[first + j] - below[first + j]) / (2 * step);
+    }
+  }
+  return slopes.inverse();
+}
+
+// TranslateCurve of a device with effects, which follows the sky by itself.
+bool TakeExtended(const JointProblem& problem, const double* p, std::vector<double>* device,
+                  RowMatrix* chain) {
+  const Translation& at = problem.translation;
+  const Device& extended = *at.extended;
+  *device = ExtendedParameters(at, p);
+  if (problem.quoted) *device = Inner(extended, *device);
+  if (chain == nullptr) return true;
+  chain->setZero(extended.size(), problem.shared());
+  for (int k = 0; k < extended.size(); ++k) (*chain)(k, at.shared_of[k]) = 1;
+  const Extension& extension = *extended.extension;
+  for (std::size_t e = 0; problem.quoted && e < extension.uses.size(); ++e) {
+    const int first = extension.law.Offset(static_cast<int>(e));
+    const Effect& effect = *extension.uses[e].effect;
+    // The effects' parameters stand in one stretch of the shared ones.
+    chain->block(first, at.shared_of[first], effect.size(), effect.size()) =
+        OwnByReported(extended, *device, first, effect);
+  }
+  return true;
+}
+
 // A device's parameters under one curve's sky, and with `chain` their slopes by the shared
 // parameters and, behind those, irradiance and temperature. False where that is no place to be.
-bool TranslateCurve(const Translation& at, const double* p, double irradiance, double temperature,
-                    std::vector<double>* device, RowMatrix* chain) {
+bool TranslateCurve(const JointProblem& problem, const double* p, double irradiance,
+                    double temperature, std::vector<double>* device, RowMatrix* chain) {
+  const Translation& at = problem.translation;
+  if (at.extended) return TakeExtended(problem, p, device, chain);
   if (!(irradiance > 0) || !(temperature > 100) || !(temperature < 600)) return false;
   const int count = at.device.size(), shared = at.size();
   device->resize(count);
@@ -79,7 +128,7 @@ std::vector<OwnUnknown> OwnUnknowns(const JointCurve& curve) {
 
 FamilyModel::FamilyModel(const JointProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {
-  CHECK_LE(problem.translation.size() + 2, kUnknowns);
+  CHECK(problem.translation.extended || problem.translation.size() + 2 <= kUnknowns);
   for (const JointCurve& curve : problem.curves) {
     points_.push_back(MakePointSet(curve.voltage_V, curve.current_A));
   }
@@ -118,14 +167,16 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
   const bool sloped = slopes != nullptr || local_slopes != nullptr;
   std::vector<double> device;
   RowMatrix chain;
-  if (!TranslateCurve(at, p, irradiance, temperature, &device, sloped ? &chain : nullptr)) {
+  if (!TranslateCurve(problem_, p, irradiance, temperature, &device, sloped ? &chain : nullptr)) {
     return false;
   }
   const int points = static_cast<int>(curve.voltage_V.size());
-  RowMatrix by_device(sloped ? points : 0, at.device.size());
-  ModelCurrents(at.device, problem_.objective, device.data(),
+  const Device& own_device = DeviceOf(problem_, block);
+  RowMatrix by_device(sloped ? points : 0, own_device.size());
+  ModelCurrents(own_device, problem_.objective, device.data(),
                 {curve.voltage_V, curve.current_A, points_[block]}, FastestKernel(), residuals,
                 sloped ? by_device.data() : nullptr);
+  if (!std::isfinite(residuals[0])) return false;
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(curve.weight[k]);
     residuals[k] = root * (residuals[k] - curve.current_A[k]);

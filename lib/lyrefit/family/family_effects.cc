@@ -1,0 +1,208 @@
+#include "lyrefit/family/family_effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
+#include "lyrefit/family/family_search.h"
+#include "lyrefit/law/extended_set.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kProbes = 4;
+constexpr std::size_t kElites = 3;
+
+const Extension& ExtensionOf(const Translation& translation) {
+  return *translation.extended->extension;
+}
+
+Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& family) {
+  if (options.law != TranslationLaw::kDeSoto) {
+    return Fail(
+        "with: effects stand beside the law of De Soto, not beside pvsyst: expected the family "
+        "desoto, or free");
+  }
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "a model with effects is fitted to the solved current: it has no explicit "
+        "right-hand side for the measured one");
+  }
+  if (std::isnan(family.fixed[family.translation.bandgap_slope])) {
+    return Fail("free: dEgdT is held beside effects");
+  }
+  if (options.irradiance_offset || options.temperature_offset) {
+    return Fail(fmt::format(
+        "{}: beside effects the common error of a sensor is one of them: expected the effect {}",
+        options.irradiance_offset ? "irradiance-offset" : "temperature-offset",
+        options.irradiance_offset ? "sensor_offset" : "temp_offset"));
+  }
+  if (options.irradiance_accuracy > 0 || options.temperature_accuracy_K > 0) {
+    return Fail(fmt::format(
+        "{}: beside effects curves have no unknowns of their own: leave it out",
+        options.irradiance_accuracy > 0 ? "irradiance-accuracy" : "temperature-accuracy"));
+  }
+  return {};
+}
+
+// The curves that are not left out, at the conditions the fit takes them at.
+Expected<CurveSet> Kept(const CurveSet& set, const FamilyMembers& members) {
+  CurveSet kept;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    const FamilyMember& member = members.members[c];
+    if (member.role == CurveRole::kLeftOut) continue;
+    kept.curves.push_back(set.curves[c]);
+    IvCurve& curve = kept.curves.back();
+    if (member.joint.irradiance_sd > 0 || member.joint.temperature_sd_K > 0) {
+      return Fail(fmt::format(
+          "curve {} states no {}, which it has to beside effects: state it, or leave the curve out",
+          curve.name, member.joint.irradiance_sd > 0 ? "irradiance" : "cell temperature"));
+    }
+    curve.conditions.irradiance_W_m2 = member.joint.irradiance_W_m2;
+    curve.conditions.cell_temperature_K = member.joint.temperature_K;
+    curve.irradiance_known = curve.temperature_known = true;
+  }
+  return kept;
+}
+
+}  // namespace
+
+Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
+                                FamilyProblem* family) {
+  if (auto fine = CheckTogether(options, *family); !fine) return fine;
+  auto kept = Kept(set, family->curves);
+  if (!kept) return tl::unexpected(kept.error());
+  Translation& at = family->translation;
+  const int first = at.size();
+  if (auto extended = ExtendTranslation(*kept, family->fixed[at.bandgap_slope], options.with,
+                                        options.force_effects, &at);
+      !extended) {
+    return extended;
+  }
+  const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
+  family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
+  std::vector<double> fixed;
+  for (const ParameterBounds& b : bounds) {
+    fixed.push_back(b.lower == b.upper ? b.lower : kUnknown);
+    family->free_parameters += b.lower < b.upper;
+  }
+  family->fixed.insert(family->fixed.begin() + first, fixed.begin(), fixed.end());
+  int next = 0;
+  for (FamilyMember& member : family->curves.members) {
+    if (member.role == CurveRole::kLeftOut) continue;
+    member.joint.extended = std::make_shared<const Device>(OfCurve(*at.extended, next++));
+  }
+  return {};
+}
+
+std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
+                                           const FamilyOptions& options,
+                                           const std::vector<int>& search_curves,
+                                           const std::vector<JointPoint>& elites,
+                                           std::vector<JointPoint> starts,
+                                           const Observer& observer) {
+  const Extension& extension = ExtensionOf(family.translation);
+  const int first = family.translation.first_effect;
+  const JointProblem problem = JointProblemOn(family, options, search_curves);
+  const std::vector<JointLocal> none(problem.curves.size(), {0, 0});
+  JointProblem held = problem;
+  std::copy(extension.usual.begin(), extension.usual.end(), held.lower.begin() + first);
+  std::copy(extension.usual.begin(), extension.usual.end(), held.upper.begin() + first);
+  SharedObserver watch(observer, "without effects", static_cast<std::int64_t>(starts.size()));
+  watch.Begin();
+  std::vector<JointEnd> ends(starts.size());
+  ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
+    if (watch.Stopped()) return;
+    JointOptions quick;
+    quick.function_tolerance = 1e-10;
+    quick.proceed = watch.Proceed();
+    std::vector<double>& shared = starts[s].shared;
+    std::copy(extension.usual.begin(), extension.usual.end(), shared.begin() + first);
+    ends[s] = RefineJointly(held, {shared, none}, quick);
+    watch.FinishJob();
+  });
+  std::vector<JointPoint> chosen(
+      elites.begin(),
+      elites.begin() + static_cast<std::ptrdiff_t>(std::min(kElites, elites.size())));
+  if (watch.Stopped()) return chosen;
+  const auto best =
+      std::min_element(ends.begin(), ends.end(),
+                       [](const JointEnd& a, const JointEnd& b) { return a.squares < b.squares; });
+  struct Trial {
+    JointPoint point;
+    double rmse;
+  };
+  std::vector<Trial> trials;
+  for (const std::vector<double>& effects : EffectStarts(extension)) {
+    JointPoint point{best->point.shared, none};
+    std::copy(effects.begin(), effects.end(), point.shared.begin() + first);
+    const double rmse = FamilyRmse(problem, point).solved_current_A;
+    if (std::isfinite(rmse)) trials.push_back({std::move(point), rmse});
+  }
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.rmse < b.rmse; });
+  for (std::size_t k = 0; k < std::min(kProbes, trials.size()); ++k) {
+    chosen.push_back(std::move(trials[k].point));
+  }
+  return chosen;
+}
+
+namespace {
+
+// Of what is reported at the corners of the effect's box, the extremes of shared parameter i.
+ParameterRange ReportedRange(const FamilyProblem& family, int i, int first, int size) {
+  ParameterRange range{kInfinity, -kInfinity};
+  std::vector<double> shared;
+  for (const ParameterBounds& b : family.bounds) shared.push_back(b.lower);
+  for (int corner = 0; corner < 1 << size; ++corner) {
+    for (int k = 0; k < size; ++k) {
+      const ParameterBounds& b = family.bounds[first + k];
+      shared[first + k] = (corner >> k & 1) != 0 ? b.upper : b.lower;
+    }
+    const double value = ReportedShared(family.translation, shared)[i];
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
+  }
+  return range;
+}
+
+// Bounds of shared parameter i as reported, where the others are as in `own`.
+ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> own, int i) {
+  const auto reported = [&](double value) {
+    own[i] = value;
+    return ReportedShared(family.translation, own)[i];
+  };
+  const ParameterBounds& bounds = family.bounds[i];
+  const double a = reported(bounds.lower), b = reported(bounds.upper);
+  return {std::min(a, b), std::max(a, b), std::min(a, b), std::max(a, b), bounds.scale};
+}
+
+}  // namespace
+
+QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end) {
+  QuotedFit quoted{family, problem, end};
+  const Translation& at = family.translation;
+  if (!at.extended) return quoted;
+  quoted.problem.quoted = true;
+  quoted.end.point.shared = ReportedShared(at, end.point.shared);
+  int first = at.first_effect;
+  for (const EffectUse& use : ExtensionOf(at).uses) {
+    const int size = use.effect->size();
+    for (int i = first; i < first + size; ++i) {
+      const ParameterRange range = ReportedRange(family, i, first, size);
+      const bool fixed = !std::isnan(family.fixed[i]);
+      quoted.family.bounds[i] = ReportedBounds(family, end.point.shared, i);
+      quoted.problem.lower[i] = fixed ? quoted.end.point.shared[i] : range.low;
+      quoted.problem.upper[i] = fixed ? quoted.end.point.shared[i] : range.high;
+    }
+    first += size;
+  }
+  return quoted;
+}
+
+}  // namespace lyrefit

@@ -162,15 +162,32 @@ Expected<std::vector<std::vector<double>>> RunSearch(Job* job, FitReport* report
   return elites;
 }
 
+// Bounds of parameter i in the units of reports, where the others are as at `p`.
+ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
+                               std::vector<double> p, int i) {
+  if (device.extension == nullptr || i < device.extension->law.base_size()) return own;
+  const auto reported = [&](double value) {
+    p[i] = value;
+    return Reported(device, p)[i];
+  };
+  const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
+  const auto& [lower, upper] = ends;
+  return {lower, upper, lower, upper, own.scale};
+}
+
+// All in the units of reports.
 void FillEstimates(const Job& job, FitReport* report) {
+  const Device& device = report->device;
+  const std::vector<double> searched = Reported(device, report->searched);
+  const std::vector<double> refined = Reported(device, report->refined);
   report->estimates.clear();
-  for (int i = 0; i < report->device.size(); ++i) {
+  for (int i = 0; i < device.size(); ++i) {
     Estimate e;
-    e.info = report->device.parameters[i];
-    e.bounds = job.bounds[i];
+    e.info = device.parameters[i];
+    e.bounds = ReportedBounds(device, job.bounds[i], report->refined, i);
     e.fixed = !std::isnan(job.fixed[i]);
-    e.searched = report->searched[i];
-    if (report->polished) e.refined = report->refined[i];
+    e.searched = searched[i];
+    if (report->polished) e.refined = refined[i];
     report->estimates.push_back(std::move(e));
   }
 }
@@ -319,30 +336,6 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Effects are fitted in numbers of their own; people read them in units.
-void QuoteEffects(FitReport* report) {
-  const Device& device = report->device;
-  if (device.extension == nullptr) return;
-  const std::vector<double> refined = Reported(device, report->refined);
-  const std::vector<double> searched = Reported(device, report->searched);
-  for (int i = device.extension->law.base_size(); i < device.size(); ++i) {
-    Estimate& e = report->estimates[i];
-    const double factor = FactorOf(device, report->refined, i);
-    for (double* value : {&e.bounds.lower, &e.bounds.upper, &e.bounds.search_lower,
-                          &e.bounds.search_upper, &e.low_95, &e.high_95}) {
-      *value *= factor;
-    }
-    e.standard_error *= std::fabs(factor);
-    if (factor < 0) {
-      std::swap(e.bounds.lower, e.bounds.upper);
-      std::swap(e.bounds.search_lower, e.bounds.search_upper);
-      std::swap(e.low_95, e.high_95);
-    }
-    e.searched = searched[i];
-    if (report->polished) e.refined = refined[i];
-  }
-}
-
 }  // namespace
 
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
@@ -375,7 +368,6 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     FillResults(job, &report);
   }
   report.interrupted = job.watch.stopped();
-  QuoteEffects(&report);
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);
   report.interrupted = job.watch.stopped();

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/fit/quoted_model.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extension.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
@@ -24,7 +26,10 @@ constexpr double kLinearReach = 0.3;
 class IntervalFinder {
  public:
   IntervalFinder(const IntervalInput& input, std::vector<Estimate>* estimates)
-      : input_(input), estimates_(*estimates), size_(static_cast<int>(estimates->size())) {
+      : input_(input),
+        estimates_(*estimates),
+        size_(static_cast<int>(estimates->size())),
+        quoted_(Reported(input.problem.device, input.end.p)) {
     const int points = static_cast<int>(input.problem.voltage_V.size());
     degrees_ = std::max(points - input.free_parameters, 1);
     t_ = StudentT95(degrees_);
@@ -33,8 +38,7 @@ class IntervalFinder {
   std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
     MarkBounds();
     if (input_.method == Intervals::kNone) return {};
-    Spread spread = FindSpread(CurveModel(input_.problem), input_.end, input_.end.held,
-                               Variance(input_.problem, input_.end));
+    Spread spread = SpreadOfQuoted();
     // Where a direction is open, one curve's straight lines say little of the others: profiles do.
     if (spread.open.cols() > 0) spread = Unknown();
     *condition = spread.condition;
@@ -59,6 +63,15 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
+  Spread SpreadOfQuoted() const {
+    const double variance = Variance(input_.problem, input_.end);
+    const std::vector<bool>& held = input_.end.held;
+    if (input_.problem.device.extension == nullptr) {
+      return FindSpread(CurveModel(input_.problem), input_.end, held, variance);
+    }
+    return FindSpread(QuotedModel(input_.problem), {quoted_, {}}, held, variance);
+  }
+
   Spread Unknown() const {
     Spread unknown;
     unknown.standard_error.assign(size_, kUnknown);
@@ -75,8 +88,8 @@ class IntervalFinder {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
       if (e.fixed) continue;
-      if (input_.end.p[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
-      if (input_.end.p[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
+      if (quoted_[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
+      if (quoted_[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
     }
   }
 
@@ -85,7 +98,7 @@ class IntervalFinder {
     const double reach = t_ * e.standard_error;
     if (!std::isfinite(reach)) return;
     e.interval = IntervalMethod::kSymmetric;
-    const ParameterRange range = RangeAround(e.info.kind, input_.end.p[i], reach);
+    const ParameterRange range = RangeAround(e.info.kind, quoted_[i], reach);
     e.low_95 = std::max(range.low, e.bounds.lower);
     e.high_95 = std::min(range.high, e.bounds.upper);
   }
@@ -98,8 +111,7 @@ class IntervalFinder {
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
     if (any_at_bound || e.interval == IntervalMethod::kNone) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
-    const double relative = t_ * e.standard_error / input_.end.p[i];
-    return relative > kLinearReach;
+    return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
 
   std::vector<ProfileQuery> Queries(bool saturation_currents) const {
@@ -126,7 +138,7 @@ class IntervalFinder {
     input_.watch->Begin("intervals", count);
     ParallelFor(count, input_.threads, [&](int q) {
       if (input_.watch->Next()) return;
-      sides[q] = FindProfileSide(few_, few_end_, queries[q], input_.watch->stop());
+      sides[q] = SideOf(queries[q]);
       done[q] = sides[q].settled || !input_.watch->stopped() ? 1 : 0;
     });
     for (int q = 0; q + 1 < count; q += 2) {
@@ -138,6 +150,17 @@ class IntervalFinder {
       e.high_95 = sides[q + 1].value;
       for (const ProfileSide* side : {&sides[q], &sides[q + 1]}) TakeIfBetter(side->better);
     }
+  }
+
+  bool OfEffect(int i) const {
+    const Extension* extension = input_.problem.device.extension.get();
+    return extension != nullptr && i >= extension->law.base_size();
+  }
+
+  ProfileSide SideOf(const ProfileQuery& query) {
+    const auto stop = input_.watch->stop();
+    return OfEffect(query.parameter) ? FindQuotedSide(few_, few_end_, query, stop)
+                                     : FindProfileSide(few_, few_end_, query, stop);
   }
 
   bool Thinned() const { return few_.points.size < input_.problem.points.size; }
@@ -225,6 +248,7 @@ class IntervalFinder {
   const IntervalInput& input_;
   std::vector<Estimate>& estimates_;
   const int size_;
+  const std::vector<double> quoted_;  // the end, as it is reported
   int degrees_ = 1;
   double t_ = 2;
   RefineProblem few_;

@@ -137,6 +137,7 @@ std::vector<double> DrawEffect(const Effect& effect, const DataTraits& traits,
 struct Case {
   IvCurve curve;
   FitOptions fit;
+  EffectUse truth;
   double strength = 0;
 };
 
@@ -194,6 +195,7 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   made.fit.with = {asked};
   made.fit.random_baseline = false;
   made.fit.threads = 1;
+  made.truth = truth;
   made.strength = values[base.size()];
   return made;
 }
@@ -233,7 +235,10 @@ void Count(const Case& one, const Effect& effect, Row* row) {
   ++row->curves;
   if (!report || !report->usable) {
     ++row->failed;
-    ADD_FAILURE() << (report ? report->not_usable_because : report.error().ToString());
+    ADD_FAILURE() << DescribeUse(one.truth) << " in " << ToText(one.fit.model) << " of "
+                  << one.curve.conditions.cells_in_series << " cells: "
+                  << (report ? report->not_usable_because : report.error().ToString());
+    if (report) Say(one, *report, StrengthOf(*report, effect));
     return;
   }
   const Estimate& e = StrengthOf(*report, effect);

@@ -284,7 +284,7 @@ void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
   const bool wanted = report->no_intervals_because.empty();
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
-    OrderDiodes(job->bounds, &end->p, &end->held);
+    OrderDiodes(report->device, job->bounds, &end->p, &end->held);
     report->refined = end->p;
     FillEstimates(*job, report);
     report->correlations.clear();
@@ -316,11 +316,11 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   report->polished = true;
   report->refine = polish.report;
   report->best_bird_polished = polish.first.p;
-  OrderDiodes(job->bounds, &report->best_bird_polished, nullptr);
+  OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
-  OrderDiodes(job->bounds, &end.p, &end.held);
+  OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
   if (!report->usable && options.intervals != Intervals::kNone) {
@@ -355,7 +355,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (!searched) return tl::unexpected(searched.error());
   const std::vector<std::vector<double>>& elites = *searched;
   report.searched = report.refined = elites[0];
-  OrderDiodes(job.bounds, &report.searched, nullptr);
+  OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
   if (options.plain_polish) {
     const RefineEnd plain = RefinePlainly(job.problem, elites[0]);
     report.rmse.plain_polished = BothRmse(report.device, plain.p, curve);

@@ -23,13 +23,24 @@ constexpr double kStrongCorrelation = 0.9;
 // logarithm), before the curve of the model makes it false.
 constexpr double kLinearReach = 0.3;
 
+// `p` with every effect's parameters where they start or the effect is not there.
+std::vector<double> Neutral(const Device& device, std::vector<double> p) {
+  if (device.extension == nullptr) return p;
+  auto next = p.begin() + device.extension->law.base_size();
+  for (const EffectUse& use : device.extension->uses) {
+    for (const EffectParameter& info : use.effect->parameters) *next++ = info.neutral;
+  }
+  return p;
+}
+
 class IntervalFinder {
  public:
   IntervalFinder(const IntervalInput& input, std::vector<Estimate>* estimates)
       : input_(input),
         estimates_(*estimates),
         size_(static_cast<int>(estimates->size())),
-        quoted_(Reported(input.problem.device, input.end.p)) {
+        quoted_(Reported(input.problem.device, input.end.p)),
+        neutral_(Reported(input.problem.device, Neutral(input.problem.device, input.end.p))) {
     const int points = static_cast<int>(input.problem.voltage_V.size());
     degrees_ = std::max(points - input.free_parameters, 1);
     t_ = StudentT95(degrees_);
@@ -213,6 +224,16 @@ class IntervalFinder {
     }
   }
 
+  // An effect's parameter may lie as far out as it is allowed to. Where that is where the effect is
+  // not there, it is an answer.
+  bool LeavesAnEndOpen(int i) const {
+    const Estimate& e = estimates_[i];
+    if (!OfEffect(i)) return false;
+    const double neutral = neutral_[i];
+    return (e.low_95 <= e.bounds.lower && e.bounds.lower != neutral) ||
+           (e.high_95 >= e.bounds.upper && e.bounds.upper != neutral);
+  }
+
   void MarkUnidentifiable() {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
@@ -222,6 +243,10 @@ class IntervalFinder {
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "the data allow its whole range";
+      } else if (profiled && LeavesAnEndOpen(i)) {
+        e.identifiable = false;
+        e.reason = fmt::format("only {} limit is known: the data allow it to the end of its range",
+                               e.low_95 <= e.bounds.lower ? "an upper" : "a lower");
       } else if (e.info.kind == ParameterKind::kShunt && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "no shunt is visible: only a lower limit is known";
@@ -248,7 +273,8 @@ class IntervalFinder {
   const IntervalInput& input_;
   std::vector<Estimate>& estimates_;
   const int size_;
-  const std::vector<double> quoted_;  // the end, as it is reported
+  const std::vector<double> quoted_;   // the end, as it is reported
+  const std::vector<double> neutral_;  // of effects' parameters, likewise
   int degrees_ = 1;
   double t_ = 2;
   RefineProblem few_;

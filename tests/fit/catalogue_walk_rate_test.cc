@@ -217,3 +217,115 @@ const Estimate& StrengthOf(const FitReport& report, const Effect& effect) {
 
 void Say(const Case& one, const FitReport& report, const Estimate& e) {
   if (std::getenv("LYREFIT_WALK_VERBOSE") == nullptr) return;
+  std::printf(
+      "   %s Ns=%d truth %-11.5g is %-11.5g [%.5g, %.5g] %s%s rmse/noise %.3f start '%s' %s %s\n",
+      ToText(report.model).c_str(), one.curve.conditions.cells_in_series, one.strength, e.refined,
+      e.low_95, e.high_95, ToText(e.interval).c_str(),
+      e.low_95 <= one.strength && one.strength <= e.high_95 ? "" : " MISSED",
+      report.rmse.refined.solved_current_A / *one.curve.notes.current_noise_constant_A,
+      report.refine.winner < 0 ? "" : report.refine.starts[report.refine.winner].origin.c_str(),
+      e.identifiable ? "" : "n.i.: ", e.reason.c_str());
+}
+
+void Count(const Case& one, const Effect& effect, Row* row) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto report = Fit(one.curve, one.fit);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  row->milliseconds += took.count();
+  ++row->curves;
+  if (!report || !report->usable) {
+    ++row->failed;
+    ADD_FAILURE() << DescribeUse(one.truth) << " in " << ToText(one.fit.model) << " of "
+                  << one.curve.conditions.cells_in_series << " cells: "
+                  << (report ? report->not_usable_because : report.error().ToString());
+    if (report) Say(one, *report, StrengthOf(*report, effect));
+    return;
+  }
+  const Estimate& e = StrengthOf(*report, effect);
+  Say(one, *report, e);
+  if (!e.identifiable) {
+    ++row->not_identifiable;
+    return;
+  }
+  ++row->counted;
+  row->held += e.low_95 <= one.strength && one.strength <= e.high_95;
+}
+
+Row Walk(const Place& place) {
+  Row row;
+  int wanted = Curves(), tries = 0;
+  for (std::uint64_t draw = 0; row.curves < wanted && tries < 20 * wanted; ++draw, ++tries) {
+    RandomStream random(20260111, draw);
+    if (const auto one = DrawCase(place, &random)) Count(*one, *place.effect, &row);
+  }
+  return row;
+}
+
+// Probability of at most `hits` of `trials` that come with probability p each.
+double AtMost(int hits, int trials, double p) {
+  double sum = 0;
+  for (int k = 0; k <= hits; ++k) {
+    sum +=
+        std::exp(std::lgamma(trials + 1.0) - std::lgamma(k + 1.0) - std::lgamma(trials - k + 1.0) +
+                 k * std::log(p) + (trials - k) * std::log1p(-p));
+  }
+  return sum;
+}
+
+void Print(const Place& place, const Row& row) {
+  static bool first = true;
+  if (first) {
+    std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "curves", "held %",
+                "Wilson 95 %", "not id", "failed", "ms a fit");
+  }
+  first = false;
+  const Share share = WilsonInterval(row.held, row.counted);
+  std::printf("%-16s %-12s %6d %7.1f  %5.1f to %5.1f %6d %6d %8.1f\n", place.effect->id,
+              place.sweep->name, row.curves, 100.0 * row.held / std::max(row.counted, 1),
+              100 * share.low_95, 100 * share.high_95, row.not_identifiable, row.failed,
+              row.milliseconds / std::max(row.curves, 1));
+  std::fflush(stdout);
+}
+
+std::vector<Place> Places() {
+  std::vector<Place> places;
+  for (const Effect* effect : Catalogue()) {
+    if (!effect->HasStage()) continue;
+    for (const Sweep& sweep : Sweeps()) {
+      const Place place{effect, &sweep};
+      bool shows = false;
+      for (std::uint64_t draw = 0; draw < 8 && !shows; ++draw) {
+        RandomStream random(1, draw);
+        const SimulateOptions device = DrawDevice(*effect, &random);
+        const auto taken = Take(device, sweep);
+        shows = taken && Extend(MakeDevice(device.model, device.conditions), device.model,
+                                device.constants, *taken, {{effect, {}}}, /*force=*/false);
+      }
+      if (shows) places.push_back(place);
+    }
+  }
+  return places;
+}
+
+class CatalogueWalk : public ::testing::TestWithParam<Place> {};
+
+TEST_P(CatalogueWalk, FitsBackWhatWasSimulated) {
+  const Row row = Walk(GetParam());
+  Print(GetParam(), row);
+  EXPECT_EQ(row.curves, Curves());
+  EXPECT_EQ(row.failed, 0);
+  const int missed = row.counted - row.held;
+  EXPECT_GT(AtMost(row.held, row.counted, 0.95), kVanishing) << "too narrow";
+  EXPECT_GT(AtMost(missed, row.counted, 0.05), kVanishing) << "too wide";
+}
+
+std::string NameOf(const ::testing::TestParamInfo<Place>& info) {
+  std::string name = std::string(info.param.effect->id) + "_" + info.param.sweep->name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, CatalogueWalk, ::testing::ValuesIn(Places()), NameOf);
+
+}  // namespace
+}  // namespace lyrefit

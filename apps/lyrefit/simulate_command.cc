@@ -19,6 +19,7 @@ constexpr char kSimulateFooter[] =
     "      --temperature-C 33 --noise-A 0.0005 --seed 1 --out cell.csv\n"
     "  lyrefit simulate --from fit.json --voltages 0:0.6:61\n"
     "  lyrefit simulate --from fit.json --with shading:d=0.3,w=0.3333\n"
+    "  lyrefit simulate --from fit.json --string half_cut.json\n"
     "\n"
     "Beside NAME.csv a file NAME.json holds the conditions; lyrefit fit NAME.csv reads both.";
 
@@ -52,6 +53,12 @@ SimulateCommand::SimulateCommand(CommandLine* line)
       .Reads();
   AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
   AddWithFlag(verb_, "Device", &with_list_);
+  verb_
+      ->AddOption("--string", &layout_file_,
+                  "cells that are not alike, their bypass diodes and reverse law, as JSON")
+      .Group("Device")
+      .Type("FILE")
+      .Reads();
   AddConditionFlags(verb_, &conditions_);
   verb_->AddOption("--voltages", &voltages_, "even steps in volt, both ends included")
       .Type("FROM:TO:COUNT")
@@ -116,6 +123,11 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
   if (!with) return tl::unexpected(with.error());
   options.with.insert(options.with.end(), with->begin(), with->end());
   options.force_effects = options.force_effects || verb_->Forced();
+  if (!layout_file_.empty()) {
+    auto layout = ReadStringLayout(layout_file_);
+    if (!layout) return tl::unexpected(layout.error());
+    options.layout = std::make_shared<const StringLayout>(std::move(*layout));
+  }
   for (const std::string& text : set_list_) {
     const auto assignment = ParseAssignment("--set", text);
     if (!assignment) return tl::unexpected(assignment.error());
@@ -132,6 +144,10 @@ Expected<SimulateOptions> SimulateCommand::Options() const {
     return tl::unexpected(applied.error());
   }
   options.conditions = told.conditions;
+  const bool cells_told = !from_file_.empty() || conditions_.cells.has_value();
+  if (options.layout != nullptr && !cells_told) {
+    options.conditions.cells_in_series = options.layout->cells_in_series;
+  }
   if (out_file_ != "-") options.name = std::filesystem::path(out_file_).stem().string();
   return options;
 }

@@ -24,6 +24,7 @@ class SimulateCommand {
   SimulateOptions flags_;
   ConditionFlags conditions_;
   std::string from_file_;
+  std::string layout_file_;
   std::vector<std::string> set_list_;
   std::vector<std::string> with_list_;
   std::string voltages_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "run_app.h"
 
@@ -15,6 +16,15 @@ using ::testing::StartsWith;
 const std::string kParameters =
     "simulate --set Iph=8.2 --set Is1=2e-9 --set n1=1.15 --set Rs=0.25 --set Rsh=300 ";
 const std::string kDevice = kParameters + "--cells 60 --temperature-C 45 ";
+
+std::vector<double> Currents(const std::string& table) {
+  std::istringstream lines(table);
+  std::vector<double> currents;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) currents.push_back(std::stod(line.substr(line.find(',') + 1)));
+  return currents;
+}
 
 std::int64_t Lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
@@ -50,6 +60,28 @@ TEST(Simulate, ThenFitRecoversTheParameters) {
   EXPECT_NEAR(p["n"]["refined"].get<double>(), 1.15, 1e-6);
   EXPECT_NEAR(p["resistance_series"]["refined"].get<double>(), 0.25, 1e-6);
   EXPECT_NEAR(p["resistance_shunt"]["refined"].get<double>(), 300, 1e-3);
+}
+
+TEST(Simulate, LaysOutTheCellsOfAFile) {
+  const TempFolder folder;
+  const std::string file = folder.Write("layout.json", R"({"bypass_diode": {"voltage_V": 0.5},
+      "strings": [[{"times": 2, "cells": [{"count": 20}]},
+                   {"bypass": true, "cells": [{"count": 20, "light": 0.7}]}]]})");
+  const std::string at = "--temperature-C 45 --voltages 0:36:10 ";
+  const AppResult laid = RunApp(kParameters + at + "--string " + file);
+  ASSERT_EQ(laid.exit_code, 0) << laid.err;
+  const AppResult shaded =
+      RunApp(kParameters + at + "--cells 60 --with shading:d=0.3,w=0.3333333333333333,Vb=0.5");
+  ASSERT_EQ(Lines(laid.out), 11);
+  const std::vector<double> a = Currents(laid.out), b = Currents(shaded.out);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-6) << k;
+
+  const AppResult other = RunApp(kParameters + "--cells 72 --string " + file);
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("laid out of 60 cells in series, the device has 72"));
+  const AppResult twice = RunApp(kDevice + "--with shading:d=0.1 --string " + file);
+  EXPECT_THAT(twice.err, HasSubstr("shading: divides the cells, which are laid out already"));
 }
 
 TEST(Simulate, NoiseFollowsTheSeed) {

@@ -45,34 +45,49 @@ inline double PortableExp(double x) {
   return PortableExp<double, std::uint64_t>(x);
 }
 
-// ln(x) for finite x > 0, the same bits everywhere: a first value from the exponent bits and a
-// line, within 0.04, then Halley's steps on exp(y) = x. Error below 2 ulp of max(|ln x|, 1).
-inline double PortableLog(double x) {
-  std::int64_t bits;
+// x = mantissa x 2^exponent with a mantissa in [1, 2), for finite x > 0.
+template <class V>
+struct BinaryParts {
+  V exponent;
+  V mantissa;
+};
+template <class V, class B>
+[[gnu::always_inline]] inline BinaryParts<V> SplitBinary(const V& x) {
+  BinaryParts<V> parts;
+  B bits;
   std::memcpy(&bits, &x, sizeof bits);
-  const double exponent = static_cast<double>((bits >> 52) - 1023);
-  bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
-  double mantissa;
-  std::memcpy(&mantissa, &bits, sizeof mantissa);
-  double y = (mantissa - 0.96) * 0.6931471805599454;
-  for (int step = 0; step < 2; ++step) {
-    const double e = PortableExp(y);
-    y += 2 * ((mantissa - e) / (mantissa + e));
-  }
-  return (exponent * 0x1.62e42fefa0000p-1 + y) + exponent * 0x1.cf79abc9e3b3ap-40;
+  // As the low bits of 2^52, which is then taken off, an integer becomes a double.
+  const B exponent = (bits >> 52) | 0x4330000000000000ULL;
+  std::memcpy(&parts.exponent, &exponent, sizeof exponent);
+  parts.exponent = parts.exponent - (0x1p52 + 1023);
+  bits = (bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL;
+  std::memcpy(&parts.mantissa, &bits, sizeof bits);
+  return parts;
 }
+
+// ln(x) for finite x > 0, the same bits everywhere, for the same types as PortableExp: a first
+// value from the exponent bits and a line, within 0.04, then Halley's steps on exp(y) = x. Error
+// below 2 ulp of max(|ln x|, 1).
+template <class V, class B>
+[[gnu::always_inline]] inline V PortableLog(const V& x) {
+  const BinaryParts<V> parts = SplitBinary<V, B>(x);
+  V y = (parts.mantissa - 0.96) * 0.6931471805599454;
+  for (int step = 0; step < 2; ++step) {
+    const V e = PortableExp<V, B>(y);
+    y = y + 2.0 * ((parts.mantissa - e) / (parts.mantissa + e));
+  }
+  return (parts.exponent * 0x1.62e42fefa0000p-1 + y) + parts.exponent * 0x1.cf79abc9e3b3ap-40;
+}
+inline double PortableLog(double x) { return PortableLog<double, std::uint64_t>(x); }
 
 // An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent
 // bits and one tangent; the same bits everywhere.
-inline double LogUpperBound(double x) {
-  std::int64_t bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  const double exponent = static_cast<double>((bits >> 52) - 1023);
-  bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
-  double mantissa;
-  std::memcpy(&mantissa, &bits, sizeof mantissa);
-  return (exponent + 0.5 + (mantissa - 1.4142135623730951) * 1.0201394465967895) *
+template <class V, class B>
+[[gnu::always_inline]] inline V LogUpperBound(const V& x) {
+  const BinaryParts<V> parts = SplitBinary<V, B>(x);
+  return (parts.exponent + 0.5 + (parts.mantissa - 1.4142135623730951) * 1.0201394465967895) *
          0.6931471805599454;
 }
+inline double LogUpperBound(double x) { return LogUpperBound<double, std::uint64_t>(x); }
 
 }  // namespace lyrefit

@@ -7,6 +7,7 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extension.h"
+#include "lyrefit/law/reading_blocks.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -49,10 +50,10 @@ Searched SearchLaw(const Selection& selection, std::uint64_t seed, const Observe
   const Readings& readings = *bench.readings;
   const Law& law = selection.extended.law;
   std::vector<double> current(readings.points.size());
-  LawWorkspace workspace;
+  // From a fresh start each time: the value must not hang on the bird before.
+  const std::vector<ReadingBlock> blocks = BlocksOf(readings);
+  LawWorkspace workspace(blocks);
   const auto rmse = [&](const double* p) {
-    // From a fresh start each time: the value must not hang on the bird before.
-    workspace.Forget();
     if (!EvaluateLaw(law, readings, p, &workspace, current.data(), nullptr)) return kInfinity;
     return RmseOf(bench, current);
   };

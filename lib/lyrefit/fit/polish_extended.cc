@@ -12,6 +12,7 @@ namespace lyrefit {
 namespace {
 
 constexpr double kNear = 0.02;  // relative, of RMSE: what may still become the best
+constexpr double kSame = 1e-9;  // relative, of the mean square: has come to where another ended
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kElites = 3;
 
@@ -37,10 +38,9 @@ PolishResult PolishExtended(const RefineProblem& problem, const std::vector<Poli
   RefineOptions briefly;
   briefly.stop = watch->stop();
   briefly.max_rounds = 2;
-  briefly.max_iterations = 15;
-  briefly.first_iterations = 15;
+  briefly.max_iterations = briefly.first_iterations = 15;
   std::vector<RefineEnd> ends;
-  double lowest = HUGE_VAL;
+  double lowest = HUGE_VAL, settled = HUGE_VAL;
   for (const PolishStart& start : starts) {
     ends.push_back(Refine(problem, start.p, briefly));
     lowest = std::min(lowest, ends.back().mean_square);
@@ -49,9 +49,12 @@ PolishResult PolishExtended(const RefineProblem& problem, const std::vector<Poli
   RefineOptions whole;
   whole.stop = watch->stop();
   for (RefineEnd& end : ends) {
-    if (end.mean_square > lowest * (1 + kNear) * (1 + kNear)) continue;
+    const bool hopeless = end.mean_square > lowest * (1 + kNear) * (1 + kNear);
+    const bool there = end.mean_square <= settled * (1 + kSame) && !(end.mean_square < settled);
+    if (hopeless || there) continue;
     RefineEnd further = Refine(problem, end.p, whole);
     if (further.mean_square <= end.mean_square) end = std::move(further);
+    settled = std::min(settled, end.mean_square);
   }
   return ReportEnds(problem, starts, std::move(ends), watch->stopped(), begin);
 }

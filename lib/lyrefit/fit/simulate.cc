@@ -183,7 +183,8 @@ Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const I
   auto uses = SettledUses(options);
   if (!uses) return tl::unexpected(uses.error());
   auto extended =
-      Extend(*device, options.model, options.constants, taken, *uses, options.force_effects);
+      Extend(*device, options.model, options.constants, taken, *uses, options.force_effects,
+             options.layout);
   if (!extended) return tl::unexpected(extended.error());
   *device = std::move(*extended);
   const std::vector<double>& usual = device->extension->usual;
@@ -210,7 +211,7 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
   curve.current_A.assign(curve.voltage_V.size(), 0);
   if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
   curve.current_A = SolveCurrents(device, parameters->data(), curve.voltage_V);
-  if (!options.with.empty()) {
+  if (!options.with.empty() || options.layout != nullptr) {
     parameters = AddEffects(options, options.taken.value_or(curve), *parameters, &device);
     if (!parameters) return tl::unexpected(parameters.error());
     const bool own = as_taken || !options.taken.has_value();

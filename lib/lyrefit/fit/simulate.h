@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct SimulateOptions {
   std::vector<EffectUse> with;
   std::optional<IvCurve> taken;
   bool force_effects = false;  // also those that such data cannot show
+  // Cells that are not alike (law/string_layout.h); none: all have the parameters above.
+  std::shared_ptr<const StringLayout> layout;
   // Independent Gaussian noise on every current, of the two parts' root of the sum of squares.
   double noise_A = 0;         // standard deviation, constant part
   double noise_relative = 0;  // standard deviation, part of |current|

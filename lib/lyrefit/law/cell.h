@@ -120,9 +120,32 @@ void Light(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
   cell->conductance = inverse ? conductance * sky.irradiance : conductance;
 }
 
-// What the effects make of a cell under a sky.
+// Cells as a layout has them.
+template <class S>
+void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
+  cell->kinds = static_cast<int>(layout.kinds.size());
+  cell->parts = static_cast<int>(layout.parts.size());
+  cell->strings = layout.strings;
+  for (int g = 0; g < cell->kinds; ++g) {
+    const StringLayout::Cells& cells = layout.kinds[g];
+    const double leak = cells.leak_S * layout.strings / current_scale_A;
+    cell->kind[g] = {S(cells.share), S(cells.light), S(leak), cells.part};
+  }
+  for (int p = 0; p < cell->parts; ++p) cell->part[p] = layout.parts[p];
+  cell->bypass = S(layout.bypass_voltage_V);
+  cell->bypass_ideality = layout.bypass_ideality;
+  cell->reverse = layout.reverse;
+  cell->reverse_strength = S(layout.reverse_strength);
+  cell->reverse_voltage = S(layout.reverse_voltage_V);
+  cell->reverse_exponent = S(layout.reverse_exponent);
+}
+
+// What layout and effects make of a cell under a sky.
 template <class S>
 void ApplyCellStages(const Bench<S>& bench, Cell<S>* cell) {
+  if (bench.law.layout != nullptr) {
+    LayOut(*bench.law.layout, bench.readings.scale.current_A, cell);
+  }
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->cell.template For<S>();
     if (stage != nullptr) stage(bench.p + bench.offsets[e], cell);
@@ -217,10 +240,9 @@ inline Dual<1, Pack> SeriesDrop(const Bench<Pack>& bench, const Cell<Pack>& cell
 // their own direction.
 template <class S>
 Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
-  constexpr double kIdeality = 1.2;
-  const S inverse = (1 / kIdeality) / cell.thermal_voltage;
+  const S inverse = (1 / cell.bypass_ideality) / cell.thermal_voltage;
   const S start = exp(-(cell.bypass * inverse));
-  return (exp(Cut(Tangent<S>(reverse * (cells * inverse)))) - 1.0) * start;
+  return exp(Cut(Tangent<S>((reverse * cells - cell.bypass) * inverse))) - start;
 }
 
 }  // namespace lyrefit

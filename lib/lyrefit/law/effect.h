@@ -101,6 +101,7 @@ struct Cell {
   Kind<S>* kind = nullptr;  // kMostKinds of them
   Part part[kMostKinds];
   S bypass;  // voltage over a bypass diode that carries the current scale
+  double bypass_ideality = 1.2;
   ReverseLaw reverse = ReverseLaw::kShunt;
   S reverse_strength;  // Bishop's a
   S reverse_voltage;   // Bishop's -Vbr, the soft law's A; above 0

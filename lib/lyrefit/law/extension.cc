@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lyrefit/law/make_readings.h"
+#include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {
 namespace {
@@ -215,6 +216,19 @@ Expected<void> CheckShares(const Extension& extension) {
   return {};
 }
 
+Expected<void> CheckLayout(const StringLayout& layout, const Conditions& conditions,
+                           const std::vector<EffectUse>& uses) {
+  if (layout.cells_in_series != conditions.cells_in_series) {
+    return Fail(fmt::format("the strings are laid out of {} cells in series, the device has {}",
+                            layout.cells_in_series, conditions.cells_in_series));
+  }
+  for (const EffectUse& use : uses) {
+    if (!use.effect->groups) continue;
+    return tl::unexpected(Unfit(*use.effect, "divides the cells, which are laid out already"));
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
@@ -224,15 +238,23 @@ Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
 }
 
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
-                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force) {
+                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
+                        std::shared_ptr<const StringLayout> layout) {
   if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
+  if (layout != nullptr) {
+    if (auto fine = CheckLayout(*layout, curve.conditions, uses); !fine) {
+      return tl::unexpected(fine.error());
+    }
+  }
   auto readings = ReadingsOf(curve);
   if (!readings) return tl::unexpected(readings.error());
   auto extension = std::make_shared<Extension>();
   extension->readings = std::move(*readings);
+  extension->blocks = BlocksOf(extension->readings);
   extension->law.natural = true;
   extension->law.model = model;
   extension->law.constants = constants;
+  extension->law.layout = std::move(layout);
   extension->uses = uses;
   for (const EffectUse& use : uses) {
     const Effect& effect = *use.effect;
@@ -314,9 +336,9 @@ std::string DescribeUse(const EffectUse& use) {
 
 namespace {
 
-bool InAmpere(const Law& law, const Readings& readings, const double* p, double* current_A,
-              double* jacobian) {
-  LawWorkspace workspace;
+bool InAmpere(const Law& law, const Readings& readings, const std::vector<ReadingBlock>& blocks,
+              const double* p, double* current_A, double* jacobian) {
+  LawWorkspace workspace(blocks);
   if (!EvaluateLaw(law, readings, p, &workspace, current_A, jacobian)) return false;
   const std::size_t count = readings.points.size();
   for (std::size_t k = 0; k < count; ++k) current_A[k] *= readings.scale.current_A;
@@ -351,7 +373,7 @@ Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage
 
 bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian) {
   const Extension& extension = *device.extension;
-  return InAmpere(extension.law, extension.readings, p, current_A, jacobian);
+  return InAmpere(extension.law, extension.readings, extension.blocks, p, current_A, jacobian);
 }
 
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,
@@ -359,7 +381,7 @@ std::vector<double> ExtendedCurrents(const Device& device, const double* p,
   const Extension& extension = *device.extension;
   const Readings readings = AtVoltages(extension.readings, voltage_V);
   std::vector<double> current_A(voltage_V.size());
-  if (!InAmpere(extension.law, readings, p, current_A.data(), nullptr)) {
+  if (!InAmpere(extension.law, readings, BlocksOf(readings), p, current_A.data(), nullptr)) {
     std::fill(current_A.begin(), current_A.end(), std::numeric_limits<double>::quiet_NaN());
   }
   return current_A;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ struct EffectUse {
 struct Extension {
   Law law;
   Readings readings;
+  std::vector<ReadingBlock> blocks;  // of those
   std::vector<EffectUse> uses;
   std::vector<ParameterBounds> bounds;  // of the effects' parameters, in numbers of their own
   std::vector<double> usual;            // where a fit begins or what it holds, the same
@@ -35,12 +37,14 @@ struct Extension {
 // Whether the effect has a parameter of this symbol or name.
 Expected<void> CheckParameter(const EffectUse& use, const std::string& key);
 
-// `base` with the effects, as the curve was taken. `force`: also effects that data of this kind
-// cannot show. Errors: no effect twice, none that cannot stand beside another, no parameter that is
-// not the effect's, ranges inside its bounds, shares of cells that do not add up to more than 1, at
-// most 20 parameters in all; an effect these data cannot show, and why.
+// `base` with the effects, and its cells as `layout` has them, as the curve was taken. `force`:
+// also effects that data of this kind cannot show. Errors: no effect twice, none that cannot stand
+// beside another, no parameter that is not the effect's, ranges inside its bounds, shares of cells
+// that do not add up to more than 1, at most 20 parameters in all; an effect these data cannot
+// show, and why; a layout of other cells, or beside an effect that splits them.
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
-                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force);
+                        const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
+                        std::shared_ptr<const StringLayout> layout = nullptr);
 
 // A device's whole parameter vector with those of the effects in the units of reports, and back.
 std::vector<double> Reported(const Device& device, std::vector<double> p);

@@ -12,7 +12,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNear_V = 2;  // a former root farther from a plain guess is no start
+constexpr double kNear_V = 2;       // a former root farther from a plain guess is no start
+constexpr double kBeside_V = 0.25;  // between readings that follow each other
 
 struct Bound {
   double lower;
@@ -126,6 +127,24 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
   }
 }
 
+// From where the last reading of the block before ended: with cells that are not alike a better
+// place than any guess. False where that is no neighbour.
+bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
+                 const Cell<Pack>& cell, StringState* state) {
+  constexpr int kLast = Block::kLanes - 1;
+  if (cell.kinds == 1 || std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
+      block.irradiance[0] != before.irradiance[kLast]) {
+    return false;
+  }
+  for (int g = 0; g < cell.kinds; ++g) {
+    state->u[g] = Pack(there.u[g][kLast]);
+    state->far[g] = Pack(there.far[g][kLast]);
+  }
+  for (int p = 0; p < cell.parts; ++p) state->part_voltage[p] = Pack(there.part_voltage[p][kLast]);
+  for (int s = 0; s < cell.strings; ++s) state->current[s] = Pack(there.current[s][kLast]);
+  return true;
+}
+
 bool HasInstrument(const Law& law) {
   for (const Effect* effect : law.effects) {
     if (effect->instrument) return true;
@@ -231,19 +250,24 @@ void StoreRows(const Pack& values, const ReadingBlock& block, int stride, double
 }  // namespace
 
 struct LawWorkspace::State {
-  std::vector<ReadingBlock> blocks;
-  std::vector<StringState> strings;  // of each block, as the last evaluation left them
+  std::vector<ReadingBlock> own;
+  const std::vector<ReadingBlock>* blocks = nullptr;
+  std::vector<StringState> strings;  // of each block, as the last evaluation left them; or none
   bool fresh = true;
 };
 
 LawWorkspace::LawWorkspace() = default;
+LawWorkspace::LawWorkspace(const std::vector<ReadingBlock>& blocks)
+    : state_(std::make_unique<State>()) {
+  state_->blocks = &blocks;
+}
 LawWorkspace::~LawWorkspace() = default;
-void LawWorkspace::Forget() { state_.reset(); }
 LawWorkspace::State* LawWorkspace::Of(const Readings& readings) {
   if (state_ == nullptr) {
     state_ = std::make_unique<State>();
-    state_->blocks = BlocksOf(readings);
-    state_->strings.resize(state_->blocks.size());
+    state_->own = BlocksOf(readings);
+    state_->blocks = &state_->own;
+    state_->strings.resize(state_->own.size());
   }
   return state_.get();
 }
@@ -268,15 +292,20 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const bool instrument = HasInstrument(law);
   LawWorkspace::State& state = *workspace->Of(readings);
   StringLimits limits;
-  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
-    const ReadingBlock& block = state.blocks[b];
+  StringState unkept;
+  for (std::size_t b = 0; b < state.blocks->size(); ++b) {
+    const ReadingBlock& block = (*state.blocks)[b];
     if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
     const Cell<Pack>& cell = plain_cells.cell();
     const Pack& temperature = plain_cells.sky().temperature_K;
     if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
-    StringState& at = state.strings[b];
+    const bool kept = !state.strings.empty();
+    StringState& at = kept ? state.strings[b] : unkept;
     const Pack& voltage = plain_cells.sky().voltage;
-    Start(cell, limits, block, voltage, state.fresh, &at);
+    const bool follows =
+        state.fresh && b > 0 &&
+        StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
+    if (!follows) Start(cell, limits, block, voltage, state.fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
     if constexpr (!kDerivatives) {
       const Pack recorded =
@@ -296,7 +325,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
       for (int k = 0; k < size; ++k) StoreRows(recorded.v[k], block, size, jacobian + k);
     }
   }
-  state.fresh = false;
+  state.fresh = state.strings.empty();
   return true;
 }
 

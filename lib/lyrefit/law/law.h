@@ -5,6 +5,7 @@
 
 #include "lyrefit/law/effect.h"
 #include "lyrefit/law/reading.h"
+#include "lyrefit/law/string_layout.h"
 #include "lyrefit/law/translation.h"
 
 namespace lyrefit {
@@ -41,10 +42,11 @@ struct Law {
   bool natural = false;
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;
-  double bandgap_slope_per_K = 0;        // dEgdT
-  ShuntLaw shunt = ShuntLaw::kConstant;  // or kInverse
-  bool free_tempco = false;              // alpha is a parameter
-  bool free_bandgap = false;             // EgRef is a parameter
+  std::shared_ptr<const StringLayout> layout;  // of cells that are not alike; none: all are
+  double bandgap_slope_per_K = 0;              // dEgdT
+  ShuntLaw shunt = ShuntLaw::kConstant;        // or kInverse
+  bool free_tempco = false;                    // alpha is a parameter
+  bool free_bandgap = false;                   // EgRef is a parameter
 
   int TempcoAt() const {  // where free
     const int diodes = static_cast<int>(model);
@@ -65,8 +67,10 @@ struct Law {
 class LawWorkspace {
  public:
   LawWorkspace();
+  // On blocks that stand already (reading_blocks.h) and outlive this; every evaluation starts
+  // afresh.
+  explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
   ~LawWorkspace();
-  void Forget();  // the next evaluation starts afresh
 
   struct State;
   State* Of(const Readings& readings);

@@ -18,17 +18,11 @@ namespace every_processor {
 #define LYREFIT_PACK_WIDTH 2
 #include "lyrefit/law/pack.inc"
 
-template <class F>
-Pack LaneByLane(const Pack& a, F f) {
+inline Pack sqrt(const Pack& a) {
   Block block;
   Store(a, &block);
-  for (double& lane : block.lane) lane = f(lane);
+  for (double& lane : block.lane) lane = std::sqrt(lane);
   return Load(block);
-}
-// Of what is above 0.
-inline Pack log(const Pack& a) { return LaneByLane(a, PortableLog); }
-inline Pack sqrt(const Pack& a) {
-  return LaneByLane(a, [](double x) { return std::sqrt(x); });
 }
 inline const Pack& ValueOf(const Pack& a) { return a; }
 inline bool Any(const Mask& mask) { return !All(!mask); }

@@ -1,48 +1,12 @@
 #include "lyrefit/law/string.h"
 
+#include "lyrefit/law/string_brackets.h"
+#include "lyrefit/law/string_kind.h"
+
 namespace lyrefit {
 namespace {
 
 using every_processor::Any;
-
-constexpr double kShort = 1e-9;      // of a voltage: after such a step the next is below rounding
-constexpr double kRounding = 3e-15;  // of a current: what sums of such make of it
-
-// An upper bound of ln(x), x > 0, never more than 0.07 above it.
-Pack LogBound(const Pack& x) { return every_processor::LaneByLane(x, LogUpperBound); }
-
-// A step that leads beyond `limit` goes on by the logarithm of the rest, in units of `unit`.
-Pack Limited(const Pack& from, const Pack& to, const Pack& limit, const Pack& unit) {
-  const Pack begin = Larger(from, limit);
-  const Mask beyond = begin + 2.0 * unit < to;
-  if (!Any(beyond)) return to;
-  const Pack rest = Larger((to - begin) / unit, 0.0);
-  return Choose(beyond, begin + unit * LogBound(1.0 + rest), to);
-}
-
-// Newton's step to where a current is `size` at most, or, far up an exponential where such steps
-// are all alike, the step of its logarithm.
-Pack StepDown(const Pack& newton, const Dual<1, Pack>& current, const Pack& size) {
-  constexpr double kFar = 20;
-  const Mask far = kFar * size < abs(current.a);
-  if (!Any(far)) return newton;
-  return Choose(far, current.a / current.v[0] * LogBound(size / abs(current.a)), newton);
-}
-
-KindPoint PointOf(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
-                  const StringState& state) {
-  KindPoint point;
-  point.current = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.u[kind], 0));
-  if (!cell.halved) return point;
-  point.far = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.far[kind], 0));
-  const Pack half = 0.5 * cell.lateral;
-  point.follows = 1.0 / (1.0 - half * point.far.v[0]);
-  point.behind = state.u[kind] - state.far[kind] + half * point.far.a;
-  point.current.a =
-      0.5 * (point.current.a + point.far.a + point.far.v[0] * point.behind * point.follows);
-  point.current.v[0] = 0.5 * (point.current.v[0] + point.far.v[0] * point.follows);
-  return point;
-}
 
 // All that the equations are made of, at a state.
 struct Terms {
@@ -78,11 +42,6 @@ struct Linear {
   Pack part_current[kMostKinds];  // of each part's cells, new
   Pack part_voltage[kMostKinds];
 };
-
-int PartOf(const Cell<Pack>& cell, int kind) { return cell.kinds == 1 ? 0 : cell.kind[kind].part; }
-Pack ShareOf(const Cell<Pack>& cell, int kind) {
-  return cell.kinds == 1 ? Pack(1.0) : cell.kind[kind].share;
-}
 
 // Means over the kinds of each part, and the current that its cells carry at present.
 void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& terms, Linear* linear,
@@ -188,17 +147,6 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
   }
 }
 
-Mask IsShort(const Pack& step, const Pack& of) { return abs(step) < kShort * (1.0 + abs(of)); }
-
-// One junction's next voltage, `way` of Newton further.
-Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack& u, const Pack& way,
-                 const Dual<1, Pack>& current, const Pack& size) {
-  const Pack down = Choose(0.0 < u, StepDown(way, current, size), way);
-  const Pack next = Limited(u, u + down, limits.voltage, limits.n_vt);
-  if (cell.reverse == ReverseLaw::kShunt) return next;
-  return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // into breakdown by leaps of its own size
-}
-
 // Moves the state by `part` of a step; the lanes that have arrived.
 Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms,
           const Linear& linear, double part, StringState* state) {
@@ -272,21 +220,6 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& 
 
 }  // namespace
 
-StringLimits LimitsOf(const Cell<Pack>& cell) {
-  StringLimits limits;
-  limits.n_vt = 1.0 / cell.diode[0].inverse_n_vt;
-  limits.voltage = 1e3;
-  for (int d = 0; d < cell.diodes; ++d) {
-    const Pack n_vt = 1.0 / cell.diode[d].inverse_n_vt;
-    limits.n_vt = Smaller(limits.n_vt, n_vt);
-    const Pack ratio = (abs(cell.photocurrent) + 1.0) / Larger(cell.diode[d].saturation, 1e-300);
-    limits.voltage = Smaller(limits.voltage, n_vt * LogBound(1.0 + ratio));
-  }
-  limits.bypass_vt = 1.2 * cell.thermal_voltage;
-  limits.reverse = cell.bypass;
-  return limits;
-}
-
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state) {
   if (cell.kinds == 1) {
@@ -301,7 +234,7 @@ void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     const Part& part = cell.part[kind.part];
     const Pack room = cell.photocurrent * kind.light - current;
     const Pack forward =
-        LogBound(1.0 + Larger(room, 0.0) / Larger(cell.diode[0].saturation, 1e-300)) /
+        LogUpperBound(1.0 + Larger(room, 0.0) / Larger(cell.diode[0].saturation, 1e-300)) /
         cell.diode[0].inverse_n_vt;
     const Pack least = part.bypassed ? -limits.reverse / part.cells : Pack(-50.0);
     const Pack reverse = Larger(room / (cell.conductance + kind.leak + 1e-3), least);
@@ -320,124 +253,6 @@ void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
 }
 
 namespace {
-
-// For lanes on which Newton's steps go round in circles: by current, with brackets. The voltage of
-// a string falls as its current rises, and what a part's cells carry rises with what all carry.
-class Bracketed {
- public:
-  Bracketed(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits)
-      : bench_(bench), cell_(cell), limits_(limits) {}
-
-  void Solve(const Pack& voltage, StringState* state) const {
-    for (int s = 0; s < cell_.strings; ++s) {
-      const auto excess = [&](const Pack& current) {  // rises
-        return voltage * WeightOf(s) - VoltageOf(s, current, state);
-      };
-      state->current[s] = RisingRoot(excess, state->current[s], 1.0);
-      excess(state->current[s]);
-    }
-  }
-
- private:
-  static constexpr int kSteps = 64;
-  static constexpr double kEnough = 1e-9;  // relative; Newton's steps do the rest
-
-  // Root of a rising function: a bracket grown from `start` by doubling steps, then by turns halved
-  // and cut where the line between its ends crosses 0.
-  template <class F>
-  static Pack RisingRoot(const F& f, const Pack& start, double first_step) {
-    Pack low = start, high = start, below = f(start), above = below;
-    double step = first_step;
-    for (int k = 0; k < kSteps; ++k, step *= 2) {
-      const Mask too_high = 0.0 < below, too_low = above < 0.0;
-      if (!Any(too_high) && !Any(too_low)) break;
-      low = Choose(too_high, low - step, low);
-      high = Choose(too_low, high + step, high);
-      below = f(low);
-      above = f(high);
-    }
-    for (int k = 0; k < kSteps && Any(kEnough * (1.0 + abs(low)) < high - low); ++k) {
-      const Pack middle = 0.5 * (low + high);
-      const Pack cut = low - below * ((high - low) / Larger(above - below, 1e-300));
-      const Pack width = high - low;
-      const Mask inside = (low + 0.01 * width < cut) & (cut < high - 0.01 * width);
-      const Pack x = k % 2 == 0 ? middle : Choose(inside, cut, middle);
-      const Pack value = f(x);
-      const Mask negative = value < 0.0;
-      low = Choose(negative, x, low);
-      below = Choose(negative, value, below);
-      high = Choose(negative, high, x);
-      above = Choose(negative, above, value);
-    }
-    return 0.5 * (low + high);
-  }
-
-  Pack WeightOf(int string) const {
-    Pack weight = 0.0;
-    for (int g = 0; g < cell_.kinds; ++g) {
-      if (cell_.part[PartOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
-    }
-    return weight;
-  }
-
-  // Sum of share x voltage of a string's parts at a current; the state follows.
-  Pack VoltageOf(int string, const Pack& current, StringState* state) const {
-    const Pack drop = SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
-    Pack sum = 0.0;
-    for (int p = 0; p < cell_.parts; ++p) {
-      if (cell_.part[p].string != string) continue;
-      Pack carried = current, weight = 0.0;
-      if (cell_.part[p].bypassed) {
-        carried = RisingRoot(
-            [&](const Pack& own) {
-              const Pack reverse = drop - MeanVoltage(p, own, &weight, state);
-              return own + BypassCurrent(cell_, cell_.part[p].cells, Dual<1, Pack>(reverse, 0)).a -
-                     current;
-            },
-            current, 1.0);
-      }
-      state->part_voltage[p] = MeanVoltage(p, carried, &weight, state) - drop;
-      sum = sum + weight * state->part_voltage[p];
-    }
-    return sum;
-  }
-
-  // Of a part's cells at the current they carry.
-  Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
-    Pack sum = 0.0;
-    *weight = 0.0;
-    for (int g = 0; g < cell_.kinds; ++g) {
-      if (PartOf(cell_, g) != part) continue;
-      MoveKind(g, carried, state);
-      *weight = *weight + ShareOf(cell_, g);
-      sum = sum + ShareOf(cell_, g) * state->u[g];
-    }
-    return sum / *weight;
-  }
-
-  // To the junction voltage at which a kind carries a current.
-  void MoveKind(int kind, const Pack& carried, StringState* state) const {
-    const Pack size = 1.0 + abs(carried);
-    for (int k = 0; k < kSteps; ++k) {
-      const KindPoint point = PointOf(bench_, cell_, kind, *state);
-      const Pack missing = carried - point.current.a, u = state->u[kind];
-      state->u[kind] =
-          NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
-      const Pack step = state->u[kind] - u;
-      Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
-      if (cell_.halved) {
-        const Pack far = state->far[kind], way = (step + point.behind) * point.follows;
-        state->far[kind] = NextVoltage(cell_, limits_, far, way, point.far, size);
-        done = done & IsShort(state->far[kind] - far, far);
-      }
-      if (All(done)) return;
-    }
-  }
-
-  const Bench<Pack>& bench_;
-  const Cell<Pack>& cell_;
-  const StringLimits& limits_;
-};
 
 void Take(const Cell<Pack>& cell, const Mask& lanes, const StringState& from, StringState* to) {
   for (int g = 0; g < cell.kinds; ++g) {
@@ -471,7 +286,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
     if (k != kMostSteps - kPatience) continue;
     StringState settled;
     StartString(cell, limits, voltage, 0.0, &settled);
-    Bracketed(bench, cell, limits).Solve(voltage, &settled);
+    SolveByBrackets(bench, cell, limits, voltage, &settled);
     Take(cell, !done, settled, state);
   }
   StringRoot root;

@@ -1,0 +1,131 @@
+#include "lyrefit/law/string_brackets.h"
+
+#include "lyrefit/law/string_kind.h"
+
+namespace lyrefit {
+namespace {
+
+class Bracketed {
+ public:
+  Bracketed(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits)
+      : bench_(bench), cell_(cell), limits_(limits) {}
+
+  void Solve(const Pack& voltage, StringState* state) const {
+    for (int s = 0; s < cell_.strings; ++s) {
+      const auto excess = [&](const Pack& current) {  // rises
+        return voltage * WeightOf(s) - VoltageOf(s, current, state);
+      };
+      state->current[s] = RisingRoot(excess, state->current[s], 1.0);
+      excess(state->current[s]);
+    }
+  }
+
+ private:
+  static constexpr int kSteps = 64;
+  static constexpr double kEnough = 1e-9;  // relative; Newton's steps do the rest
+
+  // Root of a rising function: a bracket grown from `start` by doubling steps, then by turns halved
+  // and cut where the line between its ends crosses 0.
+  template <class F>
+  static Pack RisingRoot(const F& f, const Pack& start, double first_step) {
+    Pack low = start, high = start, below = f(start), above = below;
+    double step = first_step;
+    for (int k = 0; k < kSteps; ++k, step *= 2) {
+      const Mask too_high = 0.0 < below, too_low = above < 0.0;
+      if (!Any(too_high) && !Any(too_low)) break;
+      low = Choose(too_high, low - step, low);
+      high = Choose(too_low, high + step, high);
+      below = f(low);
+      above = f(high);
+    }
+    for (int k = 0; k < kSteps && Any(kEnough * (1.0 + abs(low)) < high - low); ++k) {
+      const Pack middle = 0.5 * (low + high);
+      const Pack cut = low - below * ((high - low) / Larger(above - below, 1e-300));
+      const Pack width = high - low;
+      const Mask inside = (low + 0.01 * width < cut) & (cut < high - 0.01 * width);
+      const Pack x = k % 2 == 0 ? middle : Choose(inside, cut, middle);
+      const Pack value = f(x);
+      const Mask negative = value < 0.0;
+      low = Choose(negative, x, low);
+      below = Choose(negative, value, below);
+      high = Choose(negative, high, x);
+      above = Choose(negative, above, value);
+    }
+    return 0.5 * (low + high);
+  }
+
+  Pack WeightOf(int string) const {
+    Pack weight = 0.0;
+    for (int g = 0; g < cell_.kinds; ++g) {
+      if (cell_.part[PartOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
+    }
+    return weight;
+  }
+
+  // Sum of share x voltage of a string's parts at a current; the state follows.
+  Pack VoltageOf(int string, const Pack& current, StringState* state) const {
+    const Pack drop = SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
+    Pack sum = 0.0;
+    for (int p = 0; p < cell_.parts; ++p) {
+      if (cell_.part[p].string != string) continue;
+      Pack carried = current, weight = 0.0;
+      if (cell_.part[p].bypassed) {
+        carried = RisingRoot(
+            [&](const Pack& own) {
+              const Pack reverse = drop - MeanVoltage(p, own, &weight, state);
+              return own + BypassCurrent(cell_, cell_.part[p].cells, Dual<1, Pack>(reverse, 0)).a -
+                     current;
+            },
+            current, 1.0);
+      }
+      state->part_voltage[p] = MeanVoltage(p, carried, &weight, state) - drop;
+      sum = sum + weight * state->part_voltage[p];
+    }
+    return sum;
+  }
+
+  // Of a part's cells at the current they carry.
+  Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
+    Pack sum = 0.0;
+    *weight = 0.0;
+    for (int g = 0; g < cell_.kinds; ++g) {
+      if (PartOf(cell_, g) != part) continue;
+      MoveKind(g, carried, state);
+      *weight = *weight + ShareOf(cell_, g);
+      sum = sum + ShareOf(cell_, g) * state->u[g];
+    }
+    return sum / *weight;
+  }
+
+  // To the junction voltage at which a kind carries a current.
+  void MoveKind(int kind, const Pack& carried, StringState* state) const {
+    const Pack size = 1.0 + abs(carried);
+    for (int k = 0; k < kSteps; ++k) {
+      const KindPoint point = PointOf(bench_, cell_, kind, *state);
+      const Pack missing = carried - point.current.a, u = state->u[kind];
+      state->u[kind] =
+          NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
+      const Pack step = state->u[kind] - u;
+      Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
+      if (cell_.halved) {
+        const Pack far = state->far[kind], way = (step + point.behind) * point.follows;
+        state->far[kind] = NextVoltage(cell_, limits_, far, way, point.far, size);
+        done = done & IsShort(state->far[kind] - far, far);
+      }
+      if (All(done)) return;
+    }
+  }
+
+  const Bench<Pack>& bench_;
+  const Cell<Pack>& cell_;
+  const StringLimits& limits_;
+};
+
+}  // namespace
+
+void SolveByBrackets(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
+                     const Pack& voltage, StringState* state) {
+  Bracketed(bench, cell, limits).Solve(voltage, state);
+}
+
+}  // namespace lyrefit

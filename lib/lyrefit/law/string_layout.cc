@@ -1,0 +1,242 @@
+#include "lyrefit/law/string_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/json_text.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uintmax_t kLargestFile = 1U << 20;
+
+struct Range {
+  double lower;
+  double upper;
+};
+
+// An object of the file, at a place that errors name: "strings[0][1].cells[0]".
+struct Node {
+  const json* value;
+  std::string place;
+  const std::string* path;
+
+  tl::unexpected<Error> Refuse(const std::string& expected) const {
+    return Fail((place.empty() ? "" : place + ": ") + "expected " + expected + ", found " +
+                    value->dump(-1, ' ', false, json::error_handler_t::replace),
+                *path);
+  }
+  Node At(std::size_t index) const {
+    return {&value->at(index), fmt::format("{}[{}]", place, index), path};
+  }
+  Node At(const char* key) const {
+    return {&value->at(key), place.empty() ? key : place + "." + key, path};
+  }
+  bool Has(const char* key) const { return value->contains(key); }
+};
+
+// An object with no keys but these.
+Expected<void> CheckKeys(const Node& node, std::initializer_list<const char*> keys) {
+  std::string list;
+  for (const char* key : keys) list += (list.empty() ? "" : ", ") + std::string(key);
+  if (!node.value->is_object()) return node.Refuse("an object with " + list);
+  for (const auto& [key, unused] : node.value->items()) {
+    const bool known = std::any_of(keys.begin(), keys.end(), [&k = key](auto c) { return k == c; });
+    if (known) continue;
+    return Fail(fmt::format("{}: there is no \"{}\", expected {}",
+                            node.place.empty() ? "the layout" : node.place, key, list),
+                *node.path);
+  }
+  return {};
+}
+
+// Leaves `target` where nothing is given.
+Expected<void> ReadNumber(const Node& node, const char* key, const Range& range, double* target) {
+  if (!node.Has(key)) return {};
+  const Node at = node.At(key);
+  const bool number = at.value->is_number();
+  if (number) *target = at.value->get<double>();
+  if (number && *target >= range.lower && *target <= range.upper) return {};
+  return at.Refuse(fmt::format("a number from {:g} to {:g}", range.lower, range.upper));
+}
+
+Expected<void> ReadWhole(const Node& node, const char* key, double* target) {
+  if (auto read = ReadNumber(node, key, {1, 10000}, target); !read) return read;
+  if (*target == std::floor(*target)) return {};
+  return node.At(key).Refuse("a whole number");
+}
+
+Expected<void> ReadBypass(const Node& file, StringLayout* layout) {
+  if (!file.Has("bypass_diode")) return {};
+  const Node node = file.At("bypass_diode");
+  if (auto fine = CheckKeys(node, {"voltage_V", "ideality"}); !fine) return fine;
+  if (auto read = ReadNumber(node, "voltage_V", {0.05, 2}, &layout->bypass_voltage_V); !read) {
+    return read;
+  }
+  return ReadNumber(node, "ideality", {0.05, 3}, &layout->bypass_ideality);
+}
+
+Expected<void> ReadReverse(const Node& file, StringLayout* layout) {
+  if (!file.Has("reverse")) return {};
+  const Node node = file.At("reverse");
+  if (auto fine = CheckKeys(node, {"law", "a", "Vbr_V", "A_V", "m"}); !fine) return fine;
+  const json law = node.Has("law") ? *node.At("law").value : json();
+  if (law == "shunt") return CheckKeys(node, {"law"});
+  if (law != "bishop" && law != "soft") {
+    return node.Refuse("\"law\" to be shunt, bishop or soft");
+  }
+  const bool soft = law == "soft";
+  layout->reverse = soft ? ReverseLaw::kSoft : ReverseLaw::kBishop;
+  if (soft) layout->reverse_voltage_V = 3.2;
+  auto fine =
+      soft ? CheckKeys(node, {"law", "A_V", "m"}) : CheckKeys(node, {"law", "a", "Vbr_V", "m"});
+  if (!fine) return fine;
+  if (auto read = ReadNumber(node, "a", {0, 100}, &layout->reverse_strength); !read) return read;
+  const char* const voltage = soft ? "A_V" : "Vbr_V";
+  if (auto read = ReadNumber(node, voltage, {0.5, 200}, &layout->reverse_voltage_V); !read) {
+    return read;
+  }
+  return ReadNumber(node, "m", {0.5, 10}, &layout->reverse_exponent);
+}
+
+bool Alike(const StringLayout::Cells& a, const StringLayout::Cells& b) {
+  return a.light == b.light && a.leak_S == b.leak_S;
+}
+
+// A part as it is written: `share` still counts cells.
+struct WrittenPart {
+  Part part;
+  std::vector<StringLayout::Cells> kinds;
+  double times = 1;
+};
+
+bool Alike(const WrittenPart& a, const WrittenPart& b) {
+  if (a.part.bypassed != b.part.bypassed || a.part.string != b.part.string) return false;
+  if (a.part.bypassed && a.part.cells != b.part.cells) return false;
+  if (a.kinds.size() != b.kinds.size()) return false;
+  const double ratio = b.part.cells / a.part.cells;
+  for (std::size_t k = 0; k < a.kinds.size(); ++k) {
+    if (!Alike(a.kinds[k], b.kinds[k])) return false;
+    if (std::fabs(a.kinds[k].share * ratio - b.kinds[k].share) > 1e-9) return false;
+  }
+  return true;
+}
+
+Expected<WrittenPart> ReadPart(const Node& node, int string) {
+  if (auto fine = CheckKeys(node, {"bypass", "times", "cells"}); !fine) {
+    return tl::unexpected(fine.error());
+  }
+  WrittenPart written;
+  written.part.string = string;
+  if (node.Has("bypass")) {
+    if (!node.At("bypass").value->is_boolean()) return node.At("bypass").Refuse("true or false");
+    written.part.bypassed = node.At("bypass").value->get<bool>();
+  }
+  if (auto read = ReadWhole(node, "times", &written.times); !read) {
+    return tl::unexpected(read.error());
+  }
+  if (!node.Has("cells") || !node.At("cells").value->is_array() ||
+      node.At("cells").value->empty()) {
+    return node.Refuse("a list \"cells\" of {\"count\", \"light\", \"leak_S\"}");
+  }
+  written.part.cells = 0;
+  const Node cells = node.At("cells");
+  for (std::size_t k = 0; k < cells.value->size(); ++k) {
+    const Node at = cells.At(k);
+    if (auto fine = CheckKeys(at, {"count", "light", "leak_S"}); !fine) {
+      return tl::unexpected(fine.error());
+    }
+    StringLayout::Cells kind;
+    for (auto read :
+         {ReadWhole(at, "count", &kind.share), ReadNumber(at, "light", {0, 2}, &kind.light),
+          ReadNumber(at, "leak_S", {0, 1000}, &kind.leak_S)}) {
+      if (!read) return tl::unexpected(read.error());
+    }
+    written.part.cells += kind.share;
+    written.kinds.push_back(kind);
+  }
+  return written;
+}
+
+// The parts of all strings, equal ones of a string together; `cells` of each string.
+Expected<std::vector<WrittenPart>> ReadParts(const Node& strings, std::vector<double>* cells) {
+  std::vector<WrittenPart> parts;
+  for (std::size_t s = 0; s < strings.value->size(); ++s) {
+    const Node string = strings.At(s);
+    if (!string.value->is_array() || string.value->empty()) {
+      return string.Refuse("a list of parts {\"bypass\", \"times\", \"cells\"}");
+    }
+    double count = 0;
+    for (std::size_t k = 0; k < string.value->size(); ++k) {
+      auto part = ReadPart(string.At(k), static_cast<int>(s));
+      if (!part) return tl::unexpected(part.error());
+      count += part->times * part->part.cells;
+      const auto same = std::find_if(parts.begin(), parts.end(),
+                                     [&](const WrittenPart& other) { return Alike(other, *part); });
+      if (same == parts.end()) {
+        parts.push_back(std::move(*part));
+      } else {
+        same->times += part->times * part->part.cells / same->part.cells;
+      }
+    }
+    cells->push_back(count);
+  }
+  return parts;
+}
+
+}  // namespace
+
+Expected<StringLayout> ReadStringLayout(const std::string& path) {
+  const Expected<std::string> text = ReadTextFile(path, kLargestFile);
+  if (!text) return tl::unexpected(text.error());
+  const Expected<json> document = ParseJson(*text, path);
+  if (!document) return tl::unexpected(document.error());
+  const Node file{&*document, "", &path};
+  StringLayout layout;
+  for (auto read : {CheckKeys(file, {"bypass_diode", "reverse", "strings"}),
+                    ReadBypass(file, &layout), ReadReverse(file, &layout)}) {
+    if (!read) return tl::unexpected(read.error());
+  }
+  if (!file.Has("strings") || !file.At("strings").value->is_array() ||
+      file.At("strings").value->empty()) {
+    return Fail("expected a list \"strings\" of lists of parts", path);
+  }
+  std::vector<double> cells;
+  const auto parts = ReadParts(file.At("strings"), &cells);
+  if (!parts) return tl::unexpected(parts.error());
+  for (const double count : cells) {
+    if (count == cells.front()) continue;
+    return Fail(fmt::format("strings: expected as many cells in each, found {:g} and {:g}",
+                            cells.front(), count),
+                path);
+  }
+  layout.strings = static_cast<int>(cells.size());
+  layout.cells_in_series = static_cast<int>(cells.front());
+  for (const WrittenPart& written : *parts) {
+    for (StringLayout::Cells kind : written.kinds) {
+      kind.part = static_cast<int>(layout.parts.size());
+      kind.share *= written.times / (cells.front() * layout.strings);
+      layout.kinds.push_back(kind);
+    }
+    layout.parts.push_back(written.part);
+  }
+  if (layout.kinds.size() == 1) {  // a cell of one kind is the device's own: see Cell
+    layout.kinds.front().share *= 0.5;
+    layout.kinds.push_back(layout.kinds.front());
+  }
+  if (layout.kinds.size() > kMostKinds) {
+    return Fail(fmt::format("strings: expected at most {} kinds of cells that differ in part, "
+                            "light or leak, found {}",
+                            kMostKinds, layout.kinds.size()),
+                path);
+  }
+  return layout;
+}
+
+}  // namespace lyrefit

@@ -74,12 +74,14 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
-  Spread SpreadOfQuoted() const {
+  Spread SpreadOfQuoted() {
     const double variance = Variance(input_.problem, input_.end);
-    const std::vector<bool>& held = input_.end.held;
+    std::vector<bool> held = input_.end.held;
     if (input_.problem.device.extension == nullptr) {
       return FindSpread(CurveModel(input_.problem), input_.end, held, variance);
     }
+    flat_ = FindFlat(input_.problem, quoted_);
+    for (int i = 0; i < size_; ++i) held[i] = held[i] || flat_[i];
     return FindSpread(QuotedModel(input_.problem), {quoted_, {}}, held, variance);
   }
 
@@ -120,7 +122,7 @@ class IntervalFinder {
     const bool any_at_bound =
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
-    if (any_at_bound || e.interval == IntervalMethod::kNone) return true;
+    if (any_at_bound || e.interval == IntervalMethod::kNone || GoesWithFlat(i)) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
     return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
@@ -166,6 +168,20 @@ class IntervalFinder {
   bool OfEffect(int i) const {
     const Extension* extension = input_.problem.device.extension.get();
     return extension != nullptr && i >= extension->law.base_size();
+  }
+
+  // Whether it is of an effect of which something is settled by trying: the spread of that is not
+  // in the covariance.
+  bool GoesWithFlat(int i) const {
+    if (!OfEffect(i)) return false;
+    const Law& law = input_.problem.device.extension->law;
+    for (std::size_t e = 0; e < law.effects.size(); ++e) {
+      const int first = law.Offset(static_cast<int>(e)), last = first + law.effects[e]->size();
+      if (i < first || i >= last) continue;
+      return std::any_of(flat_.begin() + first, flat_.begin() + last,
+                         [](bool flat) { return flat; });
+    }
+    return false;
   }
 
   ProfileSide SideOf(const ProfileQuery& query) {
@@ -275,6 +291,7 @@ class IntervalFinder {
   const int size_;
   const std::vector<double> quoted_;   // the end, as it is reported
   const std::vector<double> neutral_;  // of effects' parameters, likewise
+  std::vector<bool> flat_;             // of a device with effects; see FindFlat
   int degrees_ = 1;
   double t_ = 2;
   RefineProblem few_;

@@ -25,8 +25,13 @@ class QuotedModel : public FitModel {
   CurveModel own_;
 };
 
-// FindProfileSide of an effect's parameter, all in these numbers but `best`.
+// FindProfileSide of an effect's parameter, all in these numbers but `best`. What does not descend
+// is settled anew at every place.
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
                            const ProfileQuery& query, const std::function<bool()>& stop);
+
+// Which parameters of effects are settled by trying and not by descent, since at `quoted` no
+// current follows them: the moment of a step between two readings.
+std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<double>& quoted);
 
 }  // namespace lyrefit

@@ -74,14 +74,14 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
-  Spread SpreadOfQuoted() {
+  Spread SpreadOfQuoted() const {
     const double variance = Variance(input_.problem, input_.end);
     std::vector<bool> held = input_.end.held;
     if (input_.problem.device.extension == nullptr) {
       return FindSpread(CurveModel(input_.problem), input_.end, held, variance);
     }
-    flat_ = FindFlat(input_.problem, quoted_);
-    for (int i = 0; i < size_; ++i) held[i] = held[i] || flat_[i];
+    const std::vector<bool> flat = FindFlat(input_.problem, quoted_);
+    for (int i = 0; i < size_; ++i) held[i] = held[i] || flat[i];
     return FindSpread(QuotedModel(input_.problem), {quoted_, {}}, held, variance);
   }
 
@@ -122,7 +122,7 @@ class IntervalFinder {
     const bool any_at_bound =
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
-    if (any_at_bound || e.interval == IntervalMethod::kNone || GoesWithFlat(i)) return true;
+    if (any_at_bound || e.interval == IntervalMethod::kNone || OneOfSeveral(i)) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
     return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
@@ -170,18 +170,17 @@ class IntervalFinder {
     return extension != nullptr && i >= extension->law.base_size();
   }
 
-  // Whether it is of an effect of which something is settled by trying: the spread of that is not
-  // in the covariance.
-  bool GoesWithFlat(int i) const {
+  // Whether it is of an effect with several free parameters: what they do together bends sooner
+  // than any of them alone, and what is settled by trying is not in the covariance at all.
+  bool OneOfSeveral(int i) const {
     if (!OfEffect(i)) return false;
     const Law& law = input_.problem.device.extension->law;
+    int free = 0;
     for (std::size_t e = 0; e < law.effects.size(); ++e) {
       const int first = law.Offset(static_cast<int>(e)), last = first + law.effects[e]->size();
-      if (i < first || i >= last) continue;
-      return std::any_of(flat_.begin() + first, flat_.begin() + last,
-                         [](bool flat) { return flat; });
+      for (int k = first; k < last && first <= i && i < last; ++k) free += !estimates_[k].fixed;
     }
-    return false;
+    return free > 1;
   }
 
   ProfileSide SideOf(const ProfileQuery& query) {
@@ -291,7 +290,6 @@ class IntervalFinder {
   const int size_;
   const std::vector<double> quoted_;   // the end, as it is reported
   const std::vector<double> neutral_;  // of effects' parameters, likewise
-  std::vector<bool> flat_;             // of a device with effects; see FindFlat
   int degrees_ = 1;
   double t_ = 2;
   RefineProblem few_;

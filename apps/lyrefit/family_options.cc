@@ -126,6 +126,8 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFla
   options.intervals = fit.intervals != Intervals::kNone;
   options.threads = fit.threads;
   options.free_fits = !flags.no_free_fits;
+  options.with = fit.with;
+  options.force_effects = fit.force_effects;
   options.search = fit.search;
   const SearchOptions usual = FamilyOptions::FamilySearch();
   if (joint && !verb.Given("--population")) options.search.population = usual.population;

@@ -51,6 +51,9 @@ SimulateCommand::SimulateCommand(CommandLine* line)
       .Group("Device")
       .Type("FILE")
       .Reads();
+  verb_->AddOption("--curve", &from_curve_, "which curve of a report of many, by its id")
+      .Group("Device")
+      .Type("ID");
   AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
   AddWithFlag(verb_, "Device", &with_list_);
   verb_
@@ -108,13 +111,17 @@ Expected<void> SimulateCommand::CheckTargets() const {
 
 Expected<SimulateOptions> SimulateCommand::Options() const {
   SimulateOptions options = flags_;
+  if (from_file_.empty() && !from_curve_.empty()) {
+    return Fail("--curve is about a report of many curves: it needs --from");
+  }
   if (!from_file_.empty()) {
-    Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_);
+    Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_, from_curve_);
     if (!fit) return fit;
     options.parameters = fit->parameters;
     options.conditions = fit->conditions;
     options.with = fit->with;
     options.taken = fit->taken;
+    options.shared = fit->shared;
     options.force_effects = fit->force_effects;
     if (!verb_->Given("--model")) options.model = fit->model;
     if (!verb_->Given("--constants")) options.constants = fit->constants;

@@ -25,6 +25,7 @@ class SimulateCommand {
   ConditionFlags conditions_;
   std::string from_file_;
   std::string layout_file_;
+  std::string from_curve_;
   std::vector<std::string> set_list_;
   std::vector<std::string> with_list_;
   std::string voltages_;

@@ -6,6 +6,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/reading_blocks.h"
 #include "lyrefit/search/search.h"
@@ -200,19 +201,64 @@ IvCurve AllPoints(const CurveSet& set) {
   return all;
 }
 
-// The law as a device with effects, so that whoever reads the report can simulate it: of one curve
-// whose cells are counted as stated. The report's parameters are its own from here on.
+// What the law of many curves holds of alpha and the band gap stands in the report as well.
+void AddHeld(const Selection& selection, FitReport* report) {
+  const Law& law = selection.extended.law;
+  const Readings& readings = *selection.bench.readings;
+  const auto insert = [&](int at, ParameterInfo info, double value) {
+    Estimate estimate;
+    estimate.info = std::move(info);
+    estimate.refined = estimate.searched = value;
+    estimate.fixed = true;
+    report->estimates.insert(report->estimates.begin() + at, estimate);
+    report->refined.insert(report->refined.begin() + at, value);
+    report->searched.insert(report->searched.begin() + at, value);
+  };
+  const int first = 3 + 2 * static_cast<int>(law.model);
+  if (!law.free_tempco) {
+    const double scales = readings.isc_tempco_per_K * selection.extended.p[kBasePhotocurrent] +
+                          readings.isc_tempco_scales_per_K;
+    insert(first, {"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"},
+           scales * readings.scale.current_A);
+  }
+  if (!law.free_bandgap) {
+    insert(first + 1, {"Eg", "EgRef", "eV", "band gap at the reference"}, readings.bandgap_eV);
+  }
+}
+
+// The curves at the irradiances the law takes them at.
+CurveSet AsRead(const CurveSet& set, const Readings& readings) {
+  CurveSet read = set;
+  for (const Reading& r : readings.points) {
+    Conditions& at = read.curves[r.curve].conditions;
+    if (r.index == 0 && read.curves[r.curve].irradiance_W_m2.empty()) {
+      at.irradiance_W_m2 = 1000 * r.irradiance;
+    }
+    if (r.dark) at.irradiance_W_m2 = 0;
+  }
+  return read;
+}
+
+// The law as a device with effects, so that whoever reads the report can simulate it: where cells
+// are counted as stated, and of one curve with nothing free but the diodes and the effects. The
+// report's parameters are the device's own from here on.
 void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
   const IvCurve& curve = set.curves.front();
-  const ReadingScale& scale = selection.bench.readings->scale;
-  const bool plain = !law.free_tempco && !law.free_bandgap && !law.effects.empty();
-  if (set.curves.size() != 1 || !plain || scale.cells != curve.conditions.cells_in_series) return;
+  const Readings& readings = *selection.bench.readings;
+  const bool one = set.curves.size() == 1;
+  if (one && (law.effects.empty() || law.free_tempco || law.free_bandgap)) return;
+  if (readings.scale.cells != curve.conditions.cells_in_series) return;
   std::vector<EffectUse> uses;
   for (const Effect* effect : law.effects) uses.push_back({effect, {}});
-  auto device = Extend(MakeDevice(law.model, curve.conditions), law.model, ConstantSet::kCodata,
-                       curve, uses, /*force=*/true);
+  Conditions reference = curve.conditions;
+  if (!one) reference.cell_temperature_K = readings.reference_temperature_K;
+  const Device base = MakeDevice(law.model, reference);
+  auto device = one ? Extend(base, law.model, ConstantSet::kCodata, curve, uses, /*force=*/true)
+                    : ExtendSet(base, law, AsRead(set, readings), readings.reference_temperature_K,
+                                uses, /*force=*/true);
   if (!device) return;
+  if (!one) AddHeld(selection, report);
   report->device = std::move(*device);
   report->refined = Inner(report->device, report->refined);
   report->searched = Inner(report->device, report->searched);

@@ -25,6 +25,8 @@ std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options) {
     echo("fix", fmt::format("{}={:g}", key, value), "");
   }
   for (const std::string& name : options.freed) echo("free", name, "");
+  for (const EffectUse& use : options.with) echo("with", DescribeUse(use), "");
+  echo("force", options.force_effects ? "yes" : "no", "no");
   for (const auto& [key, range] : options.bounds) {
     echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
   }

@@ -10,6 +10,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
@@ -29,6 +30,10 @@ Interval Symmetric(double value, double standard_error, double t) {
 }
 
 KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
+  if (translation.extended) {
+    return ModelKeyPoints(UnderSky(*translation.extended, 1, kReferenceTemperature_K),
+                          ExtendedParameters(translation, shared.data()).data());
+  }
   const TranslatedDevice at =
       TranslateTo(translation, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);
   return ModelKeyPoints(at.device, at.parameters.data());

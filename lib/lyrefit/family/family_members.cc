@@ -34,6 +34,18 @@ int UsualCells(const CurveSet& set) {
   return cells.empty() ? 0 : static_cast<int>(Median(cells));
 }
 
+double LargestCurrent(const std::vector<double>& current_A) {
+  double largest = 0;
+  for (const double current : current_A) largest = std::max(largest, std::fabs(current));
+  return largest;
+}
+
+// Whether a curve delivers, at 0 V, more than what a meter says of a dark one.
+bool IsLit(const IvCurve& curve, double isc) {
+  constexpr double kNothing = 0.002;  // of the largest current
+  return isc > kNothing * LargestCurrent(curve.current_A);
+}
+
 // Members that no law can place. `refusal` gets the first one's whose readings cannot be.
 void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
                      std::vector<FamilyMember>* members, std::optional<Error>* refusal) {
@@ -55,7 +67,11 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       LeaveOut(judged.error().message, &member);
       if (!refusal->has_value()) *refusal = judged.error();
     } else if (member.irradiance_known && !(irradiance > 0)) {
-      const bool lit = isc > 0;
+      const bool lit = IsLit(curve, isc);
+      if (!lit && !options.with.empty()) {  // effects know the dark
+        member.joint.irradiance_W_m2 = 0;
+        continue;
+      }
       LeaveOut(lit ? fmt::format("its irradiance is stated as 0 W/m2 but it delivers {:.4g} A: "
                                  "the statement is wrong, or the curve is another's",
                                  isc)
@@ -78,7 +94,7 @@ void GuessIrradiances(std::vector<FamilyMember>* members, std::vector<std::strin
     if (member.role == CurveRole::kLeftOut) continue;
     brightest = std::max(brightest, member.short_circuit_current_A);
     any_unknown = any_unknown || !member.irradiance_known;
-    if (!member.irradiance_known) continue;
+    if (!member.irradiance_known || member.IsDark()) continue;
     per_sun.push_back(member.short_circuit_current_A / member.joint.irradiance_W_m2 *
                       kReferenceIrradiance_W_m2);
   }
@@ -129,8 +145,9 @@ void SetWeights(const FamilyOptions& options, double reference,
   for (FamilyMember& member : *members) {
     double weight = 1;
     if (options.weights == FamilyWeights::kIsc) {
-      const double ratio = reference / member.short_circuit_current_A;
-      weight = ratio * ratio;
+      const double own =
+          member.IsDark() ? LargestCurrent(member.joint.current_A) : member.short_circuit_current_A;
+      weight = (reference / own) * (reference / own);
     }
     member.joint.weight.assign(member.joint.voltage_V.size(), weight);
   }
@@ -208,33 +225,35 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   if (auto guessed = GuessTemperatures(&result.members, &result.notes); !guessed) {
     return tl::unexpected(guessed.error());
   }
-  std::vector<int> light;
-  std::vector<double> per_sun;
+  std::vector<int> usable;
+  std::vector<double> per_sun;  // of lit curves
   for (std::size_t c = 0; c < result.members.size(); ++c) {
     const FamilyMember& member = result.members[c];
     if (member.role == CurveRole::kLeftOut) continue;
-    light.push_back(static_cast<int>(c));
+    usable.push_back(static_cast<int>(c));
+    if (member.IsDark()) continue;
     per_sun.push_back(member.short_circuit_current_A / member.joint.irradiance_W_m2 *
                       kReferenceIrradiance_W_m2);
   }
-  if (light.size() < 2 && refusal) return tl::unexpected(*refusal);
-  if (light.size() < 2) {
+  const bool enough = usable.size() >= 2 && !per_sun.empty();
+  if (!enough && refusal) return tl::unexpected(*refusal);
+  if (!enough) {
     return Fail(
         fmt::format("expected at least two light curves, found {}: one curve cannot tell "
                     "temperature, irradiance scale or sensor errors from device parameters (n and "
                     "the saturation current absorb the temperature, the photocurrent the "
                     "irradiance)",
-                    light.size()),
+                    per_sun.size()),
         set.source);
   }
   result.reference_current_A = Median(per_sun);
   SetWeights(options, result.reference_current_A, &result.members);
   UseSigmas(set, &result.members);
-  result.fitted = light;
+  result.fitted = usable;
   if (options.fit_curves > 0) {
-    result.fitted = SpreadCurves(ConditionsOf(result), light, options.fit_curves);
+    result.fitted = SpreadCurves(ConditionsOf(result), usable, options.fit_curves);
   }
-  for (const int c : light) {
+  for (const int c : usable) {
     if (std::binary_search(result.fitted.begin(), result.fitted.end(), c)) continue;
     result.members[c].role = CurveRole::kHeldOut;
     result.held_out.push_back(c);

@@ -16,6 +16,7 @@ struct FamilyMember {
   double short_circuit_current_A = kUnknown;
   bool irradiance_known = true;
   bool temperature_known = true;
+  bool IsDark() const { return joint.irradiance_W_m2 <= 0; }
 };
 
 struct FamilyMembers {
@@ -29,7 +30,8 @@ struct FamilyMembers {
 // Of every curve: as stated, or guessed where nobody stated them.
 std::vector<Conditions> ConditionsOf(const FamilyMembers& members);
 
-// Errors: fewer than two light curves, ids that occur twice or not at all, unusable curves.
+// Errors: fewer than two light curves (with effects dark ones count, beside a light one), ids that
+// occur twice or not at all, unusable curves.
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options);
 
 }  // namespace lyrefit

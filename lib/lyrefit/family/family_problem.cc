@@ -7,6 +7,7 @@
 #include <map>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/family/family_effects.h"
 #include "lyrefit/law/held_values.h"
 
 namespace lyrefit {
@@ -278,6 +279,10 @@ Expected<FamilyProblem> MakeFamilyProblem(const CurveSet& set, const FamilyOptio
   family.translation = std::move(*translation);
   if (auto built = Builder(set, options, &family).Build(); !built) {
     return tl::unexpected(built.error());
+  }
+  if (!options.with.empty()) {
+    auto added = AddFamilyEffects(set, options, &family);
+    if (!added) return tl::unexpected(added.error());
   }
   return family;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
 #include "lyrefit/search/search.h"
 
@@ -47,7 +49,8 @@ struct FamilyCurve {
   Interval irradiance_offset_W_m2;
   Interval temperature_offset_K;
   double short_circuit_current_A = kUnknown;  // measured
-  std::vector<double> parameters;             // of the translated device, n at its own temperature
+  // Of the translated device, n at its own temperature; without effects.
+  std::vector<double> parameters;
   RmsePair rmse;
   double mean_residual_A = kUnknown;  // solved-current
   std::vector<double> residual_A;     // model - measured, solved-current
@@ -123,7 +126,9 @@ struct FamilyReport {
   Translation translation;
   Objective objective = Objective::kSolvedCurrent;
   int cells_in_series = 1;
-  std::vector<double> searched;  // shared parameters in the translation's order
+  // Shared parameters in the translation's order, those of effects in numbers of their own;
+  // estimates, jackknife and all else quote them in the units of people.
+  std::vector<double> searched;
   std::vector<double> refined;
   std::vector<Estimate> estimates;  // shared parameters, same order
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN where not asked for
@@ -149,7 +154,10 @@ struct FamilyReport {
   std::string termination;  // of the joint fit
   double projected_gradient = kUnknown;
   double seconds = 0;
-  double free_seconds = 0;              // of the fits one by one
+  double free_seconds = 0;  // of the fits one by one
+  // Effects beside the diodes, and the curves as they were taken, in which they act.
+  std::vector<EffectUse> with;
+  std::shared_ptr<const CurveSet> taken;
   std::vector<RejectedCurve> rejected;  // files or curves that could not be read
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;

@@ -46,8 +46,8 @@ class SharedObjective {
     double sum = 0;
     for (std::size_t c = 0; c < problem_.curves.size(); ++c) {
       const std::vector<double> device = DeviceAt(problem_, point, static_cast<int>(c));
-      sum += weight_[c] *
-             MeanSquare(problem_.translation.device, problem_.objective, device.data(), points_[c]);
+      sum += weight_[c] * MeanSquare(DeviceOf(problem_, static_cast<int>(c)), problem_.objective,
+                                     device.data(), points_[c]);
     }
     return std::sqrt(sum / total_);
   }
@@ -87,7 +87,7 @@ FamilySearchEnd SearchFamily(const FamilyProblem& family, const FamilyOptions& o
 RmsePair CurveRmse(const JointProblem& problem, const JointPoint& point, int curve) {
   const JointCurve& at = problem.curves[curve];
   const std::vector<double> device = DeviceAt(problem, point, curve);
-  const Device& model = problem.translation.device;
+  const Device& model = DeviceOf(problem, curve);
   return {Rmse(model, Objective::kMeasuredCurrent, device.data(), at.voltage_V, at.current_A),
           Rmse(model, Objective::kSolvedCurrent, device.data(), at.voltage_V, at.current_A)};
 }

@@ -10,6 +10,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/family_echo.h"
+#include "lyrefit/family/family_effects.h"
 #include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
@@ -34,7 +35,8 @@ struct Job {
   FamilyProblem family;
   std::vector<int> search_curves;
   FreeFits free;
-  std::vector<JointPoint> starts;
+  std::vector<JointPoint> starts;  // the search's elites, then others
+  std::ptrdiff_t elites = 0;
   JointPoint searched;
   bool stopped = false;
 };
@@ -92,9 +94,10 @@ void FitFreely(Job* job, FamilyReport* report) {
     FamilyCurve& row = report->curves[rows[k]];
     FillFreeFit(**one, &row);
     const std::vector<int>& search = job->search_curves;
+    const FamilyMember& member = job->family.curves.members[rows[k]];
     if (std::find(search.begin(), search.end(), rows[k]) == search.end()) continue;
-    std::vector<double> start = StartFromFreeFit(
-        job->family, job->family.curves.members[rows[k]].joint, row.free_parameters);
+    if (member.IsDark()) continue;
+    std::vector<double> start = StartFromFreeFit(job->family, member.joint, row.free_parameters);
     if (!start.empty()) job->starts.push_back({std::move(start), {}});
   }
 }
@@ -110,6 +113,7 @@ void SearchShared(Job* job, FamilyReport* report) {
   report->rmse.searched = FamilyRmse(problem, job->searched);
   if (end.has_random) report->rmse.random_baseline = FamilyRmse(problem, end.random);
   job->starts = end.elites;
+  job->elites = static_cast<std::ptrdiff_t>(end.elites.size());
   const std::vector<double>& shared = job->searched.shared;
   report->searched.assign(shared.begin(), shared.begin() + job->family.translation.size());
 }
@@ -133,9 +137,14 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
     const TranslatedDevice device =
         TranslateTo(job.family.translation, report->refined, at.irradiance_W_m2, at.temperature_K);
     row.parameters = device.parameters;
-    FillExcess(device, &row);
-    const std::vector<double> model =
-        SolveCurrents(device.device, row.parameters.data(), curve.voltage_V);
+    std::vector<double> model;
+    if (job.family.translation.extended) {
+      model = SolveCurrents(DeviceOf(from, k), DeviceAt(from, point, k).data(),
+                            MakePointSet(curve.voltage_V, curve.current_A));
+    } else {
+      FillExcess(device, &row);
+      model = SolveCurrents(device.device, row.parameters.data(), curve.voltage_V);
+    }
     double sum = 0;
     for (std::size_t i = 0; i < model.size(); ++i) {
       row.residual_A.push_back(model[i] - curve.current_A[i]);
@@ -157,6 +166,8 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
 }
 
 void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+  // Whether its sensors excuse a curve is asked with unknowns that no curve with effects has.
+  if (job->family.translation.extended) return;
   SharedObserver watch(job->observer, "odd curves", 0);
   watch.Begin();
   const std::vector<int> odd = FindOddCurves(problem, end, watch.Proceed());
@@ -199,6 +210,9 @@ FamilyReport Head(const Job& job) {
                             job.family.notes.end());
   report.search_options = job.options.search;
   report.non_default_options = FamilyEcho(job.options);
+  report.with = job.options.with;
+  const std::optional<Device>& extended = job.family.translation.extended;
+  if (extended) report.taken = extended->extension->set;
   report.termination = "not run";
   return report;
 }
@@ -208,6 +222,11 @@ void Refine(Job* job, FamilyReport* report) {
   JointPoint bird = job->searched;
   bird.local.assign(problem.curves.size(), {0, 0});
   report->rmse.searched_all = FamilyRmse(problem, bird);
+  if (job->family.translation.extended) {
+    const std::vector<JointPoint> elites(job->starts.begin(), job->starts.begin() + job->elites);
+    job->starts = FamilyEffectStarts(job->family, job->options, job->search_curves, elites,
+                                     job->starts, job->observer);
+  }
   const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
                                   job->observer, &problem);
   report->termination = end.stopped     ? "interrupted"
@@ -243,7 +262,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   if (auto checked = CheckAgainst(*family, options); !checked) {
     return tl::unexpected(checked.error());
   }
-  Job job{set, options, observer, std::move(*family), {}, {}, {}, {}, false};
+  Job job{set, options, observer, std::move(*family), {}, {}, {}, 0, {}, false};
   const std::vector<int>& fitted = job.family.curves.fitted;
   std::size_t points = 0;
   for (const int c : fitted) points += set.curves[c].size();
@@ -262,6 +281,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   } else {
     report.refined = report.searched;
   }
+  QuoteFamilyEffects(&report);
   report.interrupted = job.stopped;
   report.doubts = DoubtsOfKept(set, report);
   report.warnings = report.doubts;

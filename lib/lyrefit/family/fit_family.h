@@ -9,6 +9,7 @@
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
+#include "lyrefit/law/extension.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -39,6 +40,10 @@ struct FamilyOptions {
   std::map<std::string, double> fixed;
   std::vector<std::string> freed;  // parameters of that list to be fitted after all
   BoundsSpec::Table bounds;        // of single shared parameters
+  // Effects beside the diodes, shared by all curves, as in FitOptions; with De Soto's law alone,
+  // and fitted to the solved current. Dark curves are then fitted as well.
+  std::vector<EffectUse> with;
+  bool force_effects = false;  // also those that data of this kind cannot show
   FamilyWeights weights = FamilyWeights::kEqual;
   SearchOptions search = FamilySearch();
   int search_curves = 6;  // the search sees so many well-spread curves

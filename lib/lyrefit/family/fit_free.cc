@@ -42,7 +42,7 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
 }
 
 void FillFreeFit(const FitReport& fit, FamilyCurve* curve) {
-  curve->free_parameters = fit.refined;
+  curve->free_parameters = Reported(fit.device, fit.refined);
   curve->free_estimates = fit.estimates;
   curve->free_rmse = fit.polished ? fit.rmse.refined : fit.rmse.searched;
 }
@@ -60,12 +60,16 @@ FamilyCurve DescribeCurve(const IvCurve& curve) {
   return described;
 }
 
-std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report) {
-  std::vector<IvCurve> kept;
+CurveSet KeptCurves(const CurveSet& set, const FamilyReport& report) {
+  CurveSet kept;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
-    if (report.curves[c].role != CurveRole::kLeftOut) kept.push_back(set.curves[c]);
+    if (report.curves[c].role != CurveRole::kLeftOut) kept.curves.push_back(set.curves[c]);
   }
-  const auto doubts = JudgeReadings(kept);
+  return kept;
+}
+
+std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report) {
+  const auto doubts = JudgeReadings(KeptCurves(set, report).curves);
   return doubts ? *doubts : std::vector<std::string>();  // what is refused is left out
 }
 
@@ -77,6 +81,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.name = set.name;
   report.source = set.source;
   report.free = true;
+  report.with = options.with;
   report.objective = options.objective;
   report.translation.spec.model = options.model;
   report.rejected = set.rejected;
@@ -88,6 +93,8 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   fit.objective = options.objective;
   fit.constants = options.constants;
   fit.fixed = options.fixed;
+  fit.with = options.with;
+  fit.force_effects = options.force_effects;
   fit.bounds.overrides = options.bounds;
   fit.search = options.search;
   fit.random_baseline = false;
@@ -141,6 +148,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   if (first != nullptr && refused == static_cast<int>(curves.size())) {
     return tl::unexpected(*first);
   }
+  if (!options.with.empty()) report.taken = std::make_shared<CurveSet>(KeptCurves(set, report));
   report.doubts = DoubtsOfKept(set, report);
   report.warnings.insert(report.warnings.begin(), report.doubts.begin(), report.doubts.end());
   if (failed > 0) {

@@ -18,13 +18,14 @@ struct FreeFits {
 FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer);
 
-// What of a fit of its own goes into the family report.
+// What of a fit of its own goes into the family report, effects in the units of people.
 void FillFreeFit(const FitReport& fit, FamilyCurve* curve);
 
 // Id, points and conditions as stated.
 FamilyCurve DescribeCurve(const IvCurve& curve);
 
-// What is doubtful about the readings of the curves that are not left out.
+// The curves that are not left out, and what is doubtful about their readings.
+CurveSet KeptCurves(const CurveSet& set, const FamilyReport& report);
 std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report);
 
 }  // namespace lyrefit

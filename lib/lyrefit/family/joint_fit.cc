@@ -78,6 +78,10 @@ std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCur
     shared[i] =
         std::isnan(family.fixed[i]) ? 0.5 * (b.search_lower + b.search_upper) : family.fixed[i];
   }
+  if (at.extended) {
+    const std::vector<double>& usual = at.extended->extension->usual;
+    std::copy(usual.begin(), usual.end(), shared.end() - 2 - static_cast<int>(usual.size()));
+  }
   const auto set = [&](int i, double value) {
     if (i >= 0 && std::isnan(family.fixed[i])) shared[i] = value;
   };

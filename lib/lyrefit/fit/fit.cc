@@ -17,6 +17,7 @@
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
+#include "lyrefit/fit/quote_effect.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
@@ -44,7 +45,7 @@ struct Job {
   FitWatch watch;
 };
 
-Expected<void> AddEffects(Job* job, FitReport* report) {
+Expected<void> ExtendJob(Job* job, FitReport* report) {
   const FitOptions& options = job->options;
   if (options.with.empty()) return {};
   if (options.objective == Objective::kMeasuredCurrent) {
@@ -82,7 +83,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   if (!fixed) return tl::unexpected(fixed.error());
   job->bounds = std::move(*bounds);
   job->fixed = std::move(*fixed);
-  if (auto extended = AddEffects(job, report); !extended) return extended;
+  if (auto extended = ExtendJob(job, report); !extended) return extended;
   std::vector<double> lower, upper;
   for (int i = 0; i < report->device.size(); ++i) {
     ParameterBounds& b = job->bounds[i];

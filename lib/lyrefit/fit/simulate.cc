@@ -4,24 +4,17 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/base/version.h"
-#include "lyrefit/curve/json_text.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kBeyondOpenCircuit = 1.02;
-constexpr std::uintmax_t kLargestFitFile = 64U << 20;
 
 std::string Symbols(const Device& device) {
   std::string list;
@@ -33,6 +26,7 @@ std::string Symbols(const Device& device) {
 
 // Outside these ranges the device is no passive diode in the light.
 Expected<void> CheckValue(const ParameterInfo& info, double value) {
+  if (info.symbol == "alpha" && std::isfinite(value)) return {};
   const bool perfect_shunt = info.symbol == "Rsh" && std::isinf(value) && value > 0;
   const bool positive = info.symbol == "Rsh" || info.symbol[0] == 'n';
   if (perfect_shunt || (std::isfinite(value) && (positive ? value > 0 : value >= 0))) return {};
@@ -110,51 +104,6 @@ void AddNoise(const SimulateOptions& options, IvCurve* curve) {
   curve->notes.current_noise_relative = options.noise_relative;
 }
 
-// The value a fit answers with: refined, or searched where there was no polish.
-Expected<double> AnsweredValue(const json& parameter, bool polished, const std::string& name,
-                               const std::string& path) {
-  const char* const key = polished ? "refined" : "searched";
-  const json value = parameter.is_object() ? parameter.value(key, json()) : json();
-  if (value.is_number()) return value.get<double>();
-  if (value.is_null() && name == "resistance_shunt" && parameter.is_object()) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return Fail(fmt::format("expected a number in parameters.{}.{}", name, key), path);
-}
-
-// What stands at `pointer`, null where nothing does.
-json At(const json& document, const char* pointer) {
-  const json::json_pointer place(pointer);
-  return document.contains(place) ? document.at(place) : json();
-}
-
-Expected<void> ReadConditions(const json& fit, const std::string& text, const std::string& path,
-                              Conditions* conditions) {
-  const json object = At(fit, "/curve/conditions");
-  if (!object.is_object()) return Fail("expected an object in curve.conditions", path);
-  const JsonFields fields(object, text, path);
-  const auto cells = fields.WholeNumber({"cells_in_series"});
-  if (!cells) return tl::unexpected(cells.error());
-  const auto strings = fields.WholeNumber({"strings_in_parallel"});
-  if (!strings) return tl::unexpected(strings.error());
-  const auto temperature_C = fields.Number({"cell_temperature_C"});
-  if (!temperature_C) return tl::unexpected(temperature_C.error());
-  const auto irradiance = fields.Number({"irradiance_Wm2"});
-  if (!irradiance) return tl::unexpected(irradiance.error());
-  if (!*cells || !*temperature_C) {
-    return Fail("expected cells_in_series and cell_temperature_C in curve.conditions", path);
-  }
-  conditions->cells_in_series = **cells;
-  conditions->strings_in_parallel = strings->value_or(1);
-  conditions->cell_temperature_K = **temperature_C + kZeroCelsius_K;
-  conditions->irradiance_W_m2 = irradiance->value_or(1000);
-  return {};
-}
-
-}  // namespace
-
-namespace {
-
 // Every parameter of every effect at one value.
 Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
   std::vector<EffectUse> uses = options.with;
@@ -192,10 +141,53 @@ Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const I
   return p;
 }
 
+Expected<void> CheckCurrents(const IvCurve& curve) {
+  for (const double current : curve.current_A) {
+    if (!std::isfinite(current)) return Fail("the device has no current there");
+  }
+  return {};
+}
+
+// One of the curves of a law behind many.
+Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
+  SharedLaw shared = *options.shared;
+  IvCurve& taken = shared.set.curves[shared.curve];
+  taken.conditions = options.conditions;
+  auto uses = SettledUses(options);
+  if (!uses) return tl::unexpected(uses.error());
+  Conditions reference = options.conditions;
+  reference.cell_temperature_K = shared.reference_K;
+  const auto device = ExtendSet(MakeDevice(options.model, reference, options.constants), shared.law,
+                                shared.set, shared.reference_K, *uses, /*force=*/true);
+  if (!device) return tl::unexpected(device.error());
+  Device base = *device;
+  base.parameters.resize(device->extension->law.base_size());
+  auto p = ParameterVector(base, options.parameters);
+  if (!p) return tl::unexpected(p.error());
+  p->insert(p->end(), device->extension->usual.begin(), device->extension->usual.end());
+  const Device one = OfCurve(*device, shared.curve);
+  IvCurve curve = taken;
+  curve.name = options.name;
+  if (options.voltage_V.empty()) {
+    curve.current_A = SolveCurrents(one, p->data(), MakePointSet(curve.voltage_V, curve.current_A));
+  } else {
+    curve = IvCurve();
+    curve.name = options.name;
+    curve.conditions = options.conditions;
+    curve.notes = taken.notes;
+    curve.voltage_V = options.voltage_V;
+    curve.current_A = SolveCurrents(one, p->data(), curve.voltage_V);
+  }
+  if (auto fine = CheckCurrents(curve); !fine) return tl::unexpected(fine.error());
+  AddNoise(options, &curve);
+  return curve;
+}
+
 }  // namespace
 
 Expected<IvCurve> Simulate(const SimulateOptions& options) {
   if (auto checked = CheckOptions(options); !checked) return tl::unexpected(checked.error());
+  if (options.shared) return SimulateShared(options);
   Device device = MakeDevice(options.model, options.conditions, options.constants);
   Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
@@ -218,115 +210,10 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
     curve.current_A = own ? SolveCurrents(device, parameters->data(),
                                           MakePointSet(curve.voltage_V, curve.current_A))
                           : SolveCurrents(device, parameters->data(), curve.voltage_V);
-    for (const double current : curve.current_A) {
-      if (!std::isfinite(current)) return Fail("the device has no current there");
-    }
+    if (auto fine = CheckCurrents(curve); !fine) return tl::unexpected(fine.error());
   }
   AddNoise(options, &curve);
   return curve;
-}
-
-namespace {
-
-// A model of many curves is more than its one curve.
-Expected<void> RefuseMany(const json& fit, const std::string& path) {
-  const json curves = At(fit, "/curves");
-  if (curves.is_number() && curves.get<double>() > 1) {
-    return Fail("a model of " + curves.dump() +
-                    " curves under conditions of their own, which cannot be simulated yet: "
-                    "expected a report of one curve",
-                path);
-  }
-  return {};
-}
-
-std::vector<double> NumbersAt(const json& document, const char* pointer) {
-  std::vector<double> values;
-  for (const json& value : At(document, pointer)) {
-    values.push_back(value.is_number() ? value.get<double>()
-                                       : std::numeric_limits<double>::quiet_NaN());
-  }
-  return values;
-}
-
-// Effects with the values the report answers with, and the measurement they act in.
-Expected<void> ReadEffects(const json& fit, bool polished, const std::string& path,
-                           SimulateOptions* options) {
-  const json causes = At(fit, "/causes");
-  if (!causes.is_array() || causes.empty()) return {};
-  const json version = At(fit, "/lyrefit_version");
-  if (version != Version() || !At(fit, "/law").is_object()) {
-    return Fail(
-        fmt::format("a model with effects, written by lyrefit {}, which this one ({}) does "
-                    "not read: fit it again",
-                    version.is_string() ? version.get<std::string>() : "of no version", Version()),
-        path);
-  }
-  for (const json& cause : causes) {
-    EffectUse use;
-    use.effect = cause.is_string() ? FindEffect(cause.get<std::string>()) : nullptr;
-    if (use.effect == nullptr) return Fail("there is no effect " + cause.dump(), path);
-    for (const EffectParameter& info : use.effect->parameters) {
-      const std::string name = fmt::format("{}_{}", use.effect->id, info.name);
-      const auto value =
-          AnsweredValue(At(fit, "/parameters").value(name, json()), polished, name, path);
-      if (!value) return tl::unexpected(value.error());
-      use.ranges[info.symbol] = {*value, *value};
-    }
-    options->with.push_back(std::move(use));
-  }
-  IvCurve taken;
-  taken.name = options->name;
-  taken.conditions = options->conditions;
-  taken.irradiance_known = true;
-  taken.voltage_V = NumbersAt(fit, "/data/voltage_V");
-  taken.current_A = NumbersAt(fit, "/data/current_A");
-  taken.time_s = NumbersAt(fit, "/law/time_s");
-  taken.irradiance_W_m2 = NumbersAt(fit, "/law/irradiance_Wm2");
-  const json bypass = At(fit, "/law/bypass_diodes");
-  if (bypass.is_number_integer()) taken.notes.bypass_diodes = bypass.get<int>();
-  if (auto valid = Validate(taken); !valid) return Fail(valid.error().message, path);
-  options->taken = std::move(taken);
-  options->force_effects = true;  // they were fitted to it
-  return {};
-}
-
-}  // namespace
-
-Expected<SimulateOptions> ReadFitForSimulation(const std::string& path) {
-  const Expected<std::string> text = ReadTextFile(path, kLargestFitFile);
-  if (!text) return tl::unexpected(text.error());
-  const Expected<json> fit = ParseJson(*text, path);
-  if (!fit) return tl::unexpected(fit.error());
-  const auto text_of = [&](const char* key) {
-    const json value = At(*fit, key);
-    return value.is_string() ? value.get<std::string>() : std::string();
-  };
-  const std::optional<Model> model = FromText<Model>(text_of("/model"));
-  const std::optional<ConstantSet> constants = FromText<ConstantSet>(text_of("/constants"));
-  const json parameters = At(*fit, "/parameters");
-  if (!model || !constants || !parameters.is_object()) {
-    return Fail("expected a fit report as lyrefit writes it: model, constants, parameters", path);
-  }
-  if (auto one = RefuseMany(*fit, path); !one) return tl::unexpected(one.error());
-  SimulateOptions options;
-  options.model = *model;
-  options.constants = *constants;
-  if (auto read = ReadConditions(*fit, *text, path, &options.conditions); !read) {
-    return tl::unexpected(read.error());
-  }
-  if (auto checked = CheckOptions(options); !checked) return Fail(checked.error().message, path);
-  const bool polished = At(*fit, "/rmse/refined/solved_current_A").is_number();
-  for (const ParameterInfo& info : MakeDevice(*model, options.conditions).parameters) {
-    const Expected<double> value =
-        AnsweredValue(parameters.value(info.name, json()), polished, info.name, path);
-    if (!value) return tl::unexpected(value.error());
-    options.parameters[info.symbol] = *value;
-  }
-  if (auto read = ReadEffects(*fit, polished, path, &options); !read) {
-    return tl::unexpected(read.error());
-  }
-  return options;
 }
 
 }  // namespace lyrefit

@@ -8,11 +8,21 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/extension.h"
 
 namespace lyrefit {
+
+// One law behind many curves (extended_set.h) and the one of them to be simulated; at conditions of
+// one's own choice where the options' differ from those it was taken under.
+struct SharedLaw {
+  Law law;
+  double reference_K = 298.15;
+  CurveSet set;
+  int curve = 0;
+};
 
 struct SimulateOptions {
   Model model = Model::kSingleDiode;
@@ -27,6 +37,9 @@ struct SimulateOptions {
   // without it, as in the simulated sweep itself.
   std::vector<EffectUse> with;
   std::optional<IvCurve> taken;
+  // In the place of `taken`: the parameters are then those at the reference, alpha and EgRef among
+  // them.
+  std::optional<SharedLaw> shared;
   bool force_effects = false;  // also those that such data cannot show
   // Cells that are not alike (law/string_layout.h); none: all have the parameters above.
   std::shared_ptr<const StringLayout> layout;
@@ -43,9 +56,11 @@ struct SimulateOptions {
 Expected<IvCurve> Simulate(const SimulateOptions& options);
 
 // Model, parameters, conditions, constants and effects of a JSON fit report, ready to be simulated:
-// of an extended one its own readings, to 1e-9 of its currents. An infinite shunt resistance, null
-// in JSON, is read back as infinite. Errors besides: an effect nobody knows, an extended report of
-// another version of lyrefit.
-Expected<SimulateOptions> ReadFitForSimulation(const std::string& path);
+// with effects its own readings, to 1e-9 of their currents. Of a report of many curves, a family's
+// or a diagnosis', `curve` is the id of one. An infinite shunt resistance, null in JSON, is read
+// back as infinite. Errors besides: an effect nobody knows, effects in a report of another version
+// of lyrefit, no such curve.
+Expected<SimulateOptions> ReadFitForSimulation(const std::string& path,
+                                               const std::string& curve = "");
 
 }  // namespace lyrefit

@@ -37,12 +37,20 @@ Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
   return bench;
 }
 
+// Of the photocurrent, relative.
+template <class S>
+S TempcoOf(const Bench<S>& bench) {
+  if (!bench.law.free_tempco) return S(bench.readings.isc_tempco_per_K);
+  const S& alpha = bench.p[bench.law.TempcoAt()];
+  return bench.law.natural ? S(alpha / bench.p[kIph]) : alpha;
+}
+
 template <class S>
 Sky<S> SkyAt(const Bench<S>& bench, const ReadingBlock& readings) {
   const Law& law = bench.law;
   Sky<S> sky{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
              law.free_bandgap ? bench.p[law.BandgapAt()] : S(bench.readings.bandgap_eV),
-             law.free_tempco ? bench.p[law.TempcoAt()] : S(bench.readings.isc_tempco_per_K)};
+             TempcoOf(bench)};
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const auto stage = law.effects[e]->sky.template For<S>();
     if (stage != nullptr) stage(bench.p + bench.offsets[e], readings, &sky);

@@ -7,36 +7,20 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/law/make_readings.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {
 namespace {
 
-// As a fit of one curve has it: at its own irradiance and temperature, with the stated cells.
+// As a fit of one curve has it: at its own irradiance and temperature.
 Expected<Readings> ReadingsOf(const IvCurve& curve) {
-  CurveSet set;
-  set.curves = {curve};
-  std::vector<std::string> contradictions;  // the readers of the curve have said them already
-  auto made = MakeReadings(set, &contradictions);
-  if (!made) return made;
-  Readings readings = std::move(*made);
+  auto readings = SetReadings(SetOfOne(curve), curve.conditions.cell_temperature_K);
+  if (!readings) return readings;
   double light = 0;
-  for (const Reading& r : readings.points) light += r.irradiance;
-  light /= static_cast<double>(readings.points.size());
-  const double cells = curve.conditions.cells_in_series;
-  const double ratio = readings.scale.cells / cells;
-  for (Reading& r : readings.points) {
-    r.irradiance = light > 0 ? r.irradiance / light : 1;
-    r.voltage *= ratio;
-  }
-  readings.scale.cells = readings.traits.cells = curve.conditions.cells_in_series;
-  readings.scale.rate_V_per_s *= ratio;
-  readings.scale.reach_V *= ratio;
-  readings.pivot_voltage *= ratio;
-  readings.reference_temperature_K = curve.conditions.cell_temperature_K;
-  readings.traits.module = readings.scale.cells > 1;
-  readings.scale.saturation_2_unit = Saturation2Unit(readings);
+  for (const Reading& r : readings->points) light += r.irradiance;
+  light /= static_cast<double>(readings->points.size());
+  for (Reading& r : readings->points) r.irradiance = light > 0 ? r.irradiance / light : 1;
   return readings;
 }
 
@@ -240,7 +224,6 @@ Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout) {
-  if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
   if (layout != nullptr) {
     if (auto fine = CheckLayout(*layout, curve.conditions, uses); !fine) {
       return tl::unexpected(fine.error());
@@ -248,32 +231,37 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
   }
   auto readings = ReadingsOf(curve);
   if (!readings) return tl::unexpected(readings.error());
-  auto extension = std::make_shared<Extension>();
-  extension->readings = std::move(*readings);
-  extension->blocks = BlocksOf(extension->readings);
-  extension->law.natural = true;
-  extension->law.model = model;
-  extension->law.constants = constants;
-  extension->law.layout = std::move(layout);
-  extension->uses = uses;
+  Extension extension;
+  extension.readings = std::move(*readings);
+  extension.law.natural = true;
+  extension.law.model = model;
+  extension.law.constants = constants;
+  extension.law.layout = std::move(layout);
+  return AddEffects(base, std::move(extension), uses, force);
+}
+
+Expected<Device> AddEffects(const Device& base, Extension extension,
+                            const std::vector<EffectUse>& uses, bool force) {
+  if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
+  extension.blocks = BlocksOf(extension.readings);
+  extension.uses = uses;
   for (const EffectUse& use : uses) {
     const Effect& effect = *use.effect;
     if (effect.parameters.empty()) {
       return tl::unexpected(
           Unfit(effect, "has no parameters: it is found in the values, not fitted"));
     }
-    const auto why_not = effect.why_not != nullptr ? effect.why_not(extension->readings.traits)
-                                                   : std::optional<std::string>();
+    const auto why_not = effect.WhyNot(extension.readings.traits);
     if (why_not && !force) {
       return tl::unexpected(Unfit(effect, *why_not + " (--force fits it all the same)"));
     }
-    extension->law.effects.push_back(&effect);
-    if (auto added = AddUse(use, extension.get()); !added) return tl::unexpected(added.error());
+    extension.law.effects.push_back(&effect);
+    if (auto added = AddUse(use, &extension); !added) return tl::unexpected(added.error());
   }
-  if (auto fine = CheckShares(*extension); !fine) return tl::unexpected(fine.error());
+  if (auto fine = CheckShares(extension); !fine) return tl::unexpected(fine.error());
   Device device = base;
   AddInfos(uses, &device.parameters);
-  device.extension = std::move(extension);
+  device.extension = std::make_shared<const Extension>(std::move(extension));
   return device;
 }
 
@@ -285,6 +273,25 @@ void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* in
                         ParameterKind::kPlain, 0.1 * (info.upper - info.lower)});
     }
   }
+}
+
+std::vector<std::vector<double>> EffectStarts(const Extension& extension) {
+  const int base = extension.law.base_size();
+  std::vector<std::vector<double>> probes = {extension.usual};
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const Effect& effect = *extension.uses[e].effect;
+    if (effect.probes == nullptr) continue;
+    const int first = extension.law.Offset(static_cast<int>(e)) - base;
+    for (const Probe& probe : effect.probes(extension.readings.traits)) {
+      std::vector<double> p = extension.usual;
+      for (int k = 0; k < effect.size(); ++k) {
+        const ParameterBounds& bounds = extension.bounds[first + k];
+        p[first + k] = std::min(std::max(probe[k], bounds.lower), bounds.upper);
+      }
+      probes.push_back(p);
+    }
+  }
+  return probes;
 }
 
 std::vector<double> Reported(const Device& device, std::vector<double> p) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/law.h"
@@ -21,7 +22,8 @@ struct EffectUse {
   std::map<std::string, std::pair<double, double>> ranges;
 };
 
-// A device extended by effects in the measurement of one curve (one sweep, or up and down). Effects
+// A device extended by effects in the measurement of one curve (one sweep, or up and down) or of a
+// set of them (extended_set.h). Effects
 // are computed in numbers of their own (law/effect.h: voltages per cell, currents in parts of a
 // scale), in which their parameters stand in the device's vector; Reported and Inner lead from
 // there to the units of people and back.
@@ -32,6 +34,7 @@ struct Extension {
   std::vector<EffectUse> uses;
   std::vector<ParameterBounds> bounds;  // of the effects' parameters, in numbers of their own
   std::vector<double> usual;            // where a fit begins or what it holds, the same
+  std::shared_ptr<const CurveSet> set;  // the curves behind the readings; none: of one curve
 };
 
 // Whether the effect has a parameter of this symbol or name.
@@ -45,6 +48,14 @@ Expected<void> CheckParameter(const EffectUse& use, const std::string& key);
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout = nullptr);
+
+// The same in a measurement whose law and readings stand in `extension` already.
+Expected<Device> AddEffects(const Device& base, Extension extension,
+                            const std::vector<EffectUse>& uses, bool force);
+
+// Where fits of the effects' parameters may begin: all at what is usual, then each probe of each
+// effect beside the others so.
+std::vector<std::vector<double>> EffectStarts(const Extension& extension);
 
 // A device's whole parameter vector with those of the effects in the units of reports, and back.
 std::vector<double> Reported(const Device& device, std::vector<double> p);

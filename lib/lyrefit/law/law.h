@@ -29,7 +29,7 @@ enum BaseParameter {
   kBaseResistance = 3,
   kBaseConductance = 4,
   kBaseSecond = 5,  // dd: the second diode's current at the pivot voltage
-  // Then those of alpha (relative, 1/K) and EgRef (eV) that are free: see Law.
+  // Then those of alpha (1/K, relative) and EgRef (eV) that are free: see Law.
 };
 
 // What a law may have: derivatives are carried for so many.
@@ -38,7 +38,7 @@ constexpr int kMostParameters = 20;
 struct Law {
   Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
   // The base with its parameters as device.h orders them, in its units, at the reference and at
-  // irradiance 1 instead; every model.
+  // irradiance 1 instead; every model. A free alpha is in A/K.
   bool natural = false;
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;

@@ -74,6 +74,12 @@ struct Translation {
   int recombination = -1;          // d2mutau, V                    recombination
   int built_in_voltage = -1;       // NsVbi, V                      recombination
 
+  // With effects beside the diodes: the device behind all curves in their measurement
+  // (extended_set.h), and where in the shared vector each of its parameters stands. Those of the
+  // effects are the last shared ones, in numbers of their own.
+  std::optional<Device> extended;
+  std::vector<int> shared_of;
+
   int size() const { return static_cast<int>(parameters.size()); }
   std::optional<int> Find(const std::string& symbol_or_name) const;
 };

@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
@@ -46,9 +47,17 @@ ModelShape ShapeOf(const JointProblem& problem) {
 }
 
 // A device's parameters under one curve's sky, and with `chain` their slopes by the shared
-// parameters and, behind those, irradiance and temperature. False where that is no place to be.
+// parameters and, behind those, irradiance and temperature. False where that is no place to be. A
+// device with effects follows the sky by itself.
 bool TranslateCurve(const Translation& at, const double* p, double irradiance, double temperature,
                     std::vector<double>* device, RowMatrix* chain) {
+  if (at.extended) {
+    *device = ExtendedParameters(at, p);
+    if (chain == nullptr) return true;
+    chain->setZero(static_cast<int>(device->size()), at.size() + 2);
+    for (std::size_t k = 0; k < device->size(); ++k) (*chain)(k, at.shared_of[k]) = 1;
+    return true;
+  }
   if (!(irradiance > 0) || !(temperature > 100) || !(temperature < 600)) return false;
   const int count = at.device.size(), shared = at.size();
   device->resize(count);
@@ -79,7 +88,7 @@ std::vector<OwnUnknown> OwnUnknowns(const JointCurve& curve) {
 
 FamilyModel::FamilyModel(const JointProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {
-  CHECK_LE(problem.translation.size() + 2, kUnknowns);
+  CHECK(problem.translation.extended || problem.translation.size() + 2 <= kUnknowns);
   for (const JointCurve& curve : problem.curves) {
     points_.push_back(MakePointSet(curve.voltage_V, curve.current_A));
   }
@@ -122,10 +131,12 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
     return false;
   }
   const int points = static_cast<int>(curve.voltage_V.size());
-  RowMatrix by_device(sloped ? points : 0, at.device.size());
-  ModelCurrents(at.device, problem_.objective, device.data(),
+  const Device& own_device = DeviceOf(problem_, block);
+  RowMatrix by_device(sloped ? points : 0, own_device.size());
+  ModelCurrents(own_device, problem_.objective, device.data(),
                 {curve.voltage_V, curve.current_A, points_[block]}, FastestKernel(), residuals,
                 sloped ? by_device.data() : nullptr);
+  if (!std::isfinite(residuals[0])) return false;
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(curve.weight[k]);
     residuals[k] = root * (residuals[k] - curve.current_A[k]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/family_model.h"
 
@@ -58,7 +59,15 @@ TrueConditions ConditionsAt(const JointProblem& problem, const JointPoint& point
       at.temperature_K + point.local[curve][1] + point.shared[problem.temperature_offset()]};
 }
 
+const Device& DeviceOf(const JointProblem& problem, int curve) {
+  const Translation& at = problem.translation;
+  return at.extended ? *problem.curves[curve].extended : at.device;
+}
+
 std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve) {
+  if (problem.translation.extended) {
+    return ExtendedParameters(problem.translation, point.shared.data());
+  }
   const TrueConditions at = ConditionsAt(problem, point, curve);
   std::vector<double> device(problem.translation.device.size());
   Translate(problem.translation, point.shared.data(), at.irradiance_W_m2, at.temperature_K,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "lyrefit/law/translation.h"
@@ -18,6 +19,9 @@ struct JointCurve {
   std::vector<double> weight;  // of the squared residuals; 1 is a point of ordinary weight
   double irradiance_W_m2 = 0;  // as stated, above 0
   double temperature_K = 0;
+  // Where the translation has effects: its device in this curve's measurement. The curve has no
+  // unknowns of its own then, and its irradiance may be 0.
+  std::shared_ptr<const Device> extended;
   // Standard deviation of the unknown's prior around 0; 0: no such unknown, infinite: no prior.
   double irradiance_sd = 0;  // of u
   double temperature_sd_K = 0;
@@ -61,7 +65,10 @@ struct TrueConditions {
 };
 TrueConditions ConditionsAt(const JointProblem& problem, const JointPoint& point, int curve);
 
-// Parameters of translation.device for a curve at a point of the problem.
+// The device of a curve: the translation's, or with its effects the curve's own.
+const Device& DeviceOf(const JointProblem& problem, int curve);
+
+// Parameters of that device at a point of the problem.
 std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve);
 
 struct JointEnd {

@@ -82,6 +82,7 @@ std::string FamilyReferenceSection(const FamilyReport& report) {
                   Significant(k.max_power_current_A, kFamilyValueDigits),
                   Significant(k.max_power_voltage_V, kFamilyValueDigits),
                   Significant(k.max_power_W, kFamilyValueDigits), Significant(k.fill_factor, 4)));
+  if (!report.with.empty()) text += Wrap("  ", "Temperature coefficients, without the effects:");
   for (const Coefficient& c : report.coefficients) {
     text += Field(c.name, WithRange(c.value, c.unit));
   }

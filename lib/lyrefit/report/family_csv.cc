@@ -1,6 +1,7 @@
 #include "lyrefit/report/family_csv.h"
 
 #include "lyrefit/report/csv_parts.h"
+#include "lyrefit/report/family_sections.h"
 
 namespace lyrefit {
 
@@ -8,7 +9,11 @@ std::string FreeFitsCsv(const FamilyReport& report) {
   const bool two = report.translation.spec.model == Model::kDoubleDiode;
   std::string csv =
       "Index,photocurrent,saturation_current,resistance_series,resistance_shunt,n,cells_in_series";
-  csv += two ? ",saturation_current_2,n_2\n" : "\n";
+  if (two) csv += ",saturation_current_2,n_2";
+  const std::vector<ParameterInfo> infos = FreeInfos(report);
+  const int base = MakeDevice(report.translation.spec.model, {}).size();
+  for (std::size_t k = base; k < infos.size(); ++k) csv += "," + infos[k].name;
+  csv += "\n";
   for (const FamilyCurve& curve : report.curves) {
     const std::vector<double>& values =
         curve.free_parameters.empty() ? curve.parameters : curve.free_parameters;
@@ -22,6 +27,7 @@ std::string FreeFitsCsv(const FamilyReport& report) {
     }
     csv += "," + std::to_string(report.cells_in_series);
     if (two) csv += field(SaturationCurrentIndex(1)) + field(IdealityIndex(1));
+    for (int k = base; k < static_cast<int>(infos.size()); ++k) csv += field(k);
     csv += "\n";
   }
   return csv;

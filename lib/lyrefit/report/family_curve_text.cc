@@ -122,15 +122,16 @@ std::string FamilyOffsetSection(const FamilyReport& report) {
 std::string FreeFitSection(const FamilyReport& report) {
   if (!OneByOne(report) || report.curves.empty()) return "";
   const bool two = report.translation.spec.model == Model::kDoubleDiode;
-  const std::vector<std::string> symbols = {"Iph", "Is1", "n1", "Rs", "Rsh", "Is2", "n2"};
-  const std::vector<std::string> units = {"A", "A", "", "ohm", "ohm", "A", ""};
-  const std::size_t count = two ? 7 : 5;
+  const std::vector<ParameterInfo> infos = FreeInfos(report);
+  const std::size_t count = infos.size();
   const int digits = two ? 3 : 4;
   TextTable table("lrrr" + std::string(count, 'r'));
   std::vector<std::string> head = {"", "G", "T", "RMSE"};
   std::vector<std::string> below = {"curve", "W/m2", "C", "A"};
-  head.insert(head.end(), symbols.begin(), symbols.begin() + static_cast<std::ptrdiff_t>(count));
-  below.insert(below.end(), units.begin(), units.begin() + static_cast<std::ptrdiff_t>(count));
+  for (const ParameterInfo& info : infos) {
+    head.push_back(info.symbol);
+    below.push_back(info.unit);
+  }
   table.Add(head);
   table.Add(below);
   const std::vector<const FamilyCurve*> shown = Shown(report);

@@ -1,6 +1,8 @@
 #include "lyrefit/report/family_json.h"
 
+#include "lyrefit/report/family_sections.h"
 #include "lyrefit/report/fit_json_parts.h"
+#include "lyrefit/report/law_json.h"
 
 namespace lyrefit {
 namespace {
@@ -60,7 +62,7 @@ Json CurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>& devic
 
 Json CurvesJson(const FamilyReport& report) {
   std::vector<ParameterInfo> device = report.translation.device.parameters;
-  if (device.empty()) device = MakeDevice(report.translation.spec.model, {}).parameters;
+  if (device.empty()) device = FreeInfos(report);
   Json curves = Json::array();
   for (const FamilyCurve& curve : report.curves) curves.push_back(CurveJson(curve, device));
   return curves;
@@ -190,6 +192,12 @@ std::string FamilyJson(const FamilyReport& report) {
   Json json;
   json["lyrefit_version"] = report.version;
   json["set"] = {{"name", report.name}, {"source", report.source}};
+  if (report.taken != nullptr) {
+    const std::optional<Device>& extended = report.translation.extended;
+    json["law"] = SetLawJson(report.with, *report.taken,
+                             extended && !report.refined.empty() ? &*extended->extension : nullptr);
+    json["causes"] = json["law"]["effects"];
+  }
   AddAnswer(report, &json);
   AddEvidence(report, &json);
   json["curves"] = CurvesJson(report);

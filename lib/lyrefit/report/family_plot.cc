@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/report/data_block.h"
 #include "lyrefit/report/panels.h"
@@ -34,9 +35,29 @@ double Temperature_K(const FamilyReport& report, const FamilyCurve& curve) {
          OrZero(report.temperature_offset_K.value);
 }
 
+// Those of a model with effects.
+std::vector<double> ExtendedModelCurrents(const FamilyReport& report, const FamilyCurve& curve,
+                                          const std::vector<double>& voltage_V) {
+  const std::vector<IvCurve>& taken = report.taken->curves;
+  const auto found = std::find_if(taken.begin(), taken.end(),
+                                  [&](const IvCurve& one) { return one.name == curve.id; });
+  if (found == taken.end()) return {};
+  const Translation& at = report.translation;
+  if (at.extended && !report.refined.empty()) {
+    const Device device = OfCurve(*at.extended, static_cast<int>(found - taken.begin()));
+    return SolveCurrents(device, ExtendedParameters(at, report.refined.data()).data(), voltage_V);
+  }
+  const TranslationSpec& spec = at.spec;
+  const auto device = Extend(MakeDevice(spec.model, found->conditions, spec.constants), spec.model,
+                             spec.constants, *found, report.with, /*force=*/true);
+  if (!device || static_cast<int>(curve.free_parameters.size()) != device->size()) return {};
+  return SolveCurrents(*device, Inner(*device, curve.free_parameters).data(), voltage_V);
+}
+
 // The model's currents; empty where the curve has no parameters.
 std::vector<double> ModelCurrents(const FamilyReport& report, const FamilyCurve& curve,
                                   const std::vector<double>& voltage_V) {
+  if (report.taken != nullptr) return ExtendedModelCurrents(report, curve, voltage_V);
   if (!report.estimates.empty() && !report.refined.empty()) {
     const TranslatedDevice at =
         TranslateTo(report.translation, report.refined, Irradiance(report, curve),
@@ -171,6 +192,7 @@ std::string Title(const FamilyReport& report) {
     const auto fitted =
         std::count_if(report.curves.begin(), report.curves.end(),
                       [](const FamilyCurve& curve) { return curve.role == CurveRole::kFitted; });
+    for (const EffectUse& use : report.with) title += fmt::format(" + {}", use.effect->id);
     title += fmt::format(", solved-current RMSE {} A over {} curves fitted",
                          Scientific(report.rmse.refined.solved_current_A, 4), fitted);
   }

@@ -16,6 +16,13 @@ inline const char* LawTitle(TranslationLaw law) {
   return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
 }
 
+// Of a curve fitted on its own, in the order of FamilyCurve::free_parameters.
+inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
+  std::vector<ParameterInfo> infos = MakeDevice(report.translation.spec.model, {}).parameters;
+  if (report.free) AddInfos(report.with, &infos);
+  return infos;
+}
+
 // family_answer_text.cc: what came out.
 std::string FamilyParameterSection(const FamilyReport& report);
 std::string FamilySensorSection(const FamilyReport& report);

@@ -1,6 +1,7 @@
 #include "lyrefit/report/json_report.h"
 
 #include "lyrefit/report/fit_json_parts.h"
+#include "lyrefit/report/law_json.h"
 
 namespace lyrefit {
 namespace {
@@ -138,6 +139,8 @@ Json DataJson(const FitReport& report, JsonPoints points) {
 
 // Effects beside the diodes. Of the measurement in which they act all readings are kept.
 Json LawJson(const FitReport& report) {
+  const Extension& extension = *report.device.extension;
+  if (extension.set != nullptr) return SetLawJson(extension.uses, *extension.set, &extension);
   const IvCurve& curve = report.curve;
   Json law = {
       {"effects", report.causes},

@@ -40,10 +40,10 @@ std::string BriefReport(const FitReport& report) {
                   report.curve.name, ToText(report.model), Scientific(rmse.measured_current_A, 10),
                   Scientific(rmse.solved_current_A, 10), ToText(report.objective),
                   report.polished ? "" : ", not polished");
-  for (std::size_t i = 0; i < report.estimates.size() && i < report.refined.size(); ++i) {
-    const ParameterInfo& info = report.estimates[i].info;
-    text += fmt::format(", {} {}{}{}", info.symbol, Significant(report.refined[i], 6),
-                        info.unit.empty() ? "" : " ", info.unit);
+  for (const Estimate& e : report.estimates) {
+    text += fmt::format(", {} {}{}{}", e.info.symbol,
+                        Significant(report.polished ? e.refined : e.searched, 6),
+                        e.info.unit.empty() ? "" : " ", e.info.unit);
   }
   text += BriefMarks(report.interrupted, report.usable, report.warnings.size(),
                      report.not_usable_because);

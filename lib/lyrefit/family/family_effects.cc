@@ -1,0 +1,185 @@
+#include "lyrefit/family/family_effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/shared_observer.h"
+#include "lyrefit/family/family_search.h"
+#include "lyrefit/fit/quote_effect.h"
+#include "lyrefit/law/extended_set.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kProbes = 4;
+constexpr std::size_t kElites = 3;
+
+const Extension& ExtensionOf(const Translation& translation) {
+  return *translation.extended->extension;
+}
+
+// Position of the first effect's first parameter among the shared ones.
+int FirstEffect(const Translation& translation) {
+  return translation.size() - static_cast<int>(ExtensionOf(translation).bounds.size());
+}
+
+Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& family) {
+  if (options.law != TranslationLaw::kDeSoto) {
+    return Fail(
+        "with: effects stand beside the law of De Soto, not beside pvsyst: expected the family "
+        "desoto, or free");
+  }
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "a model with effects is fitted to the solved current: it has no explicit "
+        "right-hand side for the measured one");
+  }
+  if (std::isnan(family.fixed[family.translation.bandgap_slope])) {
+    return Fail("free: dEgdT is held beside effects");
+  }
+  if (options.irradiance_offset || options.temperature_offset) {
+    return Fail(fmt::format(
+        "{}: beside effects the common error of a sensor is one of them: expected the effect {}",
+        options.irradiance_offset ? "irradiance-offset" : "temperature-offset",
+        options.irradiance_offset ? "sensor_offset" : "temp_offset"));
+  }
+  if (options.irradiance_accuracy > 0 || options.temperature_accuracy_K > 0) {
+    return Fail(fmt::format(
+        "{}: beside effects curves have no unknowns of their own: leave it out",
+        options.irradiance_accuracy > 0 ? "irradiance-accuracy" : "temperature-accuracy"));
+  }
+  return {};
+}
+
+// The curves that are not left out, at the conditions the fit takes them at.
+Expected<CurveSet> Kept(const CurveSet& set, const FamilyMembers& members) {
+  CurveSet kept;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    const FamilyMember& member = members.members[c];
+    if (member.role == CurveRole::kLeftOut) continue;
+    kept.curves.push_back(set.curves[c]);
+    IvCurve& curve = kept.curves.back();
+    if (member.joint.irradiance_sd > 0 || member.joint.temperature_sd_K > 0) {
+      return Fail(fmt::format(
+          "curve {} states no {}, which it has to beside effects: state it, or leave the curve out",
+          curve.name, member.joint.irradiance_sd > 0 ? "irradiance" : "cell temperature"));
+    }
+    curve.conditions.irradiance_W_m2 = member.joint.irradiance_W_m2;
+    curve.conditions.cell_temperature_K = member.joint.temperature_K;
+    curve.irradiance_known = curve.temperature_known = true;
+  }
+  return kept;
+}
+
+}  // namespace
+
+Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
+                                FamilyProblem* family) {
+  if (auto fine = CheckTogether(options, *family); !fine) return fine;
+  auto kept = Kept(set, family->curves);
+  if (!kept) return tl::unexpected(kept.error());
+  Translation& at = family->translation;
+  const int first = at.size();
+  if (auto extended = ExtendTranslation(*kept, family->fixed[at.bandgap_slope], options.with,
+                                        options.force_effects, &at);
+      !extended) {
+    return extended;
+  }
+  const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
+  family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
+  std::vector<double> fixed;
+  for (const ParameterBounds& b : bounds) {
+    fixed.push_back(b.lower == b.upper ? b.lower : kUnknown);
+    family->free_parameters += b.lower < b.upper;
+  }
+  family->fixed.insert(family->fixed.begin() + first, fixed.begin(), fixed.end());
+  int next = 0;
+  for (FamilyMember& member : family->curves.members) {
+    if (member.role == CurveRole::kLeftOut) continue;
+    member.joint.extended = std::make_shared<const Device>(OfCurve(*at.extended, next++));
+  }
+  return {};
+}
+
+std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
+                                           const FamilyOptions& options,
+                                           const std::vector<int>& search_curves,
+                                           const std::vector<JointPoint>& elites,
+                                           std::vector<JointPoint> starts,
+                                           const Observer& observer) {
+  const Extension& extension = ExtensionOf(family.translation);
+  const int first = FirstEffect(family.translation);
+  const JointProblem problem = JointProblemOn(family, options, search_curves);
+  const std::vector<JointLocal> none(problem.curves.size(), {0, 0});
+  JointProblem held = problem;
+  std::copy(extension.usual.begin(), extension.usual.end(), held.lower.begin() + first);
+  std::copy(extension.usual.begin(), extension.usual.end(), held.upper.begin() + first);
+  SharedObserver watch(observer, "without effects", static_cast<std::int64_t>(starts.size()));
+  watch.Begin();
+  std::vector<JointEnd> ends(starts.size());
+  ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
+    if (watch.Stopped()) return;
+    JointOptions quick;
+    quick.function_tolerance = 1e-10;
+    quick.proceed = watch.Proceed();
+    std::vector<double>& shared = starts[s].shared;
+    std::copy(extension.usual.begin(), extension.usual.end(), shared.begin() + first);
+    ends[s] = RefineJointly(held, {shared, none}, quick);
+    watch.FinishJob();
+  });
+  std::vector<JointPoint> chosen(
+      elites.begin(),
+      elites.begin() + static_cast<std::ptrdiff_t>(std::min(kElites, elites.size())));
+  if (watch.Stopped()) return chosen;
+  const auto best =
+      std::min_element(ends.begin(), ends.end(),
+                       [](const JointEnd& a, const JointEnd& b) { return a.squares < b.squares; });
+  struct Trial {
+    JointPoint point;
+    double rmse;
+  };
+  std::vector<Trial> trials;
+  for (const std::vector<double>& effects : EffectStarts(extension)) {
+    JointPoint point{best->point.shared, none};
+    std::copy(effects.begin(), effects.end(), point.shared.begin() + first);
+    const double rmse = FamilyRmse(problem, point).solved_current_A;
+    if (std::isfinite(rmse)) trials.push_back({std::move(point), rmse});
+  }
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.rmse < b.rmse; });
+  for (std::size_t k = 0; k < std::min(kProbes, trials.size()); ++k) {
+    chosen.push_back(std::move(trials[k].point));
+  }
+  return chosen;
+}
+
+void QuoteFamilyEffects(FamilyReport* report) {
+  const Translation& at = report->translation;
+  if (!at.extended || report->estimates.empty()) return;
+  const std::vector<double> p = ExtendedParameters(at, report->refined.data());
+  const std::vector<double> refined = ReportedShared(at, report->refined);
+  const std::vector<double> searched = ReportedShared(at, report->searched);
+  for (int i = FirstEffect(at); i < at.size(); ++i) {
+    const int k = static_cast<int>(std::find(at.shared_of.begin(), at.shared_of.end(), i) -
+                                   at.shared_of.begin());
+    const double factor = FactorOf(*at.extended, p, k);
+    QuoteEffect(factor, searched[i], refined[i], &report->estimates[i]);
+    if (report->jackknife.empty()) continue;
+    Interval& jackknife = report->jackknife[i];
+    jackknife.value = refined[i];
+    jackknife.standard_error *= std::fabs(factor);
+    jackknife.low_95 *= factor;
+    jackknife.high_95 *= factor;
+    if (factor < 0) std::swap(jackknife.low_95, jackknife.high_95);
+    const ParameterBounds& bounds = report->estimates[i].bounds;
+    jackknife.low_95 = std::max(jackknife.low_95, bounds.lower);
+    jackknife.high_95 = std::min(jackknife.high_95, bounds.upper);
+  }
+}
+
+}  // namespace lyrefit

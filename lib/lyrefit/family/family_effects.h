@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/family/family_problem.h"
+
+namespace lyrefit {
+
+// Puts the effects of the options beside the diodes: translation, bounds, and of every curve that
+// is not left out its measurement. Errors: a law, an objective or unknowns of single curves that do
+// not go with effects, and those of Extend.
+Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
+                                FamilyProblem* family);
+
+// Starts of a joint fit with effects: the best bird and further elites as they are, then the best
+// fit that leaves the effects at what is usual, found from all `starts`, with each of their probes
+// beside it, the best by their error on the curves of the search.
+std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
+                                           const FamilyOptions& options,
+                                           const std::vector<int>& search_curves,
+                                           const std::vector<JointPoint>& elites,
+                                           std::vector<JointPoint> starts,
+                                           const Observer& observer);
+
+// The report's effects in the units of people.
+void QuoteFamilyEffects(FamilyReport* report);
+
+}  // namespace lyrefit

@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/simulate.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uintmax_t kLargestFitFile = 64U << 20;
+
+struct Report {
+  json fit;
+  std::string text;
+  std::string path;
+  std::string curve;  // id of the one that is asked for; empty: the only one
+};
+
+// What stands at `pointer`, null where nothing does.
+json At(const json& document, const std::string& pointer) {
+  const json::json_pointer place(pointer);
+  return document.contains(place) ? document.at(place) : json();
+}
+
+std::string TextAt(const json& document, const std::string& pointer) {
+  const json value = At(document, pointer);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+double NumberOr(const json& document, const std::string& pointer, double usual) {
+  const json value = At(document, pointer);
+  return value.is_number() ? value.get<double>() : usual;
+}
+
+std::vector<double> NumbersAt(const json& document, const std::string& pointer) {
+  std::vector<double> values;
+  for (const json& value : At(document, pointer)) {
+    values.push_back(value.is_number() ? value.get<double>()
+                                       : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+// A shunt may be perfect, which JSON has no number for.
+Expected<double> ValueAt(const json& document, const std::string& pointer, const std::string& name,
+                         const std::string& path) {
+  const json value = At(document, pointer);
+  if (value.is_number()) return value.get<double>();
+  const bool shunt = name == "resistance_shunt" || name == "R_sh_ref";
+  const bool there = document.contains(json::json_pointer(pointer));
+  if (shunt && there && value.is_null()) return std::numeric_limits<double>::infinity();
+  return Fail("expected a number in " + pointer.substr(1), path);
+}
+
+// The value a fit answers with: refined, or searched where there was no polish.
+Expected<double> AnsweredValue(const Report& report, const std::string& name) {
+  const bool polished = At(report.fit, "/rmse/refined/solved_current_A").is_number();
+  return ValueAt(report.fit, "/parameters/" + name + (polished ? "/refined" : "/searched"), name,
+                 report.path);
+}
+
+Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
+  const json object = At(report.fit, "/curve/conditions");
+  if (!object.is_object()) return Fail("expected an object in curve.conditions", report.path);
+  const JsonFields fields(object, report.text, report.path);
+  const auto cells = fields.WholeNumber({"cells_in_series"});
+  if (!cells) return tl::unexpected(cells.error());
+  const auto strings = fields.WholeNumber({"strings_in_parallel"});
+  if (!strings) return tl::unexpected(strings.error());
+  const auto temperature_C = fields.Number({"cell_temperature_C"});
+  if (!temperature_C) return tl::unexpected(temperature_C.error());
+  const auto irradiance = fields.Number({"irradiance_Wm2"});
+  if (!irradiance) return tl::unexpected(irradiance.error());
+  if (!*cells || !*temperature_C) {
+    return Fail("expected cells_in_series and cell_temperature_C in curve.conditions", report.path);
+  }
+  conditions->cells_in_series = **cells;
+  conditions->strings_in_parallel = strings->value_or(1);
+  conditions->cell_temperature_K = **temperature_C + kZeroCelsius_K;
+  conditions->irradiance_W_m2 = irradiance->value_or(1000);
+  return {};
+}
+
+// Effects with their values: `value` finds that of a parameter by its name.
+template <class F>
+Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) {
+  std::vector<EffectUse> uses;
+  const json causes = At(report.fit, "/causes");
+  if (!causes.is_array() || causes.empty()) return uses;
+  const std::string version = TextAt(report.fit, "/lyrefit_version");
+  if (version != Version() || !At(report.fit, "/law").is_object()) {
+    return Fail(fmt::format("a model with effects, written by lyrefit {}, which this one ({}) does "
+                            "not read: fit it again",
+                            version.empty() ? "of no version" : version, Version()),
+                report.path);
+  }
+  for (const json& cause : causes) {
+    EffectUse use;
+    use.effect = cause.is_string() ? FindEffect(cause.get<std::string>()) : nullptr;
+    if (use.effect == nullptr) return Fail("there is no effect " + cause.dump(), report.path);
+    for (const EffectParameter& info : use.effect->parameters) {
+      const Expected<double> found = value(fmt::format("{}_{}", use.effect->id, info.name));
+      if (!found) return tl::unexpected(found.error());
+      use.ranges[info.symbol] = {*found, *found};
+    }
+    uses.push_back(std::move(use));
+  }
+  return uses;
+}
+
+void TakeBypassDiodes(const Report& report, IvCurve* curve) {
+  const json bypass = At(report.fit, "/law/bypass_diodes");
+  if (bypass.is_number_integer()) curve->notes.bypass_diodes = bypass.get<int>();
+}
+
+// A report of one curve.
+Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
+  const json curves = At(report.fit, "/curves");
+  if (curves.is_number() && curves.get<double>() > 1) {
+    return Fail("a model of " + curves.dump() +
+                    " curves whose measurement the report does not hold: expected one with effects",
+                report.path);
+  }
+  if (!report.curve.empty()) {
+    return Fail(
+        fmt::format("a report of one curve, in which there is no curve {} to choose", report.curve),
+        report.path);
+  }
+  if (auto read = ReadConditions(report, &options->conditions); !read) return read;
+  for (const ParameterInfo& info : MakeDevice(options->model, options->conditions).parameters) {
+    const Expected<double> value = AnsweredValue(report, info.name);
+    if (!value) return tl::unexpected(value.error());
+    options->parameters[info.symbol] = *value;
+  }
+  auto uses =
+      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
+  if (!uses) return tl::unexpected(uses.error());
+  if (uses->empty()) return {};
+  options->with = std::move(*uses);
+  IvCurve taken;
+  taken.name = options->name;
+  taken.conditions = options->conditions;
+  taken.irradiance_known = true;
+  taken.voltage_V = NumbersAt(report.fit, "/data/voltage_V");
+  taken.current_A = NumbersAt(report.fit, "/data/current_A");
+  taken.time_s = NumbersAt(report.fit, "/law/time_s");
+  taken.irradiance_W_m2 = NumbersAt(report.fit, "/law/irradiance_Wm2");
+  TakeBypassDiodes(report, &taken);
+  if (auto valid = Validate(taken); !valid) return Fail(valid.error().message, report.path);
+  options->taken = std::move(taken);
+  options->force_effects = true;  // they were fitted to it
+  return {};
+}
+
+// The position of the curve that is asked for among those of a report.
+Expected<int> Chosen(const Report& report, const json& curves) {
+  constexpr std::size_t kNamed = 12;
+  std::string ids;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const std::string id = TextAt(curves[c], "/id");
+    if (id == report.curve || (report.curve.empty() && curves.size() == 1)) {
+      return static_cast<int>(c);
+    }
+    if (c < kNamed) ids += (ids.empty() ? "" : ", ") + id;
+    if (c == kNamed) ids += ", ...";
+  }
+  if (report.curve.empty()) {
+    return Fail(fmt::format("a report of {} curves: choose one of {}", curves.size(), ids),
+                report.path);
+  }
+  return Fail(fmt::format("there is no curve {}, expected one of {}", report.curve, ids),
+              report.path);
+}
+
+Expected<CurveSet> ReadTaken(const Report& report) {
+  CurveSet set;
+  for (const json& one : At(report.fit, "/law/curves")) {
+    IvCurve curve;
+    curve.name = TextAt(one, "/id");
+    curve.conditions.cells_in_series =
+        static_cast<int>(NumberOr(report.fit, "/law/cells_in_series", 0));
+    curve.conditions.strings_in_parallel =
+        static_cast<int>(NumberOr(report.fit, "/law/strings_in_parallel", 1));
+    curve.conditions.irradiance_W_m2 = NumberOr(one, "/irradiance_Wm2", 1000);
+    curve.conditions.cell_temperature_K = NumberOr(one, "/cell_temperature_C", 25) + kZeroCelsius_K;
+    curve.voltage_V = NumbersAt(one, "/voltage_V");
+    curve.current_A = NumbersAt(one, "/current_A");
+    curve.time_s = NumbersAt(one, "/time_s");
+    curve.irradiance_W_m2 = NumbersAt(one, "/reading_irradiance_Wm2");
+    TakeBypassDiodes(report, &curve);
+    if (auto valid = Validate(curve); !valid) return Fail(valid.error().message, report.path);
+    set.curves.push_back(std::move(curve));
+  }
+  return set;
+}
+
+// One law behind many curves, with effects.
+Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
+  const auto chosen = Chosen(report, At(report.fit, "/law/curves"));
+  if (!chosen) return tl::unexpected(chosen.error());
+  auto set = ReadTaken(report);
+  if (!set) return tl::unexpected(set.error());
+  const json parameters = At(report.fit, "/parameters");
+  for (const auto& [name, parameter] : parameters.items()) {
+    const std::string symbol = TextAt(parameter, "/symbol");
+    if (symbol.find('.') != std::string::npos || symbol == "dEg") continue;  // the law's own
+    const Expected<double> value = AnsweredValue(report, name);
+    if (!value) return tl::unexpected(value.error());
+    options->parameters[symbol] = *value;
+  }
+  auto uses =
+      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
+  if (!uses) return tl::unexpected(uses.error());
+  options->with = std::move(*uses);
+  options->conditions = set->curves[*chosen].conditions;
+  SharedLaw shared;
+  shared.law.model = options->model;
+  shared.law.constants = options->constants;
+  shared.law.shunt =
+      FromText<ShuntLaw>(TextAt(report.fit, "/law/shunt")).value_or(ShuntLaw::kConstant);
+  shared.law.bandgap_slope_per_K = NumberOr(report.fit, "/law/bandgap_slope_per_K", 0);
+  shared.reference_K = NumberOr(report.fit, "/law/reference_temperature_C", 25) + kZeroCelsius_K;
+  shared.set = std::move(*set);
+  shared.curve = *chosen;
+  options->shared = std::move(shared);
+  return {};
+}
+
+// One curve of a family by its own parameters: those the law leads to, or of a fit of its own.
+Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
+  const json curves = At(report.fit, "/curves");
+  const auto chosen = Chosen(report, curves);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const json& curve = curves[*chosen];
+  if (TextAt(curve, "/role") == "left-out") {
+    return Fail(fmt::format("curve {} was left out: {}", report.curve, TextAt(curve, "/reason")),
+                report.path);
+  }
+  const std::string stretch = At(curve, "/parameters").is_object() ? "/parameters/"  // by the law
+                                                                   : "/free_parameters/";
+  const auto value = [&](const std::string& name) {
+    return ValueAt(curve, stretch + name, name, report.path);
+  };
+  const auto with_offsets = [&](const char* stated, const std::string& offset) {
+    return NumberOr(curve, stated, std::nan("")) + NumberOr(curve, "/" + offset + "/value", 0);
+  };
+  Conditions& at = options->conditions;
+  at.cells_in_series = static_cast<int>(NumberOr(report.fit, "/cells_in_series", 0));
+  at.cell_temperature_K = with_offsets("/temperature_C", "temperature_offset_K") +
+                          NumberOr(report.fit, "/sensor_offsets/temperature_K/value", 0) +
+                          kZeroCelsius_K;
+  at.irradiance_W_m2 = with_offsets("/irradiance_Wm2", "irradiance_offset_Wm2") +
+                       NumberOr(report.fit, "/sensor_offsets/irradiance_Wm2/value", 0);
+  for (const ParameterInfo& info : MakeDevice(options->model, {}).parameters) {
+    const Expected<double> found = value(info.name);
+    if (!found) return tl::unexpected(found.error());
+    options->parameters[info.symbol] = *found;
+  }
+  auto uses = ReadUses(report, value);
+  if (!uses) return tl::unexpected(uses.error());
+  if (uses->empty()) return {};
+  options->with = std::move(*uses);
+  auto set = ReadTaken(report);
+  if (!set) return tl::unexpected(set.error());
+  for (IvCurve& one : set->curves) {
+    if (one.name == TextAt(curve, "/id")) options->taken = std::move(one);
+  }
+  options->force_effects = true;  // they were fitted to it
+  return {};
+}
+
+}  // namespace
+
+Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const std::string& curve) {
+  const Expected<std::string> text = ReadTextFile(path, kLargestFitFile);
+  if (!text) return tl::unexpected(text.error());
+  Expected<json> fit = ParseJson(*text, path);
+  if (!fit) return tl::unexpected(fit.error());
+  const Report report{std::move(*fit), *text, path, curve};
+  const std::optional<Model> model = FromText<Model>(TextAt(report.fit, "/model"));
+  const std::optional<ConstantSet> constants =
+      FromText<ConstantSet>(TextAt(report.fit, "/constants"));
+  if (!model || !constants || !At(report.fit, "/parameters").is_object()) {
+    return Fail("expected a fit report as lyrefit writes it: model, constants, parameters", path);
+  }
+  SimulateOptions options;
+  options.model = *model;
+  options.constants = *constants;
+  const bool shared = At(report.fit, "/law/reference_temperature_C").is_number();
+  const bool many = At(report.fit, "/curves").is_array();
+  const Expected<void> read = shared ? ReadShared(report, &options)
+                              : many ? ReadMember(report, &options)
+                                     : ReadOne(report, &options);
+  if (!read) return tl::unexpected(read.error());
+  return options;
+}
+
+}  // namespace lyrefit

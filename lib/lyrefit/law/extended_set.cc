@@ -1,0 +1,137 @@
+#include "lyrefit/law/extended_set.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "lyrefit/law/make_readings.h"
+#include "lyrefit/law/reading_blocks.h"
+
+namespace lyrefit {
+namespace {
+
+// What the conditions say counts: a curve of irradiance 0 is dark, however little light there is in
+// the others.
+void TakeConditions(const CurveSet& set, Readings* readings) {
+  constexpr double kOrdinary_suns = 0.02;  // below it MakeReadings goes by the readings
+  for (Reading& r : readings->points) {
+    const double stated = set.curves[r.curve].conditions.irradiance_W_m2 / 1000;
+    r.dark = stated <= 0;
+    if (stated <= kOrdinary_suns || r.irradiance == 0) r.irradiance = stated;
+  }
+}
+
+// The same device at other readings; not a copy of all, of which a set may have many.
+Device At(const Device& device, std::vector<Reading> points) {
+  const Extension& whole = *device.extension;
+  Extension extension;
+  extension.law = whole.law;
+  extension.uses = whole.uses;
+  extension.bounds = whole.bounds;
+  extension.usual = whole.usual;
+  extension.set = whole.set;
+  Readings& readings = extension.readings;
+  readings.scale = whole.readings.scale;
+  readings.traits = whole.readings.traits;
+  readings.reference_temperature_K = whole.readings.reference_temperature_K;
+  readings.points = std::move(points);
+  extension.blocks = BlocksOf(readings);
+  Device one = device;
+  one.extension = std::make_shared<const Extension>(std::move(extension));
+  return one;
+}
+
+}  // namespace
+
+Expected<Readings> SetReadings(const CurveSet& set, double reference_K) {
+  std::vector<std::string> contradictions;  // the readers of the curves have said them already
+  auto made = MakeReadings(set, &contradictions);
+  if (!made) return made;
+  Readings readings = std::move(*made);
+  const int cells = set.curves.front().conditions.cells_in_series;
+  const double ratio = readings.scale.cells / static_cast<double>(cells);
+  for (Reading& r : readings.points) r.voltage *= ratio;
+  readings.scale.cells = readings.traits.cells = cells;
+  readings.scale.rate_V_per_s *= ratio;
+  readings.scale.reach_V *= ratio;
+  readings.pivot_voltage *= ratio;
+  readings.reference_temperature_K = reference_K;
+  readings.traits.module = cells > 1;
+  readings.scale.saturation_2_unit = Saturation2Unit(readings);
+  return readings;
+}
+
+Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, double reference_K,
+                           const std::vector<EffectUse>& uses, bool force) {
+  auto readings = SetReadings(set, reference_K);
+  if (!readings) return tl::unexpected(readings.error());
+  TakeConditions(set, &*readings);
+  readings->isc_tempco_scales_per_K = 0;  // alpha is a parameter
+  Extension extension;
+  extension.readings = std::move(*readings);
+  extension.law = std::move(law);
+  extension.law.natural = extension.law.free_tempco = extension.law.free_bandgap = true;
+  extension.law.effects.clear();
+  extension.set = std::make_shared<const CurveSet>(set);
+  Device device = base;
+  device.parameters.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"});
+  device.parameters.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
+  return AddEffects(device, std::move(extension), uses, force);
+}
+
+Device OfCurve(const Device& device, int curve) {
+  std::vector<Reading> points;
+  for (const Reading& r : device.extension->readings.points) {
+    if (r.curve == curve) points.push_back(r);
+  }
+  return At(device, std::move(points));
+}
+
+Device UnderSky(const Device& device, double irradiance, double temperature_K) {
+  Reading reading;
+  reading.irradiance = irradiance;
+  reading.temperature_K = temperature_K;
+  reading.dark = irradiance <= 0;
+  return At(device, {reading});
+}
+
+Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
+                                 const std::vector<EffectUse>& uses, bool force,
+                                 Translation* translation) {
+  Translation& at = *translation;
+  Law law;
+  law.model = at.spec.model;
+  law.constants = at.spec.constants;
+  law.shunt = at.spec.shunt;
+  law.bandgap_slope_per_K = bandgap_slope;
+  auto device = ExtendSet(at.device, std::move(law), set, kReferenceTemperature_K, uses, force);
+  if (!device) return tl::unexpected(device.error());
+  at.shared_of = {at.photocurrent, at.saturation_current, at.n, at.resistance_series,
+                  at.resistance_shunt};
+  if (at.n_2 >= 0) at.shared_of.insert(at.shared_of.end(), {at.saturation_current_2, at.n_2});
+  at.shared_of.insert(at.shared_of.end(), {at.alpha_sc, at.bandgap});
+  for (int i = at.size(); static_cast<int>(at.shared_of.size()) < device->size(); ++i) {
+    at.shared_of.push_back(i);
+  }
+  AddInfos(uses, &at.parameters);
+  at.extended = std::move(*device);
+  return {};
+}
+
+std::vector<double> ExtendedParameters(const Translation& translation, const double* shared) {
+  std::vector<double> p;
+  p.reserve(translation.shared_of.size());
+  for (const int i : translation.shared_of) p.push_back(shared[i]);
+  return p;
+}
+
+std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared) {
+  if (!translation.extended || shared.empty()) return shared;
+  const std::vector<double> p =
+      Reported(*translation.extended, ExtendedParameters(translation, shared.data()));
+  for (std::size_t k = 0; k < p.size(); ++k) shared[translation.shared_of[k]] = p[k];
+  return shared;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "family/made_family.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/law/extended_set.h"
+
+namespace lyrefit {
+
+inline EffectUse UseOf(const char* id,
+                       std::map<std::string, std::pair<double, double>> ranges = {}) {
+  return {FindEffect(id), std::move(ranges)};
+}
+
+// The dark curve of a device of 36 cells, from below 0 V to beyond the knee.
+inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shared,
+                         double temperature_C, int points) {
+  const double kelvin = temperature_C + 273.15;
+  const TranslatedDevice made = TranslateTo(law, shared, 0, kelvin);
+  IvCurve curve;
+  curve.name = "dark";
+  curve.conditions.irradiance_W_m2 = 0;
+  curve.conditions.cell_temperature_K = kelvin;
+  curve.conditions.cells_in_series = law.spec.cells_in_series;
+  for (int k = 0; k < points; ++k) curve.voltage_V.push_back(-4 + 25.0 * k / (points - 1));
+  curve.current_A = SolveCurrents(made.device, made.parameters.data(), curve.voltage_V);
+  return curve;
+}
+
+// Gives the curves of a set the currents that the device has with the effects, each of whose
+// parameters is held at one value, and noise.
+inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
+                           std::vector<double> shared, double noise_A, CurveSet* set) {
+  shared.resize(law.size());  // without the sensors' errors
+  const Expected<void> extended =
+      ExtendTranslation(*set, shared[law.bandgap_slope], uses, /*force=*/true, &law);
+  ASSERT_TRUE(extended) << extended.error().ToString();
+  const std::vector<double>& usual = law.extended->extension->usual;
+  shared.insert(shared.end(), usual.begin(), usual.end());
+  const std::vector<double> p = ExtendedParameters(law, shared.data());
+  RandomStream random(3);
+  for (std::size_t c = 0; c < set->curves.size(); ++c) {
+    IvCurve& curve = set->curves[c];
+    const Device device = OfCurve(*law.extended, static_cast<int>(c));
+    ASSERT_TRUE(ExtendedCurrents(device, p.data(), curve.current_A.data(), nullptr));
+    for (double& current : curve.current_A) current += noise_A * random.Normal();
+  }
+}
+
+}  // namespace lyrefit

@@ -8,29 +8,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "lyrefit/base/random.h"
+#include "catalogue_walk.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
-#include "lyrefit/law/extension.h"
-#include "lyrefit/study/coverage.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr double kVanishing = 1e-4;  // probability that honest intervals fail a row
-
-int Curves() {
-  const char* const asked = std::getenv("LYREFIT_WALK_CURVES");
-  return asked != nullptr ? std::max(1, std::atoi(asked)) : 20;
-}
 
 // How a curve is taken: the voltages in parts of Voc, in order.
 struct Sweep {
@@ -56,14 +45,6 @@ struct Place {
 
 void PrintTo(const Place& place, std::ostream* out) {
   *out << place.effect->id << ", " << place.sweep->name;
-}
-
-double Between(RandomStream* random, double low, double high) {
-  return low + (high - low) * random->Uniform();
-}
-
-double LogUniform(RandomStream* random, double low, double high) {
-  return low * std::pow(high / low, random->Uniform());
 }
 
 // A crystalline cell or module of one or two diodes at some temperature.
@@ -115,34 +96,12 @@ Expected<IvCurve> Take(const SimulateOptions& device, const Sweep& sweep) {
   return curve;
 }
 
-// Values of an effect's parameters, in its own numbers: somewhere between two of the places it is
-// tried from, at up to twice or half that strength, of either sign where it may have both.
-std::vector<double> DrawEffect(const Effect& effect, const DataTraits& traits,
-                               RandomStream* random) {
-  const std::vector<Probe> probes = effect.probes(traits);
-  Probe p = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
-  const Probe& other = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
-  for (int k = 0; k < effect.size(); ++k) {
-    const EffectParameter& info = effect.parameters[k];
-    if (!info.searched && !info.held) p[k] = Between(random, p[k], other[k]);
-  }
-  const EffectParameter& strength = effect.parameters[0];
-  if (strength.neutral == 0) p[0] *= LogUniform(random, 0.5, 2);
-  if (strength.lower == -strength.upper && random->Index(2) == 1) p[0] = -p[0];
-  p[0] = std::min(p[0], 0.9 * strength.upper);
-  return p;
-}
-
-// One curve with its truth.
 struct Case {
   IvCurve curve;
   FitOptions fit;
-  EffectUse truth;
-  double strength = 0;
+  DrawnEffect drawn;
 };
 
-// Noise that the effect stands out of by 10 to 50 standard deviations (after all that the diodes
-// can do to look like it), as far as instruments have such a noise.
 double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
   FitOptions alone;
   alone.model = model;
@@ -152,139 +111,53 @@ double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
   const auto base = Fit(clean, alone);
   const double count = static_cast<double>(clean.size());
   const double misfit = base ? base->rmse.refined.solved_current_A * std::sqrt(count) : 0;
-  const double scale = *std::max_element(clean.current_A.begin(), clean.current_A.end());
-  return std::min(std::max(misfit / LogUniform(random, 10, 50), 2e-5 * scale), 5e-3 * scale);
+  return NoiseFor(misfit, *std::max_element(clean.current_A.begin(), clean.current_A.end()),
+                  random);
 }
 
 // Nothing where data of this kind cannot show the effect in this device.
 std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
-  const Effect& effect = *place.effect;
-  SimulateOptions device = DrawDevice(effect, random);
-  auto taken = Take(device, *place.sweep);
+  SimulateOptions device = DrawDevice(*place.effect, random);
+  const auto taken = Take(device, *place.sweep);
   if (!taken) return std::nullopt;
-  const Device base = MakeDevice(device.model, device.conditions, device.constants);
-  const auto extended =
-      Extend(base, device.model, device.constants, *taken, {{&effect, {}}}, /*force=*/false);
+  const Device base = MakeDevice(device.model, device.conditions);
+  const auto extended = Extend(base, device.model, device.constants, *taken, {{place.effect, {}}},
+                               /*force=*/false);
   if (!extended) return std::nullopt;
-  const std::vector<double> inner =
-      DrawEffect(effect, extended->extension->readings.traits, random);
-  std::vector<double> p(base.size(), 0);
-  p.insert(p.end(), inner.begin(), inner.end());
-  const std::vector<double> values = Reported(*extended, p);
   Case made;
-  EffectUse truth{&effect, {}}, asked{&effect, {}};
-  for (int k = 0; k < effect.size(); ++k) {
-    const EffectParameter& info = effect.parameters[k];
-    const double value = values[base.size() + k];
-    truth.ranges[info.symbol] = {value, value};
-    if (!info.held) continue;
-    asked.ranges[info.symbol] =
-        k == 0 ? std::pair(info.lower, info.upper) : std::pair(value, value);
-  }
-  device.with = {truth};
+  made.drawn = DrawEffect(*extended, *place.effect, random);
+  device.with = {made.drawn.truth};
   device.taken = *taken;
   const auto clean = Simulate(device);
   if (!clean) return std::nullopt;
   device.noise_A = DrawNoise(*clean, device.model, random);
   device.seed = random->Bits() >> 12;
   made.curve = *Simulate(device);
-  if (!Extend(base, device.model, device.constants, made.curve, {asked}, /*force=*/false)) {
+  // An effect may bend the curve so that it no longer shows itself.
+  if (!Extend(base, device.model, device.constants, made.curve, {made.drawn.asked},
+              /*force=*/false)) {
     return std::nullopt;
   }
   made.fit.model = device.model;
-  made.fit.with = {asked};
+  made.fit.with = {made.drawn.asked};
   made.fit.random_baseline = false;
   made.fit.threads = 1;
-  made.truth = truth;
-  made.strength = values[base.size()];
   return made;
 }
 
-struct Row {
-  int curves = 0;
-  int held = 0;
-  int counted = 0;           // with an interval
-  int not_identifiable = 0;  // as the report says
-  int failed = 0;
-  double milliseconds = 0;
-};
-
-const Estimate& StrengthOf(const FitReport& report, const Effect& effect) {
-  const std::string symbol = std::string(effect.id) + "." + effect.parameters[0].symbol;
-  return *std::find_if(report.estimates.begin(), report.estimates.end(),
-                       [&](const Estimate& e) { return e.info.symbol == symbol; });
-}
-
-void Say(const Case& one, const FitReport& report, const Estimate& e) {
-  if (std::getenv("LYREFIT_WALK_VERBOSE") == nullptr) return;
-  std::printf(
-      "   %s Ns=%d truth %-11.5g is %-11.5g [%.5g, %.5g] %s%s rmse/noise %.3f start '%s' %s %s\n",
-      ToText(report.model).c_str(), one.curve.conditions.cells_in_series, one.strength, e.refined,
-      e.low_95, e.high_95, ToText(e.interval).c_str(),
-      e.low_95 <= one.strength && one.strength <= e.high_95 ? "" : " MISSED",
-      report.rmse.refined.solved_current_A / *one.curve.notes.current_noise_constant_A,
-      report.refine.winner < 0 ? "" : report.refine.starts[report.refine.winner].origin.c_str(),
-      e.identifiable ? "" : "n.i.: ", e.reason.c_str());
-}
-
-void Count(const Case& one, const Effect& effect, Row* row) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto report = Fit(one.curve, one.fit);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-  row->milliseconds += took.count();
-  ++row->curves;
-  if (!report || !report->usable) {
-    ++row->failed;
-    ADD_FAILURE() << DescribeUse(one.truth) << " in " << ToText(one.fit.model) << " of "
-                  << one.curve.conditions.cells_in_series << " cells: "
-                  << (report ? report->not_usable_because : report.error().ToString());
-    if (report) Say(one, *report, StrengthOf(*report, effect));
-    return;
-  }
-  const Estimate& e = StrengthOf(*report, effect);
-  Say(one, *report, e);
-  if (!e.identifiable) {
-    ++row->not_identifiable;
-    return;
-  }
-  ++row->counted;
-  row->held += e.low_95 <= one.strength && one.strength <= e.high_95;
-}
-
-Row Walk(const Place& place) {
-  Row row;
-  int wanted = Curves(), tries = 0;
-  for (std::uint64_t draw = 0; row.curves < wanted && tries < 20 * wanted; ++draw, ++tries) {
-    RandomStream random(20260111, draw);
-    if (const auto one = DrawCase(place, &random)) Count(*one, *place.effect, &row);
+WalkRow Walk(const Place& place) {
+  WalkRow row;
+  const int wanted = WalkCurves();
+  const std::uint64_t seed = SeedOf(place.effect->id, place.sweep->name);
+  for (int draw = 0; row.curves < wanted && draw < 20 * wanted; ++draw) {
+    RandomStream random(seed, draw);
+    const auto one = DrawCase(place, &random);
+    if (!one) continue;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto report = Fit(one->curve, one->fit);
+    CountFit(report, std::chrono::steady_clock::now() - begin, one->drawn, &row);
   }
   return row;
-}
-
-// Probability of at most `hits` of `trials` that come with probability p each.
-double AtMost(int hits, int trials, double p) {
-  double sum = 0;
-  for (int k = 0; k <= hits; ++k) {
-    sum +=
-        std::exp(std::lgamma(trials + 1.0) - std::lgamma(k + 1.0) - std::lgamma(trials - k + 1.0) +
-                 k * std::log(p) + (trials - k) * std::log1p(-p));
-  }
-  return sum;
-}
-
-void Print(const Place& place, const Row& row) {
-  static bool first = true;
-  if (first) {
-    std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "curves", "held %",
-                "Wilson 95 %", "not id", "failed", "ms a fit");
-  }
-  first = false;
-  const Share share = WilsonInterval(row.held, row.counted);
-  std::printf("%-16s %-12s %6d %7.1f  %5.1f to %5.1f %6d %6d %8.1f\n", place.effect->id,
-              place.sweep->name, row.curves, 100.0 * row.held / std::max(row.counted, 1),
-              100 * share.low_95, 100 * share.high_95, row.not_identifiable, row.failed,
-              row.milliseconds / std::max(row.curves, 1));
-  std::fflush(stdout);
 }
 
 std::vector<Place> Places() {
@@ -310,13 +183,7 @@ std::vector<Place> Places() {
 class CatalogueWalk : public ::testing::TestWithParam<Place> {};
 
 TEST_P(CatalogueWalk, FitsBackWhatWasSimulated) {
-  const Row row = Walk(GetParam());
-  Print(GetParam(), row);
-  EXPECT_EQ(row.curves, Curves());
-  EXPECT_EQ(row.failed, 0);
-  const int missed = row.counted - row.held;
-  EXPECT_GT(AtMost(row.held, row.counted, 0.95), kVanishing) << "too narrow";
-  EXPECT_GT(AtMost(missed, row.counted, 0.05), kVanishing) << "too wide";
+  JudgeRow(GetParam().effect->id, GetParam().sweep->name, Walk(GetParam()));
 }
 
 std::string NameOf(const ::testing::TestParamInfo<Place>& info) {

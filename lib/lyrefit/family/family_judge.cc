@@ -98,7 +98,37 @@ class Judge {
     const ParameterRange range = RangeAround(e.info.kind, e.refined, reach);
     e.low_95 = range.low;
     e.high_95 = range.high;
+    if (ReportedThroughOthers(i)) TakeReported(i, spread, &e);
     return e;
+  }
+
+  // Of an effect's parameter whose factor on the way to a report depends on the effect's other
+  // ones, as the strength k of k |V|^m on m.
+  bool ReportedThroughOthers(int i) const {
+    const Translation& at = family_.translation;
+    if (!at.extended || !(std::fabs(end_.point.shared[i]) > 0)) return false;
+    const Extension& extension = *at.extended->extension;
+    int first = at.size() - static_cast<int>(extension.bounds.size());
+    for (const EffectUse& use : extension.uses) {
+      const int k = i - first;
+      if (k >= 0 && k < use.effect->size()) return use.effect->parameters[k].convert != nullptr;
+      first += use.effect->size();
+    }
+    return false;
+  }
+
+  // The interval of what is reported, laid out on its logarithm, in the effect's own numbers.
+  void TakeReported(int i, const JointSpread& spread, Estimate* e) const {
+    const auto logarithm = [&](const std::vector<double>& shared) {
+      return std::log(std::fabs(ReportedShared(family_.translation, shared)[i]));
+    };
+    const Interval reported = Derived(logarithm, spread);
+    if (!std::isfinite(reported.standard_error)) return;
+    e->standard_error = std::fabs(e->refined) * reported.standard_error;
+    const double low = e->refined * std::exp(reported.low_95 - reported.value);
+    const double high = e->refined * std::exp(reported.high_95 - reported.value);
+    e->low_95 = std::min(low, high);
+    e->high_95 = std::max(low, high);
   }
 
   void MarkHeld(int i, Estimate* e) const {
@@ -128,7 +158,7 @@ class Judge {
       return false;
     // An ideality and what goes with it are exact in their own coordinates.
     if (e.at_bound != BoundSide::kNone) return true;
-    if (e.interval == IntervalMethod::kNone) return false;
+    if (e.interval == IntervalMethod::kNone || ReportedThroughOthers(i)) return false;
     if (e.low_95 < e.bounds.lower || e.high_95 > e.bounds.upper) return true;
     const bool signed_value = e.bounds.lower < 0;
     if (signed_value) return false;

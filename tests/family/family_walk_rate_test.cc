@@ -129,11 +129,12 @@ class FamilyWalk : public ::testing::TestWithParam<Place> {};
 TEST_P(FamilyWalk, FitsBackWhatWasSimulated) {
   const Place& place = GetParam();
   WalkRow row;
-  for (int draw = 0; row.curves < WalkCurves() && draw < 20 * WalkCurves(); ++draw) {
+  const int wanted = WalkCurves(*place.effect);
+  for (int draw = 0; row.curves < wanted && draw < 20 * wanted; ++draw) {
     RandomStream random(SeedOf(place.effect->id, DataOf(place)), draw);
     Count(place, &random, &row);
   }
-  JudgeRow(place.effect->id, DataOf(place), row);
+  JudgeRow(*place.effect, DataOf(place), row);
 }
 
 std::string NameOf(const ::testing::TestParamInfo<Place>& info) {

@@ -147,7 +147,7 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
 
 WalkRow Walk(const Place& place) {
   WalkRow row;
-  const int wanted = WalkCurves();
+  const int wanted = WalkCurves(*place.effect);
   const std::uint64_t seed = SeedOf(place.effect->id, place.sweep->name);
   for (int draw = 0; row.curves < wanted && draw < 20 * wanted; ++draw) {
     RandomStream random(seed, draw);
@@ -183,7 +183,7 @@ std::vector<Place> Places() {
 class CatalogueWalk : public ::testing::TestWithParam<Place> {};
 
 TEST_P(CatalogueWalk, FitsBackWhatWasSimulated) {
-  JudgeRow(GetParam().effect->id, GetParam().sweep->name, Walk(GetParam()));
+  JudgeRow(*GetParam().effect, GetParam().sweep->name, Walk(GetParam()));
 }
 
 std::string NameOf(const ::testing::TestParamInfo<Place>& info) {

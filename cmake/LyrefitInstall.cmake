@@ -39,6 +39,7 @@ set(LYREFIT_PUBLIC_HEADERS
   law/parameter.h
   law/reading.h
   law/solve.h
+  law/string_layout.h
   law/term.h
   law/translation.h
   diagnose/diagnose.h

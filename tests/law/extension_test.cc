@@ -7,6 +7,7 @@
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/law/quote.h"
 
 namespace lyrefit {
 namespace {

@@ -8,6 +8,7 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/extension.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/law/reading_blocks.h"
 #include "lyrefit/search/search.h"
 

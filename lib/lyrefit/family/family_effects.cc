@@ -11,6 +11,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/law/extended_set.h"
+#include "lyrefit/law/quote.h"
 
 namespace lyrefit {
 namespace {
@@ -154,23 +155,6 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
 
 namespace {
 
-// Of what is reported at the corners of the effect's box, the extremes of shared parameter i.
-ParameterRange ReportedRange(const FamilyProblem& family, int i, int first, int size) {
-  ParameterRange range{kInfinity, -kInfinity};
-  std::vector<double> shared;
-  for (const ParameterBounds& b : family.bounds) shared.push_back(b.lower);
-  for (int corner = 0; corner < 1 << size; ++corner) {
-    for (int k = 0; k < size; ++k) {
-      const ParameterBounds& b = family.bounds[first + k];
-      shared[first + k] = (corner >> k & 1) != 0 ? b.upper : b.lower;
-    }
-    const double value = ReportedShared(family.translation, shared)[i];
-    range.low = std::min(range.low, value);
-    range.high = std::max(range.high, value);
-  }
-  return range;
-}
-
 // Bounds of shared parameter i as reported, where the others are as in `own`.
 ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> own, int i) {
   const auto reported = [&](double value) {
@@ -193,8 +177,11 @@ QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const 
   int first = at.first_effect;
   for (const EffectUse& use : ExtensionOf(at).uses) {
     const int size = use.effect->size();
+    const std::vector<ParameterRange> ranges =
+        ReportedRanges(*use.effect, ExtensionOf(at).readings.scale, problem.lower.data() + first,
+                       problem.upper.data() + first);
     for (int i = first; i < first + size; ++i) {
-      const ParameterRange range = ReportedRange(family, i, first, size);
+      const ParameterRange& range = ranges[i - first];
       const bool fixed = !std::isnan(family.fixed[i]);
       quoted.family.bounds[i] = ReportedBounds(family, end.point.shared, i);
       quoted.problem.lower[i] = fixed ? quoted.end.point.shared[i] : range.low;

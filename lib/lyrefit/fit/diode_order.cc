@@ -1,14 +1,27 @@
 #include "lyrefit/fit/diode_order.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "lyrefit/law/device.h"
+#include "lyrefit/law/extension.h"
 
 namespace lyrefit {
 
-void OrderDiodes(const std::vector<ParameterBounds>& bounds, std::vector<double>* p,
-                 std::vector<bool>* held) {
-  const int diodes = (static_cast<int>(p->size()) - 3) / 2;
+namespace {
+
+bool SkyChanges(const Device& device) {
+  if (device.extension == nullptr) return false;
+  const std::vector<const Effect*>& effects = device.extension->law.effects;
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const Effect* effect) { return static_cast<bool>(effect->sky); });
+}
+
+}  // namespace
+
+void OrderDiodes(const Device& device, const std::vector<ParameterBounds>& bounds,
+                 std::vector<double>* p, std::vector<bool>* held) {
+  if (SkyChanges(device)) return;
+  const int diodes = DiodeCount(device);
   const auto same = [&](int a, int b) {
     return bounds[a].lower == bounds[b].lower && bounds[a].upper == bounds[b].upper;
   };

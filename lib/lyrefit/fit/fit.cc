@@ -24,6 +24,7 @@
 #include "lyrefit/fit/warnings.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -162,15 +163,32 @@ Expected<std::vector<std::vector<double>>> RunSearch(Job* job, FitReport* report
   return elites;
 }
 
+// Bounds of parameter i in the units of reports, where the others are as at `p`.
+ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
+                               std::vector<double> p, int i) {
+  if (device.extension == nullptr || i < device.extension->law.base_size()) return own;
+  const auto reported = [&](double value) {
+    p[i] = value;
+    return Reported(device, p)[i];
+  };
+  const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
+  const auto& [lower, upper] = ends;
+  return {lower, upper, lower, upper, own.scale};
+}
+
+// All in the units of reports.
 void FillEstimates(const Job& job, FitReport* report) {
+  const Device& device = report->device;
+  const std::vector<double> searched = Reported(device, report->searched);
+  const std::vector<double> refined = Reported(device, report->refined);
   report->estimates.clear();
-  for (int i = 0; i < report->device.size(); ++i) {
+  for (int i = 0; i < device.size(); ++i) {
     Estimate e;
-    e.info = report->device.parameters[i];
-    e.bounds = job.bounds[i];
+    e.info = device.parameters[i];
+    e.bounds = ReportedBounds(device, job.bounds[i], report->refined, i);
     e.fixed = !std::isnan(job.fixed[i]);
-    e.searched = report->searched[i];
-    if (report->polished) e.refined = report->refined[i];
+    e.searched = searched[i];
+    if (report->polished) e.refined = refined[i];
     report->estimates.push_back(std::move(e));
   }
 }
@@ -267,7 +285,7 @@ void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
   const bool wanted = report->no_intervals_because.empty();
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
-    OrderDiodes(job->bounds, &end->p, &end->held);
+    OrderDiodes(report->device, job->bounds, &end->p, &end->held);
     report->refined = end->p;
     FillEstimates(*job, report);
     report->correlations.clear();
@@ -299,11 +317,11 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   report->polished = true;
   report->refine = polish.report;
   report->best_bird_polished = polish.first.p;
-  OrderDiodes(job->bounds, &report->best_bird_polished, nullptr);
+  OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
-  OrderDiodes(job->bounds, &end.p, &end.held);
+  OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
   if (!report->usable && options.intervals != Intervals::kNone) {
@@ -317,30 +335,6 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-// Effects are fitted in numbers of their own; people read them in units.
-void QuoteEffects(FitReport* report) {
-  const Device& device = report->device;
-  if (device.extension == nullptr) return;
-  const std::vector<double> refined = Reported(device, report->refined);
-  const std::vector<double> searched = Reported(device, report->searched);
-  for (int i = device.extension->law.base_size(); i < device.size(); ++i) {
-    Estimate& e = report->estimates[i];
-    const double factor = FactorOf(device, report->refined, i);
-    for (double* value : {&e.bounds.lower, &e.bounds.upper, &e.bounds.search_lower,
-                          &e.bounds.search_upper, &e.low_95, &e.high_95}) {
-      *value *= factor;
-    }
-    e.standard_error *= std::fabs(factor);
-    if (factor < 0) {
-      std::swap(e.bounds.lower, e.bounds.upper);
-      std::swap(e.bounds.search_lower, e.bounds.search_upper);
-      std::swap(e.low_95, e.high_95);
-    }
-    e.searched = searched[i];
-    if (report->polished) e.refined = refined[i];
-  }
 }
 
 }  // namespace
@@ -362,7 +356,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (!searched) return tl::unexpected(searched.error());
   const std::vector<std::vector<double>>& elites = *searched;
   report.searched = report.refined = elites[0];
-  OrderDiodes(job.bounds, &report.searched, nullptr);
+  OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
   if (options.plain_polish) {
     const RefineEnd plain = RefinePlainly(job.problem, elites[0]);
     report.rmse.plain_polished = BothRmse(report.device, plain.p, curve);
@@ -375,7 +369,6 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     FillResults(job, &report);
   }
   report.interrupted = job.watch.stopped();
-  QuoteEffects(&report);
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);
   report.interrupted = job.watch.stopped();

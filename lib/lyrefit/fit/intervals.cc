@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/fit/quoted_model.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extension.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
@@ -21,10 +24,24 @@ constexpr double kStrongCorrelation = 0.9;
 // logarithm), before the curve of the model makes it false.
 constexpr double kLinearReach = 0.3;
 
+// `p` with every effect's parameters where they start or the effect is not there.
+std::vector<double> Neutral(const Device& device, std::vector<double> p) {
+  if (device.extension == nullptr) return p;
+  auto next = p.begin() + device.extension->law.base_size();
+  for (const EffectUse& use : device.extension->uses) {
+    for (const EffectParameter& info : use.effect->parameters) *next++ = info.neutral;
+  }
+  return p;
+}
+
 class IntervalFinder {
  public:
   IntervalFinder(const IntervalInput& input, std::vector<Estimate>* estimates)
-      : input_(input), estimates_(*estimates), size_(static_cast<int>(estimates->size())) {
+      : input_(input),
+        estimates_(*estimates),
+        size_(static_cast<int>(estimates->size())),
+        quoted_(Reported(input.problem.device, input.end.p)),
+        neutral_(Reported(input.problem.device, Neutral(input.problem.device, input.end.p))) {
     const int points = static_cast<int>(input.problem.voltage_V.size());
     degrees_ = std::max(points - input.free_parameters, 1);
     t_ = StudentT95(degrees_);
@@ -33,8 +50,7 @@ class IntervalFinder {
   std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
     MarkBounds();
     if (input_.method == Intervals::kNone) return {};
-    Spread spread = FindSpread(CurveModel(input_.problem), input_.end, input_.end.held,
-                               Variance(input_.problem, input_.end));
+    Spread spread = SpreadOfQuoted();
     // Where a direction is open, one curve's straight lines say little of the others: profiles do.
     if (spread.open.cols() > 0) spread = Unknown();
     *condition = spread.condition;
@@ -59,6 +75,17 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
+  Spread SpreadOfQuoted() const {
+    const double variance = Variance(input_.problem, input_.end);
+    std::vector<bool> held = input_.end.held;
+    if (input_.problem.device.extension == nullptr) {
+      return FindSpread(CurveModel(input_.problem), input_.end, held, variance);
+    }
+    const std::vector<bool> flat = FindFlat(input_.problem, quoted_);
+    for (int i = 0; i < size_; ++i) held[i] = held[i] || flat[i];
+    return FindSpread(QuotedModel(input_.problem), {quoted_, {}}, held, variance);
+  }
+
   Spread Unknown() const {
     Spread unknown;
     unknown.standard_error.assign(size_, kUnknown);
@@ -75,8 +102,8 @@ class IntervalFinder {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
       if (e.fixed) continue;
-      if (input_.end.p[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
-      if (input_.end.p[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
+      if (quoted_[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
+      if (quoted_[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
     }
   }
 
@@ -85,7 +112,7 @@ class IntervalFinder {
     const double reach = t_ * e.standard_error;
     if (!std::isfinite(reach)) return;
     e.interval = IntervalMethod::kSymmetric;
-    const ParameterRange range = RangeAround(e.info.kind, input_.end.p[i], reach);
+    const ParameterRange range = RangeAround(e.info.kind, quoted_[i], reach);
     e.low_95 = std::max(range.low, e.bounds.lower);
     e.high_95 = std::min(range.high, e.bounds.upper);
   }
@@ -96,10 +123,9 @@ class IntervalFinder {
     const bool any_at_bound =
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
-    if (any_at_bound || e.interval == IntervalMethod::kNone) return true;
+    if (any_at_bound || e.interval == IntervalMethod::kNone || OneOfSeveral(i)) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
-    const double relative = t_ * e.standard_error / input_.end.p[i];
-    return relative > kLinearReach;
+    return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
 
   std::vector<ProfileQuery> Queries(bool saturation_currents) const {
@@ -126,7 +152,7 @@ class IntervalFinder {
     input_.watch->Begin("intervals", count);
     ParallelFor(count, input_.threads, [&](int q) {
       if (input_.watch->Next()) return;
-      sides[q] = FindProfileSide(few_, few_end_, queries[q], input_.watch->stop());
+      sides[q] = SideOf(queries[q]);
       done[q] = sides[q].settled || !input_.watch->stopped() ? 1 : 0;
     });
     for (int q = 0; q + 1 < count; q += 2) {
@@ -138,6 +164,30 @@ class IntervalFinder {
       e.high_95 = sides[q + 1].value;
       for (const ProfileSide* side : {&sides[q], &sides[q + 1]}) TakeIfBetter(side->better);
     }
+  }
+
+  bool OfEffect(int i) const {
+    const Extension* extension = input_.problem.device.extension.get();
+    return extension != nullptr && i >= extension->law.base_size();
+  }
+
+  // Whether it is of an effect with several free parameters: what they do together bends sooner
+  // than any of them alone, and what is settled by trying is not in the covariance at all.
+  bool OneOfSeveral(int i) const {
+    if (!OfEffect(i)) return false;
+    const Law& law = input_.problem.device.extension->law;
+    int free = 0;
+    for (std::size_t e = 0; e < law.effects.size(); ++e) {
+      const int first = law.Offset(static_cast<int>(e)), last = first + law.effects[e]->size();
+      for (int k = first; k < last && first <= i && i < last; ++k) free += !estimates_[k].fixed;
+    }
+    return free > 1;
+  }
+
+  ProfileSide SideOf(const ProfileQuery& query) {
+    const auto stop = input_.watch->stop();
+    return OfEffect(query.parameter) ? FindQuotedSide(few_, few_end_, query, stop)
+                                     : FindProfileSide(few_, few_end_, query, stop);
   }
 
   bool Thinned() const { return few_.points.size < input_.problem.points.size; }
@@ -190,6 +240,16 @@ class IntervalFinder {
     }
   }
 
+  // An effect's parameter may lie as far out as it is allowed to. Where that is where the effect is
+  // not there, it is an answer.
+  bool LeavesAnEndOpen(int i) const {
+    const Estimate& e = estimates_[i];
+    if (!OfEffect(i)) return false;
+    const double neutral = neutral_[i];
+    return (e.low_95 <= e.bounds.lower && e.bounds.lower != neutral) ||
+           (e.high_95 >= e.bounds.upper && e.bounds.upper != neutral);
+  }
+
   void MarkUnidentifiable() {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
@@ -199,6 +259,10 @@ class IntervalFinder {
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "the data allow its whole range";
+      } else if (profiled && LeavesAnEndOpen(i)) {
+        e.identifiable = false;
+        e.reason = fmt::format("only {} limit is known: the data allow it to the end of its range",
+                               e.low_95 <= e.bounds.lower ? "an upper" : "a lower");
       } else if (e.info.kind == ParameterKind::kShunt && e.high_95 >= e.bounds.upper) {
         e.identifiable = false;
         e.reason = "no shunt is visible: only a lower limit is known";
@@ -225,6 +289,8 @@ class IntervalFinder {
   const IntervalInput& input_;
   std::vector<Estimate>& estimates_;
   const int size_;
+  const std::vector<double> quoted_;   // the end, as it is reported
+  const std::vector<double> neutral_;  // of effects' parameters, likewise
   int degrees_ = 1;
   double t_ = 2;
   RefineProblem few_;

@@ -6,8 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "lyrefit/law/extension.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/fit/probe_starts.h"
 
 namespace lyrefit {
 namespace {
@@ -17,43 +16,14 @@ constexpr double kSame = 1e-9;  // relative, of the mean square: has come to whe
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kElites = 3;
 
-// The base device, polished by itself.
-std::vector<double> PolishedBase(const RefineProblem& problem) {
-  Device base = problem.device;
-  base.extension = nullptr;
-  const int size = problem.device.extension->law.base_size();
-  base.parameters.resize(size);
-  const RefineProblem alone = MakeRefineProblem(
-      base, problem.objective, problem.voltage_V, problem.current_A, problem.weights,
-      std::vector<double>(problem.lower.begin(), problem.lower.begin() + size),
-      std::vector<double>(problem.upper.begin(), problem.upper.begin() + size));
-  const std::vector<SeparableStart> starts = SeparableStarts(alone, 0, 1);
-  return RefineFrom(alone, starts.at(0).p).p;
-}
-
-struct Trial {
-  std::vector<double> p;
-  double mean_square = HUGE_VAL;
-};
-
 }  // namespace
 
 std::vector<PolishStart> CollectExtendedStarts(const RefineProblem& problem,
                                                const std::vector<std::vector<double>>& elites) {
   std::vector<PolishStart> starts = {{"best bird", elites.at(0)}};
-  const std::vector<double> base = PolishedBase(problem);
-  std::vector<Trial> trials;
-  for (const std::vector<double>& probe : EffectStarts(*problem.device.extension)) {
-    Trial trial;
-    trial.p = base;
-    trial.p.insert(trial.p.end(), probe.begin(), probe.end());
-    trial.mean_square = MeanSquare(problem, trial.p);
-    if (std::isfinite(trial.mean_square)) trials.push_back(std::move(trial));
-  }
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.mean_square < b.mean_square; });
-  for (std::size_t k = 0; k < std::min(kProbes, trials.size()); ++k) {
-    starts.push_back({fmt::format("base and probe {}", k + 1), trials[k].p});
+  const std::vector<std::vector<double>> probes = ProbeStarts(problem, kProbes);
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    starts.push_back({fmt::format("base and probe {}", k + 1), probes[k]});
   }
   for (std::size_t k = 1; k < std::min(kElites, elites.size()); ++k) {
     starts.push_back({fmt::format("elite {}", k + 1), elites[k]});

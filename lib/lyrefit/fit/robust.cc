@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/law/current.h"
+#include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
 
@@ -15,15 +15,12 @@ void Robustify(const FitOptions& options, const std::function<bool()>& stop, Ref
   RefineOptions how;
   how.stop = stop;
   for (int round = 0; round < kRounds && !stop(); ++round) {
-    std::vector<double> residual;
+    std::vector<double> residual(given.size());
+    ModelCurrents(problem->device, problem->objective, end->p.data(),
+                  {problem->voltage_V, problem->current_A, problem->points}, *problem->kernel,
+                  residual.data(), nullptr);
     for (std::size_t k = 0; k < given.size(); ++k) {
-      const double model =
-          problem->objective == Objective::kMeasuredCurrent
-              ? ExplicitCurrent(problem->device, end->p.data(), problem->voltage_V[k],
-                                problem->current_A[k])
-              : SolveOperatingPoint(problem->device, end->p.data(), problem->voltage_V[k])
-                    .current_A;
-      residual.push_back((model - problem->current_A[k]) * std::sqrt(given[k]));
+      residual[k] = (residual[k] - problem->current_A[k]) * std::sqrt(given[k]);
     }
     const double unit = RobustScale(residual) * options.loss_scale;
     if (!(unit > 0)) return;

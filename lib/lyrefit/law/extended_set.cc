@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lyrefit/law/make_readings.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {

@@ -23,10 +23,9 @@ struct EffectUse {
 };
 
 // A device extended by effects in the measurement of one curve (one sweep, or up and down) or of a
-// set of them (extended_set.h). Effects
-// are computed in numbers of their own (law/effect.h: voltages per cell, currents in parts of a
-// scale), in which their parameters stand in the device's vector; Reported and Inner lead from
-// there to the units of people and back.
+// set of them (extended_set.h). Effects are computed in numbers of their own (law/effect.h:
+// voltages per cell, currents in parts of a scale), in which their parameters stand in the device's
+// vector; quote.h leads from there to the units of people and back.
 struct Extension {
   Law law;
   Readings readings;
@@ -56,13 +55,6 @@ Expected<Device> AddEffects(const Device& base, Extension extension,
 // Where fits of the effects' parameters may begin: all at what is usual, then each probe of each
 // effect beside the others so.
 std::vector<std::vector<double>> EffectStarts(const Extension& extension);
-
-// A device's whole parameter vector with those of the effects in the units of reports, and back.
-std::vector<double> Reported(const Device& device, std::vector<double> p);
-std::vector<double> Inner(const Device& device, std::vector<double> reported);
-
-// What parameter i is multiplied by on its way to a report, the others at `p`.
-double FactorOf(const Device& device, const std::vector<double>& p, int i);
 
 // "shading:d=0.3,w=0.2:0.4", as it was asked for.
 std::string DescribeUse(const EffectUse& use);

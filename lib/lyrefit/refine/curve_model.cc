@@ -47,7 +47,7 @@ double CurveModel::MeanSquare(const FitPoint& point) const {
 }
 
 std::unique_ptr<FitModel> CurveModel::Few() const {
-  if (problem_.voltage_V.size() <= kFewPoints) return nullptr;
+  if (problem_.voltage_V.size() <= kFewPoints || problem_.device.extension) return nullptr;
   return std::unique_ptr<FitModel>(new CurveModel(std::make_unique<RefineProblem>(Thin(problem_))));
 }
 

@@ -10,6 +10,7 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/law/extended_set.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
@@ -51,26 +52,6 @@ ModelShape ShapeOf(const JointProblem& problem) {
   return shape;
 }
 
-// Derivatives of an effect's own numbers by what is reported, at the device's parameters `p`.
-Eigen::MatrixXd OwnByReported(const Device& device, const std::vector<double>& p, int first,
-                              const Effect& effect) {
-  constexpr double kStep = 1e-6;  // of a parameter's range
-  const int size = effect.size();
-  Eigen::MatrixXd slopes(size, size);
-  for (int k = 0; k < size; ++k) {
-    const double step = kStep * (effect.parameters[k].upper - effect.parameters[k].lower);
-    std::vector<double> above = p, below = p;
-    above[first + k] += step;
-    below[first + k] -= step;
-    above = Reported(device, above);
-    below = Reported(device, below);
-    for (int j = 0; j < size; ++j) {
-      slopes(j, k) = (above[first + j] - below[first + j]) / (2 * step);
-    }
-  }
-  return slopes.inverse();
-}
-
 // TranslateCurve of a device with effects, which follows the sky by itself.
 bool TakeExtended(const JointProblem& problem, const double* p, std::vector<double>* device,
                   RowMatrix* chain) {
@@ -87,7 +68,7 @@ bool TakeExtended(const JointProblem& problem, const double* p, std::vector<doub
     const Effect& effect = *extension.uses[e].effect;
     // The effects' parameters stand in one stretch of the shared ones.
     chain->block(first, at.shared_of[first], effect.size(), effect.size()) =
-        OwnByReported(extended, *device, first, effect);
+        OwnByReported(effect, extension.readings.scale, device->data() + first);
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/law/extended_set.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/family_model.h"
 

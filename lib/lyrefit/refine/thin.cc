@@ -169,7 +169,8 @@ void AddConstant(double squares, Points* points) {
 }  // namespace
 
 RefineProblem Thin(const RefineProblem& problem) {
-  if (problem.voltage_V.size() <= kFewPoints) return problem;
+  // Effects act on readings, of which no few stand for many.
+  if (problem.voltage_V.size() <= kFewPoints || problem.device.extension != nullptr) return problem;
   const bool smooth = problem.objective == Objective::kSolvedCurrent;
   const std::vector<int> order = VoltageOrder(problem.voltage_V);
   const std::vector<Iterator> begins =

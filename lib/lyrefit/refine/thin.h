@@ -13,7 +13,8 @@ constexpr int kFewPoints = 512;
 // current, the nodes of its Gauss quadrature, which keep what is a cubic within it. Sums of squares
 // of anything that is straight within each group are kept, whatever the parameters, so the rise of
 // the sum of squares around the optimum is kept to far better than the 1 % a profile is told to.
-// Bounds, scales and kernel stay. A problem of at most kFewPoints comes back as it is.
+// Bounds, scales and kernel stay. A problem of at most kFewPoints comes back as it is, and one of a
+// device with effects.
 RefineProblem Thin(const RefineProblem& problem);
 
 }  // namespace lyrefit

@@ -8,6 +8,7 @@
 
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/report/data_block.h"
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"

@@ -1,0 +1,120 @@
+#include "lyrefit/law/quote.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace lyrefit {
+
+double InnerValue(const Effect& effect, int k, double value, std::vector<double> p,
+                  const ReadingScale& scale) {
+  const EffectParameter& info = effect.parameters[k];
+  const auto reported = [&](double x) {
+    p[k] = x;
+    return x * info.ReportedFactor(p.data(), scale);
+  };
+  if (info.convert == nullptr) return value / info.ReportedFactor(p.data(), scale);
+  // A factor that does not know the parameter itself leads straight back; else by halving, since
+  // what is reported rises or falls all the way.
+  const double middle = 0.5 * (info.lower + info.upper);
+  const double straight = value / (reported(middle) / middle);
+  if (std::fabs(reported(straight) - value) <= 1e-12 * std::fabs(value)) return straight;
+  double low = info.lower, high = info.upper;
+  const bool rises = reported(low) < reported(high);
+  for (int step = 0; step < 200 && low < high; ++step) {
+    const double x = 0.5 * (low + high);
+    if (x == low || x == high) break;
+    ((reported(x) < value) == rises ? low : high) = x;
+  }
+  return 0.5 * (low + high);
+}
+
+// Parameters that factors of others depend on come after the first, so they are settled first.
+std::vector<double> InnerValues(const Effect& effect, const std::vector<double>& reported,
+                                const ReadingScale& scale) {
+  std::vector<double> p;
+  for (const EffectParameter& info : effect.parameters) p.push_back(info.neutral);
+  for (int k = effect.size() - 1; k >= 0; --k) p[k] = InnerValue(effect, k, reported[k], p, scale);
+  return p;
+}
+
+std::vector<double> ReportedValues(const Effect& effect, const double* p,
+                                   const ReadingScale& scale) {
+  std::vector<double> reported;
+  reported.reserve(effect.size());
+  for (int k = 0; k < effect.size(); ++k) {
+    reported.push_back(p[k] * effect.parameters[k].ReportedFactor(p, scale));
+  }
+  return reported;
+}
+
+std::vector<ParameterRange> ReportedRanges(const Effect& effect, const ReadingScale& scale,
+                                           const double* lower, const double* upper) {
+  const int size = effect.size();
+  std::vector<ParameterRange> ranges(size, {HUGE_VAL, -HUGE_VAL});
+  std::vector<double> p(size);
+  for (int corner = 0; corner < 1 << size; ++corner) {
+    for (int k = 0; k < size; ++k) p[k] = (corner >> k & 1) != 0 ? upper[k] : lower[k];
+    const std::vector<double> reported = ReportedValues(effect, p.data(), scale);
+    for (int k = 0; k < size; ++k) {
+      ranges[k].low = std::min(ranges[k].low, reported[k]);
+      ranges[k].high = std::max(ranges[k].high, reported[k]);
+    }
+  }
+  return ranges;
+}
+
+Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, const double* p) {
+  constexpr double kStep = 1e-6;  // of a parameter's range
+  const int size = effect.size();
+  Eigen::MatrixXd slopes(size, size);
+  for (int k = 0; k < size; ++k) {
+    const double step = kStep * (effect.parameters[k].upper - effect.parameters[k].lower);
+    std::vector<double> above(p, p + size), below = above;
+    above[k] += step;
+    below[k] -= step;
+    above = ReportedValues(effect, above.data(), scale);
+    below = ReportedValues(effect, below.data(), scale);
+    for (int j = 0; j < size; ++j) slopes(j, k) = (above[j] - below[j]) / (2 * step);
+  }
+  return slopes.inverse();
+}
+
+std::vector<double> Reported(const Device& device, std::vector<double> p) {
+  if (device.extension == nullptr) return p;
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const int first = extension.law.Offset(static_cast<int>(e));
+    const std::vector<double> values =
+        ReportedValues(*extension.uses[e].effect, p.data() + first, extension.readings.scale);
+    std::copy(values.begin(), values.end(), p.begin() + first);
+  }
+  return p;
+}
+
+std::vector<double> Inner(const Device& device, std::vector<double> reported) {
+  if (device.extension == nullptr) return reported;
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const Effect& effect = *extension.uses[e].effect;
+    const int first = extension.law.Offset(static_cast<int>(e));
+    const std::vector<double> own(reported.begin() + first,
+                                  reported.begin() + first + effect.size());
+    const std::vector<double> values = InnerValues(effect, own, extension.readings.scale);
+    std::copy(values.begin(), values.end(), reported.begin() + first);
+  }
+  return reported;
+}
+
+double FactorOf(const Device& device, const std::vector<double>& p, int i) {
+  const Extension& extension = *device.extension;
+  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
+    const Effect& effect = *extension.uses[e].effect;
+    const int first = extension.law.Offset(static_cast<int>(e));
+    if (i < first || i >= first + effect.size()) continue;
+    return effect.parameters[i - first].ReportedFactor(p.data() + first, extension.readings.scale);
+  }
+  return 1;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/random.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/extension.h"
+#include "lyrefit/law/quote.h"
+#include "lyrefit/study/coverage.h"
+
+// What the catalogue walks over single curves and over sets have in common: drawing an effect and a
+// noise it stands out of, fitting it back, and counting how often its strength is held.
+namespace lyrefit {
+
+// LYREFIT_WALK_CURVES, or as many as find a broken interval in the time CI has; unlike cells take
+// ten times as long as others.
+inline int WalkCurves(const Effect& effect) {
+  const char* const asked = std::getenv("LYREFIT_WALK_CURVES");
+  if (asked != nullptr) return std::max(1, std::atoi(asked));
+  return effect.groups ? 5 : 20;
+}
+
+// A seed of its own for every row, whatever rows there are (FNV-1a).
+inline std::uint64_t SeedOf(const std::string& effect, const std::string& data) {
+  std::uint64_t seed = 14695981039346656037U;
+  for (const char c : effect + "," + data) {
+    seed = (seed ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  }
+  return seed;
+}
+
+inline double Between(RandomStream* random, double low, double high) {
+  return low + (high - low) * random->Uniform();
+}
+
+inline double LogUniform(RandomStream* random, double low, double high) {
+  return low * std::pow(high / low, random->Uniform());
+}
+
+// An effect with all its values, and how a fit is asked for it: what is held unless it is asked for
+// is known, but for the strength.
+struct DrawnEffect {
+  EffectUse truth;
+  EffectUse asked;
+  std::string symbol;  // of the strength
+  double strength = 0;
+};
+
+// Somewhere between two of the places the effect is tried from, at up to twice or half that
+// strength, of either sign where it may have both. `device` has this one effect.
+inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, RandomStream* random) {
+  const std::vector<Probe> probes = effect.probes(device.extension->readings.traits);
+  Probe p = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
+  const Probe& other = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    if (!info.searched && !info.held) p[k] = Between(random, p[k], other[k]);
+  }
+  const EffectParameter& strength = effect.parameters[0];
+  if (strength.neutral == 0) p[0] *= LogUniform(random, 0.5, 2);
+  if (strength.lower == -strength.upper && random->Index(2) == 1) p[0] = -p[0];
+  p[0] = std::min(p[0], 0.9 * strength.upper);
+  const int first = device.size() - effect.size();
+  std::vector<double> all(first, 0);
+  all.insert(all.end(), p.begin(), p.end());
+  const std::vector<double> values = Reported(device, all);
+  DrawnEffect drawn{{&effect, {}}, {&effect, {}}, device.parameters[first].symbol, values[first]};
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    const std::pair<double, double> value(values[first + k], values[first + k]);
+    drawn.truth.ranges[info.symbol] = value;
+    if (info.held)
+      drawn.asked.ranges[info.symbol] = k == 0 ? std::pair(info.lower, info.upper) : value;
+  }
+  return drawn;
+}
+
+// Noise that the effect stands out of by 10 to 50 standard deviations, after all that the diodes
+// alone can do to look like it: `misfit` is the root of the sum of squares that they leave. Within
+// what instruments have of the largest current.
+inline double NoiseFor(double misfit, double largest_A, RandomStream* random) {
+  const double noise = misfit / LogUniform(random, 10, 50);
+  return std::min(std::max(noise, 2e-5 * largest_A), 5e-3 * largest_A);
+}
+
+struct WalkRow {
+  int curves = 0;
+  int held = 0;
+  int counted = 0;           // with an interval
+  int not_identifiable = 0;  // as the report says
+  int failed = 0;
+  double milliseconds = 0;
+};
+
+// Of a FitReport or a FamilyReport, with the time it took. LYREFIT_WALK_VERBOSE: a line for each.
+template <class Report>
+void CountFit(const Expected<Report>& report, std::chrono::duration<double, std::milli> took,
+              const DrawnEffect& drawn, WalkRow* row) {
+  row->milliseconds += took.count();
+  ++row->curves;
+  if (!report || !report->usable) {
+    ++row->failed;
+    ADD_FAILURE() << DescribeUse(drawn.truth) << ": "
+                  << (report ? "not usable" : report.error().ToString());
+    return;
+  }
+  const Estimate& e =
+      *std::find_if(report->estimates.begin(), report->estimates.end(),
+                    [&](const Estimate& one) { return one.info.symbol == drawn.symbol; });
+  const bool held = e.low_95 <= drawn.strength && drawn.strength <= e.high_95;
+  if (std::getenv("LYREFIT_WALK_VERBOSE") != nullptr) {
+    std::printf("   %s is %.5g [%.5g, %.5g] %s%s, rmse %.4g A %s\n",
+                DescribeUse(drawn.truth).c_str(), e.refined, e.low_95, e.high_95,
+                ToText(e.interval).c_str(), held ? "" : " MISSED",
+                report->rmse.refined.solved_current_A, e.reason.c_str());
+  }
+  row->not_identifiable += !e.identifiable;
+  row->counted += e.identifiable;
+  row->held += e.identifiable && held;
+}
+
+// Probability of at most `hits` of `trials` that come with probability p each.
+inline double AtMost(int hits, int trials, double p) {
+  double sum = 0;
+  for (int k = 0; k <= hits; ++k) {
+    sum +=
+        std::exp(std::lgamma(trials + 1.0) - std::lgamma(k + 1.0) - std::lgamma(trials - k + 1.0) +
+                 k * std::log(p) + (trials - k) * std::log1p(-p));
+  }
+  return sum;
+}
+
+// One line of the table, and whether intervals that hold the truth in 95 % of all cases give it.
+inline void JudgeRow(const Effect& effect, const std::string& data, const WalkRow& row) {
+  constexpr double kVanishing = 1e-4;  // probability that they do not
+  static bool first = true;
+  if (first) {
+    std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "fits", "held %",
+                "Wilson 95 %", "not id", "failed", "ms a fit");
+  }
+  first = false;
+  const Share share = WilsonInterval(row.held, row.counted);
+  std::printf("%-16s %-12s %6d %7.1f  %5.1f to %5.1f %6d %6d %8.1f\n", effect.id, data.c_str(),
+              row.curves, 100.0 * row.held / std::max(row.counted, 1), 100 * share.low_95,
+              100 * share.high_95, row.not_identifiable, row.failed,
+              row.milliseconds / std::max(row.curves, 1));
+  std::fflush(stdout);
+  EXPECT_EQ(row.curves, WalkCurves(effect));
+  EXPECT_EQ(row.failed, 0);
+  const int missed = row.counted - row.held;
+  EXPECT_GT(AtMost(row.held, row.counted, 0.95), kVanishing) << "too narrow";
+  EXPECT_GT(AtMost(missed, row.counted, 0.05), kVanishing) << "too wide";
+}
+
+}  // namespace lyrefit

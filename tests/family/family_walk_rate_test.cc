@@ -1,0 +1,147 @@
+// The catalogue walk over many curves of one device: families of lit curves, and lit ones beside a
+// dark one. All rows with more sets each than CI has time for:
+//   LYREFIT_WALK_CURVES=300 tests/family_rate_test --gtest_filter='*FamilyWalk*'
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "catalogue_walk.h"
+#include "family/made_effects.h"
+#include "family/quick.h"
+
+namespace lyrefit {
+namespace {
+
+struct Place {
+  const Effect* effect;
+  bool dark;
+};
+
+const char* DataOf(const Place& place) { return place.dark ? "lit and dark" : "family"; }
+
+void PrintTo(const Place& place, std::ostream* out) {
+  *out << place.effect->id << ", " << DataOf(place);
+}
+
+// A shunt that does not follow the light: one that does takes the place of `photoshunt`.
+Translation ConstantShunt() {
+  TranslationSpec spec;
+  spec.law = TranslationLaw::kDeSoto;
+  spec.shunt = ShuntLaw::kConstant;
+  spec.cells_in_series = 36;
+  return *MakeTranslation(spec);
+}
+
+struct Made {
+  Translation law = ConstantShunt();
+  std::vector<double> truth = MadeTruth(law);
+  CurveSet set;
+};
+
+// A module like others under six skies, or under one and in the dark.
+Made DrawSet(const Place& place, RandomStream* random) {
+  Made made;
+  const auto vary = [&](int i, double part) {
+    made.truth[i] *= 1 + part * (random->Uniform() - 0.5);
+  };
+  vary(made.law.photocurrent, 0.5);
+  vary(made.law.n, 0.1);
+  vary(made.law.resistance_series, 1);
+  vary(made.law.resistance_shunt, 1);
+  const std::vector<MadeAt> one = {{1000, 25}, {600, 25}};
+  made.set = MadeSet(made.law, made.truth, place.dark ? one : kSixPlaces, 40, 0);
+  if (place.dark) made.set.curves.push_back(DarkCurve(made.law, made.truth, 25, 40));
+  return made;
+}
+
+bool Shows(const Place& place) {
+  RandomStream random(1);
+  Made made = DrawSet(place, &random);
+  return ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {{place.effect, {}}},
+                           /*force=*/false, &made.law)
+      .has_value();
+}
+
+std::vector<Place> Places() {
+  std::vector<Place> places;
+  for (const Effect* effect : Catalogue()) {
+    for (const bool dark : {false, true}) {
+      if (effect->HasStage() && Shows({effect, dark})) places.push_back({effect, dark});
+    }
+  }
+  return places;
+}
+
+FamilyOptions Options() {
+  FamilyOptions options = Quick();
+  options.shunt = ShuntLaw::kConstant;
+  options.threads = 1;
+  return options;
+}
+
+double DrawNoise(const CurveSet& clean, RandomStream* random) {
+  FamilyOptions alone = Options();
+  alone.intervals = false;
+  const auto base = FitFamily(clean, alone);
+  double count = 0, scale = 0;
+  for (const IvCurve& curve : clean.curves) {
+    count += static_cast<double>(curve.size());
+    for (const double current : curve.current_A) scale = std::max(scale, current);
+  }
+  const double misfit = base ? base->rmse.refined.solved_current_A * std::sqrt(count) : 0;
+  return NoiseFor(misfit, scale, random);
+}
+
+void Count(const Place& place, RandomStream* random, WalkRow* row) {
+  const Effect& effect = *place.effect;
+  Made made = DrawSet(place, random);
+  Translation extended = made.law;
+  ASSERT_TRUE(ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {{&effect, {}}},
+                                /*force=*/false, &extended));
+  const Device& device = *extended.extended;
+  const DrawnEffect drawn = DrawEffect(device, effect, random);
+  AddMadeEffects({drawn.truth}, made.law, made.truth, 0, &made.set);
+  const double noise = DrawNoise(made.set, random);
+  for (IvCurve& curve : made.set.curves) {
+    for (double& current : curve.current_A) current += noise * random->Normal();
+  }
+  // An effect may bend the curves so that it no longer shows itself.
+  Translation again = made.law;
+  if (!ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {drawn.asked},
+                         /*force=*/false, &again)) {
+    return;
+  }
+  FamilyOptions options = Options();
+  options.with = {drawn.asked};
+  const auto begin = std::chrono::steady_clock::now();
+  const auto report = FitFamily(made.set, options);
+  CountFit(report, std::chrono::steady_clock::now() - begin, drawn, row);
+}
+
+class FamilyWalk : public ::testing::TestWithParam<Place> {};
+
+TEST_P(FamilyWalk, FitsBackWhatWasSimulated) {
+  const Place& place = GetParam();
+  WalkRow row;
+  const int wanted = WalkCurves(*place.effect);
+  for (int draw = 0; row.curves < wanted && draw < 20 * wanted; ++draw) {
+    RandomStream random(SeedOf(place.effect->id, DataOf(place)), draw);
+    Count(place, &random, &row);
+  }
+  JudgeRow(*place.effect, DataOf(place), row);
+}
+
+std::string NameOf(const ::testing::TestParamInfo<Place>& info) {
+  return std::string(info.param.effect->id) + (info.param.dark ? "_lit_and_dark" : "_family");
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, FamilyWalk, ::testing::ValuesIn(Places()), NameOf);
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
@@ -48,8 +49,9 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
       const double error = std::sqrt(squares * (curves - 1) / curves);
       interval.standard_error = error / StepOnScale(kind, interval.value, 1);
       const ParameterRange range = RangeAround(kind, interval.value, t * interval.standard_error);
-      interval.low_95 = range.low;
-      interval.high_95 = range.high;
+      const ParameterBounds& bounds = report->estimates[i].bounds;
+      interval.low_95 = std::max(range.low, bounds.lower);
+      interval.high_95 = std::min(range.high, bounds.upper);
     }
     report->jackknife.push_back(interval);
   }

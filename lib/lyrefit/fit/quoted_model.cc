@@ -84,6 +84,7 @@ std::vector<Settings> FindSettings(const RefineProblem& problem, int i) {
     if (std::find(own.begin(), own.end(), i) != own.end()) continue;
     for (const Probe& probe : effect.probes(extension.readings.traits)) {
       std::vector<double> values;
+      values.reserve(own.size());
       for (const int k : own) {
         values.push_back(std::min(std::max(probe[k - first], problem.lower[k]), problem.upper[k]));
       }

@@ -87,6 +87,7 @@ Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& option
       !extended) {
     return extended;
   }
+  if (auto fine = CheckFitRanges(ExtensionOf(at)); !fine) return fine;
   const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
   family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
   std::vector<double> fixed;

@@ -57,6 +57,7 @@ Expected<void> AddEffects(Job* job, FitReport* report) {
   auto device = Extend(report->device, options.model, options.constants, job->curve, options.with,
                        options.force_effects);
   if (!device) return tl::unexpected(device.error());
+  if (auto fine = CheckFitRanges(*device->extension); !fine) return fine;
   report->device = std::move(*device);
   for (const ParameterBounds& bounds : report->device.extension->bounds) {
     job->bounds.push_back(bounds);

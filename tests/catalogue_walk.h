@@ -21,12 +21,17 @@
 // noise it stands out of, fitting it back, and counting how often its strength is held.
 namespace lyrefit {
 
-// LYREFIT_WALK_CURVES, or as many as find a broken interval in the time CI has; unlike cells take
-// ten times as long as others.
-inline int WalkCurves(const Effect& effect) {
+// Of each row: LYREFIT_WALK_CURVES, or as many as all rows together need to find broken intervals
+// in the time CI has.
+inline int WalkCurves(int usual) {
   const char* const asked = std::getenv("LYREFIT_WALK_CURVES");
-  if (asked != nullptr) return std::max(1, std::atoi(asked));
-  return effect.groups ? 5 : 20;
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : usual;
+}
+
+// LYREFIT_WALK_ROWS: a part of the names of those that are walked ("transient, one sweep").
+inline bool IsWalked(const std::string& name) {
+  const char* const asked = std::getenv("LYREFIT_WALK_ROWS");
+  return asked == nullptr || name.find(asked) != std::string::npos;
 }
 
 // A seed of its own for every row, whatever rows there are (FNV-1a).
@@ -139,26 +144,48 @@ inline double AtMost(int hits, int trials, double p) {
   return sum;
 }
 
-// One line of the table, and whether intervals that hold the truth in 95 % of all cases give it.
-inline void JudgeRow(const Effect& effect, const std::string& data, const WalkRow& row) {
-  constexpr double kVanishing = 1e-4;  // probability that they do not
-  static bool first = true;
-  if (first) {
-    std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "fits", "held %",
-                "Wilson 95 %", "not id", "failed", "ms a fit");
-  }
-  first = false;
+inline void PrintRow(const std::string& effect, const std::string& data, const WalkRow& row) {
   const Share share = WilsonInterval(row.held, row.counted);
-  std::printf("%-16s %-12s %6d %7.1f  %5.1f to %5.1f %6d %6d %8.1f\n", effect.id, data.c_str(),
+  std::printf("%-16s %-12s %6d %7.1f  %5.1f to %5.1f %6d %6d %8.1f\n", effect.c_str(), data.c_str(),
               row.curves, 100.0 * row.held / std::max(row.counted, 1), 100 * share.low_95,
               100 * share.high_95, row.not_identifiable, row.failed,
               row.milliseconds / std::max(row.curves, 1));
   std::fflush(stdout);
-  EXPECT_EQ(row.curves, WalkCurves(effect));
+}
+
+// Whether intervals that hold the truth in 95 % of all cases give such counts.
+inline void JudgeRow(const WalkRow& row) {
+  constexpr double kVanishing = 1e-4;  // probability that they do not
   EXPECT_EQ(row.failed, 0);
   const int missed = row.counted - row.held;
   EXPECT_GT(AtMost(row.held, row.counted, 0.95), kVanishing) << "too narrow";
   EXPECT_GT(AtMost(missed, row.counted, 0.05), kVanishing) << "too wide";
+}
+
+// The table, and its judgement row by row and as a whole: a few curves of a row say little, those
+// of all rows much. `walk` makes the row of a place, which has its `effect`, Data() and Curves().
+template <class Place, class Walk>
+void WalkAll(const std::vector<Place>& places, const Walk& walk) {
+  std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "fits", "held %",
+              "Wilson 95 %", "not id", "failed", "ms a fit");
+  WalkRow all;
+  for (const Place& place : places) {
+    const std::string effect = place.effect->id;
+    if (!IsWalked(effect + ", " + place.Data())) continue;
+    SCOPED_TRACE(effect + ", " + place.Data());
+    const WalkRow row = walk(place);
+    PrintRow(effect, place.Data(), row);
+    JudgeRow(row);
+    EXPECT_EQ(row.curves, place.Curves());
+    all.curves += row.curves;
+    all.held += row.held;
+    all.counted += row.counted;
+    all.not_identifiable += row.not_identifiable;
+    all.failed += row.failed;
+    all.milliseconds += row.milliseconds;
+  }
+  PrintRow("all", "", all);
+  JudgeRow(all);
 }
 
 }  // namespace lyrefit

@@ -1,7 +1,7 @@
 // The catalogue walk: whatever effect is simulated is fitted back, and its strength lies in its 95
 // % interval as often as that says. All rows in one table, with more curves each than CI has time
 // for:
-//   LYREFIT_WALK_CURVES=300 tests/fit_rate_test --gtest_filter='*CatalogueWalk*'
+//   LYREFIT_WALK_CURVES=300 tests/fit_rate_test --gtest_filter='CatalogueWalk*'
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -41,11 +40,11 @@ const std::vector<Sweep>& Sweeps() {
 struct Place {
   const Effect* effect;
   const Sweep* sweep;
-};
 
-void PrintTo(const Place& place, std::ostream* out) {
-  *out << place.effect->id << ", " << place.sweep->name;
-}
+  const char* Data() const { return sweep->name; }
+  // Unlike cells take ten times as long as others.
+  int Curves() const { return WalkCurves(effect->groups ? 1 : 4); }
+};
 
 // A crystalline cell or module of one or two diodes at some temperature.
 SimulateOptions DrawDevice(const Effect& effect, RandomStream* random) {
@@ -147,8 +146,8 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
 
 WalkRow Walk(const Place& place) {
   WalkRow row;
-  const int wanted = WalkCurves(*place.effect);
-  const std::uint64_t seed = SeedOf(place.effect->id, place.sweep->name);
+  const int wanted = place.Curves();
+  const std::uint64_t seed = SeedOf(place.effect->id, place.Data());
   for (int draw = 0; row.curves < wanted && draw < 20 * wanted; ++draw) {
     RandomStream random(seed, draw);
     const auto one = DrawCase(place, &random);
@@ -180,19 +179,7 @@ std::vector<Place> Places() {
   return places;
 }
 
-class CatalogueWalk : public ::testing::TestWithParam<Place> {};
-
-TEST_P(CatalogueWalk, FitsBackWhatWasSimulated) {
-  JudgeRow(*GetParam().effect, GetParam().sweep->name, Walk(GetParam()));
-}
-
-std::string NameOf(const ::testing::TestParamInfo<Place>& info) {
-  std::string name = std::string(info.param.effect->id) + "_" + info.param.sweep->name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalogue, CatalogueWalk, ::testing::ValuesIn(Places()), NameOf);
+TEST(CatalogueWalk, FitsBackWhatWasSimulated) { WalkAll(Places(), Walk); }
 
 }  // namespace
 }  // namespace lyrefit

@@ -88,6 +88,54 @@ TEST(FitWith, HoldsWhatItIsTold) {
   EXPECT_EQ(Find(*report, "shading.d").at_bound, BoundSide::kUpper);
 }
 
+TEST(FitWith, HoldsAStrengthThatIsMeasuredByAnotherParameter) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("nonohmic_shunt"), {{"k", {0.5, 0.5}}, {"m", {3, 3}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  fit.with = options.with;
+  const auto report = Fit(*curve, fit);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_NEAR(Find(*report, "nonohmic_shunt.k").refined, 0.5, 1e-12);
+  EXPECT_NEAR(report->rmse.refined.solved_current_A, 0.004, 0.001);
+}
+
+TEST(FitWith, FitsMoreReadingsThanOthersAreThinnedTo) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("shading"), {{"d", {0.4, 0.4}}, {"w", {1.0 / 3, 1.0 / 3}}}}};
+  options.points = 600;
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  fit.with = {{FindEffect("shading"), {{"w", {1.0 / 3, 1.0 / 3}}}}};
+  const auto report = Fit(*curve, fit);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_NEAR(report->rmse.refined.solved_current_A, 0.004, 0.0005);
+  const Estimate& d = Find(*report, "shading.d");
+  EXPECT_NEAR(d.refined, 0.4, 5 * d.standard_error + 1e-9);
+  EXPECT_EQ(report->residual_A.size(), 600u);
+}
+
+TEST(FitWith, LeavesOutliersAsideWhereItIsToldTo) {
+  SimulateOptions options = Module();
+  options.with = {{FindEffect("shading"), {{"d", {0.4, 0.4}}, {"w", {1.0 / 3, 1.0 / 3}}}}};
+  auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  for (const std::size_t k : {10u, 30u, 50u}) curve->current_A[k] += 0.5;
+  FitOptions fit;
+  fit.with = {{FindEffect("shading"), {{"w", {1.0 / 3, 1.0 / 3}}}}};
+  const auto squared = Fit(*curve, fit);
+  fit.loss = Loss::kHuber;
+  const auto huber = Fit(*curve, fit);
+  ASSERT_TRUE(squared && huber);
+  const auto error = [](const FitReport& report) {
+    return std::fabs(Find(report, "shading.d").refined - 0.4);
+  };
+  EXPECT_LT(error(*huber), 0.002);
+  EXPECT_LT(error(*huber), 0.3 * error(*squared));
+}
+
 // An effect of one's own: a shunt that grows with the square of the voltage.
 Effect SquareShunt() {
   Effect e;
@@ -137,6 +185,10 @@ TEST(FitWith, SaysWhatDoesNotGoWithEffects) {
   fit.floor = false;
   fit.with = {{FindEffect("capacitance"), {}}};
   EXPECT_THAT(error(fit), HasSubstr("needs a sweep up and a sweep down"));
+  fit.with = {{FindEffect("nonohmic_shunt"), {{"k", {0.01, 0.02}}}}};
+  EXPECT_THAT(error(fit), HasSubstr("expected k=0.01:0.02,m=VALUE, or k left out"));
+  fit.with = {{FindEffect("nonohmic_shunt"), {{"k", {0.01, 0.02}}, {"m", {2, 3}}}}};
+  EXPECT_THAT(error(fit), HasSubstr("only where m, which k is measured by, is held"));
 }
 
 }  // namespace

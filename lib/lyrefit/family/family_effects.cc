@@ -9,7 +9,9 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
+#include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"
 
@@ -85,6 +87,7 @@ Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& option
       !extended) {
     return extended;
   }
+  if (auto fine = CheckFitRanges(ExtensionOf(at)); !fine) return fine;
   const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
   family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
   std::vector<double> fixed;
@@ -166,14 +169,26 @@ ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> 
   return {std::min(a, b), std::max(a, b), std::min(a, b), std::max(a, b), bounds.scale};
 }
 
+std::vector<FitPoint> OtherValleys(const FamilyProblem& family, const JointProblem& problem,
+                                   const JointEnd& end, const Observer& observer) {
+  SharedObserver watch(observer, "other optima", 0);
+  watch.Begin();
+  const double degrees = JointDegrees(problem, family.free_parameters, 0);
+  return FindValleys(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
+                     watch.Proceed());
+}
+
 }  // namespace
 
-QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end) {
-  QuotedFit quoted{family, problem, end};
+QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
+                const JointProblem& problem, const JointEnd& end, const Observer& observer) {
+  QuotedFit quoted{family, problem, end, {}};
   const Translation& at = family.translation;
   if (!at.extended) return quoted;
   quoted.problem.quoted = true;
   quoted.end.point.shared = ReportedShared(at, end.point.shared);
+  if (options.intervals) quoted.valleys = OtherValleys(family, problem, end, observer);
+  for (FitPoint& valley : quoted.valleys) valley.p = ReportedShared(at, valley.p);
   int first = at.first_effect;
   for (const EffectUse& use : ExtensionOf(at).uses) {
     const int size = use.effect->size();

@@ -22,13 +22,15 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer);
 
-// A joint fit as it is judged: with the effects' parameters in the units of reports. Without
-// effects as it is.
+// A joint fit as it is judged: with the effects' parameters in the units of reports, and beside
+// other optima where intervals are asked for. Without effects as it is.
 struct QuotedFit {
   FamilyProblem family;
   JointProblem problem;
   JointEnd end;
+  std::vector<FitPoint> valleys;  // other optima, which the data allow as well
 };
-QuotedFit Quote(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end);
+QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
+                const JointProblem& problem, const JointEnd& end, const Observer& observer);
 
 }  // namespace lyrefit

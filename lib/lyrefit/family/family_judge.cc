@@ -41,12 +41,13 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
 
 class Judge {
  public:
-  Judge(const FamilyProblem& family, const FamilyOptions& options, const JointProblem& problem,
-        const JointEnd& end, const Observer& observer, FamilyReport* report)
-      : family_(family),
+  Judge(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
+        FamilyReport* report)
+      : family_(fit.family),
         options_(options),
-        problem_(problem),
-        end_(end),
+        problem_(fit.problem),
+        end_(fit.end),
+        valleys_(fit.valleys),
         observer_(observer),
         r_(*report) {}
 
@@ -128,6 +129,7 @@ class Judge {
     if (e.fixed || (Kind(i) == ParameterKind::kSaturation && end_.held[i]) ||
         i == family_.translation.n_2)
       return false;
+    if (!valleys_.empty()) return true;
     // An ideality and what goes with it are exact in their own coordinates.
     if (e.at_bound != BoundSide::kNone) return true;
     if (e.interval == IntervalMethod::kNone) return false;
@@ -142,7 +144,8 @@ class Judge {
     for (int i = 0; i < family_.translation.size(); ++i) {
       if (!NeedsProfile(i)) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, variance_, r_.estimates[i].standard_error});
+        queries.push_back(
+            {i, upper, t_, variance_, r_.estimates[i].standard_error, false, valleys_});
       }
     }
     std::vector<ProfileSide> sides(queries.size());
@@ -248,6 +251,7 @@ class Judge {
   const FamilyOptions& options_;
   const JointProblem& problem_;
   const JointEnd& end_;
+  const std::vector<FitPoint>& valleys_;
   const Observer& observer_;
   FamilyReport& r_;
   std::vector<double> searched_;
@@ -266,14 +270,15 @@ double JointDegrees(const JointProblem& problem, int free_parameters, double loc
   return std::max(points - free_parameters - local_degrees, 1.0);
 }
 
-void JudgeFamily(const FamilyProblem& family, const FamilyOptions& options,
-                 const JointProblem& problem, const JointEnd& end, const Observer& observer,
+void JudgeFamily(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report) {
-  Judge judge(family, options, problem, end, observer, report);
+  Judge judge(fit, options, observer, report);
   judge.Run();
-  for (std::size_t k = 0; k < family.curves.fitted.size(); ++k) {
-    const JointCurve& curve = problem.curves[k];
-    FamilyCurve& row = report->curves[family.curves.fitted[k]];
+  const JointEnd& end = fit.end;
+  const std::vector<int>& fitted = fit.family.curves.fitted;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    const JointCurve& curve = fit.problem.curves[k];
+    FamilyCurve& row = report->curves[fitted[k]];
     const JointLocal& error = judge.local_error()[k];
     if (curve.irradiance_sd > 0) {
       row.irradiance_offset_W_m2 = Symmetric(end.point.local[k][0] * curve.irradiance_W_m2,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/family/family_problem.h"
+#include "lyrefit/family/family_effects.h"
 #include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
@@ -10,8 +10,7 @@ namespace lyrefit {
 // of the curves and the noise of `report` from the end of a joint fit on the curves `fitted`.
 // All of it is in the units of reports (Quote) but the report's `refined`, which it fills as well.
 // Stopped by the observer, it leaves out the profiles and marks the report as interrupted.
-void JudgeFamily(const FamilyProblem& family, const FamilyOptions& options,
-                 const JointProblem& problem, const JointEnd& end, const Observer& observer,
+void JudgeFamily(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report);
 
 // Delete-one-curve jackknife: every shared parameter when whole curves are taken as independent.

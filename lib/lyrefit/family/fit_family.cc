@@ -234,8 +234,8 @@ void Refine(Job* job, FamilyReport* report) {
                                         : "no convergence";
   report->projected_gradient = end.projected_gradient;
   report->rmse.refined = FamilyRmse(problem, end.point);
-  const QuotedFit quoted = Quote(job->family, problem, end);
-  JudgeFamily(quoted.family, job->options, quoted.problem, quoted.end, job->observer, report);
+  const QuotedFit quoted = Quote(job->family, job->options, problem, end, job->observer);
+  JudgeFamily(quoted, job->options, job->observer, report);
   FillCurves(*job, problem, end, report);
   job->stopped = job->stopped || end.stopped || report->interrupted;
   if (!job->stopped) {

@@ -57,6 +57,7 @@ Expected<void> AddEffects(Job* job, FitReport* report) {
   auto device = Extend(report->device, options.model, options.constants, job->curve, options.with,
                        options.force_effects);
   if (!device) return tl::unexpected(device.error());
+  if (auto fine = CheckFitRanges(*device->extension); !fine) return fine;
   report->device = std::move(*device);
   for (const ParameterBounds& bounds : report->device.extension->bounds) {
     job->bounds.push_back(bounds);
@@ -280,7 +281,8 @@ void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& 
 }
 
 // Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
-void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
+void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end,
+                     FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
   constexpr int kRestarts = 3;
@@ -291,6 +293,7 @@ void JudgeAndImprove(Job* job, RefineEnd* end, FitReport* report) {
     report->correlations.clear();
     const IntervalInput input{job->problem,
                               *end,
+                              ends,
                               wanted ? options.intervals : Intervals::kNone,
                               job->free_parameters,
                               options.threads,
@@ -330,7 +333,8 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
         "interval means anything";
   }
   const auto begin = std::chrono::steady_clock::now();
-  JudgeAndImprove(job, &end, report);
+  for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
+  JudgeAndImprove(job, polish.ends, &end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =

@@ -60,6 +60,7 @@ class IntervalFinder {
     }
     FindCorrelations(spread, correlations);
     if (input_.method == Intervals::kProfile && ResidualsAreNoise()) {
+      FindOtherValleys();
       ProfileWhereNeeded(/*saturation_currents=*/true);
       MarkAbsentDiodes();
       ProfileWhereNeeded(/*saturation_currents=*/false);
@@ -124,6 +125,7 @@ class IntervalFinder {
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
     if (any_at_bound || e.interval == IntervalMethod::kNone || OneOfSeveral(i)) return true;
+    if (!valleys_.empty()) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
     return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
@@ -136,10 +138,19 @@ class IntervalFinder {
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
         queries.push_back({i, upper, t_, Variance(few_, few_end_), estimates_[i].standard_error,
-                           /*end_at_better=*/!input_.final && !Thinned()});
+                           /*end_at_better=*/!input_.final && !Thinned(), valleys_});
       }
     }
     return queries;
+  }
+
+  void FindOtherValleys() {
+    if (input_.problem.device.extension == nullptr) return;
+    const double points = static_cast<double>(input_.problem.voltage_V.size());
+    const double rise = t_ * t_ * Variance(input_.problem, input_.end) / points;
+    valleys_ = FindValleys(input_.problem, input_.end, input_.ends, input_.end.mean_square + rise,
+                           input_.watch->stop());
+    for (const FitPoint& valley : valleys_) TakeIfBetter(valley.p);
   }
 
   void ProfileWhereNeeded(bool saturation_currents) {
@@ -295,6 +306,7 @@ class IntervalFinder {
   double t_ = 2;
   RefineProblem few_;
   RefineEnd few_end_;
+  std::vector<FitPoint> valleys_;  // what fits as well
   std::vector<double> better_;
 };
 

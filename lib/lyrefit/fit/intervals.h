@@ -12,6 +12,7 @@ namespace lyrefit {
 struct IntervalInput {
   const RefineProblem& problem;
   const RefineEnd& end;
+  const std::vector<FitPoint>& ends;  // of other fits, of a device with effects
   Intervals method = Intervals::kProfile;
   int free_parameters = 0;
   int threads = 0;

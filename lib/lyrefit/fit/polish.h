@@ -19,6 +19,7 @@ struct PolishStart {
 struct PolishResult {
   RefineEnd best;
   RefineEnd first;
+  std::vector<FitPoint> ends;  // of all starts, of a device with effects
   RefineReport report;
 };
 

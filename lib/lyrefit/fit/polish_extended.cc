@@ -56,7 +56,10 @@ PolishResult PolishExtended(const RefineProblem& problem, const std::vector<Poli
     if (further.mean_square <= end.mean_square) end = std::move(further);
     settled = std::min(settled, end.mean_square);
   }
-  return ReportEnds(problem, starts, std::move(ends), watch->stopped(), begin);
+  const std::vector<FitPoint> all(ends.begin(), ends.end());
+  PolishResult result = ReportEnds(problem, starts, std::move(ends), watch->stopped(), begin);
+  result.ends = all;
+  return result;
 }
 
 }  // namespace lyrefit

@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "lyrefit/law/quote.h"
+#include "lyrefit/refine/valleys.h"
 
 namespace lyrefit {
 namespace {
@@ -26,6 +26,17 @@ ModelShape QuotedShape(const RefineProblem& problem, ModelShape shape) {
     }
   }
   return shape;
+}
+
+// Of refits by the hundred.
+RefineOptions BrieflySmall(const std::function<bool()>& stop) {
+  RefineOptions how;
+  how.small = true;
+  how.let_in = false;
+  how.max_rounds = 10;
+  how.max_iterations = how.first_iterations = 200;
+  how.stop = stop;
+  return how;
 }
 
 }  // namespace
@@ -59,107 +70,34 @@ double QuotedModel::MeanSquare(const FitPoint& point) const {
   return lyrefit::MeanSquare(problem_, Inner(problem_.device, point.p));
 }
 
-namespace {
-
-// Parameters of an effect that do not descend, and the values its probes give them.
-struct Settings {
-  std::vector<int> parameters;
-  std::set<std::vector<double>> values;
-};
-
-// Of all effects but the one that parameter i is such a parameter of.
-std::vector<Settings> FindSettings(const RefineProblem& problem, int i) {
-  const Extension& extension = *problem.device.extension;
-  std::vector<Settings> all;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
-    const int first = extension.law.Offset(static_cast<int>(e));
-    Settings settings;
-    for (int k = 0; k < effect.size(); ++k) {
-      if (!effect.parameters[k].searched || problem.fixed(first + k)) continue;
-      settings.parameters.push_back(first + k);
-    }
-    const std::vector<int>& own = settings.parameters;
-    if (own.empty() || effect.probes == nullptr) continue;
-    if (std::find(own.begin(), own.end(), i) != own.end()) continue;
-    for (const Probe& probe : effect.probes(extension.readings.traits)) {
-      std::vector<double> values;
-      values.reserve(own.size());
-      for (const int k : own) {
-        values.push_back(std::min(std::max(probe[k - first], problem.lower[k]), problem.upper[k]));
-      }
-      settings.values.insert(std::move(values));
-    }
-    all.push_back(std::move(settings));
-  }
-  return all;
-}
-
-// The refits of one parameter's profile, in the units of reports.
-class QuotedRefits {
- public:
-  QuotedRefits(const RefineProblem& problem, int i, std::function<bool()> stop)
-      : problem_(problem), i_(i), held_(problem), settings_(FindSettings(problem, i)) {
-    how_.small = true;
-    how_.let_in = false;
-    how_.max_rounds = 10;
-    how_.max_iterations = how_.first_iterations = 200;
-    how_.stop = std::move(stop);
-  }
-
-  RefineEnd Refit(double value, FitPoint start, double enough, double tolerance) {
-    held_.Fix(i_, value);
-    start.p[i_] = value;
-    how_.enough = enough;
-    how_.function_tolerance = how_.first_tolerance = tolerance;
-    RefineEnd end = RefineModel(held_, start, how_);
-    for (const Settings& settings : settings_) TryOthers(settings, &end);
-    return end;
-  }
-
- private:
-  // What descends does not find its way from one setting to a better one.
-  void TryOthers(const Settings& settings, RefineEnd* end) {
-    constexpr int kMost = 3;
-    for (int times = 0; times < kMost && end->mean_square > how_.enough; ++times) {
-      FitPoint lowest = *end;
-      double least = end->mean_square * (1 - 1e-9);
-      for (const std::vector<double>& values : settings.values) {
-        FitPoint other = *end;
-        std::vector<double> own = Inner(problem_.device, end->p);
-        for (std::size_t k = 0; k < values.size(); ++k) own[settings.parameters[k]] = values[k];
-        other.p = Reported(problem_.device, std::move(own));
-        other.p[i_] = end->p[i_];
-        const double mean_square = held_.MeanSquare(other);
-        if (!(mean_square < least)) continue;
-        least = mean_square;
-        lowest = std::move(other);
-      }
-      if (!(least < end->mean_square * (1 - 1e-9))) return;
-      *end = RefineModel(held_, std::move(lowest), how_);
-    }
-  }
-
-  const RefineProblem& problem_;
-  const int i_;
-  QuotedModel held_;
-  const std::vector<Settings> settings_;
-  RefineOptions how_;
-};
-
-}  // namespace
-
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
                            const ProfileQuery& query, const std::function<bool()>& stop) {
+  const QuotedModel model(problem);
+  QuotedModel held(problem);
   RefineEnd quoted = best;
   quoted.p = Reported(problem.device, best.p);
-  QuotedRefits refits(problem, query.parameter, stop);
-  const auto refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
-    return refits.Refit(value, start, enough, tolerance);
+  ProfileQuery quoted_query = query;
+  for (FitPoint& valley : quoted_query.valleys) valley.p = Reported(problem.device, valley.p);
+  RefineOptions how = BrieflySmall(stop);
+  const auto refit = [&](double value, FitPoint start, double enough, double tolerance) {
+    held.Fix(query.parameter, value);
+    start.p[query.parameter] = value;
+    how.enough = enough;
+    how.function_tolerance = how.first_tolerance = tolerance;
+    return RefineModel(held, std::move(start), how);
   };
-  ProfileSide side = FindProfileSide(QuotedModel(problem), quoted, query, {refit, nullptr});
+  ProfileSide side = FindProfileSide(model, quoted, quoted_query, {refit, nullptr});
   if (!side.better.empty()) side.better = Inner(problem.device, side.better);
   return side;
+}
+
+std::vector<FitPoint> FindValleys(const RefineProblem& problem, const RefineEnd& best,
+                                  std::vector<FitPoint> ends, double highest,
+                                  const std::function<bool()>& stop) {
+  const Extension& extension = *problem.device.extension;
+  ValleyQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
+  query.how.to_beat = highest;
+  return FindValleys(CurveModel(problem), extension, best, std::move(ends), query);
 }
 
 std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<double>& quoted) {
@@ -170,7 +108,8 @@ std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<doubl
   if (!model.Evaluate(0, quoted.data(), nullptr, residuals.data(), slopes.data(), nullptr)) {
     return flat;
   }
-  for (const Settings& settings : FindSettings(problem, /*i=*/-1)) {
+  const Extension& extension = *problem.device.extension;
+  for (const Settings& settings : FindSettings(extension, extension.law.base_size())) {
     for (const int k : settings.parameters) {
       bool none = true;
       for (int r = 0; r < points; ++r) none = none && slopes[r * count + k] == 0;

@@ -25,10 +25,14 @@ class QuotedModel : public FitModel {
   CurveModel own_;
 };
 
-// FindProfileSide of an effect's parameter, all in these numbers but `best`. What does not descend
-// is settled anew at every place.
+// FindProfileSide of an effect's parameter, all in these numbers but `best` and the valleys.
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
                            const ProfileQuery& query, const std::function<bool()>& stop);
+
+// FindValleys of one curve. None of it is in these numbers.
+std::vector<FitPoint> FindValleys(const RefineProblem& problem, const RefineEnd& best,
+                                  std::vector<FitPoint> ends, double highest,
+                                  const std::function<bool()>& stop);
 
 // Which parameters of effects are settled by trying and not by descent, since at `quoted` no
 // current follows them: the moment of a step between two readings.

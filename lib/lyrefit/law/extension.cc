@@ -198,6 +198,36 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
   return AddEffects(base, std::move(extension), uses, force);
 }
 
+Expected<void> CheckFitRanges(const Extension& extension) {
+  const ReadingScale& scale = extension.readings.scale;
+  int first = 0;
+  for (const EffectUse& use : extension.uses) {
+    const Effect& effect = *use.effect;
+    const auto usual = extension.usual.begin() + first;
+    const auto bounds = extension.bounds.begin() + first;
+    first += effect.size();
+    for (int k = 0; k < effect.size(); ++k) {
+      const auto range = RangeOf(use, k);
+      for (int j = 0; range && j < effect.size(); ++j) {
+        const auto factor_at = [&](double other) {
+          std::vector<double> p(usual, usual + effect.size());
+          p[j] = other;
+          return effect.parameters[k].ReportedFactor(p.data(), scale);
+        };
+        if (j == k || factor_at(bounds[j].lower) == factor_at(bounds[j].upper)) continue;
+        const char* symbol = effect.parameters[k].symbol;
+        const char* other = effect.parameters[j].symbol;
+        return tl::unexpected(Unfit(
+            effect, fmt::format("a fit can keep to {} = {} only where {}, which {} is measured by, "
+                                "is held: expected {}={},{}=VALUE, or {} left out",
+                                symbol, RangeText(*range), other, symbol, symbol, RangeText(*range),
+                                other, symbol)));
+      }
+    }
+  }
+  return {};
+}
+
 Expected<Device> AddEffects(const Device& base, Extension extension,
                             const std::vector<EffectUse>& uses, bool force) {
   if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());

@@ -52,6 +52,11 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
 Expected<Device> AddEffects(const Device& base, Extension extension,
                             const std::vector<EffectUse>& uses, bool force);
 
+// Whether a fit can keep to the ranges that were asked for: it moves in the effects' own numbers,
+// so what is reported of a parameter cannot be kept to where that depends on another one that is
+// free.
+Expected<void> CheckFitRanges(const Extension& extension);
+
 // Where fits of the effects' parameters may begin: all at what is usual, then each probe of each
 // effect beside the others so.
 std::vector<std::vector<double>> EffectStarts(const Extension& extension);

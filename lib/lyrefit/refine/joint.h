@@ -104,6 +104,11 @@ struct JointSpread : Spread {
 };
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
 
+// FindValleys of a joint problem with effects, in numbers of their own, from the end of its fit:
+// what t and the variance of a point of weight 1 allow.
+std::vector<FitPoint> FindValleys(const JointProblem& problem, const JointEnd& best, double t,
+                                  double variance, const std::function<bool()>& proceed = {});
+
 // FindProfileSide of a shared parameter; `proceed` as in JointOptions.
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
                             const ProfileQuery& query, const std::function<bool()>& proceed = {});

@@ -45,14 +45,15 @@ class Side {
     bound_counts_ = std::isfinite(Scaled(bound_)) || (zero && parameter_.may_vanish);
     side_.value = bound_;
     side_.at_bound = true;
-    if (best_.p[query_.parameter] == bound_) return Finish();
+    const FitPoint& from = Outermost();
+    if (from.p[query_.parameter] == bound_) return Finish();
     if (bound_counts_ &&
-        Rise(bound_, best_, best_.mean_square + rise_at_end_) <= query_.t * (1 + 1e-9))
+        Rise(bound_, from, best_.mean_square + rise_at_end_) <= query_.t * (1 + 1e-9))
       return Finish();
     side_.at_bound = false;
-    const double start = StartOnScale(bound_);
+    const double start = StartOnScale(from.p[query_.parameter]);
     const bool endless = zero || !std::isfinite(bound_);
-    path_ = {{start, 0, best_}};
+    path_ = {{start, RootOfRise(model_.MeanSquare(from)), from}};
     Approach(start, endless ? start + (query_.upper ? kEndless : -kEndless) : Scaled(bound_));
     return Finish();
   }
@@ -81,6 +82,17 @@ class Side {
     double x;
     double log_rise;
   };
+
+  // Of the optima that are inside, the one to go on from.
+  const FitPoint& Outermost() const {
+    const FitPoint* outermost = &best_;
+    for (const FitPoint& valley : query_.valleys) {
+      if (!(RootOfRise(model_.MeanSquare(valley)) < query_.t)) continue;
+      const double value = valley.p[query_.parameter], so_far = outermost->p[query_.parameter];
+      if (query_.upper ? value > so_far : value < so_far) outermost = &valley;
+    }
+    return *outermost;
+  }
 
   // The crossing between the optimum and `end`, where the rise is above t.
   void Approach(double start, double end) {
@@ -187,9 +199,8 @@ class Side {
   }
 
   // The optimum on the scale, moved inside where it has no place there (a vanished diode).
-  double StartOnScale(double bound) const {
-    const double value = best_.p[query_.parameter];
-    return Scaled(IsSaturation() && value <= 0 ? kVanished * bound : value);
+  double StartOnScale(double value) const {
+    return Scaled(IsSaturation() && value <= 0 ? kVanished * bound_ : value);
   }
 
   double FirstGuess(double start, double far) const {
@@ -221,10 +232,23 @@ class Side {
   // Whether refits from elsewhere stay below t there; the path goes on from where they ended.
   bool InsideElsewhere(double value) {
     FitPoint there;
-    if (!refits_.elsewhere || !refits_.elsewhere(value, enough_, tolerance_, &there)) return false;
+    const bool inside = refits_.elsewhere && refits_.elsewhere(value, enough_, tolerance_, &there);
+    if (!inside && !InsideOtherValley(value, &there)) return false;
     const double rise = RootOfRise(model_.MeanSquare(there));
     path_.push_back({Scaled(value), rise, std::move(there)});
     return true;
+  }
+
+  bool InsideOtherValley(double value, FitPoint* there) {
+    if (query_.valleys.empty()) return false;
+    std::vector<const FitPoint*> optima = {&best_};
+    for (const FitPoint& valley : query_.valleys) optima.push_back(&valley);
+    return std::any_of(optima.begin(), optima.end(), [&](const FitPoint* from) {
+      RefineEnd end = refits_.refit(value, *from, enough_, tolerance_);
+      const bool inside = end.mean_square <= enough_;
+      if (inside) *there = std::move(end);
+      return inside;
+    });
   }
 
   // Once more, with what the way has shown: the data may allow the bound after all.

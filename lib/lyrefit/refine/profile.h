@@ -32,6 +32,8 @@ struct ProfileQuery {
   double variance = 0;         // of a residual of weight 1, in A^2
   double standard_error = 0;   // first guess of the scale; NaN or 0: none
   bool end_at_better = false;  // a refit below the optimum ends the search for the crossing
+  // Other optima, which the data allow as well: the interval is the hull of what all of them allow.
+  std::vector<FitPoint> valleys = {};
 };
 
 // What a profile needs to know of the fits behind it.

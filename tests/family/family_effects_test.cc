@@ -56,6 +56,20 @@ void ExpectFound(const FamilyReport& report, const std::string& symbol, double t
   EXPECT_GE(e.high_95, e.refined);
 }
 
+TEST_F(FamilyEffectsTest, ADarkCurveMayBeNoisy) {
+  set_.curves.push_back(DarkCurve(law_, truth_, 25, 40));
+  IvCurve& dark = set_.curves.back();
+  const double noise = 0.005 * std::fabs(dark.current_A.back());
+  RandomStream random(3);
+  for (std::size_t k = 0; k < dark.size(); ++k) {
+    const bool at_0 = std::fabs(dark.voltage_V[k]) < 1;
+    dark.current_A[k] += noise * (at_0 ? 1 : random.Normal());
+  }
+  options_.with = {UseOf("second_diode")};
+  const FamilyReport report = Fit();
+  EXPECT_EQ(report.curves.back().role, CurveRole::kFitted) << report.curves.back().reason;
+}
+
 // Of two light levels alone either law of the photoshunt gives the same curves, at another
 // strength.
 TEST_F(FamilyEffectsTest, AnIntervalReachesOverEverySettingThatFitsAsWell) {

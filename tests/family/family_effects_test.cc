@@ -56,6 +56,46 @@ void ExpectFound(const FamilyReport& report, const std::string& symbol, double t
   EXPECT_GE(e.high_95, e.refined);
 }
 
+TEST_F(FamilyEffectsTest, ADarkCurveMayBeNoisy) {
+  set_.curves.push_back(DarkCurve(law_, truth_, 25, 40));
+  IvCurve& dark = set_.curves.back();
+  const double noise = 0.005 * std::fabs(dark.current_A.back());
+  RandomStream random(3);
+  for (std::size_t k = 0; k < dark.size(); ++k) {
+    const bool at_0 = std::fabs(dark.voltage_V[k]) < 1;
+    dark.current_A[k] += noise * (at_0 ? 1 : random.Normal());
+  }
+  options_.with = {UseOf("second_diode")};
+  const FamilyReport report = Fit();
+  EXPECT_EQ(report.curves.back().role, CurveRole::kFitted) << report.curves.back().reason;
+}
+
+// Of two light levels alone either law of the photoshunt gives the same curves, at another
+// strength.
+TEST_F(FamilyEffectsTest, AnIntervalReachesOverEverySettingThatFitsAsWell) {
+  TranslationSpec spec = law_.spec;
+  spec.shunt = ShuntLaw::kConstant;
+  options_.shunt = ShuntLaw::kConstant;
+  law_ = *MakeTranslation(spec);
+  truth_ = MadeTruth(law_);
+  set_ = MadeSet(law_, truth_, {{1000, 25}, {600, 25}}, 40, 0);
+  Make({UseOf("photoshunt", {{"Gph", {0.05, 0.05}}, {"law", {0, 0}}})}, 2e-3);
+  Estimate held[2];
+  for (const double law : {0.0, 1.0}) {
+    options_.with = {UseOf("photoshunt", {{"law", {law, law}}})};
+    held[static_cast<int>(law)] = Of(Fit(), "photoshunt.Gph");
+  }
+  ASSERT_GT(std::fabs(held[1].refined - held[0].refined), 0.002);
+  options_.with = {UseOf("photoshunt")};
+  const FamilyReport report = Fit();
+  const Estimate& strength = Of(report, "photoshunt.Gph");
+  EXPECT_NEAR(strength.low_95, std::min(held[0].low_95, held[1].low_95), 2e-3);
+  EXPECT_NEAR(strength.high_95, std::max(held[0].high_95, held[1].high_95), 2e-3);
+  EXPECT_EQ(Of(report, "photoshunt.law").low_95, 0);
+  EXPECT_EQ(Of(report, "photoshunt.law").high_95, 1);
+  EXPECT_FALSE(Of(report, "photoshunt.law").identifiable);
+}
+
 TEST_F(FamilyEffectsTest, ANonOhmicShuntIsFound) {
   Make({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})});
   options_.with = {UseOf("nonohmic_shunt")};

@@ -14,6 +14,60 @@
 namespace lyrefit {
 namespace {
 
+// One residual x, or (x - 1/2) / 2 where the setting behind x is 1: what descends stays in either.
+class TwoValleys : public FitModel {
+ public:
+  TwoValleys() : FitModel(Shape()) {}
+
+  bool Evaluate(int /*block*/, const double* p, const double* /*local*/, double* residuals,
+                double* slopes, double* /*local_slopes*/) const override {
+    const bool other = p[1] > 0.5;
+    residuals[0] = other ? (p[0] - 0.5) / 2 : p[0];
+    if (slopes == nullptr) return true;
+    slopes[0] = other ? 0.5 : 1;
+    slopes[1] = 0;
+    return true;
+  }
+
+ private:
+  static ModelShape Shape() {
+    ModelShape shape;
+    shape.parameters.resize(2);
+    shape.parameters[0].lower = -100;
+    shape.parameters[0].upper = 100;
+    shape.parameters[1].upper = 1;
+    shape.blocks = {{1, 0}};
+    return shape;
+  }
+};
+
+TEST(FindProfileSide, ReachesOverTheOtherValleysToo) {
+  const TwoValleys model;
+  ProfileRefits refits;
+  refits.refit = [&](double value, FitPoint start, double, double) {
+    start.p[0] = value;
+    RefineEnd end;
+    end.p = start.p;
+    end.mean_square = model.MeanSquare(start);
+    return end;
+  };
+  RefineEnd best;
+  best.p = {0, 0};
+  const auto limit = [&](bool upper, std::vector<FitPoint> valleys) {
+    const ProfileSide side =
+        FindProfileSide(model, best, {0, upper, 2, 1, 0.5, false, std::move(valleys)}, refits);
+    EXPECT_TRUE(side.settled);
+    return side.value;
+  };
+  EXPECT_NEAR(limit(false, {}), -2, 0.02);
+  EXPECT_NEAR(limit(true, {}), 2, 0.02);
+  EXPECT_NEAR(limit(false, {{{0.5, 1}, {}}}), -3.5, 0.03);
+  EXPECT_NEAR(limit(true, {{{0.5, 1}, {}}}), 4.5, 0.03);
+  // Beyond what the best allows, across places that nothing allows.
+  best.p = {0.5, 1};
+  EXPECT_NEAR(limit(false, {{{0, 0}, {}}}), -3.5, 0.03);
+}
+
 TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);

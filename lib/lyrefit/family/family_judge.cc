@@ -129,7 +129,7 @@ class Judge {
     if (e.fixed || (Kind(i) == ParameterKind::kSaturation && end_.held[i]) ||
         i == family_.translation.n_2)
       return false;
-    if (!valleys_.empty()) return true;
+    if (!valleys_.empty() || BendsWithOthers(i)) return true;
     // An ideality and what goes with it are exact in their own coordinates.
     if (e.at_bound != BoundSide::kNone) return true;
     if (e.interval == IntervalMethod::kNone) return false;
@@ -137,6 +137,12 @@ class Judge {
     const bool signed_value = e.bounds.lower < 0;
     if (signed_value) return false;
     return t_ * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
+  }
+
+  bool BendsWithOthers(int i) const {
+    const Translation& at = family_.translation;
+    if (!at.extended || i < at.first_effect) return false;
+    return OneOfSeveral(*at.extended->extension, i - at.first_effect);
   }
 
   void ProfileWhereNeeded() {

@@ -43,7 +43,9 @@ double LargestCurrent(const std::vector<double>& current_A) {
 // Whether a curve delivers, at 0 V, more than what a meter says of a dark one.
 bool IsLit(const IvCurve& curve, double isc) {
   constexpr double kNothing = 0.002;  // of the largest current
-  return isc > kNothing * LargestCurrent(curve.current_A);
+  constexpr double kNoise = 5;        // of the noise
+  return isc > kNothing * LargestCurrent(curve.current_A) &&
+         isc > kNoise * NoiseFromDifferences(curve.voltage_V, curve.current_A);
 }
 
 // Members that no law can place. `refusal` gets the first one's whose readings cannot be.

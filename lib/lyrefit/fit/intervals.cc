@@ -124,7 +124,7 @@ class IntervalFinder {
     const bool any_at_bound =
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
-    if (any_at_bound || e.interval == IntervalMethod::kNone || OneOfSeveral(i)) return true;
+    if (any_at_bound || e.interval == IntervalMethod::kNone || BendsWithOthers(i)) return true;
     if (!valleys_.empty()) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
     return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
@@ -182,17 +182,10 @@ class IntervalFinder {
     return extension != nullptr && i >= extension->law.base_size();
   }
 
-  // Whether it is of an effect with several free parameters: what they do together bends sooner
-  // than any of them alone, and what is settled by trying is not in the covariance at all.
-  bool OneOfSeveral(int i) const {
+  bool BendsWithOthers(int i) const {
     if (!OfEffect(i)) return false;
-    const Law& law = input_.problem.device.extension->law;
-    int free = 0;
-    for (std::size_t e = 0; e < law.effects.size(); ++e) {
-      const int first = law.Offset(static_cast<int>(e)), last = first + law.effects[e]->size();
-      for (int k = first; k < last && first <= i && i < last; ++k) free += !estimates_[k].fixed;
-    }
-    return free > 1;
+    const Extension& extension = *input_.problem.device.extension;
+    return OneOfSeveral(extension, i - extension.law.base_size());
   }
 
   ProfileSide SideOf(const ProfileQuery& query) {

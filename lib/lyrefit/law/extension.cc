@@ -228,6 +228,19 @@ Expected<void> CheckFitRanges(const Extension& extension) {
   return {};
 }
 
+bool OneOfSeveral(const Extension& extension, int k) {
+  int first = 0;
+  for (const EffectUse& use : extension.uses) {
+    const auto bounds = extension.bounds.begin() + first;
+    const int size = use.effect->size();
+    first += size;
+    if (k >= first) continue;
+    return std::count_if(bounds, bounds + size,
+                         [](const ParameterBounds& b) { return b.lower < b.upper; }) > 1;
+  }
+  return false;
+}
+
 Expected<Device> AddEffects(const Device& base, Extension extension,
                             const std::vector<EffectUse>& uses, bool force) {
   if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());

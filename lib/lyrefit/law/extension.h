@@ -57,6 +57,10 @@ Expected<Device> AddEffects(const Device& base, Extension extension,
 // free.
 Expected<void> CheckFitRanges(const Extension& extension);
 
+// Whether the k-th of the effects' parameters is of an effect with several free ones: what they do
+// together bends sooner than any of them alone, and what is settled by trying is in no covariance.
+bool OneOfSeveral(const Extension& extension, int k);
+
 // Where fits of the effects' parameters may begin: all at what is usual, then each probe of each
 // effect beside the others so.
 std::vector<std::vector<double>> EffectStarts(const Extension& extension);

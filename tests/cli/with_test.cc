@@ -34,6 +34,7 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   const std::string file = folder.Path("fit.json");
   const AppResult fit = RunApp("fit " + kShaded + " --with shading --json '" + file + "'");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("effects       partial shading (shading)\n"));
   EXPECT_THAT(fit.out, HasSubstr("shading.d"));
   EXPECT_THAT(fit.out, HasSubstr("with = shading"));
   const json report = json::parse(ReadFile(file));

@@ -13,6 +13,7 @@
 #include "lyrefit/report/panels.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
@@ -193,7 +194,7 @@ std::string Title(const FamilyReport& report) {
     const auto fitted =
         std::count_if(report.curves.begin(), report.curves.end(),
                       [](const FamilyCurve& curve) { return curve.role == CurveRole::kFitted; });
-    for (const EffectUse& use : report.with) title += fmt::format(" + {}", use.effect->id);
+    title += PlusEffects(report.with);
     title += fmt::format(", solved-current RMSE {} A over {} curves fitted",
                          Scientific(report.rmse.refined.solved_current_A, 4), fitted);
   }

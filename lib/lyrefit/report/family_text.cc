@@ -48,15 +48,6 @@ std::string Law(const FamilyReport& report) {
                      spec.recombination ? ", recombination in the i-layer" : "");
 }
 
-// "non-ohmic shunt (nonohmic_shunt), shading (shading)"
-std::string Effects(const FamilyReport& report) {
-  std::string text;
-  for (const EffectUse& use : report.with) {
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", use.effect->title, use.effect->id);
-  }
-  return text;
-}
-
 std::string Header(const FamilyReport& report) {
   std::string text = Banner(report.interrupted, report.usable, {}, report.doubts);
   const TranslationSpec& spec = report.translation.spec;
@@ -72,7 +63,7 @@ std::string Header(const FamilyReport& report) {
   text += Field("conditions", fmt::format("{}; {} in series", RangeText(report),
                                           Plural(report.cells_in_series, "cell")));
   if (!OneByOne(report)) text += Field("law", Law(report));
-  if (!report.with.empty()) text += Field("effects", Effects(report));
+  if (!report.with.empty()) text += Field("effects", EffectTitles(report.with));
   text += Field("objective", fmt::format("{}; constants {}; seed {}", ToText(report.objective),
                                          ToText(spec.constants), report.search_options.seed));
   return text;

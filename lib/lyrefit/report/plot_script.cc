@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
@@ -112,10 +113,9 @@ void AppendMarks(const char* name, const std::vector<double>& x, const std::vect
 }
 
 std::string Title(const FitReport& report) {
-  const char* const models[] = {"single-diode", "double-diode", "triple-diode"};
+  const std::string model = ModelTitle(report.model) + PlusEffects(EffectsOf(report.device));
   const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
-  return fmt::format("{}, {} model{}: RMSE {:.4g} A {}{}", report.curve.name,
-                     models[static_cast<int>(report.model) - 1],
+  return fmt::format("{}, {} model{}: RMSE {:.4g} A {}{}", report.curve.name, model,
                      report.interrupted ? ", interrupted" : "", rmse.Of(report.objective),
                      ToText(report.objective), report.polished ? "" : ", not polished");
 }

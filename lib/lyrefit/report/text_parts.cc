@@ -21,6 +21,24 @@ std::string ModelTitle(Model model) {
   return "?";
 }
 
+std::string EffectTitles(const std::vector<EffectUse>& uses) {
+  std::string text;
+  for (const EffectUse& use : uses) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", use.effect->title, use.effect->id);
+  }
+  return text;
+}
+
+std::string PlusEffects(const std::vector<EffectUse>& uses) {
+  std::string text;
+  for (const EffectUse& use : uses) text += fmt::format(" + {}", use.effect->id);
+  return text;
+}
+
+std::vector<EffectUse> EffectsOf(const Device& device) {
+  return device.extension == nullptr ? std::vector<EffectUse>() : device.extension->uses;
+}
+
 std::string Plural(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

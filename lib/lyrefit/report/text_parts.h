@@ -6,12 +6,21 @@
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device.h"
+#include "lyrefit/law/extension.h"
 
 // What the text writers share.
 namespace lyrefit {
 
 // "single-diode"
 std::string ModelTitle(Model model);
+
+// "non-ohmic shunt (nonohmic_shunt), partial shading (shading)"
+std::string EffectTitles(const std::vector<EffectUse>& uses);
+// " + nonohmic_shunt + shading"
+std::string PlusEffects(const std::vector<EffectUse>& uses);
+
+// The effects that a device has beside its diodes.
+std::vector<EffectUse> EffectsOf(const Device& device);
 
 // "1 cell", "3 cells"
 std::string Plural(std::size_t count, const std::string& noun);

@@ -15,6 +15,8 @@ std::string Header(const FitReport& report) {
   text += fmt::format("lyrefit {}: {} model of {}\n", report.version, ModelTitle(report.model),
                       report.curve.name);
   text += CurveFields(report.curve);
+  const std::string effects = EffectTitles(EffectsOf(report.device));
+  if (!effects.empty()) text += Field("effects", effects);
   text += Field("objective", fmt::format("{}; bounds {}; constants {}", ToText(report.objective),
                                          report.bounds_name, ToText(report.constants)));
   return text;
@@ -35,11 +37,11 @@ std::string FullReport(const FitReport& report) {
 
 std::string BriefReport(const FitReport& report) {
   const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
-  std::string text =
-      fmt::format("{}: {}, RMSE {} A measured-current, {} A solved-current (fitted: {}{})",
-                  report.curve.name, ToText(report.model), Scientific(rmse.measured_current_A, 10),
-                  Scientific(rmse.solved_current_A, 10), ToText(report.objective),
-                  report.polished ? "" : ", not polished");
+  const std::string model = ToText(report.model) + PlusEffects(EffectsOf(report.device));
+  std::string text = fmt::format(
+      "{}: {}, RMSE {} A measured-current, {} A solved-current (fitted: {}{})", report.curve.name,
+      model, Scientific(rmse.measured_current_A, 10), Scientific(rmse.solved_current_A, 10),
+      ToText(report.objective), report.polished ? "" : ", not polished");
   for (const Estimate& e : report.estimates) {
     text += fmt::format(", {} {}{}{}", e.info.symbol,
                         Significant(report.polished ? e.refined : e.searched, 6),

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "family/family_fixture.h"
 #include "family/made_effects.h"
-#include "family/quick.h"
 #include "lyrefit/family/fit_free.h"
 
 namespace lyrefit {
@@ -15,25 +15,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class FamilyEffectsTest : public ::testing::Test {
+class FamilyEffectsTest : public FamilyFixture {
  protected:
-  FamilyReport Fit() const {
-    const Expected<FamilyReport> report = FitFamily(set_, options_);
-    EXPECT_TRUE(report) << report.error().ToString();
-    return report ? *report : FamilyReport{};
-  }
-  std::string Error() const {
-    const Expected<FamilyReport> report = FitFamily(set_, options_);
-    return report ? "no error" : report.error().ToString();
-  }
+  FamilyEffectsTest() : FamilyFixture(/*points=*/40, /*noise_A=*/0) {}
   void Make(const std::vector<EffectUse>& uses, double noise_A = 1e-3) {
     AddMadeEffects(uses, law_, truth_, noise_A, &set_);
   }
-
-  Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> truth_ = MadeTruth(law_);
-  CurveSet set_ = MadeSet(law_, truth_, kSixPlaces, 40, 0);
-  FamilyOptions options_ = Quick();
 };
 
 const Estimate& Of(const FamilyReport& report, const std::string& symbol) {

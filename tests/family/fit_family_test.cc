@@ -7,33 +7,19 @@
 #include <cmath>
 #include <functional>
 
-#include "family/made_family.h"
-#include "family/quick.h"
+#include "family/family_fixture.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
 
-class FitFamilyTest : public testing::Test {
+class FitFamilyTest : public FamilyFixture {
  protected:
-  FamilyReport Fit() const {
-    const Expected<FamilyReport> report = FitFamily(set_, options_);
-    EXPECT_TRUE(report) << report.error().ToString();
-    return report ? *report : FamilyReport{};
-  }
-  std::string Error() const {
-    const Expected<FamilyReport> report = FitFamily(set_, options_);
-    return report ? "" : report.error().ToString();
-  }
+  FitFamilyTest() : FamilyFixture(/*points=*/30, /*noise_A=*/1e-3) {}
   const Estimate& Of(const FamilyReport& report, const std::string& name) const {
     return report.estimates[*report.translation.Find(name)];
   }
-
-  const Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth_ = MadeTruth(law_);
-  CurveSet set_ = MadeSet(law_, truth_, kSixPlaces, 30, 1e-3);
-  FamilyOptions options_ = Quick();
 };
 
 // |value - truth| within `factor` half widths of the 95 % interval.

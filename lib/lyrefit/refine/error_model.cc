@@ -1,0 +1,62 @@
+#include "lyrefit/refine/error_model.h"
+
+#include <cmath>
+
+namespace lyrefit {
+
+double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
+  const bool has_path = !errors.path.empty();
+  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(rows.cols());  // of the path, as foretold
+  double variance = 1, logs = 0;                                     // of the state
+  int before = -1;
+  for (int k = 0; k < errors.size(); ++k) {
+    if (!used.empty() && used[k] == 0) {
+      rows.row(k).setZero();
+      continue;
+    }
+    if (has_path) {
+      const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
+      const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
+      state *= kept;
+      variance = kept * kept * variance + (1 - kept * kept);
+    }
+    const double path = has_path ? errors.path[k] : 0.0;
+    const double own = errors.white[k] * errors.white[k];
+    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
+    logs += std::log(total);
+    if (!has_path) {
+      rows.row(k) *= scale;
+      continue;
+    }
+    rows.row(k) -= path * state;
+    state += (path * variance / total) * rows.row(k);
+    variance *= own / total;
+    rows.row(k) *= scale;
+    before = k;
+  }
+  return logs;
+}
+
+double RestrictedLogLikelihood(const ErrorModel& errors, const std::vector<char>& used,
+                               const Eigen::VectorXd& residual, const RowMatrix& jacobian) {
+  const int columns = static_cast<int>(jacobian.cols());
+  RowMatrix rows(residual.size(), columns + 1);
+  for (int c = 0; c < columns; ++c) {
+    const double norm = jacobian.col(c).norm();
+    rows.col(c) = jacobian.col(c) / (norm > 0 ? norm : 1);
+  }
+  rows.col(columns) = residual;
+  double logs = Whiten(errors, used, rows);
+  Eigen::VectorXd rest = rows.col(columns);
+  if (columns > 0) {
+    const Eigen::MatrixXd slopes = rows.leftCols(columns);
+    rest -= Times(slopes, LeastSquares(slopes, rest));
+    const RightSingular decomposed = FindRightSingular(slopes);
+    for (const double value : decomposed.values) {
+      if (value > 1e-12 * decomposed.values[0]) logs += 2 * std::log(value);
+    }
+  }
+  return -0.5 * (logs + rest.squaredNorm());
+}
+
+}  // namespace lyrefit

@@ -66,6 +66,16 @@ DiagnoseCommand::DiagnoseCommand(CommandLine* line)
 }
 
 void DiagnoseCommand::AddDiagnosisFlags() {
+  const auto parse_noise = [this](const std::string& text) -> Expected<void> {
+    const auto noise = FromText<ErrorKind>(text);
+    if (!noise) return Fail("expected white or field, found '" + text + "'");
+    options_.noise = *noise;
+    return {};
+  };
+  verb_->AddReader(
+      "--noise", parse_noise,
+      "what the readings' errors are: white, each its own; field, beside it light that "
+      "wanders and a module that departs from the model (default field)");
   const auto parse_base = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     if (!model || *model == Model::kTripleDiode) {

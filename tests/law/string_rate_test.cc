@@ -173,8 +173,8 @@ class Lane {
     const T depth = -v / T(cell_.reverse_voltage[lane_]);
     const T m = T(cell_.reverse_exponent[lane_]);
     if (cell_.reverse == ReverseLaw::kSoft) {
-      return depth < 1e-9 ? T(current + light * exp(m * log(T(1e-9))))
-                          : T(current + light * exp(m * log(depth)));
+      return depth < 1e-9 ? T(current + T(cell_.photocurrent[lane_]) * exp(m * log(T(1e-9))))
+                          : T(current + T(cell_.photocurrent[lane_]) * exp(m * log(depth)));
     }
     const T strength = conductance * T(cell_.reverse_strength[lane_]);
     const T width = T(cell_.reverse_voltage[lane_]);

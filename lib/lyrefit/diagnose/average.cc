@@ -24,7 +24,7 @@ FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch
   const Readings& readings = measurement.readings;
   const std::size_t count = readings.points.size();
   FittedBase shape{
-      {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, watch},
+      {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, 0, watch},
       {},
       {}};
   for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
@@ -193,7 +193,7 @@ Selection OnAllReadings(const Selection& found, const Averaged& averaged,
   const auto widen = [&](Workbench* bench) {
     const std::vector<char> used = bench->used;
     bench->readings = &readings;
-    bench->correlation = 0;
+    bench->correlation = bench->path = 0;
     bench->sigma.assign(count, 1e-3);
     bench->used.assign(count, 1);
     for (std::size_t lot = 0; lot < used.size(); ++lot) {

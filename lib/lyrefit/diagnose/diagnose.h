@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
@@ -14,6 +15,17 @@ namespace lyrefit {
 
 struct Effect;  // law/effect.h
 
+// What errors a diagnosis allows for.
+enum class ErrorKind {
+  kWhite,  // noise that every reading has for itself: a laboratory's
+  kField,  // beside it a rough path: light that wanders, a module that departs from the model
+};
+template <>
+struct EnumTable<ErrorKind> {
+  static constexpr EnumText<ErrorKind> kRows[] = {{ErrorKind::kWhite, "white"},
+                                                  {ErrorKind::kField, "field"}};
+};
+
 struct DiagnoseOptions {
   double level = 0.05;               // rate of false alarms over the whole catalogue
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
@@ -22,6 +34,11 @@ struct DiagnoseOptions {
   // runs. Each needs an id, parameters with finite bounds, a stage and probes.
   std::vector<const Effect*> own_effects;
   std::uint64_t seed = 1;
+  ErrorKind noise = ErrorKind::kField;
+  // A cause is named where its effect is certainly larger than one of these: in parts of Isc (root
+  // mean square over the curve), in parts of Pmax. What is there below them is said apart.
+  double floor_current = 0.0025;
+  double floor_power = 0.005;
   int draws = 2000;        // simulated nulls
   int largest_causes = 4;  // at most so many are named
   bool held_out = true;    // measure the gain on what was not fitted
@@ -35,6 +52,10 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
      0.5},
     {"seed", "", "seed of the simulated nulls and of the search", &DiagnoseOptions::seed, 0,
      1.8446744073709552e19},
+    {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",
+     &DiagnoseOptions::floor_current, 0, 1},
+    {"floor-power", "", "smallest effect that is named, in parts of Pmax",
+     &DiagnoseOptions::floor_power, 0, 1},
     {"draws", "", "simulated nulls that set the level", &DiagnoseOptions::draws, 200, 1e6},
     {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
     {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,

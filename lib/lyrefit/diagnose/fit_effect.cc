@@ -57,6 +57,25 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 
+// The best end of those that the curve's shape suggests.
+void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
+               LawFit* best) {
+  const Readings& readings = *bench.readings;
+  const CurveShape shape = ShapeOf(readings);
+  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
+    Law freed = law;
+    for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
+    std::vector<double> start = fit.p;
+    const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
+    std::copy(healthy.begin(), healthy.end(), start.begin());
+    start.insert(start.end(), own.p.begin(), own.p.end());
+    LeastSquaresOptions briefly = kBriefly;
+    briefly.max_iterations = 30;
+    LawFit end = FitLaw(bench, freed, start, briefly);
+    if (end.usable && (!best->usable || end.sum < best->sum)) *best = std::move(end);
+  }
+}
+
 // Whether the last effect of a fit ended as what it is meant to be.
 bool IsItself(const Effect& effect, const LawFit& fit) {
   const std::size_t first = fit.p.size() - effect.parameters.size();
@@ -84,8 +103,10 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (effort != Effort::kFull) break;
   }
   // A strength that does not act in proportion is better met as it was tried.
-  const std::vector<double>& tried = probes[score.directions.front().probe];
-  if (starts.front() != tried) starts.push_back(tried);
+  if (!starts.empty()) {
+    const std::vector<double>& tried = probes[score.directions.front().probe];
+    if (starts.front() != tried) starts.push_back(tried);
+  }
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
@@ -95,9 +116,12 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
     if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
   }
+  if (effect.starts != nullptr && bench.readings->traits.single && effort == Effort::kFull) {
+    TryShapes(bench, fit, effect, law, &best);
+  }
   if (!best.usable) return best;
-  LawFit end =
-      effort == Effort::kForTheRecord ? std::move(best) : FitLaw(bench, law, best.p, kForRanking);
+  LawFit end = effort == Effort::kForTheRecord ? std::move(best)
+                                               : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
   return end;
 }

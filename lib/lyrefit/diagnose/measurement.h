@@ -15,6 +15,7 @@ struct Measurement {
   Readings readings;
   DeviceNotes notes;  // of the first curve: noise stated beforehand
   ValueFindings values;
+  bool has_path = false;  // a rough path along the sweeps is allowed for beside the noise
   std::vector<std::string> warnings;  // metadata that the data contradict, in plain sentences
 };
 

@@ -22,9 +22,13 @@ class Selector {
         options_(options),
         worth_(options.worth),
         imprints_(options.imprints),
-        bench_{&readings_, std::vector<double>(readings_.points.size(), 1e-3),
-               used,       correlation,
-               0,          options.watch} {
+        bench_{&readings_,
+               std::vector<double>(readings_.points.size(), 1e-3),
+               used,
+               correlation,
+               0,
+               0,
+               options.watch} {
     for (const int k : values_.at_lower) bench_.used[k] = 0;
   }
 
@@ -131,12 +135,15 @@ class Selector {
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
     for (const Score& score : scores) {
       CountStep();
-      const bool fits =
-          score.testable && (all || score.statistic >= hopeless) && score.effect->probes != nullptr;
+      // What the shape of the curve suggests does not hang on scores, which a fault ruins.
+      const bool by_shape = is_there && score.effect->starts != nullptr && readings_.traits.single;
+      const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
+                                     score.effect->probes != nullptr);
       if (!fits || Stopped(bench_.watch)) continue;
-      const Effort effort = !is_there || score.statistic < hopeless ? Effort::kForTheRecord
-                            : options_.in_passing                   ? Effort::kInPassing
-                                                                    : Effort::kFull;
+      const bool briefly = !by_shape && (!is_there || score.statistic < hopeless);
+      const Effort effort = briefly               ? Effort::kForTheRecord
+                            : options_.in_passing ? Effort::kInPassing
+                                                  : Effort::kFull;
       Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
@@ -144,10 +151,22 @@ class Selector {
     for (const Rival& rival : rivals) variance = std::min(variance, Variance(rival.fit));
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
+      rival.size = Departure(bench_, fit_, rival.fit.current);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
     return rivals;
+  }
+
+  // Whether an effect is certainly larger than the floor, and explains its part of what there was
+  // to explain in the first place.
+  bool IsMaterial(const Rival& rival) const {
+    if (options_.floor_current == 0) return true;
+    constexpr double kReach = 1.96, kLaterPart = 0.02;
+    if (!(rival.statistic > 0)) return false;
+    const double least = rival.size * (1 - kReach / std::sqrt(rival.statistic));
+    if (least < options_.floor_current) return false;
+    return causes_.empty() || rival.size * rival.size > kLaterPart * first_misfit_;
   }
 
   static const Score* Find(const std::vector<Score>& scores, FoundBy found_by) {
@@ -185,6 +204,13 @@ class Selector {
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
+      const auto material = std::stable_partition(
+          rivals.begin(), rivals.end(), [&](const Rival& rival) { return IsMaterial(rival); });
+      if (material == rivals.begin()) {
+        selection->below = rivals;
+        return;
+      }
+      if (causes_.empty()) first_misfit_ = rivals.front().size * rivals.front().size;
       if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
         return;
@@ -357,7 +383,8 @@ class Selector {
   std::vector<ChosenCause> causes_;
   std::vector<int> outliers_;
   double outlier_p_ = 1;
-  double level_ = 0;  // of the present step
+  double level_ = 0;         // of the present step
+  double first_misfit_ = 0;  // mean square of what the first cause took away, in scales
 };
 
 }  // namespace

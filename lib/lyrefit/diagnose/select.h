@@ -21,6 +21,7 @@ struct SelectOptions {
   std::shared_ptr<const ScoreWorth> worth;  // of the list; simulated where there is none
   Imprints imprints;                        // of the laws met by a selection that this one repeats
   int largest_causes = 4;
+  double floor_current = 0;  // see DiagnoseOptions; 0: whatever is there is named
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
   std::vector<double> start;              // of `base`, which is then kept; empty: none is known
@@ -38,6 +39,7 @@ struct Rival {
   Score score;
   LawFit fit;
   double statistic = 0;  // what it takes off the sum of squares, in units of the noise variance
+  double size = 0;       // of what it does to the currents, root mean square, in scales
   double Charged() const { return statistic - score.charge; }
 };
 
@@ -59,6 +61,7 @@ struct Selection {
   std::vector<Rival> trials;  // each effect on the base model
   double unknown_p = 1;       // corrected, of unknown structure in what `extended` leaves
   bool unknown = false;       // it is the verdict
+  std::vector<Rival> below;   // there, but below the floor; the best first
   Workbench bench;            // with the noise of the extended model
   Workbench base_bench;       // with the noise of the base model
   Noise noise;

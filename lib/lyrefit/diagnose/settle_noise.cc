@@ -15,6 +15,25 @@ void WidenByRounding(const Measurement& measurement, const Noise& noise, Workben
   }
 }
 
+// Root mean square of a fit's residuals.
+double Misfit(const Workbench& bench, const std::vector<double>& residual) {
+  double sum = 0;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    if (bench.used[k] != 0) sum += residual[k] * residual[k];
+  }
+  return std::sqrt(sum / std::max(bench.count(), 1));
+}
+
+// Steps that a fit does not follow would pass for noise wherever there are few readings.
+void LevelNoise(Workbench* bench, const std::vector<double>& residual) {
+  constexpr double kRuined = 0.01, kByFar = 3, kUsual = 1.5e-3;
+  std::vector<double> sorted = bench->sigma;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const double middle = sorted[sorted.size() / 2], misfit = Misfit(*bench, residual);
+  if (misfit < kRuined || misfit < kByFar * middle) return;
+  bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
+}
+
 }  // namespace
 
 Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit) {
@@ -31,6 +50,11 @@ Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit)
     const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
                        10 * kSmallestNoise;  // computed readings: what is left is arithmetic
     if (exact) bench->least_variance = 1;
+    if (measurement.has_path) {
+      bench->least_variance = 1;
+      LevelNoise(bench, residual);
+      bench->path = FindPath(*bench, *fit);
+    }
     LawFit again = FitLaw(*bench, fit->law, fit->p);
     if (again.usable) *fit = std::move(again);
   }

@@ -1,6 +1,7 @@
 #include "lyrefit/diagnose/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
@@ -47,6 +48,19 @@ std::string VerdictSentence(const Verdict& verdict, bool nameless) {
   return text + ".";
 }
 
+// Root mean square of what the causes leave beyond the noise, in parts of Isc.
+double Left(const Selection& selection) {
+  const Workbench& bench = selection.bench;
+  std::vector<double> currents;
+  double noise = 0;
+  for (std::size_t k = 0; k < selection.extended.current.size(); ++k) {
+    currents.push_back(bench.readings->points[k].current);
+    if (bench.used[k] != 0) noise += bench.sigma[k] * bench.sigma[k];
+  }
+  const double departure = Departure(bench, selection.extended, currents);
+  return std::sqrt(std::max(departure * departure - noise / std::max(bench.count(), 1), 0.0));
+}
+
 // Whether what the causes leave is certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
   constexpr double kCertain = 1e-3;
@@ -64,20 +78,22 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   if (IsWanted(quantisation, options) && IsCoarse(measurement, selection.noise)) {
     verdict.causes.push_back(QuantisationCause(quantisation, measurement));
   }
+  std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
+  // A shape that is not understood bends n: what n says comes after it.
   if (IsWanted(*FindEffect("temperature_or_cells"), options)) {
     for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
   }
-  std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
   constexpr double kNeverNoise = 1e-6;
-  const bool unknown = selection.unknown || whiteness_after < kNeverNoise;
+  const bool material = Left(selection) > options.floor_current;
+  const bool unknown = material && (selection.unknown || whiteness_after < kNeverNoise);
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {
     verdict.unexplained = true;
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
-  if (verdict.found && Remains(selection, whiteness_after)) verdict.unexplained = true;
+  if (verdict.found && material && Remains(selection, whiteness_after)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {
     if (!open.applies(measurement.readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/refine/error_model.h"
 
 namespace lyrefit {
 namespace {
@@ -13,21 +14,33 @@ bool Held(const Readings& readings, const Law& law, int parameter) {
   return law.Searched(parameter);
 }
 
-// Row by row, in place: rows of left-out readings become 0.
-template <class Matrix>
-void WhitenRows(const Workbench& bench, Matrix* rows) {
+// Of each reading, as the bench has them.
+ErrorModel ErrorsOf(const Workbench& bench) {
   const std::vector<Reading>& points = bench.readings->points;
-  const int count = static_cast<int>(points.size());
-  for (int k = 0; k < count; ++k) {
-    rows->row(k) *= bench.used[k] != 0 ? 1 / bench.sigma[k] : 0.0;
+  ErrorModel errors;
+  errors.white = bench.sigma;
+  if (bench.correlation == 0 && bench.path == 0) return errors;
+  const bool neighbours = bench.correlation > 0;
+  const double voltage = bench.readings->pivot_voltage;
+  const double apart = neighbours ? -std::log(bench.correlation) : 0;
+  double brightest = 0, at = 0;
+  for (const Reading& r : points) brightest = std::max(brightest, r.irradiance);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Reading& r = points[k];
+    const double step = k > 0 ? std::fabs(r.voltage - points[k - 1].voltage) / voltage : 0;
+    at += neighbours ? apart : step;
+    const double light = brightest > 0 ? r.irradiance / brightest : 0;
+    errors.position.push_back(at);
+    errors.path.push_back(neighbours ? bench.sigma[k] : r.dark ? 0 : bench.path * light);
+    errors.chain.push_back(neighbours ? r.segment : r.curve);
   }
-  if (bench.correlation == 0) return;
-  const double rho = bench.correlation, scale = 1 / std::sqrt(1 - rho * rho);
-  for (int k = count - 1; k > 0; --k) {
-    const bool chained =
-        points[k].segment == points[k - 1].segment && bench.used[k] != 0 && bench.used[k - 1] != 0;
-    if (chained) rows->row(k) = scale * (rows->row(k) - rho * rows->row(k - 1));
-  }
+  if (neighbours) errors.white.assign(points.size(), 0);
+  return errors;
+}
+
+// Row by row, in place: rows of left-out readings become 0.
+void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {
+  Whiten(ErrorsOf(bench), bench.used, rows);
 }
 
 // The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,
@@ -43,13 +56,13 @@ bool EvaluateWhitened(const Workbench& bench, const Law& law, const double* p,
     if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
     std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * law.size(), 0.0);
   }
-  Eigen::Map<Eigen::VectorXd> r(residuals, count);
-  for (int k = 0; k < count; ++k) r[k] = (*current)[k] - readings.points[k].current;
-  WhitenRows(bench, &r);
+  Eigen::Map<RowMatrix> r(residuals, count, 1);
+  for (int k = 0; k < count; ++k) r(k, 0) = (*current)[k] - readings.points[k].current;
+  WhitenRows(bench, r);
   if (!std::isfinite(r.squaredNorm())) return false;
   if (jacobian == nullptr) return true;
   Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
-  WhitenRows(bench, &rows);
+  WhitenRows(bench, rows);
   if (!std::isfinite(rows.squaredNorm())) rows.setZero();
   return true;
 }
@@ -72,21 +85,30 @@ LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorks
   return problem;
 }
 
-std::vector<double> BaseStart(const Readings& readings, double n, double resistance) {
+// `light`: current under the brightest light, in scales.
+std::vector<double> BaseStart(const Readings& readings, const Law& law, double light, double n,
+                              double resistance) {
   double brightest = 0;
   for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
-  std::vector<double> p = {brightest > 0 ? 1 / brightest : 0, 0, n, resistance, 0.05};
+  std::vector<double> p = {brightest > 0 ? light / brightest : 0, 0, n, resistance, 0.05};
+  if (law.model == Model::kDoubleDiode) p.push_back(0.05);
+  if (law.free_tempco) p.push_back(readings.isc_tempco_per_K);
+  if (law.free_bandgap) p.push_back(readings.bandgap_eV);
   return p;
 }
 
 }  // namespace
 
+std::vector<double> HealthyStart(const Readings& readings, const Law& law, double light) {
+  return BaseStart(readings, law, light, 1.2, 0.015);
+}
+
 int Workbench::count() const { return static_cast<int>(std::count(used.begin(), used.end(), 1)); }
 
 Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
-  Eigen::VectorXd result = values;
-  WhitenRows(bench, &result);
-  return result;
+  RowMatrix rows = values;
+  WhitenRows(bench, rows);
+  return rows.col(0);
 }
 
 LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
@@ -106,11 +128,7 @@ LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>&
 LawFit FitBase(const Workbench& bench, const Law& law) {
   LawFit best;
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
-    std::vector<double> start = BaseStart(*bench.readings, n, resistance);
-    if (law.model == Model::kDoubleDiode) start.push_back(0.05);
-    if (law.free_tempco) start.push_back(bench.readings->isc_tempco_per_K);
-    if (law.free_bandgap) start.push_back(bench.readings->bandgap_eV);
-    LawFit fit = FitLaw(bench, law, start);
+    LawFit fit = FitLaw(bench, law, BaseStart(*bench.readings, law, 1, n, resistance));
     if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
   }
   return best;
@@ -184,6 +202,50 @@ bool CanAdd(const Law& law, const Effect& effect) {
     if (other == &effect || Exclude(*other, effect)) return false;
   }
   return law.size() + effect.size() <= kMostParameters;
+}
+
+namespace {
+
+// Readings that are all trusted alike, each for itself.
+Workbench Plain(const Workbench& bench) {
+  Workbench plain = bench;
+  plain.path = plain.correlation = 0;
+  plain.watch = nullptr;
+  plain.sigma.assign(bench.sigma.size(), 1.0);
+  return plain;
+}
+
+}  // namespace
+
+double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents) {
+  const Workbench plain = Plain(bench);
+  Eigen::VectorXd off(static_cast<int>(currents.size()));
+  for (int k = 0; k < off.size(); ++k) off[k] = currents[k] - fit.current[k];
+  off = Whiten(plain, off);
+  TakeOut(Linearize(plain, fit).basis, &off);
+  return off.norm() / std::sqrt(std::max(bench.count(), 1));
+}
+
+double FindPath(const Workbench& bench, const LawFit& fit) {
+  // Departures of healthy modules from one diode, in parts of Isc: the middle, and how far they
+  // differ (as ln). More than the largest is no departure but a cause.
+  constexpr double kMiddle = 1.2e-3, kWidth = 0.7, kLargest = 4e-3;
+  constexpr int kSteps = 12;
+  Workbench own = Plain(bench);
+  const Linearized linear = Linearize(own, fit);
+  own.sigma = bench.sigma;
+  double best = -1e300, path = kMiddle;
+  for (int k = 0; k <= kSteps; ++k) {
+    own.path = kLargest * std::pow(0.5, 0.5 * (kSteps - k));
+    const double off = std::log(own.path / kMiddle) / kWidth;
+    const double likelihood =
+        RestrictedLogLikelihood(ErrorsOf(own), own.used, linear.residual, linear.jacobian) -
+        0.5 * off * off;
+    if (likelihood <= best) continue;
+    best = likelihood;
+    path = own.path;
+  }
+  return path;
 }
 
 double NoiseVariance(const Workbench& bench, const LawFit& fit) {

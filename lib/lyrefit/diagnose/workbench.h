@@ -16,6 +16,9 @@ struct Workbench {
   std::vector<double> sigma;
   std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
   double correlation = 0;  // lag 1, of the noise
+  // Of a rough path along each curve, in current scales at the brightest light: see
+  // refine/error_model.h, with a length of one open-circuit voltage.
+  double path = 0;
   // The noise's size follows the residuals, but its variance is not taken below this part of
   // sigma^2: 1 where sigma holds more than noise.
   double least_variance = 0;
@@ -44,6 +47,14 @@ LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>&
 // a fraction of a second, and without it there is nothing to report.
 constexpr std::size_t kQuickToFit = 2500;
 
+// Base parameters of a healthy module whose cells under full light carry `light` (in scales), for
+// fits that stand on no other.
+std::vector<double> HealthyStart(const Readings& readings, const Law& law, double light);
+
+// Size of the rough path in a fit's residuals, by restricted maximum likelihood given the noise and
+// what healthy modules have.
+double FindPath(const Workbench& bench, const LawFit& fit);
+
 // The base model from several starts.
 LawFit FitBase(const Workbench& bench, const Law& law);
 
@@ -59,6 +70,10 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit);
 
 // Standard errors of all parameters (0 where not free), for unit noise.
 std::vector<double> StandardErrors(const Linearized& linear, int parameters);
+
+// Root mean square over the readings used, in scales, of what a fit's law at its best would still
+// miss of `currents`: noise, weights and what lies along its parameters do not count.
+double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents);
 
 // Free parameters of a law on this bench.
 int FreeCount(const Workbench& bench, const Law& law);

@@ -18,6 +18,10 @@ namespace lyrefit {
   ENTRY(Mismatch)                  \
   ENTRY(Substrings)                \
   ENTRY(WeakCell)                  \
+  ENTRY(Scatter)                   \
+  ENTRY(LeakyCell)                 \
+  ENTRY(BypassOpen)                \
+  ENTRY(BypassShort)               \
   ENTRY(Drift)                     \
   ENTRY(IrradianceStep)            \
   ENTRY(Transient)                 \

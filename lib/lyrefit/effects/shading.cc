@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
@@ -53,6 +55,17 @@ Effect Shading() {
       }
     }
     return probes;
+  };
+  e.starts = [](const CurveShape& shape, const DataTraits& traits) {
+    constexpr double kMiddle = 0.36, kEnd = 0.3;  // of a substring's part of the voltage
+    std::vector<ShapeStart> starts;
+    for (const double share : Shares(traits)) {
+      const double full = shape.At(kMiddle * (1 - share));
+      if (!(full > 0)) continue;
+      const double light = shape.At(1 - share + kEnd * share) / full;
+      starts.push_back({{std::clamp(1 - light, 0.01, 0.98), share, 0.5}, {}});
+    }
+    return starts;
   };
   return e;
 }

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
@@ -5,6 +8,23 @@ namespace lyrefit {
 namespace {
 
 constexpr int kGroups = 4;
+
+// A light for each substring but the brightest, from the middles of the plateaus that as many equal
+// substrings have.
+void AddStart(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
+  constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
+  const int groups = std::min(substrings - 1, kGroups);
+  const double full = shape.At(kMiddle / substrings);
+  ShapeStart start{Probe(2 * kGroups + 1, 0.0), {}};
+  for (int k = 0; k < groups; ++k) {
+    const double light = shape.At((k + 1 + kMiddle) / substrings) / full;
+    start.p[2 * k] = std::clamp(1 - light, 0.01 * (k + 1), 0.98);
+    start.p[2 * k + 1] = 1.0 / substrings;
+    start.freed.push_back(2 * k);
+  }
+  start.p.back() = 0.5;
+  if (full > 0) starts->push_back(std::move(start));
+}
 
 }  // namespace
 
@@ -55,7 +75,14 @@ Effect Substrings() {
     cell->bypass = p[2 * kGroups];
   };
   e.groups = true;
-  e.found_by = FoundBy::kRequest;
+  e.starts = [](const CurveShape& shape, const DataTraits& traits) {
+    std::vector<ShapeStart> starts;
+    const int known = traits.substrings;
+    for (int k = 3; k <= 4; ++k) {  // with two substrings it is the shade of one
+      if (known == k || (known == 0 && k == 3)) AddStart(shape, k, &starts);
+    }
+    return starts;
+  };
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.3, 1.0 / 3, 0, 0, 0, 0, 0, 0, 0.5},

@@ -1,7 +1,14 @@
+#include <algorithm>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
+namespace {
+
+enum { kDeficit, kCells, kLeak, kBypass, kFactor, kBreakdown, kExponent, kSoft };
+
+}  // namespace
 
 Effect WeakCell() {
   Effect e;
@@ -10,8 +17,7 @@ Effect WeakCell() {
   e.where = Where::kDevice;
   e.equation =
       "one or a few cells of a substring under light (1 - d), with a conductance g of their own; "
-      "in "
-      "reverse I = ... - Gsh a Vj (1 + Vj / Vbr)^-m";
+      "in reverse I = ... - Gsh a Vj (1 + Vj / Vbr)^-m, or ... + Iph (-Vj / A)^m";
   e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
   e.sentence = "a cell delivers less than its neighbours and is driven into reverse: a hot spot";
   e.needs = "a curve of a module whose weak cell conducts in reverse before its bypass diode does";
@@ -25,11 +31,14 @@ Effect WeakCell() {
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
       {"a", "breakdown_factor", "", "of reverse breakdown", 0, 10, 0.1},
       {"Vbr", "breakdown_voltage", "V", "of a cell, its size", 3, 60, 15},
-      {"m", "breakdown_exponent", "", "of reverse breakdown", 1, 6, 3.4}};
-  for (const int k : {1, 3, 4, 5, 6}) e.parameters[k].held = true;
+      {"m", "breakdown_exponent", "", "of reverse breakdown", 1, 8, 3.4},
+      {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph; 0: Bishop's law", 0, 30,
+       0}};
+  for (int k = kCells; k <= kSoft; ++k) e.parameters[k].held = true;
+  e.parameters[kSoft].absent_at = 0;
   e.cell = [](const auto* p, auto* cell) {
     const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
-    const auto weak = p[1] * (1 / cell->cells);
+    const auto weak = p[kCells] * (1 / cell->cells);
     const double elsewhere = 1 - mates / cell->cells;
     cell->kinds = 2;
     cell->kind[0] = {mates / cell->cells - weak, 1.0, 0.0, 0};
@@ -43,20 +52,32 @@ Effect WeakCell() {
       cell->parts = 2;
     }
     cell->bypass = p[3];
-    cell->reverse = ReverseLaw::kBishop;
-    cell->reverse_strength = p[4];
-    cell->reverse_voltage = p[5];
-    cell->reverse_exponent = p[6];
+    const bool soft = ValueOf(p[kSoft])[0] > 0;  // all lanes have the same parameters
+    cell->reverse = soft ? ReverseLaw::kSoft : ReverseLaw::kBishop;
+    cell->reverse_strength = p[kFactor];
+    cell->reverse_voltage = soft ? p[kSoft] : p[kBreakdown];
+    cell->reverse_exponent = p[kExponent];
   };
   e.groups = true;
-  e.found_by = FoundBy::kRequest;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
     for (const double deficit : {0.05, 0.15, 0.4, 0.8}) {
-      probes.push_back({deficit, 1, 0, 0.5, 0.1, 15, 3.4});
+      probes.push_back({deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2});
     }
     return probes;
+  };
+  e.starts = [](const CurveShape& shape, const DataTraits&) {
+    std::vector<ShapeStart> starts;
+    const double full = shape.At(0.05);
+    if (!(full > 0)) return starts;
+    std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
+    deficits.push_back(std::clamp(1 - shape.At(0.75) / full, 0.01, 0.97));
+    for (const double deficit : deficits) {
+      starts.push_back({{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2}, {kBypass, kExponent, kSoft}});
+      starts.push_back({{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0}, {kBypass, kFactor, kBreakdown}});
+    }
+    return starts;
   };
   return e;
 }

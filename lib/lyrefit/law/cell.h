@@ -107,9 +107,8 @@ void CellUnder(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
   }
   cell->reach = scale.reach_V;
   const DataTraits& traits = bench.readings.traits;
-  const int substrings = traits.substrings > 0 ? traits.substrings : 3;
   cell->cells = traits.cells;
-  cell->substring_cells = cell->cells / substrings;
+  cell->substring_cells = cell->cells / SubstringsOf(traits);
 }
 
 // What the light decides in a cell whose temperature is settled.
@@ -167,12 +166,12 @@ T Cut(const T& exponent) {
 
 // What a cell adds in reverse to what its shunt carries.
 template <class S>
-Tangent<S> ReverseCurrent(const Cell<S>& cell, const S& photocurrent, const Tangent<S>& voltage) {
+Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
   using T = Tangent<S>;
   constexpr double kLeast = 1e-9;  // of the voltage: below it nothing flows
   const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
   if (cell.reverse == ReverseLaw::kSoft) {
-    const T current = exp(log(depth) * cell.reverse_exponent) * photocurrent;
+    const T current = exp(log(depth) * cell.reverse_exponent) * cell.photocurrent;
     return Choose(voltage < 0.0, current, T(0.0));
   }
   constexpr double kClosest = 0.02;  // nearer to breakdown the tangent goes on
@@ -198,7 +197,7 @@ template <class S>
 Tangent<S> MoreCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& photocurrent,
                        const Tangent<S>& voltage) {
   Tangent<S> current = 0.0;
-  if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, photocurrent, voltage);
+  if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
     const auto stage = bench.law.effects[e]->junction.template For<S>();
     if (stage == nullptr) continue;

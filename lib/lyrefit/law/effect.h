@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/law/curve_shape.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/reading.h"
 
@@ -62,7 +63,7 @@ struct Diode {
 enum class ReverseLaw {
   kShunt,   // the shunt alone
   kBishop,  // I = ... - Gsh a Vj (1 - Vj / Vbr)^-m doi:10.1016/0379-6787(88)90059-2
-  kSoft,    // I = ... + Iph (-Vj / A)^m, which is Vj = -A ((I - Iph) / Iph)^(1 / m)
+  kSoft,    // I = ... + Iph (-Vj / A)^m, Iph of a cell under full light
 };
 
 // Cells in series that are alike. A part of a string is what shares a bypass diode (or has none);
@@ -225,6 +226,12 @@ enum class FoundBy {
 // A place from which an effect is tried: a full set of its parameters at a strength that shows.
 using Probe = std::vector<double>;
 
+// The same as the shape of a curve suggests it, for fits that stand on no other fit.
+struct ShapeStart {
+  Probe p;
+  std::vector<int> freed;  // parameters to descend in although fits usually keep them
+};
+
 struct Effect {
   const char* id = "";     // "nonohmic_shunt"
   const char* title = "";  // "non-ohmic shunt"
@@ -245,6 +252,8 @@ struct Effect {
   // Why data of this kind cannot show the effect; nothing where they can, none where all can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
+  // Where one lit condition was measured.
+  std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&) = nullptr;
 
   FoundBy found_by = FoundBy::kFit;
   // Splits the cells of a string into kinds: only one effect of a law can.

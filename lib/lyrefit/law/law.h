@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/law/effect.h"
@@ -47,6 +48,8 @@ struct Law {
   ShuntLaw shunt = ShuntLaw::kConstant;        // or kInverse
   bool free_tempco = false;                    // alpha is a parameter
   bool free_bandgap = false;                   // EgRef is a parameter
+  // Parameters of effects that are descended in although fits keep them where they are.
+  std::vector<std::pair<const Effect*, int>> freed;
 
   int TempcoAt() const {  // where free
     const int diodes = static_cast<int>(model);

@@ -13,6 +13,14 @@
 #include "lyrefit/law/law.h"
 
 namespace lyrefit {
+
+int SubstringsOf(const DataTraits& traits) {
+  constexpr int kUsual = 24, kMost = 3;  // cells of a group, groups of a module
+  if (traits.substrings > 0) return traits.substrings;
+  if (traits.bypass_known) return 1;
+  return std::min(std::max((traits.cells + kUsual - 1) / kUsual, 1), kMost);
+}
+
 namespace {
 
 constexpr double kLargestDark_W_m2 = 20;
@@ -212,7 +220,9 @@ void FindTraits(const CurveSet& set, Readings* readings) {
   traits.reverse = traits.lowest_voltage < -0.1;
   traits.cells = readings->scale.cells;
   traits.module = traits.cells > 1;
-  traits.substrings = set.curves.front().notes.bypass_diodes.value_or(0);
+  const std::optional<int>& diodes = set.curves.front().notes.bypass_diodes;
+  traits.substrings = diodes.value_or(0);
+  traits.bypass_known = diodes.has_value();
   for (int c = 0; c < traits.curves; ++c) {
     traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
     std::set<int> segments;

@@ -49,7 +49,8 @@ struct DataTraits {
   int irradiance_levels = 1;  // of lit curves
   int temperature_levels = 1;
   bool module = false;         // more than one cell in series
-  int substrings = 0;          // bypass groups; 0: not known
+  int substrings = 0;          // bypass groups; 0: none, or not known
+  bool bypass_known = false;   // stated by somebody
   int cells = 1;               // as reckoned with
   int stated_cells = 1;        // as stated, or assumed by a reader
   bool cells_known = true;     // stated by somebody
@@ -62,6 +63,9 @@ struct DataTraits {
   int readings = 0;
   std::vector<double> step_times;  // x between two readings: where an irradiance step may lie
 };
+
+// Bypass groups to reckon with: as stated, else as modules of so many cells have them.
+int SubstringsOf(const DataTraits& traits);
 
 struct Readings {
   std::vector<Reading> points;

@@ -1,0 +1,55 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect LeakyCell() {
+  Effect e;
+  e.id = "leaky_cell";
+  e.title = "a leaky cell";
+  e.where = Where::kDevice;
+  e.equation = "one cell has a conductance g beside that of the others";
+  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.sentence = "one cell leaks through its edge or a crack, and delivers less than its neighbours";
+  e.needs = "a curve of a module of few cells, or a strong leak";
+  e.acts = "before the knee";
+  e.confused_with = {"weak_cell", "mismatch", "nonohmic_shunt"};
+  e.separate_by = "a second irradiance: a leak does not follow the light; a thermal image";
+  e.parameters = {{"g", "leak", "S", "conductance of the cell beside that of the others", 0, 50, 0,
+                   false, 1, 1},
+                  {"cells", "leaky_cells", "", "how many they are, all in one substring", 1, 24, 1},
+                  {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
+  e.parameters[1].held = e.parameters[2].held = true;
+  e.cell = [](const auto* p, auto* cell) {
+    const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
+    const auto leaky = p[1] * (1 / cell->cells);
+    const double elsewhere = 1 - mates / cell->cells;
+    cell->kinds = 2;
+    cell->kind[0] = {mates / cell->cells - leaky, 1.0, 0.0, 0};
+    cell->kind[1] = {leaky, 1.0, p[0], 0};
+    cell->part[0] = {true, mates, 0};
+    cell->parts = 1;
+    if (elsewhere > 1e-9) {
+      cell->kind[2] = {p[1] * 0.0 + elsewhere, 1.0, 0.0, 1};
+      cell->part[1] = {false, mates, 0};  // never in reverse
+      cell->kinds = 3;
+      cell->parts = 2;
+    }
+    cell->bypass = p[2];
+  };
+  e.groups = true;
+  e.why_not = NeedsBypassedModule;
+  e.probes = [](const DataTraits&) {
+    std::vector<Probe> probes;
+    for (const double leak : {0.1, 0.3, 1.0, 3.0}) probes.push_back({leak, 1, 0.5});
+    return probes;
+  };
+  e.starts = [](const CurveShape&, const DataTraits&) {
+    std::vector<ShapeStart> starts;
+    for (const double leak : {0.2, 1.0}) starts.push_back({{leak, 1, 0.5}, {}});
+    return starts;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

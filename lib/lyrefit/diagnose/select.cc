@@ -7,6 +7,7 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/prefer.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -151,6 +152,7 @@ class Selector {
     for (const Rival& rival : rivals) variance = std::min(variance, Variance(rival.fit));
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
+      rival.freedom = std::log(bench_.count()) * static_cast<double>(rival.fit.law.freed.size());
       rival.size = Departure(bench_, fit_, rival.fit.current);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
@@ -204,11 +206,17 @@ class Selector {
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
-      const auto material = std::stable_partition(
-          rivals.begin(), rivals.end(), [&](const Rival& rival) { return IsMaterial(rival); });
-      if (material == rivals.begin()) {
-        selection->below = rivals;
-        return;
+      if (options_.floor_current > 0) {
+        std::vector<Rival> material;
+        for (const Rival& rival : rivals) {
+          if (!HasPossibleSize(readings_, fit_, rival)) continue;
+          (IsMaterial(rival) ? material : selection->below).push_back(rival);
+        }
+        rivals = std::move(material);
+        if (rivals.empty()) return;
+        const auto preferred =
+            rivals.begin() + static_cast<std::ptrdiff_t>(Prefer(readings_, rivals));
+        std::rotate(rivals.begin(), preferred, preferred + 1);
       }
       if (causes_.empty()) first_misfit_ = rivals.front().size * rivals.front().size;
       if (rivals.empty() || !Accept(rivals.front())) {

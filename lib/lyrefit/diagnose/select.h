@@ -39,8 +39,9 @@ struct Rival {
   Score score;
   LawFit fit;
   double statistic = 0;  // what it takes off the sum of squares, in units of the noise variance
+  double freedom = 0;    // what it pays for parameters beyond those of its probes
   double size = 0;       // of what it does to the currents, root mean square, in scales
-  double Charged() const { return statistic - score.charge; }
+  double Charged() const { return statistic - score.charge - freedom; }
 };
 
 struct ChosenCause {

@@ -48,7 +48,7 @@ std::string VerdictSentence(const Verdict& verdict, bool nameless) {
   return text + ".";
 }
 
-// Root mean square of what the causes leave beyond the noise, in parts of Isc.
+// Root mean square of what the causes certainly leave beyond the noise, in parts of Isc.
 double Left(const Selection& selection) {
   const Workbench& bench = selection.bench;
   std::vector<double> currents;
@@ -58,7 +58,10 @@ double Left(const Selection& selection) {
     if (bench.used[k] != 0) noise += bench.sigma[k] * bench.sigma[k];
   }
   const double departure = Departure(bench, selection.extended, currents);
-  return std::sqrt(std::max(departure * departure - noise / std::max(bench.count(), 1), 0.0));
+  const double left = std::max(departure * departure - noise / std::max(bench.count(), 1), 0.0);
+  // A rough path has some six independent pieces in a sweep: its size is known to a third.
+  constexpr double kReach = 1.96, kPieces = 6;
+  return std::sqrt(left) * (1 - kReach / std::sqrt(2 * kPieces));
 }
 
 // Whether what the causes leave is certainly not noise.

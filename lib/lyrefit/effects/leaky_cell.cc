@@ -46,7 +46,10 @@ Effect LeakyCell() {
   };
   e.starts = [](const CurveShape&, const DataTraits&) {
     std::vector<ShapeStart> starts;
-    for (const double leak : {0.2, 1.0}) starts.push_back({{leak, 1, 0.5}, {}});
+    for (const double leak : {0.2, 1.0}) {
+      starts.push_back({{leak, 1, 0.5}, {}});
+      starts.push_back({{leak, 2, 0.5}, {1}});
+    }
     return starts;
   };
   return e;

@@ -37,11 +37,19 @@ Effect Shading() {
   e.parameters = {
       {"d", "shading_depth", "", "part of the light that the shaded cells miss", 0, 0.999, 0},
       {"w", "shaded_share", "", "part of the cells that is shaded", 0.01, 0.99, 0.3, true},
-      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
+      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
+      {"c", "covered_part", "", "part of the cells of a shaded substring that the shade covers",
+       0.03, 1, 1}};
+  e.parameters[3].held = true;
+  e.parameters[3].absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = cell->parts = 2;
     cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
-    cell->kind[1] = {p[1], 1.0 - p[0], 0.0, 1};
+    cell->kind[1] = {p[1] * p[3], 1.0 - p[0], 0.0, 1};
+    if (ValueOf(p[3])[0] < 1) {  // all lanes have the same parameters
+      cell->kind[2] = {p[1] * (1.0 - p[3]), 1.0, 0.0, 1};
+      cell->kinds = 3;
+    }
     cell->part[1] = {true, cell->substring_cells, 0};
     cell->bypass = p[2];
   };
@@ -51,7 +59,7 @@ Effect Shading() {
     std::vector<Probe> probes;
     for (const double share : Shares(traits)) {
       for (const double depth : {0.01, 0.02, 0.035, 0.06, 0.12, 0.25, 0.45, 0.65, 0.85}) {
-        probes.push_back({depth, share, 0.5});
+        probes.push_back({depth, share, 0.5, 1});
       }
     }
     return probes;
@@ -63,7 +71,9 @@ Effect Shading() {
       const double full = shape.At(kMiddle * (1 - share));
       if (!(full > 0)) continue;
       const double light = shape.At(1 - share + kEnd * share) / full;
-      starts.push_back({{std::clamp(1 - light, 0.01, 0.98), share, 0.5}, {}});
+      const double depth = std::clamp(1 - light, 0.01, 0.98);
+      starts.push_back({{depth, share, 0.5, 1}, {}});
+      starts.push_back({{depth, share, 0.5, 0.3}, {3}});
     }
     return starts;
   };

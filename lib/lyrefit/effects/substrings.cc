@@ -8,6 +8,7 @@ namespace lyrefit {
 namespace {
 
 constexpr int kGroups = 4;
+enum { kBypass = 2 * kGroups, kCovered, kParameters };
 
 // A light for each substring but the brightest, from the middles of the plateaus that as many equal
 // substrings have.
@@ -15,15 +16,20 @@ void AddStart(const CurveShape& shape, int substrings, std::vector<ShapeStart>* 
   constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
   const int groups = std::min(substrings - 1, kGroups);
   const double full = shape.At(kMiddle / substrings);
-  ShapeStart start{Probe(2 * kGroups + 1, 0.0), {}};
+  ShapeStart start{Probe(kParameters, 0.0), {}};
   for (int k = 0; k < groups; ++k) {
     const double light = shape.At((k + 1 + kMiddle) / substrings) / full;
     start.p[2 * k] = std::clamp(1 - light, 0.01 * (k + 1), 0.98);
     start.p[2 * k + 1] = 1.0 / substrings;
     start.freed.push_back(2 * k);
   }
-  start.p.back() = 0.5;
-  if (full > 0) starts->push_back(std::move(start));
+  start.p[kBypass] = 0.5;
+  start.p[kCovered] = 1;
+  if (!(full > 0)) return;
+  starts->push_back(start);
+  start.p[kCovered] = 0.3;
+  start.freed.push_back(kCovered);
+  starts->push_back(std::move(start));
 }
 
 }  // namespace
@@ -58,21 +64,34 @@ Effect Substrings() {
   }
   e.parameters.push_back(
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5});
+  e.parameters.push_back({"c", "covered_part", "",
+                          "part of the cells of a darker group that have its light; the others "
+                          "have the brightest's. Of up to three groups",
+                          0.03, 1, 1});
+  e.parameters.back().held = true;
+  e.parameters.back().absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {
-    int kinds = 1;
+    // All lanes have the same parameters.
+    const auto there = [&](int k) { return ValueOf(p[2 * k + 1])[0] > 0; };
+    int groups = 0;
+    for (int k = 0; k < kGroups; ++k) groups += there(k) ? 1 : 0;
+    const bool partly = groups < kGroups && ValueOf(p[kCovered])[0] < 1;
+    int kinds = 1, parts = 1;
     auto rest = 1.0 - p[1] * 0.0;
     for (int k = 0; k < kGroups; ++k) {
+      if (!there(k)) continue;
       const auto& share = p[2 * k + 1];
-      if (!(ValueOf(share)[0] > 0)) continue;  // all lanes have the same parameters
-      cell->kind[kinds] = {share, 1.0 - p[2 * k], 0.0, kinds};
-      cell->part[kinds] = {true, cell->substring_cells, 0};
+      const auto dark = partly ? share * p[kCovered] : share;
+      cell->kind[kinds++] = {dark, 1.0 - p[2 * k], 0.0, parts};
+      if (partly) cell->kind[kinds++] = {share - dark, 1.0, 0.0, parts};
+      cell->part[parts++] = {true, cell->substring_cells, 0};
       rest = rest - share;
-      ++kinds;
     }
     cell->kind[0] = {rest, 1.0, 0.0, 0};
     cell->part[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
-    cell->kinds = cell->parts = kinds;
-    cell->bypass = p[2 * kGroups];
+    cell->kinds = kinds;
+    cell->parts = parts;
+    cell->bypass = p[kBypass];
   };
   e.groups = true;
   e.starts = [](const CurveShape& shape, const DataTraits& traits) {
@@ -85,8 +104,8 @@ Effect Substrings() {
   };
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
-    return std::vector<Probe>{{0.3, 1.0 / 3, 0, 0, 0, 0, 0, 0, 0.5},
-                              {0.3, 1.0 / 3, 0.6, 1.0 / 3, 0, 0, 0, 0, 0.5}};
+    return std::vector<Probe>{{0.3, 1.0 / 3, 0, 0, 0, 0, 0, 0, 0.5, 1},
+                              {0.3, 1.0 / 3, 0.6, 1.0 / 3, 0, 0, 0, 0, 0.5, 1}};
   };
   return e;
 }

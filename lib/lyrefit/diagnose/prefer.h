@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/diagnose/select.h"
+
+namespace lyrefit {
+
+// Whether a fitted effect has a size that it can have: no strength at its bound, no drift of the
+// temperature that a sweep has no time for, no part of a cell, no ideality that only the effect
+// made impossible. `before`: the fit without it.
+bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival);
+
+// Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:
+// the best first, none of an impossible size). A cause in the device is preferred to a moment of
+// the sweep that explains about as much, a simple one to a complex one; where the current rises
+// with the voltage, which no module does by itself, the light moved.
+std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals);
+
+}  // namespace lyrefit

@@ -24,18 +24,6 @@ bool StrengthIsAtBound(const Rival& rival) {
          Value(rival, 0) < strength.lower + 1e-3 * slack;
 }
 
-// Where the current rises with the voltage by more than this.
-bool LightMoved(const Readings& readings) {
-  constexpr double kLeast = 0.01;
-  if (!readings.traits.single || readings.traits.only_dark) return false;
-  double lowest = 1e300, rise = 0;
-  for (const double current : ShapeOf(readings).current) {
-    lowest = std::min(lowest, current);
-    rise = std::max(rise, current - lowest);
-  }
-  return rise > kLeast;
-}
-
 // Causes among unlike cells, the simplest first.
 constexpr std::array<std::string_view, 7> kSimplest = {
     "shading", "substrings", "mismatch", "leaky_cell", "scatter", "weak_cell", "bypass_open"};
@@ -52,6 +40,17 @@ bool IsGeneric(const Readings& readings, const Effect& effect) {
 }
 
 }  // namespace
+
+bool LightMoved(const Readings& readings) {
+  constexpr double kLeast = 0.01;
+  if (!readings.traits.single || readings.traits.only_dark) return false;
+  double lowest = 1e300, rise = 0;
+  for (const double current : ShapeOf(readings).current) {
+    lowest = std::min(lowest, current);
+    rise = std::max(rise, current - lowest);
+  }
+  return rise > kLeast;
+}
 
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival) {
   constexpr double kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.9, kMostIdeality = 2.5;

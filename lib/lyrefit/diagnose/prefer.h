@@ -11,6 +11,9 @@ namespace lyrefit {
 // made impossible. `before`: the fit without it.
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival);
 
+// Whether the current rises with the voltage, which no module does by itself: the light moved.
+bool LightMoved(const Readings& readings);
+
 // Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:
 // the best first, none of an impossible size). A cause in the device is preferred to a moment of
 // the sweep that explains about as much, a simple one to a complex one; where the current rises

@@ -310,8 +310,11 @@ class Selector {
   }
 
   bool Accept(const Rival& rival) {
-    const double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
-                                worth_->calibration);
+    double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                          worth_->calibration);
+    const bool proven = options_.floor_current > 0 && causes_.empty() &&
+                        rival.score.effect->where == Where::kSweep && LightMoved(readings_);
+    if (proven) p = 0;
     if (!(p < level_)) return false;
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});

@@ -83,12 +83,13 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
-  // A shape that is not understood bends n: what n says comes after it.
-  if (IsWanted(*FindEffect("temperature_or_cells"), options)) {
+  const bool material = Left(selection) > options.floor_current;
+  // A shape that is not understood bends n, which then says nothing.
+  const bool understood = verdict.causes.empty() || !material;
+  if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {
     for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
   }
   constexpr double kNeverNoise = 1e-6;
-  const bool material = Left(selection) > options.floor_current;
   const bool unknown = material && (selection.unknown || whiteness_after < kNeverNoise);
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {

@@ -27,6 +27,12 @@ WhyNot NeedsBypassedModule(const DataTraits& traits) {
   return {};
 }
 
+WhyNot NeedsBypassDiodes(const DataTraits& traits) {
+  if (auto why = NeedsModule(traits)) return why;
+  if (traits.bypass_known && traits.substrings == 0) return "needs bypass diodes";
+  return {};
+}
+
 WhyNot NeedsUpDown(const DataTraits& traits) {
   if (!traits.up_down) return "needs a sweep up and a sweep down";
   return {};

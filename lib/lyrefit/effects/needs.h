@@ -13,7 +13,8 @@ using WhyNot = std::optional<std::string>;
 WhyNot NeedsLight(const DataTraits& traits);
 WhyNot NeedsOneLitCondition(const DataTraits& traits);  // effects during a sweep
 WhyNot NeedsModule(const DataTraits& traits);           // strings of cells, one lit condition
-WhyNot NeedsBypassedModule(const DataTraits& traits);   // the same, in its own voltages
+WhyNot NeedsBypassDiodes(const DataTraits& traits);
+WhyNot NeedsBypassedModule(const DataTraits& traits);  // the same, in its own voltages
 WhyNot NeedsUpDown(const DataTraits& traits);
 WhyNot NeedsLightLevels(const DataTraits& traits);   // two levels of light, dark counts
 WhyNot NeedsIrradiances(const DataTraits& traits);   // a family over irradiance

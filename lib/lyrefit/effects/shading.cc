@@ -54,7 +54,7 @@ Effect Shading() {
     cell->bypass = p[2];
   };
   e.groups = true;
-  e.why_not = NeedsModule;
+  e.why_not = NeedsBypassDiodes;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;
     for (const double share : Shares(traits)) {

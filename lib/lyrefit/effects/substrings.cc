@@ -102,7 +102,10 @@ Effect Substrings() {
     }
     return starts;
   };
-  e.why_not = NeedsBypassedModule;
+  e.why_not = [](const DataTraits& traits) {
+    auto why = NeedsBypassedModule(traits);
+    return why ? why : NeedsBypassDiodes(traits);
+  };
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.3, 1.0 / 3, 0, 0, 0, 0, 0, 0, 0.5, 1},
                               {0.3, 1.0 / 3, 0.6, 1.0 / 3, 0, 0, 0, 0, 0.5, 1}};

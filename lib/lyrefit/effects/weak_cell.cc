@@ -43,7 +43,7 @@ Effect WeakCell() {
     cell->kinds = 2;
     cell->kind[0] = {mates / cell->cells - weak, 1.0, 0.0, 0};
     cell->kind[1] = {weak, 1.0 - p[0], p[2], 0};
-    cell->part[0] = {true, mates, 0};
+    cell->part[0] = {elsewhere > 1e-9, mates, 0};  // all of the cells have no diode
     cell->parts = 1;
     if (elsewhere > 1e-9) {
       cell->kind[2] = {p[1] * 0.0 + elsewhere, 1.0, 0.0, 1};

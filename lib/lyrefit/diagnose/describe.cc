@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/material.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -51,48 +52,6 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
     text += (k == 0 ? "; " : ", ") + StrengthText(cause.strength[k]);
   }
   return text;
-}
-
-// Maximum power of the device by itself: the law's device terms at the brightest lit curve's
-// conditions, without what the sweep and the instruments did.
-double DevicePower(const Workbench& bench, const LawFit& fit) {
-  const Readings& measured = *bench.readings;
-  Readings grid = measured;
-  grid.points.clear();
-  Reading at = measured.points.front();
-  for (const Reading& r : measured.points) {
-    if (r.irradiance > at.irradiance) at = r;
-  }
-  at.x = at.rate = 0;
-  const double top = 1.1 * measured.pivot_voltage;
-  constexpr int kPoints = 400;
-  for (int k = 0; k <= kPoints; ++k) {
-    at.voltage = top * k / kPoints;
-    at.current = at.irradiance > 0 ? 1 : 0;
-    grid.points.push_back(at);
-  }
-  Law law = fit.law;
-  law.effects.clear();
-  std::vector<double> p(fit.p.begin(), fit.p.begin() + fit.law.base_size());
-  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
-    if (fit.law.effects[e]->where != Where::kDevice) continue;
-    law.effects.push_back(fit.law.effects[e]);
-    const int first = fit.law.Offset(static_cast<int>(e));
-    p.insert(p.end(), fit.p.begin() + first, fit.p.begin() + first + fit.law.effects[e]->size());
-  }
-  LawWorkspace workspace;
-  std::vector<double> current(grid.points.size());
-  if (!EvaluateLaw(law, grid, p.data(), &workspace, current.data(), nullptr)) return kUnknown;
-  int best = 0;
-  const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
-  for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
-  double peak = power(best);
-  if (best > 0 && best < kPoints) {  // the parabola's top
-    const double a = power(best - 1), b = power(best), c = power(best + 1);
-    const double bend = a - 2 * b + c;
-    if (bend < 0) peak = b - (a - c) * (a - c) / (8 * bend);
-  }
-  return peak * measured.scale.cells * measured.scale.current_A;
 }
 
 }  // namespace

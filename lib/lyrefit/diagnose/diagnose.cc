@@ -147,7 +147,7 @@ SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions&
   select.draws = options.draws;
   select.largest_causes = options.largest_causes;
   select.seed = options.seed;
-  select.floor_current = options.floor_current;
+  select.floors = {options.floor_current, options.floor_power};
   select.base = StartingLaw(readings, options.base);
   select.candidates = candidates;
   select.watch = watch;

@@ -7,6 +7,7 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
 #include "lyrefit/effects/catalogue.h"
 
@@ -153,22 +154,35 @@ class Selector {
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
       rival.freedom = std::log(bench_.count()) * static_cast<double>(rival.fit.law.freed.size());
-      rival.size = Departure(bench_, fit_, rival.fit.current);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
     return rivals;
   }
 
-  // Whether an effect is certainly larger than the floor, and explains its part of what there was
+  bool HasFloors() const { return options_.floors.current > 0 || options_.floors.power > 0; }
+
+  // Whether an effect is certainly larger than the floors, and explains its part of what there was
   // to explain in the first place.
-  bool IsMaterial(const Rival& rival) const {
-    if (options_.floor_current == 0) return true;
-    constexpr double kReach = 1.96, kLaterPart = 0.02;
-    if (!(rival.statistic > 0)) return false;
-    const double least = rival.size * (1 - kReach / std::sqrt(rival.statistic));
-    if (least < options_.floor_current) return false;
-    return causes_.empty() || rival.size * rival.size > kLaterPart * first_misfit_;
+  bool IsWorthAName(const Rival& rival) const {
+    constexpr double kLaterPart = 0.02;
+    const int last = static_cast<int>(rival.fit.law.effects.size()) - 1;
+    const EffectSize size = SizeOf(bench_, rival.fit, last, fit_);
+    if (!IsMaterial(size, options_.floors)) return false;
+    return causes_.empty() || size.current * size.current > kLaterPart * first_misfit_;
+  }
+
+  // Those that are worth a name, the likeliest first; what is there all the same is remembered.
+  std::vector<Rival> Weigh(const std::vector<Rival>& rivals, std::vector<Rival>* below) const {
+    std::vector<Rival> worthy;
+    for (const Rival& rival : rivals) {
+      if (!HasPossibleSize(readings_, fit_, rival)) continue;
+      (IsWorthAName(rival) ? worthy : *below).push_back(rival);
+    }
+    if (worthy.empty()) return worthy;
+    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(Prefer(readings_, worthy));
+    std::rotate(worthy.begin(), preferred, preferred + 1);
+    return worthy;
   }
 
   static const Score* Find(const std::vector<Score>& scores, FoundBy found_by) {
@@ -206,19 +220,13 @@ class Selector {
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
-      if (options_.floor_current > 0) {
-        std::vector<Rival> material;
-        for (const Rival& rival : rivals) {
-          if (!HasPossibleSize(readings_, fit_, rival)) continue;
-          (IsMaterial(rival) ? material : selection->below).push_back(rival);
-        }
-        rivals = std::move(material);
+      if (HasFloors()) {
+        rivals = Weigh(rivals, &selection->below);
         if (rivals.empty()) return;
-        const auto preferred =
-            rivals.begin() + static_cast<std::ptrdiff_t>(Prefer(readings_, rivals));
-        std::rotate(rivals.begin(), preferred, preferred + 1);
+        selection->below.clear();
+        if (causes_.empty())
+          first_misfit_ = std::pow(Departure(bench_, fit_, rivals.front().fit.current), 2);
       }
-      if (causes_.empty()) first_misfit_ = rivals.front().size * rivals.front().size;
       if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
         return;
@@ -312,7 +320,7 @@ class Selector {
   bool Accept(const Rival& rival) {
     double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
                           worth_->calibration);
-    const bool proven = options_.floor_current > 0 && causes_.empty() &&
+    const bool proven = HasFloors() && causes_.empty() &&
                         rival.score.effect->where == Where::kSweep && LightMoved(readings_);
     if (proven) p = 0;
     if (!(p < level_)) return false;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/noise.h"
 #include "lyrefit/diagnose/score.h"
@@ -21,7 +22,7 @@ struct SelectOptions {
   std::shared_ptr<const ScoreWorth> worth;  // of the list; simulated where there is none
   Imprints imprints;                        // of the laws met by a selection that this one repeats
   int largest_causes = 4;
-  double floor_current = 0;  // see DiagnoseOptions; 0: whatever is there is named
+  Floors floors;
   std::uint64_t seed = 1;
   Law base;                               // a variant that the data prefer may take its place
   std::vector<double> start;              // of `base`, which is then kept; empty: none is known
@@ -40,7 +41,6 @@ struct Rival {
   LawFit fit;
   double statistic = 0;  // what it takes off the sum of squares, in units of the noise variance
   double freedom = 0;    // what it pays for parameters beyond those of its probes
-  double size = 0;       // of what it does to the currents, root mean square, in scales
   double Charged() const { return statistic - score.charge - freedom; }
 };
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "lyrefit/diagnose/workbench.h"
+
+namespace lyrefit {
+
+// Below these nothing is worth a name: root mean square of what an effect does to the curve, in
+// parts of Isc, and what it does to Pmax, in parts. Both 0: whatever is there is worth one.
+struct Floors {
+  double current = 0;
+  double power = 0;
+};
+
+// Maximum power of the device by itself, W: the law's device terms under the brightest lit curve's
+// conditions, without what the sweep and the instruments did. NaN where there is none.
+double DevicePower(const Workbench& bench, const LawFit& fit);
+
+// How large an effect of a fit is: number `index` of its law, beside the fit without it.
+struct EffectSize {
+  double current = 0;      // in parts of Isc: what the law without it would miss at its best
+  double power = 0;        // in parts: what the law without it gets wrong of Pmax
+  double recoverable = 0;  // in parts of Pmax: what the device would give more without it
+  double reach = 1;        // half of the 95 % interval, in parts of the values; 1: down to 0
+  double power_error = 0;  // what a rough path adds to it, in parts of Pmax
+};
+EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without);
+
+// Whether the whole interval of one of its sizes lies above the floor.
+bool IsMaterial(const EffectSize& size, const Floors& floors);
+
+}  // namespace lyrefit

@@ -1,11 +1,14 @@
 #include "lyrefit/diagnose/describe.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/material.h"
+#include "lyrefit/diagnose/words.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -48,6 +51,7 @@ void AddSeparation(const Effect& effect, std::vector<std::string>* separate_by) 
 
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
   std::string text = effect.sentence;
+  for (const std::string& words : cause.in_words) text += "; " + words;
   for (std::size_t k = 0; k < cause.strength.size(); ++k) {
     text += (k == 0 ? "; " : ", ") + StrengthText(cause.strength[k]);
   }
@@ -165,6 +169,46 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
   return trials;
 }
 
+// Sizes and what they mean; `without`: the fit without effect `index`.
+void DescribeSize(const Workbench& bench, const LawFit& with, int index, const LawFit& without,
+                  Cause* cause) {
+  cause->strength = DescribeParameters(bench, with, index);
+  cause->in_words = InWords(bench, with, index);
+  if (!without.usable) return;
+  const EffectSize size = SizeOf(bench, with, index, without);
+  const auto around = [&](double value, double error) {
+    const double half = std::fabs(value) * size.reach + error;
+    return Sized{value, value - half, value + half};
+  };
+  cause->current_effect = around(size.current, 0);
+  cause->current_effect.low_95 = std::max(cause->current_effect.low_95, 0.0);
+  cause->power_effect = around(size.power, size.power_error);
+  if (size.recoverable > 0) {
+    cause->recoverable_power_W = size.recoverable * DevicePower(bench, with);
+    cause->in_words.push_back(fmt::format("without it Pmax would be {:.4g} W, {:+.1f} %",
+                                          (1 + size.recoverable) * DevicePower(bench, with),
+                                          100 * size.recoverable));
+  }
+}
+
+std::vector<Cause> DescribeBelow(const Selection& selection) {
+  std::vector<Cause> causes;
+  for (const Rival& rival : selection.below) {
+    const Effect& effect = *rival.score.effect;
+    if (!causes.empty()) {
+      if (rival.Charged() < selection.below.front().Charged() - kEquivalenceWidth) continue;
+      causes.front().equivalents.push_back(effect.id);
+      continue;
+    }
+    Cause cause = MakeCause(effect, "fit", rival.score.corrected_p);
+    DescribeSize(selection.bench, rival.fit, static_cast<int>(rival.fit.law.effects.size()) - 1,
+                 selection.extended, &cause);
+    cause.sentence = CauseSentence(cause, effect);
+    causes.push_back(std::move(cause));
+  }
+  return causes;
+}
+
 std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values) {
   std::vector<Cause> causes;
   const Workbench& bench = selection.bench;
@@ -173,7 +217,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     const Effect& effect = *chosen.effect;
     const bool by_values = chosen.in_values;
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.corrected_p);
-    cause.strength = DescribeParameters(bench, selection.extended, static_cast<int>(c));
+    DescribeSize(bench, selection.extended, static_cast<int>(c), selection.without[c], &cause);
     double own = 0;
     for (const Rival& rival : chosen.rivals) {
       if (rival.score.effect == &effect) own = rival.Charged();

@@ -24,6 +24,9 @@ Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);
 // The causes found, what cannot be told from them and where they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values);
 
+// What is there but not worth a name: the likeliest, with those that are as good.
+std::vector<Cause> DescribeBelow(const Selection& selection);
+
 // "k = 0.085 A/V^2 (0.08 to 0.09)"
 std::string StrengthText(const CauseParameter& parameter);
 

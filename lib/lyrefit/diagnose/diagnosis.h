@@ -47,6 +47,7 @@ struct Evidence {
   double noise_relative = 0;    // part of |current|
   double noise_voltage_V = 0;   // of the voltage readings, where the data insist on it
   double noise_dark_A = 0;      // constant part of dark curves; 0 without
+  double noise_path_A = 0;      // of a rough path along the sweep that readings share; 0 without
   double misfit_ratio = 0;  // base residual's standard deviation / noise's from second differences
   double autocorrelation = 0;  // lag 1, of the noise (smooth misfit removed)
   double grid_step_A = 0;      // greatest common step of the currents; 0: none seen
@@ -84,13 +85,24 @@ struct Trial {
   std::vector<CauseParameter> parameters;
 };
 
+// A size with its 95 % interval.
+struct Sized {
+  double value = kUnknown;
+  double low_95 = kUnknown;
+  double high_95 = kUnknown;
+};
+
 struct Cause {
   std::string id;
   std::string title;
-  std::string sentence;                  // what a technician understands, with size
-  std::vector<std::string> equivalents;  // other ids these data cannot separate from it
-  std::vector<std::string> separate_by;  // measurements that would
-  std::vector<CauseParameter> strength;  // with intervals
+  std::string sentence;                   // what a technician understands, with size
+  std::vector<std::string> in_words;      // lights in %, a hot cell's watts: what it means here
+  Sized current_effect;                   // on the curve, root mean square in parts of Isc
+  Sized power_effect;                     // on Pmax, in parts: what the model gets wrong without it
+  double recoverable_power_W = kUnknown;  // what the device would give more without it
+  std::vector<std::string> equivalents;   // other ids these data cannot separate from it
+  std::vector<std::string> separate_by;   // measurements that would
+  std::vector<CauseParameter> strength;   // with intervals
   double corrected_p = kUnknown;
   std::string evidence;     // "fit" or "values"
   std::string acts;         // where on the curve, in words
@@ -108,6 +120,9 @@ struct Verdict {
   bool found = false;
   bool unexplained = false;   // something is there that no known cause fits
   std::vector<Cause> causes;  // the most certain first
+  // There beyond doubt, but too small to act on.
+  std::vector<Cause> below_floor;
+  Sized departure;  // of the data from the base model beyond noise, rms in parts of Isc
   std::vector<CannotBeExcluded> cannot_be_excluded;
   std::string sentence;
 };

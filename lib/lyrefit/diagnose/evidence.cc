@@ -169,6 +169,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   evidence.noise_constant_A = selection.noise.lit.constant * scale;
   evidence.noise_voltage_V = selection.noise.lit.voltage * readings.scale.cells;
   evidence.noise_relative = selection.noise.lit.relative;
+  evidence.noise_path_A = selection.bench.path * scale;
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = selection.noise.dark.constant * scale;
   }

@@ -89,6 +89,7 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
     inner.trials = false;
     inner.most_rivals = kRivals;
     inner.in_passing = true;
+    inner.hint = selection.extended;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.worth = selection.worth;

@@ -147,6 +147,7 @@ class Selector {
                             : options_.in_passing ? Effort::kInPassing
                                                   : Effort::kFull;
       Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
+      FitFromHint(&rival);
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
     double variance = Variance(fit_);
@@ -172,17 +173,47 @@ class Selector {
     return causes_.empty() || size.current * size.current > kLaterPart * first_misfit_;
   }
 
+  // Whether the base model is so far off that scores beside it say nothing.
+  bool IsRuined() const {
+    constexpr double kMisfit = 0.01;
+    if (!measurement_.has_path) return false;
+    std::vector<double> currents;
+    for (const Reading& r : readings_.points) currents.push_back(r.current);
+    return Departure(bench_, fit_, currents) > kMisfit;
+  }
+
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& rivals, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
     for (const Rival& rival : rivals) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
-      (IsWorthAName(rival) ? worthy : *below).push_back(rival);
+      if (IsWorthAName(rival)) {
+        worthy.push_back(rival);
+      } else if (PValueOf(rival) < level_) {
+        below->push_back(rival);
+      }
     }
     if (worthy.empty()) return worthy;
     const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(Prefer(readings_, worthy));
     std::rotate(worthy.begin(), preferred, preferred + 1);
     return worthy;
+  }
+
+  // Once more from where the effect was found before.
+  void FitFromHint(Rival* rival) const {
+    const Law& hint = options_.hint.law;
+    const auto at = std::find(hint.effects.begin(), hint.effects.end(), rival->score.effect);
+    if (!options_.hint.usable || at == hint.effects.end()) return;
+    const std::vector<double>& p = options_.hint.p;
+    const auto own = p.begin() + hint.Offset(static_cast<int>(at - hint.effects.begin()));
+    Law law = fit_.law;
+    law.effects.push_back(*at);
+    law.freed = hint.freed;
+    std::vector<double> start = fit_.p;
+    std::copy(p.begin(), p.begin() + law.base_size(), start.begin());
+    start.insert(start.end(), own, own + (*at)->size());
+    LawFit end = FitLaw(bench_, law, start, UpTo(20, 1e-6));
+    if (end.usable && (!rival->fit.usable || end.sum < rival->fit.sum)) rival->fit = std::move(end);
   }
 
   static const Score* Find(const std::vector<Score>& scores, FoundBy found_by) {
@@ -208,11 +239,12 @@ class Selector {
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
       const bool later = !causes_.empty() || !outliers_.empty();
       level_ = options_.level * (later ? kLaterLevel : 1);
+      const bool is_there = smallest < level_ || (step == 0 && IsRuined());
       if (step == 0 && options_.trials) {
-        selection->trials = rivals = FitAll(scores, true, smallest < level_);
+        selection->trials = rivals = FitAll(scores, true, is_there);
         AddUntried(scores, &selection->trials);
       }
-      if (!(smallest < level_)) return;
+      if (!is_there) return;
       if (static_cast<int>(causes_.size()) >= most) return;
       // Causes gain little from a reading less: no new fits where the next stands out by far.
       const bool left = step > 0 && !rivals.empty();
@@ -221,9 +253,9 @@ class Selector {
       if (Stopped(bench_.watch)) return;
       if (TakeOutlier(scores, rivals)) continue;
       if (HasFloors()) {
+        selection->below.clear();
         rivals = Weigh(rivals, &selection->below);
         if (rivals.empty()) return;
-        selection->below.clear();
         if (causes_.empty())
           first_misfit_ = std::pow(Departure(bench_, fit_, rivals.front().fit.current), 2);
       }
@@ -317,9 +349,13 @@ class Selector {
     return neighbours == 2;
   }
 
+  double PValueOf(const Rival& rival) const {
+    return CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                      worth_->calibration);
+  }
+
   bool Accept(const Rival& rival) {
-    double p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
-                          worth_->calibration);
+    double p = PValueOf(rival);
     const bool proven = HasFloors() && causes_.empty() &&
                         rival.score.effect->where == Where::kSweep && LightMoved(readings_);
     if (proven) p = 0;

@@ -29,6 +29,7 @@ struct SelectOptions {
   bool trials = true;                     // fit every effect on the base model, wanted or not, and
                                           // tell the watch of the stages
   int most_rivals = 0;                    // fitted at a step, the best by score; 0: all
+  LawFit hint;                            // where effects were found before; usable or not
   bool in_passing = false;                // each of them from its best probe alone,
                                           // and no cause exchanged for another later
   std::vector<const Effect*> candidates;  // allowed by the kind of data

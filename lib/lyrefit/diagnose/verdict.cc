@@ -1,5 +1,7 @@
 #include "lyrefit/diagnose/verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,12 +30,39 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
   return cause;
 }
 
+// Where no cause is named: how far the data are from the model, and what is there all the same.
+std::string NothingSentence(const Verdict& verdict, const Floors& floors) {
+  if (floors.current == 0 && floors.power == 0) {
+    return "Nothing to find: what the base model leaves is noise.";
+  }
+  // Of one diode fitted to sweeps of healthy modules, parts of Isc.
+  constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
+  const double departure = verdict.departure.value;
+  std::string text =
+      departure < kLeastHealthy
+          ? fmt::format(
+                "Nothing to act on: the data depart from the base model by {:.2f} % of Isc "
+                "beyond their noise",
+                100 * departure)
+          : fmt::format(
+                "Nothing to act on: the data depart from the base model by {:.2f} % of Isc, "
+                "{} healthy modules do ({:.2f} to {:.2f} %)",
+                100 * departure, departure < kMostHealthy ? "as" : "where", 100 * kLeastHealthy,
+                100 * kMostHealthy);
+  if (!verdict.below_floor.empty()) {
+    text +=
+        fmt::format("; {} is there, but below {:g} % of Isc and {:g} % of Pmax",
+                    verdict.below_floor.front().title, 100 * floors.current, 100 * floors.power);
+  }
+  return text + ".";
+}
+
 // `nameless`: structure alone, without a cause that fits it.
-std::string VerdictSentence(const Verdict& verdict, bool nameless) {
+std::string VerdictSentence(const Verdict& verdict, const Floors& floors, bool nameless) {
   if (nameless) {
     return "Something is there that noise does not explain, and none of the known causes fits.";
   }
-  if (!verdict.found) return "Nothing to find: what the base model leaves is noise.";
+  if (!verdict.found) return NothingSentence(verdict, floors);
   std::string text = "The data show ";
   for (std::size_t c = 0; c < verdict.causes.size(); ++c) {
     if (c > 0) text += c + 1 < verdict.causes.size() ? ", " : " and ";
@@ -48,20 +77,21 @@ std::string VerdictSentence(const Verdict& verdict, bool nameless) {
   return text + ".";
 }
 
-// Root mean square of what the causes certainly leave beyond the noise, in parts of Isc.
-double Left(const Selection& selection) {
-  const Workbench& bench = selection.bench;
+// Root mean square, in parts of Isc, of what a fit leaves beyond the noise.
+Sized LeftBy(const Workbench& bench, const LawFit& fit) {
   std::vector<double> currents;
   double noise = 0;
-  for (std::size_t k = 0; k < selection.extended.current.size(); ++k) {
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
     currents.push_back(bench.readings->points[k].current);
     if (bench.used[k] != 0) noise += bench.sigma[k] * bench.sigma[k];
   }
-  const double departure = Departure(bench, selection.extended, currents);
-  const double left = std::max(departure * departure - noise / std::max(bench.count(), 1), 0.0);
+  noise /= std::max(bench.count(), 1);
+  const double departure = Departure(bench, fit, currents);
+  const double left = std::sqrt(std::max(departure * departure - noise, 0.0));
   // A rough path has some six independent pieces in a sweep: its size is known to a third.
   constexpr double kReach = 1.96, kPieces = 6;
-  return std::sqrt(left) * (1 - kReach / std::sqrt(2 * kPieces));
+  const double half = left * kReach / std::sqrt(2 * kPieces);
+  return {left, left - half, left + half};
 }
 
 // Whether what the causes leave is certainly not noise.
@@ -83,7 +113,10 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
-  const bool material = Left(selection) > options.floor_current;
+  verdict.below_floor = DescribeBelow(selection);
+  verdict.departure = LeftBy(selection.base_bench, selection.base);
+  const Sized left = LeftBy(selection.bench, selection.extended);
+  const bool material = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
   // A shape that is not understood bends n, which then says nothing.
   const bool understood = verdict.causes.empty() || !material;
   if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {
@@ -102,7 +135,8 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
     if (!open.applies(measurement.readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
   }
-  verdict.sentence = VerdictSentence(verdict, nameless);
+  verdict.sentence =
+      VerdictSentence(verdict, {options.floor_current, options.floor_power}, nameless);
   return verdict;
 }
 

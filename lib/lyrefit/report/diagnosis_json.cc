@@ -16,7 +16,8 @@ Json EvidenceJson(const Evidence& evidence) {
            {{"constant_A", Number(evidence.noise_constant_A)},
             {"relative", Number(evidence.noise_relative)},
             {"voltage_V", Number(evidence.noise_voltage_V)},
-            {"dark_A", Number(evidence.noise_dark_A)}}},
+            {"dark_A", Number(evidence.noise_dark_A)},
+            {"path_A", Number(evidence.noise_path_A)}}},
           {"misfit_ratio", Number(evidence.misfit_ratio)},
           {"autocorrelation", Number(evidence.autocorrelation)},
           {"grid_step_A", Number(evidence.grid_step_A)},
@@ -60,6 +61,12 @@ Json TrialJson(const Trial& trial) {
            })}};
 }
 
+Json SizedJson(const Sized& size) {
+  return {{"value", Number(size.value)},
+          {"low_95", Number(size.low_95)},
+          {"high_95", Number(size.high_95)}};
+}
+
 Json CauseJson(const Cause& cause) {
   const auto value = [](const CauseParameter& p) { return Number(p.value); };
   const auto interval = [](const CauseParameter& p) { return Numbers({p.low_95, p.high_95}); };
@@ -68,6 +75,10 @@ Json CauseJson(const Cause& cause) {
   return {{"id", cause.id},
           {"title", cause.title},
           {"sentence", cause.sentence},
+          {"in_words", cause.in_words},
+          {"current_effect", SizedJson(cause.current_effect)},
+          {"power_effect", SizedJson(cause.power_effect)},
+          {"recoverable_power_W", Number(cause.recoverable_power_W)},
           {"equivalents", cause.equivalents},
           {"separate_by", cause.separate_by},
           {"strength", BySymbol(cause.strength, value)},
@@ -83,6 +94,8 @@ Json CauseJson(const Cause& cause) {
 Json VerdictJson(const Verdict& verdict) {
   Json causes = Json::array();
   for (const Cause& cause : verdict.causes) causes.push_back(CauseJson(cause));
+  Json below = Json::array();
+  for (const Cause& cause : verdict.below_floor) below.push_back(CauseJson(cause));
   Json others = Json::array();
   for (const CannotBeExcluded& cause : verdict.cannot_be_excluded) {
     others.push_back({{"id", cause.id},
@@ -94,6 +107,8 @@ Json VerdictJson(const Verdict& verdict) {
           {"unexplained", verdict.unexplained},
           {"sentence", verdict.sentence},
           {"causes", std::move(causes)},
+          {"below_floor", std::move(below)},
+          {"departure", SizedJson(verdict.departure)},
           {"cannot_be_excluded", std::move(others)}};
 }
 

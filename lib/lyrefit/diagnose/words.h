@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/workbench.h"
+
+namespace lyrefit {
+
+// What a fit's effect number `index` means to a technician: lights of substrings in %, the voltage
+// and the heat of a cell in reverse. Nothing where its sizes speak for themselves.
+std::vector<std::string> InWords(const Workbench& bench, const LawFit& fit, int index);
+
+// A cell that the others drive into reverse where the terminals are shorted.
+struct HotCell {
+  double voltage_V = 0;  // below 0
+  double heat_W = 0;
+};
+
+// Of the law's `weak_cell` at `index`, under the brightest light.
+HotCell FindHotCell(const Workbench& bench, const LawFit& fit, int index);
+
+}  // namespace lyrefit

@@ -14,6 +14,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr const char* kLaboratory = " --noise white --floor-current 0 --floor-power 0";
+
 using ::nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -110,8 +112,8 @@ TEST_F(WithFamily, CurvesFittedOneByOneAreSimulatedAgain) {
 }
 
 TEST_F(WithFamily, ADiagnosisOfManyCurvesIsSimulatedAgain) {
-  const AppResult diagnosed =
-      RunApp("diagnose " + Quoted("set") + " --quiet --extend " + Quoted("extended.json"));
+  const AppResult diagnosed = RunApp("diagnose " + Quoted("set") + kLaboratory +
+                                     " --quiet --extend " + Quoted("extended.json"));
   ASSERT_EQ(diagnosed.exit_code, 0) << diagnosed.err;
   const json report = Read("extended.json");
   EXPECT_THAT(report["causes"], ::testing::Contains("nonohmic_shunt"));

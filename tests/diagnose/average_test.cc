@@ -27,7 +27,7 @@ Recipe Long() {
 }
 
 Diagnosis DiagnosedQuickly(const IvCurve& curve) {
-  DiagnoseOptions options;
+  DiagnoseOptions options = LaboratoryOptions();
   options.draws = 400;
   options.held_out = false;
   auto diagnosis = Diagnose(curve, options);

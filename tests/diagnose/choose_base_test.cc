@@ -88,7 +88,7 @@ CurveSet Measured(const Family& family) {
 }
 
 Diagnosis Diagnosed(const Family& family, Model base = Model::kSingleDiode) {
-  DiagnoseOptions options;
+  DiagnoseOptions options = LaboratoryOptions();
   options.draws = 400;
   options.held_out = false;
   options.base = base;

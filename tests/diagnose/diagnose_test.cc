@@ -87,7 +87,7 @@ TEST(DiagnoseTest, ACleanCurveIsClean) {
   ExpectComplete(d);
   EXPECT_THAT(Ids(d), IsEmpty());
   EXPECT_FALSE(d.verdict.unexplained);
-  EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to find"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to act on"));
   EXPECT_THAT(d.warnings, IsEmpty());
   for (const DiagnosedPoint& point : d.points) EXPECT_EQ(point.before_A, point.after_A);
   EXPECT_NEAR(d.points[30].sigma_A, 0.004, 0.0015);

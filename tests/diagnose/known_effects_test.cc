@@ -59,7 +59,7 @@ IvCurve UnderTheLamp() {
 }
 
 DiagnoseOptions With(const Effect& effect) {
-  DiagnoseOptions options;
+  DiagnoseOptions options = LaboratoryOptions();
   options.draws = 400;
   options.held_out = false;
   options.own_effects = {&effect};

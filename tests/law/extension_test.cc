@@ -119,10 +119,11 @@ INSTANTIATE_TEST_SUITE_P(Effects, ExtensionTest, ::testing::ValuesIn(WithParamet
 TEST(Extend, NamesParametersAfterTheirEffect) {
   const auto device = ExtendModule({Use("shading"), Use("drift")});
   ASSERT_TRUE(device) << device.error().ToString();
-  EXPECT_EQ(device->size(), 9);
+  EXPECT_EQ(device->size(), 10);
   EXPECT_EQ(device->Find("shading.d"), 5);
   EXPECT_EQ(device->Find("shading_bypass_voltage"), 7);
-  EXPECT_EQ(device->Find("drift.d"), 8);
+  EXPECT_EQ(device->Find("shading.c"), 8);
+  EXPECT_EQ(device->Find("drift.d"), 9);
 }
 
 TEST(Extend, HoldsAndLimitsInReportedUnits) {
@@ -155,7 +156,7 @@ TEST(Extend, SaysWhatCannotBe) {
               HasSubstr("shares of 1.1 in all leave no cell for the rest"));
   EXPECT_THAT(ErrorOf({Use("substrings"), Use("transient"), Use("back_contact"), Use("clip"),
                        Use("drift")}),
-              HasSubstr("21 parameters are too many for one law, expected 20 at most"));
+              HasSubstr("22 parameters are too many for one law, expected 20 at most"));
 }
 
 }  // namespace

@@ -41,11 +41,12 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
                           "seconds",
                           "curves",
                           "points"}));
-  EXPECT_EQ(Keys(j["verdict"]),
-            (Set{"found", "unexplained", "sentence", "causes", "cannot_be_excluded"}));
+  EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
+                                     "departure", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
             (Set{"id", "title", "sentence", "equivalents", "separate_by", "strength", "interval",
-                 "units", "at_bound", "corrected_p", "evidence", "acts", "points"}));
+                 "units", "at_bound", "corrected_p", "evidence", "acts", "points", "in_words",
+                 "current_effect", "power_effect", "recoverable_power_W"}));
   EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
             (Set{"id", "biases", "sentence", "separate_by"}));
   EXPECT_EQ(Keys(j["trials"][0]),

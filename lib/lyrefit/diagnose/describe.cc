@@ -51,7 +51,6 @@ void AddSeparation(const Effect& effect, std::vector<std::string>* separate_by) 
 
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
   std::string text = effect.sentence;
-  for (const std::string& words : cause.in_words) text += "; " + words;
   for (std::size_t k = 0; k < cause.strength.size(); ++k) {
     text += (k == 0 ? "; " : ", ") + StrengthText(cause.strength[k]);
   }

@@ -47,6 +47,15 @@ struct DiagnoseOptions {
   int threads = 0;
 };
 
+// For readings of little noise at a bench, of a device that is known to follow its model: white
+// noise, and whatever is there is named.
+inline DiagnoseOptions LaboratoryOptions() {
+  DiagnoseOptions options;
+  options.noise = ErrorKind::kWhite;
+  options.floor_current = options.floor_power = 0;
+  return options;
+}
+
 inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
     {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
      0.5},

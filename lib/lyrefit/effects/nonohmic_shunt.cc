@@ -24,7 +24,6 @@ Effect NonohmicShunt() {
   e.parameters[0].convert = [](const double* p, const ReadingScale& scale) {
     return std::pow(scale.reach_V, -p[1]);
   };
-  e.parameters[1].below_upper = true;
   e.junction = [](const auto* p, const auto& cell, const auto&, const auto& voltage) {
     const auto size = abs(voltage) * (1.0 / cell.reach) + 1e-9;
     const auto current = p[0] * exp(p[1] * log(size));

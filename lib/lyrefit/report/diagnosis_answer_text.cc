@@ -38,8 +38,32 @@ std::string CertaintyText(const Cause& cause, double level) {
   return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);
 }
 
+// "0.86 % (0.80 .. 0.92)"
+std::string PercentText(const Sized& size) {
+  std::string text = Significant(100 * size.value, 3) + " %";
+  if (std::isfinite(size.low_95)) {
+    text += fmt::format(" ({})", Range(100 * size.low_95, 100 * size.high_95));
+  }
+  return text;
+}
+
+std::string EffectText(const Cause& cause) {
+  std::string text;
+  if (std::isfinite(cause.current_effect.value)) {
+    text = PercentText(cause.current_effect) + " of Isc, root mean square over the curve";
+  }
+  if (std::isfinite(cause.power_effect.value)) {
+    text += fmt::format("{}{} of Pmax", text.empty() ? "" : "; ", PercentText(cause.power_effect));
+  }
+  return text;
+}
+
 std::string CauseText(const Diagnosis& diagnosis, const Cause& cause) {
-  std::string text = Wrap("  ", FullSentence(cause.sentence));
+  std::string text;
+  for (const std::string& words : cause.in_words) text += Wrap("  ", FullSentence(words));
+  text += Wrap("  ", FullSentence(cause.sentence));
+  const std::string effect = EffectText(cause);
+  if (!effect.empty()) text += Field("effect", effect);
   for (std::size_t i = 0; i < cause.strength.size(); ++i) {
     text += Field(i == 0 ? "size" : "", SizeText(cause.strength[i]));
   }
@@ -86,6 +110,15 @@ std::string DiagnosisCauseSections(const Diagnosis& diagnosis) {
     text += fmt::format("{}Cause {} of {}: {} ({})\n", i == 0 ? "" : "\n", i + 1, causes.size(),
                         causes[i].title, causes[i].id) +
             CauseText(diagnosis, causes[i]);
+  }
+  return text;
+}
+
+std::string DiagnosisBelowSection(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const Cause& cause : diagnosis.verdict.below_floor) {
+    text += fmt::format("Present, not material: {} ({})\n", cause.title, cause.id) +
+            CauseText(diagnosis, cause);
   }
   return text;
 }

@@ -17,6 +17,7 @@ std::string FullSentence(std::string text);
 // diagnosis_answer_text.cc: what came out.
 std::string DiagnosisVerdictSection(const Diagnosis& diagnosis);
 std::string DiagnosisCauseSections(const Diagnosis& diagnosis);
+std::string DiagnosisBelowSection(const Diagnosis& diagnosis);
 std::string DiagnosisGainSection(const Diagnosis& diagnosis);
 std::string DiagnosisShiftSection(const Diagnosis& diagnosis);
 

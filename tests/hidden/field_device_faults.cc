@@ -127,8 +127,12 @@ void Snow(Random* random, Setup* setup, Truth* truth) {
 
 const std::vector<Fault>& DeviceFaults() {
   static const std::vector<Fault> kFaults = {
-      {"substrings", Substrings},    {"weak_cell", WeakCell},       {"leaky_cell", LeakyCell},
-      {"scatter", Scatter},          {"bypass_short", BypassShort}, {"bypass_open", BypassOpen},
+      {"substrings", Substrings},
+      {"weak_cell", WeakCell},
+      {"leaky_cell", LeakyCell},
+      {"scatter", Scatter},
+      {"bypass_short", BypassShort},
+      {"bypass_open", BypassOpen},
       {"snow", Snow},
   };
   return kFaults;

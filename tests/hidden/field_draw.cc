@@ -21,11 +21,11 @@ struct Layout {
 };
 
 constexpr Layout kLayouts[] = {
-    {36, 2, false, 2.3, 8.6, 0.59, 0.63},   {48, 2, false, 7.5, 9.5, 0.61, 0.68},
-    {60, 3, false, 8.0, 10.0, 0.61, 0.70},  {60, 3, false, 8.0, 10.0, 0.61, 0.70},
-    {72, 3, false, 5.0, 9.8, 0.60, 0.70},   {72, 3, false, 5.0, 9.8, 0.60, 0.70},
-    {96, 3, false, 5.7, 6.5, 0.67, 0.73},   {96, 4, false, 5.7, 6.5, 0.67, 0.74},
-    {54, 3, true, 12.5, 14.5, 0.67, 0.72},  {60, 3, true, 10.0, 18.0, 0.66, 0.72},
+    {36, 2, false, 2.3, 8.6, 0.59, 0.63},  {48, 2, false, 7.5, 9.5, 0.61, 0.68},
+    {60, 3, false, 8.0, 10.0, 0.61, 0.70}, {60, 3, false, 8.0, 10.0, 0.61, 0.70},
+    {72, 3, false, 5.0, 9.8, 0.60, 0.70},  {72, 3, false, 5.0, 9.8, 0.60, 0.70},
+    {96, 3, false, 5.7, 6.5, 0.67, 0.73},  {96, 4, false, 5.7, 6.5, 0.67, 0.74},
+    {54, 3, true, 12.5, 14.5, 0.67, 0.72}, {60, 3, true, 10.0, 18.0, 0.66, 0.72},
     {72, 3, true, 10.0, 14.0, 0.66, 0.72},
 };
 
@@ -57,8 +57,8 @@ Cell DrawCell(double current_stc, bool two_diodes, const Make& make, Random* ran
   Cell cell;
   cell.kelvin = make.kelvin;
   cell.photocurrent = current_stc * make.suns * (1 + 5e-4 * (make.kelvin - kStandardKelvin));
-  if (!two_diodes) cell.diffusion_ideality = random->Uniform(1.0, 1.35);
-  const double part = two_diodes ? random->LogUniform(0.004, 0.12) : 0;  // at the open circuit
+  cell.diffusion_ideality = random->Uniform(1.0, two_diodes ? 1.15 : 1.35);
+  const double part = two_diodes ? random->LogUniform(0.004, 0.2) : 0;  // at the open circuit
   const double open = make.open_circuit_V;
   const double n1 = cell.diffusion_ideality;
   const double n2 = random->Chance(0.7) ? 2 : random->Uniform(2.2, 3);
@@ -68,7 +68,7 @@ Cell DrawCell(double current_stc, bool two_diodes, const Make& make, Random* ran
   cell.recombination_A =
       Warmed(part * current_stc / std::expm1(open / (n2 * thermal)), make.kelvin, n2);
   cell.shunt_S = current_stc / open * random->LogUniform(2e-4, 8e-3);
-  cell.series_ohm = random->Uniform(0.004, 0.014) / current_stc;
+  cell.series_ohm = random->Uniform(0.012, 0.055) / current_stc;
   DrawReverse(current_stc, random, &cell);
   return cell;
 }
@@ -125,9 +125,9 @@ Drawn DrawModule(Uniformity uniformity, Random* random) {
   make.open_circuit_V = random->Uniform(layout.open_low, layout.open_high);
   const double current = random->Uniform(layout.current_low, layout.current_high);
   const int chains = layout.half_cut ? 2 : 1;
-  const Cell like = DrawCell(current / chains, uniformity != Uniformity::kSingleDiode, make, random);
-  const Spread spread =
-      uniformity == Uniformity::kEveryCellItsOwn ? DrawSpread(random) : Spread{};
+  const Cell like =
+      DrawCell(current / chains, uniformity != Uniformity::kSingleDiode, make, random);
+  const Spread spread = uniformity == Uniformity::kEveryCellItsOwn ? DrawSpread(random) : Spread{};
   const BypassDiode diode = DrawDiode(current, make.kelvin, random);
   for (int g = 0; g < layout.groups; ++g) {
     Group group;

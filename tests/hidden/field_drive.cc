@@ -91,7 +91,7 @@ Tracer DrawTracer(Bench bench, Random* random) {
     return tracer;
   }
   tracer.current_noise = random->LogUniform(2e-5, 4e-4);
-  tracer.voltage_noise = random->LogUniform(2e-5, 4e-4);
+  tracer.voltage_noise = random->LogUniform(2e-5, 3e-4);
   tracer.current_step = random->Uniform(1.2, 3) / 4096 * Steps(random);
   tracer.voltage_step = random->Uniform(1.1, 2.5) / 4096 * Steps(random);
   if (random->Chance(0.3)) {

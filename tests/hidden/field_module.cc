@@ -41,18 +41,21 @@ Sampled CurveOfDiode(const BypassDiode& diode, double largest) {
   const auto add = [&](double current) {
     const double inside = current + diode.saturation_A;
     curve.points.push_back(
-        {current, -diode.scale_V * std::log(inside / diode.saturation_A) - diode.series_ohm * current,
+        {current,
+         -diode.scale_V * std::log(inside / diode.saturation_A) - diode.series_ohm * current,
          -diode.scale_V / inside - diode.series_ohm});
   };
   // From where it blocks: twelve scales of voltage let all but 6e-6 of the saturation current pass.
   constexpr int kSteps = 48;
-  for (int i = 0; i < kSteps; ++i) add(diode.saturation_A * std::expm1(12.0 * (i - kSteps) / kSteps));
+  for (int i = 0; i < kSteps; ++i)
+    add(diode.saturation_A * std::expm1(12.0 * (i - kSteps) / kSteps));
   const double span = std::log1p(2 * largest / diode.saturation_A);
-  for (int i = 0; i <= 4 * kSteps; ++i) add(diode.saturation_A * std::expm1(span * i / (4 * kSteps)));
+  for (int i = 0; i <= 4 * kSteps; ++i)
+    add(diode.saturation_A * std::expm1(span * i / (4 * kSteps)));
   const Point blocking = curve.points.front();
   constexpr double kFar = 1e3;  // V
-  curve.points.insert(curve.points.begin(), {blocking.current - 1e-9 * diode.saturation_A,
-                                             kFar, blocking.slope * 1e9});
+  curve.points.insert(curve.points.begin(),
+                      {blocking.current - 1e-9 * diode.saturation_A, kFar, blocking.slope * 1e9});
   return curve;
 }
 

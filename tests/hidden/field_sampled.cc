@@ -9,7 +9,9 @@ namespace {
 
 // A slope at an end that would make the cubic turn back is flattened.
 double Tamed(double slope, double chord) {
-  return slope * chord <= 0 ? 0 : std::copysign(std::min(std::fabs(slope), 3 * std::fabs(chord)), chord);
+  return slope * chord <= 0
+             ? 0
+             : std::copysign(std::min(std::fabs(slope), 3 * std::fabs(chord)), chord);
 }
 
 struct Read {
@@ -72,7 +74,8 @@ void Halve(const std::function<Point(double)>& law, const Point& p, const Point&
 }
 
 // Every part's places within the stretch that all of them cover, without near repeats.
-std::vector<double> Places(const std::vector<const Sampled*>& parts, double (*place)(const Point&)) {
+std::vector<double> Places(const std::vector<const Sampled*>& parts,
+                           double (*place)(const Point&)) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   std::vector<double> all;
   for (const Sampled* part : parts) {
@@ -107,8 +110,7 @@ Point Sampled::PointAtVoltage(double voltage) const {
 double Sampled::VoltageAt(double current) const { return PointAtCurrent(current).voltage; }
 double Sampled::CurrentAt(double voltage) const { return PointAtVoltage(voltage).current; }
 
-Sampled Sample(const std::function<Point(double)>& law, double low, double high,
-               double tolerance) {
+Sampled Sample(const std::function<Point(double)>& law, double low, double high, double tolerance) {
   Sampled sampled;
   const Point last = law(high);
   Halve(law, law(low), last, tolerance, 0, &sampled.points);

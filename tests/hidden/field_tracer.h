@@ -38,14 +38,14 @@ struct Tracer {
   bool writes_times = false;
   double seconds = 1;
   double first_voltage = 0.01;
-  double last_voltage = 1.01;    // a capacitor stops sooner:
-  double last_current = 0.01;    // here
-  int averaged = 1;              // readings
+  double last_voltage = 1.01;  // a capacitor stops sooner:
+  double last_current = 0.01;  // here
+  int averaged = 1;            // readings
   double current_noise = 1e-4;
   double voltage_noise = 1e-4;
-  double current_step = 0;       // resolution; 0: none
+  double current_step = 0;  // resolution; 0: none
   double voltage_step = 0;
-  double fine_below = 0;         // a ten times finer range begins; 0: there is none
+  double fine_below = 0;  // a ten times finer range begins; 0: there is none
   double fine_gain = 1;
 };
 

@@ -18,8 +18,8 @@ const Fault* Called(const std::string& kind) {
   return nullptr;
 }
 
-double MisfitPercent(const Setup& setup, Lit* lit) {
-  const Readings exact = Exact(setup, lit);
+double MisfitPercent(const Rig& rig, Lit* lit) {
+  const Readings exact = Exact(rig, lit);
   const double rms = BestOneDiode(exact.voltage, exact.current).rms;
   return 100 * rms / ShortCircuit(lit->Whole());
 }
@@ -39,22 +39,21 @@ void SettleDeparture(const Sampled& curve, double wanted, Departure* departure) 
   }
 }
 
-Measurement HandedOver(const Case& made, const Setup& setup, const Readings& readings,
-                       Random* random) {
+Measurement HandedOver(const Case& made, const Rig& rig, const Readings& readings, Random* random) {
   Measurement taken;
   const double suns = made.make.suns * (1 + 0.015 * random->Normal());
   const double celsius = made.make.kelvin - 273.15 + random->Normal();
   taken.voltage = readings.voltage;
   taken.current = readings.current;
-  if (setup.tracer.writes_times) {
-    for (const double time : readings.time) taken.time.push_back(time * setup.tracer.seconds);
+  if (rig.tracer.writes_times) {
+    for (const double time : readings.time) taken.time.push_back(time * rig.tracer.seconds);
   }
-  if (setup.tracer.up_and_down) taken.sweep = readings.sweep;
+  if (rig.tracer.up_and_down) taken.sweep = readings.sweep;
   taken.curve.assign(readings.voltage.size(), 0);
   taken.irradiance.assign(readings.voltage.size(), std::round(1000 * suns));
   taken.temperature.assign(readings.voltage.size(), std::round(10 * celsius) / 10);
-  taken.cells = setup.module.CellsInSeries();
-  taken.bypass_diodes = static_cast<int>(setup.module.groups.size());
+  taken.cells = rig.module.CellsInSeries();
+  taken.bypass_diodes = static_cast<int>(rig.module.groups.size());
   taken.bandgap_eV = 0;
   return taken;
 }
@@ -83,21 +82,21 @@ Case MakeCase(const std::string& kind, std::uint64_t seed) {
   const bool field = uniformity == Uniformity::kEveryCellItsOwn;
   const Drawn drawn = DrawModule(uniformity, &random);
   made.make = drawn.make;
-  Setup setup;
-  setup.module = drawn.module;
-  setup.tracer = DrawTracer(field ? Bench::kField : Bench::kLaboratory, &random);
-  Lit healthy(setup.module);
-  made.misfit = made.healthy = MisfitPercent(setup, &healthy);
+  Rig rig;
+  rig.module = drawn.module;
+  rig.tracer = DrawTracer(field ? Bench::kField : Bench::kLaboratory, &random);
+  Lit healthy(rig.module);
+  made.misfit = made.healthy = MisfitPercent(rig, &healthy);
   if (field) {
-    setup.departure = DrawDeparture(&random);
-    SettleDeparture(healthy.Whole(), random.LogUniform(5e-4, 2e-3), &setup.departure);
-    setup.sky.wander = DrawWander(random.LogUniform(2e-4, 2e-3), &random);
+    rig.departure = DrawDeparture(&random);
+    SettleDeparture(healthy.Whole(), random.LogUniform(5e-4, 2e-3), &rig.departure);
+    rig.sky.wander = DrawWander(random.LogUniform(2e-4, 2e-3), &random);
   }
   const Fault* fault = Called(kind);
-  if (fault != nullptr) fault->apply(&random, &setup, &made.truth);
-  Lit lit(setup.module);
-  if (fault != nullptr) made.misfit = MisfitPercent(setup, &lit);
-  made.measurement = HandedOver(made, setup, Measured(setup, &lit, &random), &random);
+  if (fault != nullptr) fault->apply(&random, &rig, &made.truth);
+  Lit lit(rig.module);
+  if (fault != nullptr) made.misfit = MisfitPercent(rig, &lit);
+  made.measurement = HandedOver(made, rig, Measured(rig, &lit, &random), &random);
   return made;
 }
 

@@ -22,10 +22,10 @@ struct Truth {
   std::vector<Figure> figures;        // a light is followed by its share, where it has one
 };
 
-// A fault of the field: what it does to a healthy set-up.
+// A fault of the field: what it does to a healthy rig.
 struct Fault {
   const char* name;
-  void (*apply)(Random* random, Setup* setup, Truth* truth);
+  void (*apply)(Random* random, Rig* rig, Truth* truth);
 };
 const std::vector<Fault>& DeviceFaults();
 const std::vector<Fault>& SweepFaults();

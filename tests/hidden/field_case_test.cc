@@ -21,7 +21,9 @@ TEST(FieldCase, OfEveryKindCanBeMadeAndSaysWhatIsInIt) {
     EXPECT_EQ(taken.voltage.size(), taken.current.size()) << kind;
     EXPECT_GE(taken.bypass_diodes, 2) << kind;
     EXPECT_GE(made.misfit, 0) << kind;
-    if (clean) EXPECT_EQ(made.misfit, made.healthy) << kind;
+    if (clean) {
+      EXPECT_EQ(made.misfit, made.healthy) << kind;
+    }
     for (const double current : taken.current) EXPECT_TRUE(std::isfinite(current)) << kind;
   }
 }
@@ -64,20 +66,20 @@ TEST(FieldCase, CleanModulesAreMissedAsRealOnesAre) {
   EXPECT_LT(missed[23], 0.5);
 }
 
-Setup Bare(std::uint64_t seed) {
+Rig Bare(std::uint64_t seed) {
   Random random(seed);
-  Setup setup;
-  setup.module = DrawModule(Uniformity::kEveryCellItsOwn, &random).module;
-  setup.tracer.current_noise = setup.tracer.voltage_noise = 0;
-  return setup;
+  Rig rig;
+  rig.module = DrawModule(Uniformity::kEveryCellItsOwn, &random).module;
+  rig.tracer.current_noise = rig.tracer.voltage_noise = 0;
+  return rig;
 }
 
 TEST(FieldTracer, ChargeDeliversLessUpThanDown) {
-  Setup setup = Bare(2);
-  setup.tracer.up_and_down = true;
-  setup.charge.constant = 0.01;
-  Lit lit(setup.module);
-  const Readings readings = Exact(setup, &lit);
+  Rig rig = Bare(2);
+  rig.tracer.up_and_down = true;
+  rig.charge.constant = 0.01;
+  Lit lit(rig.module);
+  const Readings readings = Exact(rig, &lit);
   const std::size_t count = readings.voltage.size();
   const double isc = ShortCircuit(lit.Whole());
   for (std::size_t i = 1; i + 1 < count / 2; ++i) {
@@ -87,12 +89,12 @@ TEST(FieldTracer, ChargeDeliversLessUpThanDown) {
 }
 
 TEST(FieldTracer, StepOfTheLightScalesWhatComesAfterIt) {
-  Setup setup = Bare(3);
-  setup.sky.cloud = Cloud::kStep;
-  setup.sky.at = 0.4;
-  setup.sky.size = -0.1;
-  Lit lit(setup.module);
-  const Readings readings = Exact(setup, &lit);
+  Rig rig = Bare(3);
+  rig.sky.cloud = Cloud::kStep;
+  rig.sky.at = 0.4;
+  rig.sky.size = -0.1;
+  Lit lit(rig.module);
+  const Readings readings = Exact(rig, &lit);
   for (std::size_t i = 0; i < readings.voltage.size() / 2; ++i) {
     const double plain = lit.Current(readings.voltage[i], 1);
     const double expected = readings.time[i] > 0.4 ? 0.9 : 1;
@@ -101,14 +103,14 @@ TEST(FieldTracer, StepOfTheLightScalesWhatComesAfterIt) {
 }
 
 TEST(FieldTracer, ShowsWholeStepsOfItsRanges) {
-  Setup setup = Bare(4);
-  setup.tracer.current_step = 1e-3;
-  setup.tracer.fine_below = 0.25;
+  Rig rig = Bare(4);
+  rig.tracer.current_step = 1e-3;
+  rig.tracer.fine_below = 0.25;
   Random random(1);
-  Lit lit(setup.module);
+  Lit lit(rig.module);
   const double isc = ShortCircuit(lit.Whole());
   int fine = 0;
-  for (const double current : Measured(setup, &lit, &random).current) {
+  for (const double current : Measured(rig, &lit, &random).current) {
     const double steps = current / (1e-3 * isc);
     const bool small = std::fabs(current) < 0.249 * isc;
     const double whole = small ? 10 * steps : steps;
@@ -119,11 +121,11 @@ TEST(FieldTracer, ShowsWholeStepsOfItsRanges) {
 }
 
 TEST(FieldTracer, CapacitorCrowdsItsReadingsWhereTheCurrentIsSmall) {
-  Setup setup = Bare(5);
-  setup.tracer.drive = Drive::kCapacitor;
-  setup.tracer.last_current = 0.02;
-  Lit lit(setup.module);
-  const Readings readings = Exact(setup, &lit);
+  Rig rig = Bare(5);
+  rig.tracer.drive = Drive::kCapacitor;
+  rig.tracer.last_current = 0.02;
+  Lit lit(rig.module);
+  const Readings readings = Exact(rig, &lit);
   const std::vector<double>& v = readings.voltage;
   const double first = v[1] - v[0], last = v[v.size() - 1] - v[v.size() - 2];
   EXPECT_NEAR(last / first, 0.02, 0.01);

@@ -85,14 +85,15 @@ Point AtCurrent(const Cell& cell, double current) {
   Law law{};
   for (int i = 0; i < 200; ++i) {
     law = AtJunctionVoltage(cell, v);
-    (law.current > current ? in.low : in.high) = v;
-    double next = v - (law.current - current) / law.slope;
+    const double off = law.current - current;
+    if (std::fabs(off) < 1e-14 * cell.reverse_A) break;
+    (off > 0 ? in.low : in.high) = v;
+    double next = v - off / law.slope;
     if (!(next > in.low && next < in.high)) next = 0.5 * (in.low + in.high);
     const double step = std::fabs(next - v);
     v = next;
     if (step < 1e-14 * (1 + std::fabs(v))) break;
   }
-  law = AtJunctionVoltage(cell, v);
   return {current, v - current * cell.series_ohm, 1 / law.slope - cell.series_ohm};
 }
 

@@ -19,7 +19,7 @@ struct Cell {
   double reverse_V = 15;  // size of the breakdown voltage; of a soft power the voltage at
                           // which it carries `reverse_A`
   double reverse_exponent = 3.4;
-  double reverse_A = 8;         // soft power only
+  double reverse_A = 8;         // nominal photocurrent
   double reverse_factor = 0.1;  // shunt breakdown only: part of the shunt that breaks down
 };
 

@@ -30,9 +30,9 @@ double Shade(double light, Random* random, Group* group) {
   return LeftOfGroup(*group, light, dim);
 }
 
-void Substrings(Random* random, Setup* setup, Truth* truth) {
-  auto& groups = setup->module.groups;
-  const double share = Share(setup->module);
+void Substrings(Random* random, Rig* rig, Truth* truth) {
+  auto& groups = rig->module.groups;
+  const double share = Share(rig->module);
   truth->accepted = {"substrings", "shading"};
   const double first = Shade(random->Uniform(0.05, 0.95), random, &groups[0]);
   truth->figures = {{"light", first}, {"share", share}};
@@ -50,16 +50,16 @@ double DimCells(double light, int count, Random* random, Group* group) {
   return LeftOfGroup(*group, light, 1);
 }
 
-void WeakCell(Random* random, Setup* setup, Truth* truth) {
+void WeakCell(Random* random, Rig* rig, Truth* truth) {
   const int count = random->Chance(0.7) ? 1 : 2 + random->Index(2);
-  Group* group = AnyGroup(random, &setup->module);
+  Group* group = AnyGroup(random, &rig->module);
   const double light = DimCells(random->Uniform(0.10, 0.93), count, random, group);
   truth->accepted = {"weak_cell"};
   truth->figures = {{"light", light}};
 }
 
-void LeakyCell(Random* random, Setup* setup, Truth* truth) {
-  auto& chain = AnyGroup(random, &setup->module)->chains[0];
+void LeakyCell(Random* random, Rig* rig, Truth* truth) {
+  auto& chain = AnyGroup(random, &rig->module)->chains[0];
   Cell& cell = chain[random->Index(static_cast<int>(chain.size()))];
   cell.shunt_S = cell.photocurrent / 0.6 * random->LogUniform(0.3, 4);
   truth->accepted = {"leaky_cell"};
@@ -67,12 +67,12 @@ void LeakyCell(Random* random, Setup* setup, Truth* truth) {
 }
 
 // Symmetric, or most a little above the mean and few far below.
-void Scatter(Random* random, Setup* setup, Truth* truth) {
+void Scatter(Random* random, Rig* rig, Truth* truth) {
   const double width = random->Uniform(0.01, 0.04);
   const bool lopsided = random->Chance(0.5);
   double sum = 0, squares = 0;
   int count = 0;
-  for (Group& group : setup->module.groups) {
+  for (Group& group : rig->module.groups) {
     for (auto& chain : group.chains) {
       for (Cell& cell : chain) {
         const double z = lopsided ? 1 + std::log(random->Unit()) : random->Normal();
@@ -90,16 +90,16 @@ void Scatter(Random* random, Setup* setup, Truth* truth) {
 }
 
 // One curve cannot tell a third of the cells bridged from a third of them counted too many.
-void BypassShort(Random* random, Setup* setup, Truth* truth) {
-  Group* group = AnyGroup(random, &setup->module);
+void BypassShort(Random* random, Rig* rig, Truth* truth) {
+  Group* group = AnyGroup(random, &rig->module);
   group->bypass = Bypass::kShorted;
   group->short_ohm = random->LogUniform(1e-3, 2e-2);
   truth->accepted = {"bypass_short", "temperature_or_cells"};
-  truth->figures = {{"share", Share(setup->module)}};
+  truth->figures = {{"share", Share(rig->module)}};
 }
 
-void BypassOpen(Random* random, Setup* setup, Truth* truth) {
-  Group* group = AnyGroup(random, &setup->module);
+void BypassOpen(Random* random, Rig* rig, Truth* truth) {
+  Group* group = AnyGroup(random, &rig->module);
   group->bypass = Bypass::kOpen;
   const double light = DimCells(random->Uniform(0.10, 0.90), 1, random, group);
   truth->accepted = {"bypass_open", "weak_cell"};
@@ -107,10 +107,10 @@ void BypassOpen(Random* random, Setup* setup, Truth* truth) {
 }
 
 // Deeper from group to group, and within each from cell to cell.
-void Snow(Random* random, Setup* setup, Truth* truth) {
+void Snow(Random* random, Rig* rig, Truth* truth) {
   const double thinnest = random->Uniform(0.3, 1);
   double light = thinnest;
-  for (Group& group : setup->module.groups) {
+  for (Group& group : rig->module.groups) {
     const double slope = random->Uniform(0, 0.15);
     for (auto& chain : group.chains) {
       for (std::size_t c = 0; c < chain.size(); ++c) {

@@ -128,7 +128,8 @@ Drawn DrawModule(Uniformity uniformity, Random* random) {
   const Cell like =
       DrawCell(current / chains, uniformity != Uniformity::kSingleDiode, make, random);
   const Spread spread = uniformity == Uniformity::kEveryCellItsOwn ? DrawSpread(random) : Spread{};
-  const BypassDiode diode = DrawDiode(current, make.kelvin, random);
+  BypassDiode diode = DrawDiode(current, make.kelvin, random);
+  if (uniformity != Uniformity::kEveryCellItsOwn) diode.saturation_A *= 1e-5;  // a silicon junction
   for (int g = 0; g < layout.groups; ++g) {
     Group group;
     group.diode = diode;

@@ -110,7 +110,7 @@ Corner Descend(const Curve& curve, const Two& start) {
   const auto at = [&](const Two& place) { return Corner{place, Rms(curve, place)}; };
   for (int i = 0; i < 120; ++i) {
     std::sort(corners.begin(), corners.end(), better);
-    if (corners[2].rms - corners[0].rms < 1e-9 * corners[0].rms) break;
+    if (corners[2].rms < (1 + 1e-5) * corners[0].rms) break;
     const Two middle = Along(corners[0].at, corners[1].at, 0.5);
     const Corner mirrored = at(Along(corners[2].at, middle, 2));
     if (mirrored.rms < corners[0].rms) {
@@ -160,7 +160,8 @@ OneDiodeFit BestOneDiode(const std::vector<double>& voltage, const std::vector<d
   }
   const auto better = [](const Corner& a, const Corner& b) { return a.rms < b.rms; };
   std::sort(starts.begin(), starts.end(), better);
-  const Corner best = std::min(Descend(curve, starts[0].at), Descend(curve, starts[1].at), better);
+  Corner best = std::min(Descend(curve, starts[0].at), Descend(curve, starts[1].at), better);
+  best = Descend(curve, best.at);  // a simplex that has shrunk too soon
   OneDiodeFit fit{Best(curve, best.at), best.rms, {}};
   for (std::size_t i = 0; i < voltage.size(); ++i) {
     fit.residuals.push_back(CurrentOf(fit.diode, voltage[i], current[i]) - current[i]);

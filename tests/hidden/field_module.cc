@@ -6,7 +6,7 @@
 namespace hidden::field {
 namespace {
 
-constexpr double kTolerance = 2e-8;  // of the largest photocurrent
+constexpr double kTolerance = 1e-7;  // of the largest photocurrent
 constexpr double kBeyondShort = 1.03;
 constexpr double kBeyondOpen = -1.3;
 

@@ -82,7 +82,8 @@ TEST(FieldCell, GoesThereAndBackInEveryReverseLaw) {
       EXPECT_NEAR(AtJunctionVoltage(cell, junction).current, current, 1e-9);
       const double up = AtCurrent(cell, current + 1e-6).voltage;
       const double down = AtCurrent(cell, current - 1e-6).voltage;
-      if (current != 8) EXPECT_NEAR((up - down) / 2e-6 / at.slope, 1, 1e-4) << current;
+      if (current == 8) continue;  // where the slope jumps
+      EXPECT_NEAR((up - down) / 2e-6 / at.slope, 1, 1e-4) << current;
     }
     EXPECT_LT(AtCurrent(cell, 8.5).voltage, -1);
   }
@@ -94,10 +95,11 @@ TEST(FieldModule, OfEqualCellsHasTheClosedForm) {
   cell.shunt_S = 1e-12;
   for (const int chains : {1, 2}) {
     const Sampled curve = CurveOf(Equal(cell, 3, 20, chains));
+    const double leak = BypassDiode().saturation_A;
     for (double current = -1; current < 7.99; current += 0.37) {
       const double voltage =
           60 * kThermal * std::log1p((cell.photocurrent - current) / cell.diffusion_A);
-      EXPECT_NEAR(curve.CurrentAt(voltage), chains * current, 8e-6) << current;
+      EXPECT_NEAR(curve.CurrentAt(voltage), chains * current - leak, 8e-6) << current;
     }
   }
 }
@@ -127,7 +129,9 @@ TEST(FieldModule, ShortedGroupTakesItsShareOfTheVoltage) {
 }
 
 TEST(FieldModule, OpenDiodeLeavesTheStringToItsWeakestCell) {
-  Module module = Equal(Plain(), 3, 20);
+  Cell cell = Plain();
+  cell.shunt_S = 1e-4;
+  Module module = Equal(cell, 3, 20);
   Cell& weak = module.groups[0].chains[0][3];
   weak.photocurrent *= 0.5;
   weak.reverse_V = 60;  // breaks down far beyond what 59 cells can drive
@@ -135,7 +139,7 @@ TEST(FieldModule, OpenDiodeLeavesTheStringToItsWeakestCell) {
   module.groups[0].bypass = Bypass::kOpen;
   const double limited = ShortCircuit(CurveOf(module));
   EXPECT_NEAR(bypassed, 8, 0.01);
-  EXPECT_NEAR(limited, 4, 0.5);
+  EXPECT_NEAR(limited, 4, 0.05);
   EXPECT_GT(limited, 4);
 }
 
@@ -164,12 +168,12 @@ TEST(FieldModule, IsWhatHalvingFinds) {
 TEST(FieldModule, CurrentFallsAndNoMoreComesOutThanItsCellsCanGive) {
   for (const Fault& fault : DeviceFaults()) {
     Random random(11);
-    Setup setup;
-    setup.module = DrawModule(Uniformity::kEveryCellItsOwn, &random).module;
+    Rig rig;
+    rig.module = DrawModule(Uniformity::kEveryCellItsOwn, &random).module;
     Truth truth;
-    fault.apply(&random, &setup, &truth);
+    fault.apply(&random, &rig, &truth);
     double available = 0;
-    for (const Group& group : setup.module.groups) {
+    for (const Group& group : rig.module.groups) {
       for (const auto& chain : group.chains) {
         for (const Cell& cell : chain) {
           double best = 0;
@@ -181,7 +185,7 @@ TEST(FieldModule, CurrentFallsAndNoMoreComesOutThanItsCellsCanGive) {
         }
       }
     }
-    const Sampled curve = CurveOf(setup.module);
+    const Sampled curve = CurveOf(rig.module);
     const double open = OpenCircuit(curve);
     double before = curve.CurrentAt(-0.01 * open), most = 0;
     for (double u = -0.005; u < 1.03; u += 0.0025) {

@@ -17,9 +17,9 @@ struct Averaged {
 };
 
 // What the converter makes of it: steps, finer below the switch of the range.
-void Add(const Setup& setup, const Averaged& mean, double isc, double voc, int sweep,
+void Add(const Rig& rig, const Averaged& mean, double isc, double voc, int sweep,
          Readings* readings) {
-  const Tracer& tracer = setup.tracer;
+  const Tracer& tracer = rig.tracer;
   const bool fine = std::fabs(mean.current) < tracer.fine_below * isc;
   const double step = tracer.current_step * isc * (fine ? 0.1 : 1);
   readings->voltage.push_back(Rounded(mean.voltage, tracer.voltage_step * voc));
@@ -28,11 +28,10 @@ void Add(const Setup& setup, const Averaged& mean, double isc, double voc, int s
   readings->sweep.push_back(sweep);
 }
 
-double Charging(const Setup& setup, const Sampled& curve, const Instant& now, double isc,
-                double voc) {
-  if (setup.charge.constant == 0 && setup.charge.diffusion == 0) return 0;
+double Charging(const Rig& rig, const Sampled& curve, const Instant& now, double isc, double voc) {
+  if (rig.charge.constant == 0 && rig.charge.diffusion == 0) return 0;
   const double slope = std::min(-1 / curve.PointAtVoltage(now.voltage).slope, 60 * isc / voc);
-  return now.speed * (setup.charge.constant * isc + setup.charge.diffusion * voc * slope);
+  return now.speed * (rig.charge.constant * isc + rig.charge.diffusion * voc * slope);
 }
 
 }  // namespace
@@ -57,33 +56,33 @@ double Lit::Current(double voltage, double light) {
 double OpenCircuit(const Sampled& curve) { return curve.VoltageAt(0); }
 double ShortCircuit(const Sampled& curve) { return curve.CurrentAt(0); }
 
-Readings Exact(const Setup& setup, Lit* lit) {
+Readings Exact(const Rig& rig, Lit* lit) {
   const double isc = ShortCircuit(lit->Whole()), voc = OpenCircuit(lit->Whole());
   Readings readings;
-  for (const Instant& now : Instants(setup.tracer, lit->Whole())) {
+  for (const Instant& now : Instants(rig.tracer, lit->Whole())) {
     readings.voltage.push_back(now.voltage);
-    readings.current.push_back(lit->Current(now.voltage, setup.sky.Light(now.time)) -
-                               Charging(setup, lit->Whole(), now, isc, voc));
+    readings.current.push_back(lit->Current(now.voltage, rig.sky.Light(now.time)) -
+                               Charging(rig, lit->Whole(), now, isc, voc));
     readings.time.push_back(now.time);
     readings.sweep.push_back(now.sweep);
   }
   return readings;
 }
 
-Readings Measured(const Setup& setup, Lit* lit, Random* random) {
+Readings Measured(const Rig& rig, Lit* lit, Random* random) {
   const double isc = ShortCircuit(lit->Whole()), voc = OpenCircuit(lit->Whole());
   Readings readings;
   Averaged sum{0, 0, 0};
   int summed = 0;
-  for (const Instant& now : Instants(setup.tracer, lit->Whole())) {
-    double current = lit->Current(now.voltage, setup.sky.WanderingLight(now.time));
-    current += isc * setup.departure.At(now.voltage / voc, 1 - current / isc);
-    current -= Charging(setup, lit->Whole(), now, isc, voc);
-    sum.current += current + setup.tracer.current_noise * isc * random->Normal();
-    sum.voltage += now.voltage + setup.tracer.voltage_noise * voc * random->Normal();
+  for (const Instant& now : Instants(rig.tracer, lit->Whole())) {
+    double current = lit->Current(now.voltage, rig.sky.WanderingLight(now.time));
+    current += isc * rig.departure.At(now.voltage / voc, 1 - current / isc);
+    current -= Charging(rig, lit->Whole(), now, isc, voc);
+    sum.current += current + rig.tracer.current_noise * isc * random->Normal();
+    sum.voltage += now.voltage + rig.tracer.voltage_noise * voc * random->Normal();
     sum.time += now.time;
-    if (++summed < setup.tracer.averaged) continue;
-    Add(setup, {sum.voltage / summed, sum.current / summed, sum.time / summed}, isc, voc, now.sweep,
+    if (++summed < rig.tracer.averaged) continue;
+    Add(rig, {sum.voltage / summed, sum.current / summed, sum.time / summed}, isc, voc, now.sweep,
         &readings);
     sum = {0, 0, 0};
     summed = 0;

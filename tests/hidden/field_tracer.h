@@ -74,7 +74,7 @@ struct Readings {
   std::vector<int> sweep;
 };
 
-struct Setup {
+struct Rig {
   Module module;
   Sky sky;
   Departure departure;
@@ -83,8 +83,8 @@ struct Setup {
 };
 
 // Without anything the tracer or the air adds: no departure, no wandering, no noise.
-Readings Exact(const Setup& setup, Lit* lit);
-Readings Measured(const Setup& setup, Lit* lit, Random* random);
+Readings Exact(const Rig& rig, Lit* lit);
+Readings Measured(const Rig& rig, Lit* lit, Random* random);
 
 double OpenCircuit(const Sampled& curve);
 double ShortCircuit(const Sampled& curve);

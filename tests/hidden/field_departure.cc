@@ -36,6 +36,7 @@ double Departure::At(double u, double lost) const {
     const double far = (u - bump.at) / bump.width;
     sum += bump.size / (1 + far * far * far * far);
   }
+  sum *= flat + (1 - flat) / (1 + std::exp((0.65 - u) / 0.05));
   const double part = std::clamp(lost, 0.0, 1.0);
   sum += knee * std::pow(part, knee_exponent) * (1 - part);
   return size * sum;
@@ -52,6 +53,7 @@ Departure DrawDeparture(Random* random) {
     departure.bumps.push_back({random->Uniform(0, 1.05), random->LogUniform(0.03, 0.4),
                                random->Normal() * random->Uniform(0.2, 1)});
   }
+  departure.flat = random->LogUniform(0.12, 1);
   departure.knee = 4 * random->Normal();
   departure.knee_exponent = random->Uniform(0.4, 1.6);
   return departure;

@@ -15,6 +15,7 @@ struct Departure {
   double size = 0;           // factor on everything
   std::vector<double> path;  // over u = 0 .. kFarthest, equal steps
   std::vector<Bump> bumps;
+  double flat = 1;  // what of both is left far below the knee, where modules keep closer to diodes
   double knee = 0;
   double knee_exponent = 1;
 

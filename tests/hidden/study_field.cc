@@ -1,12 +1,10 @@
+#include "hidden/study_field.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include "hidden/field_judge.h"
-#include "hidden/study.h"
 
 namespace hidden {
 namespace {
@@ -16,18 +14,6 @@ struct FieldRun {
   Answer answer;
   field::Judgement judgement;
 };
-
-std::uint64_t FieldSeed(const StudyOptions& options, const std::string& kind, int number) {
-  std::uint64_t name = 0;
-  for (const char letter : kind) name = 131 * name + static_cast<unsigned char>(letter);
-  return SeedOf(options.seed, name, number, 7);
-}
-
-field::Case FieldCase(const StudyOptions& options, const std::string& kind, int number) {
-  const bool clean = kind.rfind("clean", 0) == 0;
-  return field::MakeCaseAbove(kind, clean ? 0 : options.misfit_above,
-                              FieldSeed(options, kind, number));
-}
 
 // How well a quantity of the accepted claims agrees with the truth.
 struct Agreement {
@@ -88,23 +74,6 @@ void PrintTable(const std::string& kind, const std::vector<FieldRun>& runs) {
   std::printf("\n");
 }
 
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-std::string FiguresOf(const field::Case& hidden) {
-  std::string text;
-  char part[64];
-  for (const field::Figure& figure : hidden.truth.figures) {
-    std::snprintf(part, sizeof part, "%s%s %.4g", text.empty() ? "" : ", ", figure.quantity.c_str(),
-                  figure.value);
-    text += part;
-  }
-  return text;
-}
-
 void PrintRows(const std::string& kind, const std::vector<FieldRun>& runs, std::FILE* rows) {
   for (std::size_t i = 0; i < runs.size() && rows != nullptr; ++i) {
     const FieldRun& run = runs[i];
@@ -124,66 +93,36 @@ void PrintRows(const std::string& kind, const std::vector<FieldRun>& runs, std::
   }
 }
 
-void WriteReadings(const Measurement& taken, std::FILE* to) {
-  std::fprintf(to, "voltage_V,current_A%s%s\n", taken.time.empty() ? "" : ",time_s",
-               taken.sweep.empty() ? "" : ",sweep");
-  for (std::size_t i = 0; i < taken.voltage.size(); ++i) {
-    std::fprintf(to, "%.7g,%.7g", taken.voltage[i], taken.current[i]);
-    if (!taken.time.empty()) std::fprintf(to, ",%.6g", taken.time[i]);
-    if (!taken.sweep.empty()) std::fprintf(to, ",%d", taken.sweep[i]);
-    std::fprintf(to, "\n");
-  }
-}
-
-void WriteNotes(const std::string& name, const Measurement& taken, std::FILE* to) {
-  std::fprintf(to,
-               "{\"name\": \"%s\", \"cells_in_series\": %d, \"technology\": \"mono-Si\", "
-               "\"nominal_temperature_C\": %.1f, \"nominal_irradiance_Wm2\": %.0f, "
-               "\"bypass_diodes\": %d}\n",
-               name.c_str(), taken.cells, taken.temperature[0], taken.irradiance[0],
-               taken.bypass_diodes);
-}
-
-// A table with its notes for every case, and what is in them: labels.csv.
-int Dump(const StudyOptions& options, const std::vector<std::string>& kinds, int cases) {
-  namespace fs = std::filesystem;
-  std::error_code failed;
-  fs::create_directories(options.dump, failed);
-  std::FILE* labels = std::fopen((options.dump + "/labels.csv").c_str(), "w");
-  if (labels == nullptr) return std::perror(options.dump.c_str()), 1;
-  std::fputs("case,label,accepted_first_names,source,note,points\n", labels);
-  for (const std::string& kind : kinds) {
-    for (int i = 0; i < cases; ++i) {
-      const field::Case made = FieldCase(options, kind, i);
-      const std::string name = kind + "_" + std::to_string(i);
-      std::FILE* table = std::fopen((options.dump + "/" + name + ".csv").c_str(), "w");
-      std::FILE* notes = std::fopen((options.dump + "/" + name + ".json").c_str(), "w");
-      if (table == nullptr || notes == nullptr) return std::perror(name.c_str()), 1;
-      WriteReadings(made.measurement, table);
-      WriteNotes(name, made.measurement, notes);
-      std::fclose(table);
-      std::fclose(notes);
-      std::fprintf(labels, "%s,%s,%s,%s,\"misfit %.3f %% of Isc; %s\",%zu\n", name.c_str(),
-                   made.truth.accepted.empty() ? "clean" : "fault",
-                   Joined(made.truth.accepted).c_str(), kind.c_str(), made.misfit,
-                   FiguresOf(made).c_str(), made.measurement.voltage.size());
-    }
-  }
-  std::fclose(labels);
-  return 0;
-}
-
-int Show(const StudyOptions& options) {
-  const field::Case made = FieldCase(options, options.show, options.number);
-  std::fprintf(stderr, "%s: misfit %.3f %% of Isc (%.3f healthy); %s; right: %s%s\n",
-               made.kind.c_str(), made.misfit, made.healthy, FiguresOf(made).c_str(),
-               Joined(made.truth.accepted).c_str(), made.make.half_cut ? "; half-cut" : "");
-  WriteNotes(made.kind + "_" + std::to_string(options.number), made.measurement, stderr);
-  WriteReadings(made.measurement, stdout);
-  return 0;
-}
-
 }  // namespace
+
+std::uint64_t FieldSeed(const StudyOptions& options, const std::string& kind, int number) {
+  std::uint64_t name = 0;
+  for (const char letter : kind) name = 131 * name + static_cast<unsigned char>(letter);
+  return SeedOf(options.seed, name, number, 7);
+}
+
+field::Case FieldCase(const StudyOptions& options, const std::string& kind, int number) {
+  const bool clean = kind.rfind("clean", 0) == 0;
+  return field::MakeCaseAbove(kind, clean ? 0 : options.misfit_above,
+                              FieldSeed(options, kind, number));
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string FiguresOf(const field::Case& hidden) {
+  std::string text;
+  char part[64];
+  for (const field::Figure& figure : hidden.truth.figures) {
+    std::snprintf(part, sizeof part, "%s%s %.4g", text.empty() ? "" : ", ", figure.quantity.c_str(),
+                  figure.value);
+    text += part;
+  }
+  return text;
+}
 
 int StudyField(const StudyOptions& options) {
   std::vector<std::string> kinds;
@@ -196,8 +135,8 @@ int StudyField(const StudyOptions& options) {
     return 2;
   }
   const int cases = options.cases > 0 ? options.cases : 200;
-  if (!options.show.empty()) return Show(options);
-  if (!options.dump.empty()) return Dump(options, kinds, cases);
+  if (!options.show.empty()) return ShowFieldCase(options);
+  if (!options.dump.empty()) return DumpFieldCases(options, kinds, cases);
   std::FILE* rows = options.rows.empty() ? nullptr : std::fopen(options.rows.c_str(), "w");
   if (rows == nullptr && !options.rows.empty()) return std::perror(options.rows.c_str()), 1;
   if (rows != nullptr) {

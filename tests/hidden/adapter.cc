@@ -65,8 +65,8 @@ Answer Ask(const Measurement& measurement, int number, double level, std::uint64
   for (const lyrefit::Cause& cause : diagnosis->verdict.causes) {
     Claim claim{cause.id, cause.equivalents, cause.corrected_p, cause.evidence == "values", {}};
     for (const lyrefit::CauseParameter& parameter : cause.strength) {
-      claim.strengths.push_back(
-          {parameter.symbol, parameter.unit, parameter.value, parameter.low_95, parameter.high_95});
+      claim.strengths.push_back({parameter.symbol, parameter.unit, parameter.value,
+                                 parameter.low_95, parameter.high_95, parameter.name});
     }
     answer.claims.push_back(claim);
   }

@@ -14,6 +14,7 @@ struct Strength {
   double value = 0;
   double low = 0;
   double high = 0;
+  std::string name = "";
 };
 
 struct Claim {

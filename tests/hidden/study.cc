@@ -80,7 +80,9 @@ constexpr const char* kUsage =
     "hidden_study MODE [--kind fwd|rev|updown|dark|famG|famGT|all] [--effect ID|all] [--cases N]\n"
     "             [--level P] [--seed N] [--threads N] [--csv FILE]\n"
     "             [--rows FILE] [--number I]\n"
-    "MODE: silence, power, pairs, confusion, size, show\n";
+    "MODE: silence, power, pairs, confusion, size, show\n"
+    "hidden_study field [--effect KIND|all] [--cases N] [--misfit-above PERCENT] [--rows FILE]\n"
+    "             [--show KIND --number I] [--dump FOLDER]\n";
 
 bool Read(int argc, char** argv, StudyOptions* options) {
   if (argc < 2) return false;
@@ -95,12 +97,16 @@ bool Read(int argc, char** argv, StudyOptions* options) {
       {"--rows", [&](const char* text) { options->rows = text; }},
       {"--number", [&](const char* text) { options->number = std::atoi(text); }},
       {"--csv", [&](const char* text) { options->csv = text; }},
+      {"--misfit-above", [&](const char* text) { options->misfit_above = std::atof(text); }},
+      {"--show", [&](const char* text) { options->show = text; }},
+      {"--dump", [&](const char* text) { options->dump = text; }},
   };
   for (int i = 2; i < argc; i += 2) {
     const auto flag = flags.find(argv[i]);
     if (flag == flags.end() || i + 1 == argc) return false;
     flag->second(argv[i + 1]);
   }
+  if (options->mode == "field") return true;  // its kinds are its own
   const bool known = options->effect == "all" || FindHide(options->effect) != nullptr;
   return known && !KindsCalled(options->kind).empty();
 }
@@ -112,7 +118,8 @@ int main(int argc, char** argv) {
   using namespace hidden;
   const std::map<std::string, int (*)(const StudyOptions&)> modes = {
       {"silence", StudySilence},     {"power", StudyPower}, {"pairs", StudyPairs},
-      {"confusion", StudyConfusion}, {"size", StudySize},   {"show", ShowCase}};
+      {"confusion", StudyConfusion}, {"size", StudySize},   {"show", ShowCase},
+      {"field", StudyField}};
   StudyOptions options;
   if (!Read(argc, argv, &options) || modes.count(options.mode) == 0) {
     std::fputs(kUsage, stderr);

@@ -20,6 +20,10 @@ struct StudyOptions {
   double level = 0.05;
   std::uint64_t seed = 1;
   int threads = 0;  // 0: as many as there are processors
+  // Of `field`:
+  double misfit_above = 0;  // % of Isc; of the cases with a fault
+  std::string show;         // kind of which case `number` is written as a table
+  std::string dump;         // folder for the cases as tables
 };
 
 // Rates of false alarms on nulls of every kind and noise, at the level and at 0.01.
@@ -32,6 +36,9 @@ int StudyPairs(const StudyOptions& options);
 int StudyConfusion(const StudyOptions& options);
 // How often the 95 % interval of a named effect's size holds the truth.
 int StudySize(const StudyOptions& options);
+// The second world, modules in the field (field_*.h): named at all, by the right name, spurious
+// claims, lights and shares; or its cases as tables. `effect` is a kind of field_case.h.
+int StudyField(const StudyOptions& options);
 // One case of `power` or, without an effect, of `silence`, as a table of readings; what is in it
 // and what is answered go to the error output.
 int ShowCase(const StudyOptions& options);

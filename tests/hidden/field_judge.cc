@@ -1,0 +1,110 @@
+#include "hidden/field_judge.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace hidden::field {
+namespace {
+
+// What a parameter of a claim says of which quantity, by a part of its name; the first that fits.
+struct Meaning {
+  const char* part;
+  const char* quantity;
+  bool missing;  // it is the part that is missing of 1
+};
+constexpr Meaning kMeanings[] = {
+    {"deficit", "light", true},        {"shading_depth", "light", true},
+    {"light", "light", false},         {"share", "share", false},
+    {"width", "width", false},         {"spread", "width", false},
+    {"relative_step", "step", false},  {"depth", "dip", false},
+    {"relative_drift", "drift", false}};
+
+struct Said {
+  const char* quantity;
+  std::string group;  // what tells parameters of several groups apart: the digits in the name
+  double value, low, high;
+};
+
+std::string Digits(const std::string& name) {
+  std::string digits;
+  for (const char letter : name) {
+    if (std::isdigit(static_cast<unsigned char>(letter))) digits += letter;
+  }
+  return digits;
+}
+
+std::vector<Said> SaidBy(const Claim& claim) {
+  std::vector<Said> said;
+  for (const Strength& strength : claim.strengths) {
+    const double unit = strength.unit == "%" ? 0.01 : 1;
+    for (const Meaning& meaning : kMeanings) {
+      if (strength.name.find(meaning.part) == std::string::npos) continue;
+      Said one{meaning.quantity, Digits(strength.name), unit * strength.value, unit * strength.low,
+               unit * strength.high};
+      if (meaning.missing) {
+        one = {one.quantity, one.group, 1 - one.value, 1 - one.high, 1 - one.low};
+      }
+      said.push_back(one);
+      break;
+    }
+  }
+  const std::vector<Said> all = said;
+  const auto absent = [&](const Said& one) {  // a group without cells
+    return std::any_of(all.begin(), all.end(), [&](const Said& other) {
+      return other.group == one.group && other.quantity == std::string("share") && other.value <= 0;
+    });
+  };
+  said.erase(std::remove_if(said.begin(), said.end(), absent), said.end());
+  return said;
+}
+
+const Said* Nearest(const std::vector<Said>& said, const std::string& quantity, double truth) {
+  const Said* nearest = nullptr;
+  for (const Said& one : said) {
+    if (one.quantity != quantity) continue;
+    if (nearest && std::fabs(one.value - truth) >= std::fabs(nearest->value - truth)) continue;
+    nearest = &one;
+  }
+  return nearest;
+}
+
+std::vector<Compared> Compare(const Truth& truth, const Claim& claim) {
+  const std::vector<Said> said = SaidBy(claim);
+  std::vector<Compared> compared;
+  for (const Figure& figure : truth.figures) {
+    const Said* nearest = Nearest(said, figure.quantity, figure.value);
+    if (nearest == nullptr) continue;
+    const bool interval = nearest->high > nearest->low;
+    const bool holds = interval && nearest->low <= figure.value && figure.value <= nearest->high;
+    compared.push_back({figure.quantity, figure.value, nearest->value, interval, holds});
+  }
+  return compared;
+}
+
+bool Counts(const Case& made, const Claim& claim) {
+  if (claim.id == "quantisation" || claim.id == "outliers") return false;
+  return !(made.kind == "clean_dd" && claim.id == "second_diode");
+}
+
+}  // namespace
+
+Judgement Judge(const Case& made, const Answer& answer) {
+  Judgement judgement;
+  const auto& accepted = made.truth.accepted;
+  for (const Claim& claim : answer.claims) {
+    if (!Counts(made, claim)) continue;
+    const bool right = std::find(accepted.begin(), accepted.end(), claim.id) != accepted.end();
+    if (judgement.claims++ == 0) {
+      judgement.first = claim.id;
+      judgement.first_right = right;
+    }
+    judgement.spurious += !right;
+    if (right && !judgement.any_right) judgement.compared = Compare(made.truth, claim);
+    judgement.any_right |= right;
+  }
+  judgement.named = judgement.claims > 0;
+  return judgement;
+}
+
+}  // namespace hidden::field

@@ -1,0 +1,98 @@
+// What the sky and the junctions' charge do while the sweep runs.
+#include <cmath>
+
+#include "hidden/field_case.h"
+
+namespace hidden::field {
+namespace {
+
+void UpAndDown(Random* random, Tracer* tracer) {
+  tracer->up_and_down = true;
+  tracer->writes_times = random->Chance(0.7);
+  if (tracer->drive == Drive::kCapacitor) tracer->drive = Drive::kEven;
+}
+
+struct Moment {
+  double time;
+  double u;  // voltage / open circuit
+};
+
+// A moment at which the light matters: before the knee has passed altogether.
+Moment DrawMoment(Random* random, const Rig& rig) {
+  Lit lit(rig.module);
+  const std::vector<Instant> instants = Instants(rig.tracer, lit.Whole());
+  const double voc = OpenCircuit(lit.Whole());
+  const double wanted = random->Uniform(0.1, 0.95);
+  const int sweep = rig.tracer.up_and_down ? random->Index(2) : 0;
+  Moment best{0.5, 0};
+  for (const Instant& now : instants) {
+    const double u = now.voltage / voc;
+    if (now.sweep != sweep || std::fabs(u - wanted) > std::fabs(best.u - wanted)) continue;
+    best = {now.time, u};
+  }
+  return best;
+}
+
+// Falls with rising voltage, where a group's bypass diode would make it fall.
+bool LooksLikeShade(const Rig& rig, double u) {
+  const Tracer& tracer = rig.tracer;
+  if (tracer.up_and_down || tracer.writes_times) return false;
+  if ((rig.sky.size > 0) != tracer.down) return false;
+  const double groups = static_cast<double>(rig.module.groups.size());
+  const double nearest = std::round(u * groups) / groups;
+  return nearest > 0 && nearest < 1 && std::fabs(u - nearest) < 0.03;
+}
+
+void LightStep(Random* random, Rig* rig, Truth* truth) {
+  if (random->Chance(0.25)) UpAndDown(random, &rig->tracer);
+  const Moment moment = DrawMoment(random, *rig);
+  rig->sky.cloud = Cloud::kStep;
+  rig->sky.at = moment.time;
+  rig->sky.size = random->Sign() * random->LogUniform(0.03, 0.3);
+  truth->accepted = {"irr_step"};
+  if (LooksLikeShade(*rig, moment.u)) {
+    truth->accepted.push_back("substrings");
+    truth->accepted.push_back("shading");
+  }
+  truth->figures = {{"step", rig->sky.size}};
+}
+
+void LightDip(Random* random, Rig* rig, Truth* truth) {
+  if (random->Chance(0.25)) UpAndDown(random, &rig->tracer);
+  rig->sky.cloud = Cloud::kDip;
+  rig->sky.at = DrawMoment(random, *rig).time;
+  rig->sky.size = random->LogUniform(0.03, 0.4);
+  rig->sky.width = random->LogUniform(0.03, 0.15);
+  rig->sky.skew = random->Uniform(-0.5, 0.5);
+  truth->accepted = {"transient"};
+  truth->figures = {{"dip", rig->sky.size}};
+}
+
+void LightDrift(Random* random, Rig* rig, Truth* truth) {
+  if (random->Chance(0.33)) UpAndDown(random, &rig->tracer);
+  rig->sky.cloud = Cloud::kDrift;
+  rig->sky.size = random->Sign() * random->LogUniform(0.01, 0.12);
+  if (random->Chance(0.5)) rig->sky.skew = random->Uniform(-1.5, 1.5);
+  truth->accepted = {"drift"};
+  truth->figures = {{"drift", rig->sky.size}};
+}
+
+void Hysteresis(Random* random, Rig* rig, Truth* truth) {
+  UpAndDown(random, &rig->tracer);
+  const int parts = random->Index(3);
+  if (parts != 0) rig->charge.constant = random->LogUniform(1e-3, 2e-2);
+  if (parts != 1) rig->charge.diffusion = random->LogUniform(5e-4, 8e-3);
+  truth->accepted = {"capacitance", "timing_skew"};
+}
+
+}  // namespace
+
+const std::vector<Fault>& SweepFaults() {
+  static const std::vector<Fault> kFaults = {{"light_step", LightStep},
+                                             {"light_dip", LightDip},
+                                             {"light_drift", LightDrift},
+                                             {"hysteresis", Hysteresis}};
+  return kFaults;
+}
+
+}  // namespace hidden::field

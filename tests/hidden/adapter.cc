@@ -46,8 +46,9 @@ lyrefit::CurveSet ToSet(const Measurement& from, int number) {
 }  // namespace
 
 Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
-           bool second_diode) {
-  lyrefit::DiagnoseOptions options;
+           bool second_diode, Mode mode) {
+  lyrefit::DiagnoseOptions options =
+      mode == Mode::kLaboratory ? lyrefit::LaboratoryOptions() : lyrefit::DiagnoseOptions();
   options.level = level;
   options.seed = seed;
   options.held_out = false;

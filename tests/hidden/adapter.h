@@ -31,9 +31,12 @@ struct Answer {
   double seconds = 0;
 };
 
+// How it is asked: for readings of little noise at a bench, or as in the field.
+enum class Mode { kLaboratory, kField };
+
 // Hands the readings, and no word of what is in them, to the diagnosis under test.
 // `second_diode`: the base model has two diodes.
 Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
-           bool second_diode = false);
+           bool second_diode = false, Mode mode = Mode::kLaboratory);
 
 }  // namespace hidden

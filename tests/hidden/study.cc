@@ -11,6 +11,11 @@
 
 namespace hidden {
 
+Mode ModeOf(const StudyOptions& options) {
+  const bool field = options.asked.empty() ? options.mode == "field" : options.asked == "field";
+  return field ? Mode::kField : Mode::kLaboratory;
+}
+
 void ForEach(int count, int threads, const std::function<void(int)>& body) {
   if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
   std::atomic<int> next{0};
@@ -59,7 +64,8 @@ std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Hide& hi
     const Request request = RequestFor(options, kind, hide, i, lowest, highest);
     const std::optional<Case> made = MakeCase(request);
     if (!made) return;
-    runs[i] = {true, *made, Ask(made->measurement, i, options.level, request.seed)};
+    runs[i] = {true, *made,
+               Ask(made->measurement, i, options.level, request.seed, false, ModeOf(options))};
   });
   return runs;
 }
@@ -91,6 +97,7 @@ bool Read(int argc, char** argv, StudyOptions* options) {
       {"--kind", [&](const char* text) { options->kind = text; }},
       {"--effect", [&](const char* text) { options->effect = text; }},
       {"--cases", [&](const char* text) { options->cases = std::atoi(text); }},
+      {"--asked", [&](const char* text) { options->asked = text; }},
       {"--level", [&](const char* text) { options->level = std::atof(text); }},
       {"--seed", [&](const char* text) { options->seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { options->threads = std::atoi(text); }},

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+
 #include <vector>
+#include "hidden/adapter.h"
 
 #include "hidden/judge.h"
 
@@ -19,12 +21,15 @@ struct StudyOptions {
   int number = 0;    // of the case to show
   double level = 0.05;
   std::uint64_t seed = 1;
-  int threads = 0;  // 0: as many as there are processors
+  std::string asked;  // "laboratory" or "field"; empty: as the world is
+  int threads = 0;    // 0: as many as there are processors
   // Of `field`:
   double misfit_above = 0;  // % of Isc; of the cases with a fault
   std::string show;         // kind of which case `number` is written as a table
   std::string dump;         // folder for the cases as tables
 };
+
+Mode ModeOf(const StudyOptions& options);
 
 // Rates of false alarms on nulls of every kind and noise, at the level and at 0.01.
 int StudySilence(const StudyOptions& options);

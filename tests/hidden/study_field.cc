@@ -153,7 +153,8 @@ int StudyField(const StudyOptions& options) {
     ForEach(cases, options.threads, [&](int i) {
       FieldRun& run = runs[i];
       run.hidden = FieldCase(options, kind, i);
-      run.answer = Ask(run.hidden.measurement, i, options.level, FieldSeed(options, kind, i));
+      run.answer = Ask(run.hidden.measurement, i, options.level, FieldSeed(options, kind, i), false,
+                       ModeOf(options));
       run.judgement = field::Judge(run.hidden, run.answer);
     });
     PrintTable(kind, runs);

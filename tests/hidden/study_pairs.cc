@@ -57,7 +57,8 @@ int StudyPairs(const StudyOptions& options) {
       const std::uint64_t seed = SeedOf(options.seed, 77, static_cast<int>(kind), i);
       const std::optional<Case> made = MakePair(kind, seed);
       if (!made) return;
-      runs[i] = {true, *made, Ask(made->measurement, i, options.level, seed)};
+      runs[i] = {true, *made,
+                 Ask(made->measurement, i, options.level, seed, false, ModeOf(options))};
     });
     int made = 0, named[3] = {}, claims = 0;
     double seconds = 0;

@@ -65,7 +65,7 @@ int StudySilence(const StudyOptions& options) {
     ForEach(cases, options.threads, [&](int i) {
       runs[i].hidden = NullFor(options, kind, i);
       runs[i].answer = Ask(runs[i].hidden.measurement, i, options.level, SeedOf(options.seed, i),
-                           runs[i].hidden.second_diode);
+                           runs[i].hidden.second_diode, ModeOf(options));
     });
     Alarms independent;
     for (int type = 0; type < kNoiseTypes; ++type) {

@@ -57,6 +57,12 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 
+// A fit's sum of squares and what it pays for the parameters that it lets go.
+double Paid(const Workbench& bench, const LawFit& fit) {
+  const double each = std::log(bench.count()) * NoiseVariance(bench, fit);
+  return fit.sum + each * static_cast<double>(fit.law.freed.size());
+}
+
 // The best end of those that the curve's shape suggests.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
@@ -72,7 +78,9 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
     LawFit end = FitLaw(bench, freed, start, briefly);
-    if (end.usable && (!best->usable || end.sum < best->sum)) *best = std::move(end);
+    if (end.usable && (!best->usable || Paid(bench, end) < Paid(bench, *best))) {
+      *best = std::move(end);
+    }
   }
 }
 

@@ -24,13 +24,27 @@ bool StrengthIsAtBound(const Rival& rival) {
          Value(rival, 0) < strength.lower + 1e-3 * slack;
 }
 
-// Causes among unlike cells, the simplest first.
-constexpr std::array<std::string_view, 7> kSimplest = {
-    "shading", "substrings", "mismatch", "leaky_cell", "scatter", "weak_cell", "bypass_open"};
+// Cells of one shaded substring that the shade covers.
+double CoveredCells(const Readings& readings, double part) {
+  return part * readings.traits.cells / std::max(SubstringsOf(readings.traits), 2);
+}
 
-int Complexity(const Effect& effect) {
-  const auto at = std::find(kSimplest.begin(), kSimplest.end(), effect.id);
-  return static_cast<int>(at - kSimplest.begin());
+// Causes among unlike cells, by how much they suppose. A shade that covers part of its substrings
+// supposes more than one that covers them, and where it covers about one cell it is a weak cell.
+int Complexity(const Readings& readings, const Rival& rival) {
+  constexpr double kOneCell = 1.6;
+  constexpr std::array<std::string_view, 8> kInOrder = {"shading",   "mismatch",   "substrings",
+                                                        "scatter",   "leaky_cell", "partly",
+                                                        "weak_cell", "bypass_open"};
+  const std::string_view id = rival.score.effect->id;
+  const auto place = [&](std::string_view one) {
+    return static_cast<int>(std::find(kInOrder.begin(), kInOrder.end(), one) - kInOrder.begin());
+  };
+  if (id != "shading" && id != "substrings") return place(id);
+  const double covered = Value(rival, rival.score.effect->size() - 1);
+  if (covered >= 1) return place(id);
+  return CoveredCells(readings, covered) < kOneCell ? static_cast<int>(kInOrder.size())
+                                                    : place("partly");
 }
 
 // Bends to whatever shape there is: anything that happens during a sweep in one direction, else a
@@ -70,7 +84,8 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 }
 
 std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
-  constexpr double kAboutAsMuch = 0.9, kHardlyMore = 0.98;
+  constexpr double kAboutAsMuch = 0.9, kHardlyMore = 0.98, kMuchSimpler = 0.88;
+  constexpr int kComplex = 5;
   const auto first = [&](auto is_wanted) {
     return static_cast<std::size_t>(std::find_if(rivals.begin(), rivals.end(), is_wanted) -
                                     rivals.begin());
@@ -90,11 +105,15 @@ std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
     if (specific < rivals.size()) best = specific;
   }
   if (!rivals[best].score.effect->groups) return best;
-  const double enough = kHardlyMore * rivals[best].Charged();
+  // What supposes more must explain more.
+  const Rival& likeliest = rivals[best];
+  const int most = Complexity(readings, likeliest);
   for (std::size_t k = 0; k < rivals.size(); ++k) {
-    const Effect& effect = *rivals[k].score.effect;
-    if (!effect.groups || rivals[k].Charged() < enough) continue;
-    if (Complexity(effect) < Complexity(*rivals[best].score.effect)) best = k;
+    if (!rivals[k].score.effect->groups) continue;
+    const int complexity = Complexity(readings, rivals[k]);
+    const double part = most >= kComplex && complexity < kComplex ? kMuchSimpler : kHardlyMore;
+    if (rivals[k].Charged() < part * likeliest.Charged()) continue;
+    if (complexity < Complexity(readings, rivals[best])) best = k;
   }
   return best;
 }

@@ -57,6 +57,10 @@ struct FamilyCurve {
   // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
   std::vector<double> free_parameters;   // empty: not done
   std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
+  // The same with intervals under the errors its residuals show; empty where those are believed to
+  // be independent, or the fit was weighed by them.
+  std::vector<Estimate> free_under_errors;
+  std::optional<ErrorReport> free_errors;
   RmsePair free_rmse;
   // Isc and Voc of that fit beside those of the shared parameters: what the stated conditions miss.
   double isc_excess = kUnknown;  // relative

@@ -67,6 +67,18 @@ Expected<void> AddEffects(Job* job, FitReport* report) {
   return {};
 }
 
+Expected<void> CheckErrorSpec(const FitOptions& options) {
+  if (options.errors.kind == ErrorKind::kWhite) return {};
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "noise weighs the solved current alone: the errors of a reading stand on both sides of the "
+        "measured-current equation");
+  }
+  if (options.loss != Loss::kSquared) return Fail("noise weighs squared residuals: leave out loss");
+  if (!options.polish) return Fail("noise weighs the polish, which is switched off");
+  return {};
+}
+
 Expected<void> Prepare(Job* job, FitReport* report) {
   const IvCurve& curve = job->curve;
   const FitOptions& options = job->options;
@@ -77,6 +89,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
   if (auto valid = ValidateThreads(options.threads); !valid) return valid;
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
+  if (auto fine = CheckErrorSpec(options); !fine) return fine;
   report->device = MakeDevice(options.model, curve.conditions, options.constants);
   auto bounds = MakeBounds(options.bounds, report->device, curve);
   if (!bounds) return tl::unexpected(bounds.error());
@@ -178,19 +191,19 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
 }
 
 // All in the units of reports.
-void FillEstimates(const Job& job, FitReport* report) {
-  const Device& device = report->device;
-  const std::vector<double> searched = Reported(device, report->searched);
-  const std::vector<double> refined = Reported(device, report->refined);
-  report->estimates.clear();
+void FillEstimates(const Job& job, const FitReport& report, std::vector<Estimate>* estimates) {
+  const Device& device = report.device;
+  const std::vector<double> searched = Reported(device, report.searched);
+  const std::vector<double> refined = Reported(device, report.refined);
+  estimates->clear();
   for (int i = 0; i < device.size(); ++i) {
     Estimate e;
     e.info = device.parameters[i];
-    e.bounds = ReportedBounds(device, job.bounds[i], report->refined, i);
+    e.bounds = ReportedBounds(device, job.bounds[i], report.refined, i);
     e.fixed = !std::isnan(job.fixed[i]);
     e.searched = searched[i];
-    if (report->polished) e.refined = refined[i];
-    report->estimates.push_back(std::move(e));
+    if (report.polished) e.refined = refined[i];
+    estimates->push_back(std::move(e));
   }
 }
 
@@ -213,8 +226,11 @@ void FillResults(const Job& job, FitReport* report) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
   }
-  report->criteria = FindInformation(MeanSquare(job.problem, p), static_cast<int>(curve.size()),
-                                     job.free_parameters);
+  const RefineProblem& problem = job.problem;  // whitened or not, these are of plain residuals
+  const double mean_square =
+      MeanSquare(device, problem.objective, p.data(), problem.points, *problem.kernel);
+  report->criteria =
+      FindInformation(mean_square, static_cast<int>(curve.size()), job.free_parameters);
   report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
   report->not_usable_because =
       WhyNotUsable(*report, job.watch.stopped(), job.options.loss != Loss::kSquared);
@@ -265,6 +281,7 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
   echo("polish", options.polish ? "yes" : "no", "yes");
   echo("floor", options.floor ? "yes" : "no", "no");
+  echo("noise", options.errors.name, defaults.errors.name);
   echo("loss", ToText(options.loss), ToText(defaults.loss));
   echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));
   echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
@@ -289,7 +306,7 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
   for (int round = 0; round <= kRestarts; ++round) {
     OrderDiodes(report->device, job->bounds, &end->p, &end->held);
     report->refined = end->p;
-    FillEstimates(*job, report);
+    FillEstimates(*job, *report, &report->estimates);
     report->correlations.clear();
     const IntervalInput input{job->problem,
                               *end,
@@ -309,6 +326,63 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
   }
 }
 
+// Weighs the fit that ended at `end` by the errors of its own residuals, or by those that are
+// stated, and goes on from there until both stand still.
+void WeighAndRefine(Job* job, RefineEnd* end, FitReport* report) {
+  constexpr int kRounds = 5;
+  constexpr double kSettled = 0.01;  // relative, of every size
+  ErrorSpec spec = job->options.errors;
+  ErrorReport errors;
+  errors.weighed = errors.believed = true;
+  errors.stated = spec.kind == ErrorKind::kStated;
+  errors.current_stated = !errors.stated && !job->curve.sigma_A.empty();
+  errors.least_squares = BothRmse(report->device, end->p, job->curve);
+  RefineOptions how;
+  how.stop = job->watch.stop();
+  const RefineProblem plain = job->problem;
+  for (int round = 0; round < kRounds && !job->watch.stopped(); ++round) {
+    if (!errors.stated) {
+      const std::optional<FoundErrors> found = FindErrors(plain, job->curve, *end);
+      if (!found) return;
+      const ErrorSizes &now = found->sizes, &before = spec.sizes;
+      const bool settled = AreClose(now, before, kSettled);
+      spec.sizes = now;
+      errors.gain = found->gain;
+      if (settled) break;
+    }
+    job->problem = WeighByErrors(plain, job->curve, spec, end->p);
+    *end = Refine(job->problem, end->p, how);
+  }
+  errors.sizes = spec.sizes;
+  report->errors = errors;
+}
+
+// What the errors of a plain fit are, and intervals under them where they are believed.
+void FindIntervalsUnderErrors(Job* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
+                              FitReport* report) {
+  constexpr double kLeastGain = 6;  // independent errors would reach it in some 3 % of all curves
+  const bool possible = job->options.loss == Loss::kSquared && report->no_intervals_because.empty();
+  if (job->options.intervals == Intervals::kNone || !possible || job->watch.stopped()) return;
+  const std::optional<FoundErrors> found = FindErrors(job->problem, job->curve, end);
+  if (!found) return;
+  ErrorReport errors;
+  errors.sizes = found->sizes;
+  errors.gain = found->gain;
+  errors.current_stated = !job->curve.sigma_A.empty();
+  errors.believed = found->gain > kLeastGain;
+  report->errors = errors;
+  if (!errors.believed) return;
+  const ErrorModel model =
+      MakeErrorModel(ShapeOfErrors(job->problem, job->curve, end.p), found->sizes);
+  FillEstimates(*job, *report, &report->under_errors);
+  const IntervalInput input{
+      job->problem, end,  ends,  job->options.intervals, job->free_parameters, job->options.threads,
+      &job->watch,  true, &model};
+  std::vector<Correlation> correlations;
+  double condition = 0;
+  FindIntervals(input, &report->under_errors, &correlations, &condition);
+}
+
 // Polishes, finds intervals around what is usable, and says where the polish ended.
 void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, FitReport* report) {
   const FitOptions& options = job->options;
@@ -324,6 +398,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
+  if (options.errors.kind != ErrorKind::kWhite) WeighAndRefine(job, &end, report);
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
@@ -335,6 +410,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   const auto begin = std::chrono::steady_clock::now();
   for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, polish.ends, &end, report);
+  if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
@@ -369,7 +445,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     PolishAndJudge(&job, elites, &report);
   } else {
     report.refined = report.searched;
-    FillEstimates(job, &report);
+    FillEstimates(job, report, &report.estimates);
     FillResults(job, &report);
   }
   report.interrupted = job.watch.stopped();

@@ -18,6 +18,9 @@ struct IntervalInput {
   int threads = 0;
   FitWatch* watch;
   bool final = false;  // true: the profiles go on where one comes upon a lower optimum
+  // The errors that the residuals have, in A, where they are others than the fit took them for: a
+  // profile then goes as much further as the standard error is larger.
+  const ErrorModel* errors = nullptr;
 };
 
 // Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/refine/active_set.h"
+#include "lyrefit/refine/error_model.h"
 
 namespace lyrefit {
 
@@ -26,5 +27,10 @@ struct Spread {
 // `variance`: of a residual, in A^2.
 Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
                   double variance);
+
+// The same of the same fit where the residuals' errors are others than its weights take them for:
+// (J'J)^-1 J'CJ (J'J)^-1 with their covariance C, in A. Without errors of the blocks' own unknowns.
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+                  const ErrorModel& errors);
 
 }  // namespace lyrefit

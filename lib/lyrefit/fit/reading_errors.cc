@@ -1,0 +1,145 @@
+#include "lyrefit/fit/reading_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/linearize.h"
+#include "lyrefit/refine/model_current.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSpare = 3;  // readings beyond the parameters, to find three sizes from
+constexpr double kExactReadings = 1e-11;
+
+// Of the curve; of one that does not reach it, its largest forward voltage.
+double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
+  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
+  return voc > 0 ? voc : problem.voltage_scale_V;
+}
+
+// The problem with independent errors: whose residuals are not whitened.
+RefineProblem Plain(RefineProblem problem) {
+  problem.errors = nullptr;
+  return problem;
+}
+
+}  // namespace
+
+Expected<ErrorSpec> ReadErrorFile(const std::string& path) {
+  constexpr std::uintmax_t kLargestFile = 1U << 16;
+  const auto text = ReadTextFile(path, kLargestFile);
+  if (!text) return tl::unexpected(text.error());
+  const auto json = ParseJson(*text, path);
+  if (!json) return tl::unexpected(json.error());
+  constexpr char kLike[] =
+      R"({"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012})";
+  if (!json->is_object()) {
+    return Fail(fmt::format("expected sizes of errors as an object like {}", kLike), path, 1, 1);
+  }
+  const JsonFields fields(*json, *text, path);
+  ErrorSpec spec{ErrorKind::kStated, {}, path};
+  const std::pair<const char*, double ErrorSizes::*> keys[] = {
+      {"current_noise_A", &ErrorSizes::current_A},
+      {"voltage_noise_V", &ErrorSizes::voltage_V},
+      {"path_of_isc", &ErrorSizes::path}};
+  for (const auto& [key, size] : keys) {
+    const auto number = fields.Number({key});
+    if (!number) return tl::unexpected(number.error());
+    if (!*number) {
+      return Fail(fmt::format("expected \"{}\", as in {}, found no such key", key, kLike), path, 1,
+                  1);
+    }
+    if (!(**number >= 0) || !std::isfinite(**number))
+      return fields.Refuse(key, "a number from 0 up");
+    spec.sizes.*size = **number;
+  }
+  for (const auto& [key, value] : json->items()) {
+    const bool known = std::any_of(std::begin(keys), std::end(keys),
+                                   [&](const auto& one) { return key == one.first; });
+    if (!known) return fields.Refuse(key, "current_noise_A, voltage_noise_V or path_of_isc");
+  }
+  if (!(spec.sizes.current_A + spec.sizes.path > 0)) {
+    return fields.Refuse("current_noise_A", "a size above 0, here or in \"path_of_isc\"");
+  }
+  return spec;
+}
+
+Expected<ErrorSpec> ErrorsNamed(const std::string& name) {
+  if (name == "white") return ErrorSpec();
+  if (name == "field") return ErrorSpec{ErrorKind::kField, {}, name};
+  return ReadErrorFile(name);
+}
+
+ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
+                         const std::vector<double>& p) {
+  const std::size_t points = problem.voltage_V.size();
+  std::vector<double> current(points);
+  ModelCurrents(problem.device, Objective::kSolvedCurrent, p.data(),
+                {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel,
+                current.data(), nullptr);
+  const double voc = OpenCircuit(problem, curve);
+  const bool measured = problem.objective == Objective::kMeasuredCurrent;
+  ErrorShape shape;
+  shape.chain.assign(points, 0);
+  double way = 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    const double voltage = problem.voltage_V[k];
+    const OperatingPoint at = KnownOperatingPoint(problem.device, p.data(), voltage, current[k]);
+    const double factor = ImplicitFactor(problem.device, p.data(), at);
+    // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
+    const double unit = std::sqrt(problem.weights[k]) / (measured ? factor : 1);
+    shape.current.push_back(unit);
+    shape.voltage.push_back(unit * std::fabs(at.conductance_S) * factor);
+    shape.path.push_back(unit * p[kIph] * factor);
+    if (k > 0) way += std::fabs(voltage - problem.voltage_V[k - 1]) / voc;
+    shape.position.push_back(way);
+    if (!curve.sigma_A.empty()) shape.stated.push_back(unit * curve.sigma_A[k]);
+  }
+  return shape;
+}
+
+std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
+                                      const RefineEnd& end) {
+  const RefineProblem plain = Plain(problem);
+  const Linearization now = Linearize(CurveModel(plain), end, end.held);
+  const auto spare = now.jacobian.rows() - now.jacobian.cols();
+  const double smallest = kExactReadings * problem.current_scale_A;
+  const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));
+  if (spare < kSpare || !(rms > smallest)) return {};
+  const ErrorPrior prior = UsualErrors(problem.current_scale_A, OpenCircuit(problem, curve));
+  FoundErrors found =
+      FindErrorSizes(ShapeOfErrors(problem, curve, end.p), prior, now.residual, now.jacobian);
+  if (!curve.sigma_A.empty()) {
+    double squares = 0;
+    for (const double sigma : curve.sigma_A) squares += sigma * sigma;
+    found.sizes.current_A = std::sqrt(squares / static_cast<double>(curve.size()));
+  }
+  return found;
+}
+
+RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
+                            const std::vector<double>& p) {
+  RefineProblem weighed = plain;
+  ErrorShape shape = ShapeOfErrors(plain, curve, p);
+  if (spec.kind == ErrorKind::kStated) shape.stated.clear();
+  ErrorModel errors = MakeErrorModel(shape, spec.sizes);
+  double squares = 0;
+  for (const double white : errors.white) squares += white * white;
+  for (const double path : errors.path) squares += path * path;
+  weighed.noise_A = std::sqrt(squares / static_cast<double>(errors.size()));
+  for (double& white : errors.white) white /= weighed.noise_A;
+  for (double& path : errors.path) path /= weighed.noise_A;
+  weighed.errors = std::make_shared<const ErrorModel>(std::move(errors));
+  return weighed;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/refine/active_set.h"
+#include "lyrefit/refine/error_sizes.h"
+#include "lyrefit/refine/problem.h"
+
+namespace lyrefit {
+
+// What a fit takes the errors of the readings for.
+enum class ErrorKind {
+  kWhite,   // of one size (or as stated in sigma_A), and knowing nothing of each other
+  kField,   // the error model, its three sizes found from the residuals
+  kStated,  // the error model with sizes that somebody knows
+};
+
+struct ErrorSpec {
+  ErrorKind kind = ErrorKind::kWhite;
+  ErrorSizes sizes;            // where they are stated
+  std::string name = "white";  // "white", "field" or the name of the file
+};
+
+// {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}: all three, none below
+// 0, one at least above. Errors carry file, line and column.
+Expected<ErrorSpec> ReadErrorFile(const std::string& path);
+
+// "white", "field", or such a file.
+Expected<ErrorSpec> ErrorsNamed(const std::string& name);
+
+// How errors of the readings show in the weighted residuals of a curve's problem at parameters `p`.
+// The path goes along the readings as they were taken, its length is one Voc. Effects beside the
+// diodes change what the light and the voltages do too little to matter here.
+ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
+                         const std::vector<double>& p);
+
+// The sizes that the residuals at the end of a fit speak for; none where there are too few readings
+// or nothing but rounding.
+std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
+                                      const RefineEnd& end);
+
+// The same problem weighed by errors of the sizes of `spec` about the parameters `p`. Stated sizes
+// take the place of sigma_A, too.
+RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
+                            const std::vector<double>& p);
+
+}  // namespace lyrefit

@@ -98,7 +98,8 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
     // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
     const double unit = std::sqrt(problem.weights[k]) / (measured ? factor : 1);
     shape.current.push_back(unit);
-    shape.voltage.push_back(unit * std::fabs(at.conductance_S) * factor);
+    // Instruments read voltages to a part of what they read.
+    shape.voltage.push_back(unit * std::fabs(at.conductance_S) * factor * std::fabs(voltage) / voc);
     shape.path.push_back(unit * p[kIph] * factor);
     if (k > 0) way += std::fabs(voltage - problem.voltage_V[k - 1]) / voc;
     shape.position.push_back(way);

@@ -34,7 +34,8 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 Expected<ErrorSpec> ErrorsNamed(const std::string& name);
 
 // How errors of the readings show in the weighted residuals of a curve's problem at parameters `p`.
-// The path goes along the readings as they were taken, its length is one Voc. Effects beside the
+// The noise of a voltage is that size at Voc and in proportion to the voltage elsewhere. The path
+// goes along the readings as they were taken, its length is one Voc. Effects beside the
 // diodes change what the light and the voltages do too little to matter here.
 ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p);

@@ -11,7 +11,7 @@ namespace lyrefit {
 // How large the errors of one instrument and one device are.
 struct ErrorSizes {
   double current_A = 0;  // standard deviation of every current by itself
-  double voltage_V = 0;  // of every voltage, which shows by the slope of the curve
+  double voltage_V = 0;  // of a voltage at Voc, which shows by the slope of the curve
   double path = 0;       // of the light, relative, along the sweep, or of what looks like it
 };
 

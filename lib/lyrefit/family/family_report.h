@@ -10,6 +10,7 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
+#include "lyrefit/refine/family_errors.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -122,6 +123,14 @@ struct Coefficient {
   Interval value;
 };
 
+// How large the errors of a family's readings are and what hangs together in them.
+struct FamilyErrors {
+  FamilyErrorKind kind = FamilyErrorKind::kIndependent;
+  FamilyErrorSizes sizes;
+  int tested_curves = 0;  // not fitted, that chose the kind; 0: the fitted ones did
+  double gain = 0;        // twice that in ln likelihood over independent errors
+};
+
 struct FamilyReport {
   std::string version;
   std::string name;
@@ -153,6 +162,10 @@ struct FamilyReport {
   // Half width of the shared intervals when whole curves, not points, are taken as independent
   // (delete-one-curve jackknife); in the order of `estimates`, empty where not done.
   std::vector<Interval> jackknife;
+  // The same when points are what varies, under the errors found; empty where those are
+  // independent.
+  std::optional<FamilyErrors> errors;
+  std::vector<Interval> under_errors;
   SearchOptions search_options;
   SearchSummary search;
   std::string termination;  // of the joint fit

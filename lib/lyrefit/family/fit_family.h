@@ -45,7 +45,7 @@ struct FamilyOptions {
   // and fitted to the solved current. Dark curves are then fitted as well.
   std::vector<EffectUse> with;
   bool force_effects = false;  // also those that data of this kind cannot show
-  ErrorSpec errors;  // of curves fitted one by one, as in FitOptions
+  ErrorSpec errors;            // of curves fitted one by one, as in FitOptions
   FamilyWeights weights = FamilyWeights::kEqual;
   SearchOptions search = FamilySearch();
   int search_curves = 6;  // the search sees so many well-spread curves

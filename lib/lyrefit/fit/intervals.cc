@@ -88,7 +88,11 @@ class IntervalFinder {
 
   Spread SpreadOfModel(const FitModel& model, const FitPoint& point,
                        const std::vector<bool>& held) const {
-    if (input_.errors != nullptr) return FindSpread(model, point, held, *input_.errors);
+    if (input_.errors != nullptr) {
+      return FindSpread(model, point, held, [this](const RowMatrix& rows) {
+        return CovarianceTimes(*input_.errors, rows);
+      });
+    }
     return FindSpread(model, point, held, Variance(input_.problem, input_.end));
   }
 

@@ -12,7 +12,6 @@
 #include "lyrefit/law/current.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/linearize.h"
-#include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
 namespace {
@@ -79,31 +78,36 @@ Expected<ErrorSpec> ErrorsNamed(const std::string& name) {
   return ReadErrorFile(name);
 }
 
+void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
+  const bool measured = at.objective == Objective::kMeasuredCurrent;
+  const std::vector<double> current =
+      SolveCurrents(at.device, at.p.data(), MakePointSet(at.voltage_V, at.current_A));
+  double way = 0;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    const double voltage = at.voltage_V[k];
+    const OperatingPoint point = KnownOperatingPoint(at.device, at.p.data(), voltage, current[k]);
+    const double factor = ImplicitFactor(at.device, at.p.data(), point);
+    // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
+    const double unit = std::sqrt(at.weight[k]) / (measured ? factor : 1);
+    const double slope = std::fabs(point.conductance_S) * factor;
+    shape->current.push_back(unit);
+    // Instruments read voltages to a part of what they read.
+    shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
+    shape->path.push_back(unit * at.p[kIph] * factor);
+    if (k > 0) way += std::fabs(voltage - at.voltage_V[k - 1]) / at.open_circuit_V;
+    shape->position.push_back(way);
+    shape->chain.push_back(chain);
+  }
+}
+
 ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p) {
-  const std::size_t points = problem.voltage_V.size();
-  std::vector<double> current(points);
-  ModelCurrents(problem.device, Objective::kSolvedCurrent, p.data(),
-                {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel,
-                current.data(), nullptr);
-  const double voc = OpenCircuit(problem, curve);
-  const bool measured = problem.objective == Objective::kMeasuredCurrent;
   ErrorShape shape;
-  shape.chain.assign(points, 0);
-  double way = 0;
-  for (std::size_t k = 0; k < points; ++k) {
-    const double voltage = problem.voltage_V[k];
-    const OperatingPoint at = KnownOperatingPoint(problem.device, p.data(), voltage, current[k]);
-    const double factor = ImplicitFactor(problem.device, p.data(), at);
-    // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
-    const double unit = std::sqrt(problem.weights[k]) / (measured ? factor : 1);
-    shape.current.push_back(unit);
-    // Instruments read voltages to a part of what they read.
-    shape.voltage.push_back(unit * std::fabs(at.conductance_S) * factor * std::fabs(voltage) / voc);
-    shape.path.push_back(unit * p[kIph] * factor);
-    if (k > 0) way += std::fabs(voltage - problem.voltage_V[k - 1]) / voc;
-    shape.position.push_back(way);
-    if (!curve.sigma_A.empty()) shape.stated.push_back(unit * curve.sigma_A[k]);
+  AppendErrorShape({problem.device, problem.objective, problem.voltage_V, problem.current_A,
+                    problem.weights, OpenCircuit(problem, curve), p},
+                   0, &shape);
+  for (std::size_t k = 0; k < curve.sigma_A.size(); ++k) {
+    shape.stated.push_back(shape.current[k] * curve.sigma_A[k]);
   }
   return shape;
 }

@@ -33,10 +33,24 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 // "white", "field", or such a file.
 Expected<ErrorSpec> ErrorsNamed(const std::string& name);
 
-// How errors of the readings show in the weighted residuals of a curve's problem at parameters `p`.
-// The noise of a voltage is that size at Voc and in proportion to the voltage elsewhere. The path
-// goes along the readings as they were taken, its length is one Voc. Effects beside the
-// diodes change what the light and the voltages do too little to matter here.
+// A curve's readings and its device at parameters `p`.
+struct ReadingsAt {
+  const Device& device;
+  Objective objective;
+  const std::vector<double>& voltage_V;
+  const std::vector<double>& current_A;
+  const std::vector<double>& weight;  // of the squared residuals
+  double open_circuit_V;
+  const std::vector<double>& p;
+};
+
+// How errors of the readings show in the weighted residuals. The noise of a voltage has its size at
+// Voc and is in proportion to the voltage elsewhere. The path goes along the readings as they were
+// taken, its length is one Voc. Effects beside the diodes change what light and voltages do too
+// little to matter here.
+void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape);
+
+// The same of one curve, with what its readings state.
 ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p);
 

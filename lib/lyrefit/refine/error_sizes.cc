@@ -1,8 +1,9 @@
 #include "lyrefit/refine/error_sizes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "lyrefit/refine/climb.h"
 
 namespace lyrefit {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr int kManyReadings = 4096;
 constexpr int kStartReadings = 1024;
 
-using Logs = std::array<double, 3>;  // ln of current_A, voltage_V, path
+using Logs = std::vector<double>;  // ln of current_A, voltage_V, path
 
 Logs LogsOf(const ErrorSizes& sizes) {
   return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path)};
@@ -42,23 +43,27 @@ Rows EveryNth(const Rows& all, int n) {
   return few;
 }
 
-// ln of the restricted likelihood up to a constant. As RestrictedLogLikelihood, of columns that are
-// nearly orthogonal: their products say it.
-double LogLikelihood(const ErrorModel& errors, const RowMatrix& columns) {
-  RowMatrix rows = columns;
-  double logs = Whiten(errors, {}, rows);
-  const int count = static_cast<int>(rows.cols());
-  Eigen::MatrixXd products = TransposedTimes(Eigen::MatrixXd(rows), Eigen::MatrixXd(rows));
-  for (int i = 0; i + 1 < count; ++i) {  // Cholesky's decomposition; the last pivot is the rest
+// From products with each other of whitened columns, which are nearly independent, the residual
+// last, and ln det of the covariance.
+double RestrictedFromProducts(Eigen::MatrixXd products, double log_determinant) {
+  const Eigen::Index last = products.cols() - 1;
+  for (Eigen::Index i = 0; i < last; ++i) {  // Cholesky's decomposition; the last pivot is the rest
     const double pivot = products(i, i);
     if (!(pivot > 0)) return -HUGE_VAL;
-    logs += std::log(pivot);
-    for (int j = i + 1; j < count; ++j) {
+    log_determinant += std::log(pivot);
+    for (Eigen::Index j = i + 1; j <= last; ++j) {
       const double part = products(j, i) / pivot;
-      for (int k = i + 1; k <= j; ++k) products(j, k) -= part * products(k, i);
+      for (Eigen::Index k = i + 1; k <= j; ++k) products(j, k) -= part * products(k, i);
     }
   }
-  return -0.5 * (logs + std::max(products(count - 1, count - 1), 0.0));
+  return -0.5 * (log_determinant + std::max(products(last, last), 0.0));
+}
+
+double LogLikelihood(const ErrorModel& errors, const RowMatrix& columns) {
+  RowMatrix rows = columns;
+  const double logs = Whiten(errors, {}, rows);
+  const Eigen::MatrixXd white = rows;
+  return RestrictedFromProducts(TransposedTimes(white, white), logs);
 }
 
 double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
@@ -67,62 +72,6 @@ double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   double sum = LogLikelihood(MakeErrorModel(rows.shape, SizesAt(at)), rows.columns);
   for (int i = 0; i < 3; ++i) sum -= 0.5 * std::pow((at[i] - center[i]) / width[i], 2);
   return std::isnan(sum) ? -HUGE_VAL : sum;
-}
-
-// Value, slope and curvature by differences.
-struct Local {
-  double value = 0;
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(3);
-  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(3, 3);
-};
-
-Local LookAround(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
-  constexpr double kStep = 0.05;
-  const auto value = [&](int i, double a, int j, double b) {
-    Logs there = at;
-    there[i] += a;
-    there[j] += b;
-    return LogPosterior(rows, prior, there);
-  };
-  Local local;
-  local.value = LogPosterior(rows, prior, at);
-  Logs up{}, down{};
-  for (int i = 0; i < 3; ++i) {
-    up[i] = value(i, kStep, i, 0);
-    down[i] = value(i, -kStep, i, 0);
-    local.slope[i] = (up[i] - down[i]) / (2 * kStep);
-    local.curvature(i, i) = (up[i] - 2 * local.value + down[i]) / (kStep * kStep);
-    for (int j = 0; j < i; ++j) {
-      const double both = value(i, kStep, j, kStep);
-      const double mixed = (both - up[i] - up[j] + local.value) / (kStep * kStep);
-      local.curvature(i, j) = local.curvature(j, i) = mixed;
-    }
-  }
-  return local;
-}
-
-// Newton's steps uphill, shortened until they lead there.
-Logs Climb(const Rows& rows, const ErrorPrior& prior, Logs at, int most) {
-  constexpr double kLongest = 2;     // of a step, in a logarithm
-  constexpr double kSettled = 3e-3;  // the same
-  for (int step = 0; step < most; ++step) {
-    const Local local = LookAround(rows, prior, at);
-    bool moved = false;
-    double length = 0;
-    for (double damping = 0; damping < 1e6 && !moved; damping = std::max(4 * damping, 0.1)) {
-      Eigen::VectorXd way;
-      const Eigen::MatrixXd damped = damping * Eigen::MatrixXd::Identity(3, 3) - local.curvature;
-      if (!SolvePositive(damped, local.slope, &way)) continue;
-      length = way.cwiseAbs().maxCoeff();
-      if (length > kLongest) way *= kLongest / length;
-      Logs there = at;
-      for (int i = 0; i < 3; ++i) there[i] += way[i];
-      moved = LogPosterior(rows, prior, there) >= local.value;
-      if (moved) at = there;
-    }
-    if (!moved || length < kSettled) break;
-  }
-  return at;
 }
 
 // The best of a coarse grid about the prior and about what the residuals measure.
@@ -134,7 +83,7 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
       std::max(residual.norm() / std::sqrt(typical), 1e-12 * prior.center.current_A);
   const Logs usual = LogsOf(prior.center);
   const double relative = rms_A / prior.center.current_A * prior.width.path;
-  Logs best{};
+  Logs best;
   double highest = -HUGE_VAL;
   for (const double current : {1.0, 0.2}) {
     for (const double voltage : {0.03, 1.0}) {
@@ -198,13 +147,16 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   all.columns.leftCols(basis.cols()) = basis;
   all.columns.rightCols(1) = residual;
   const int rows = static_cast<int>(residual.size());
-  Logs at{};
+  const auto climb = [&](const Rows& on, const Logs& from, int most_steps) {
+    return Climb([&](const Logs& at) { return LogPosterior(on, prior, at); }, from, most_steps);
+  };
+  Logs at;
   if (rows > kManyReadings) {
     const Rows few = EveryNth(all, rows / kStartReadings);
-    at = Climb(few, prior, FindStart(few, prior), 20);
-    at = Climb(all, prior, at, 3);
+    at = climb(few, FindStart(few, prior), 20);
+    at = climb(all, at, 3);
   } else {
-    at = Climb(all, prior, FindStart(all, prior), 30);
+    at = climb(all, FindStart(all, prior), 30);
   }
   FoundErrors found;
   found.sizes = SizesAt(at);

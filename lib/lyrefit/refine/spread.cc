@@ -137,12 +137,12 @@ Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vecto
 }
 
 Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
-                  const ErrorModel& errors) {
+                  const CovarianceProduct& covariance_times) {
   const Linearization now = Linearize(model, point, held);
   Directions found = FindDirections(now);
   const RowMatrix taken = Times(ProjectOut(now), found.half);
   const Eigen::MatrixXd shared =
-      TransposedTimes(Eigen::MatrixXd(taken), Eigen::MatrixXd(CovarianceTimes(errors, taken)));
+      TransposedTimes(Eigen::MatrixXd(taken), Eigen::MatrixXd(covariance_times(taken)));
   found.half = Times(found.half, LowerRoot(shared));
   return SpreadOf(now, found, model.shape().size(), 1);
 }

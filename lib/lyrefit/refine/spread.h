@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/refine/active_set.h"
-#include "lyrefit/refine/error_model.h"
 
 namespace lyrefit {
 
@@ -29,8 +30,10 @@ Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vecto
                   double variance);
 
 // The same of the same fit where the residuals' errors are others than its weights take them for:
-// (J'J)^-1 J'CJ (J'J)^-1 with their covariance C, in A. Without errors of the blocks' own unknowns.
+// (J'J)^-1 J'CJ (J'J)^-1 with their covariance C, in A, of which nothing but its product with rows,
+// one for each residual, is asked. Without errors of the blocks' own unknowns.
+using CovarianceProduct = std::function<RowMatrix(const RowMatrix&)>;
 Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
-                  const ErrorModel& errors);
+                  const CovarianceProduct& covariance_times);
 
 }  // namespace lyrefit

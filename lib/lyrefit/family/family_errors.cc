@@ -17,7 +17,8 @@ constexpr int kMostCurves = 60;  // that sizes are found from
 
 // Residuals of some curves, and how their errors show.
 struct Rows {
-  FamilyErrorShape shape;
+  FamilyErrorShape shape;     // with a path in proportion to each curve's light
+  std::vector<double> light;  // of each curve, W/m2
   Eigen::VectorXd residual;
 };
 
@@ -29,22 +30,33 @@ std::vector<int> SomeOf(int curves) {
   return some;
 }
 
-void AppendCurve(const JointProblem& problem, const JointPoint& point, int c,
-                 FamilyErrorShape* shape) {
+void AppendCurve(const JointProblem& problem, const JointPoint& point, int c, Rows* rows) {
   const JointCurve& curve = problem.curves[c];
   const Device& device = DeviceOf(problem, c);
   const std::vector<double> p = DeviceAt(problem, point, c);
   const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
-  const std::size_t before = shape->readings.path.size();
+  const std::size_t before = rows->shape.readings.path.size();
   AppendErrorShape({device, problem.objective, curve.voltage_V, curve.current_A, curve.weight,
                     voc > 0 ? voc : problem.voltage_scale_V, p},
-                   c, &shape->readings);
+                   c, &rows->shape.readings);
+  rows->light.push_back(curve.irradiance_W_m2);
   if (!problem.translation.extended) return;
   // The photocurrent of such a device is that at the reference.
   const double suns = curve.irradiance_W_m2 / kReferenceIrradiance_W_m2;
-  for (std::size_t k = before; k < shape->readings.path.size(); ++k) {
-    shape->readings.path[k] *= suns;
+  std::vector<double>& path = rows->shape.readings.path;
+  for (std::size_t k = before; k < path.size(); ++k) path[k] *= suns;
+}
+
+// The same with a path in proportion to that power of the light, as it is at `brightest`.
+FamilyErrorShape WithPower(const Rows& rows, double brightest, double power) {
+  FamilyErrorShape shape = rows.shape;
+  for (std::size_t c = 0; c + 1 < shape.first.size(); ++c) {
+    const double light = rows.light[c] / brightest;
+    if (!(light > 0)) continue;  // in the dark there is no path
+    const double factor = std::pow(light, power - 1);
+    for (int k = shape.first[c]; k < shape.first[c + 1]; ++k) shape.readings.path[k] *= factor;
   }
+  return shape;
 }
 
 // Of the wanted curves. A curve's error that the fit has as an unknown is no error of its rows any
@@ -64,7 +76,7 @@ Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<boo
   rows.shape.common = RowMatrix::Zero(now.residual.size(), 2);
   for (std::size_t c = 0; c < problem.curves.size(); ++c) {
     rows.shape.first.push_back(now.first_row[c]);
-    AppendCurve(problem, point, static_cast<int>(c), &rows.shape);
+    AppendCurve(problem, point, static_cast<int>(c), &rows);
     const RowMatrix& local = now.local[c];
     if (local.cols() < 2) continue;
     auto common = rows.shape.common.middleRows(now.first_row[c], local.rows());
@@ -88,30 +100,38 @@ JointPoint Only(const JointPoint& point, const std::vector<int>& curves) {
   return some;
 }
 
-// How well the sizes found from `rows` say the residuals of other curves, or where there are none
-// the same, each size taken for one thing less known.
-double Score(const Rows& rows, const Rows* others, const FamilyErrorSizes& sizes) {
-  if (others != nullptr) return LogLikelihood(others->shape, sizes, others->residual);
+// How well sizes say the residuals; those found from the same ones, each taken for one thing less
+// known.
+double Score(const FamilyErrorShape& shape, const FamilyErrorSizes& sizes,
+             const Eigen::VectorXd& residual, bool same) {
   const double used[] = {sizes.readings.voltage_V, sizes.readings.path, sizes.irradiance,
                          sizes.temperature_K};
   const auto count =
       std::count_if(std::begin(used), std::end(used), [](double s) { return s > 0; });
-  return LogLikelihood(rows.shape, sizes, rows.residual) - static_cast<double>(count);
+  return LogLikelihood(shape, sizes, residual) - (same ? static_cast<double>(count) : 0);
 }
 
-// The kind that scores best, with its sizes.
-FamilyErrors Choose(const Rows& rows, const Rows* others, double isc_A, double voc_V) {
+// Of all kinds and powers of the light the best by `others`, or where there are none by `rows`.
+FamilyErrors ChooseErrors(const Rows& rows, const Rows* others, const JointProblem& problem) {
+  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
   FamilyErrors best;
-  double highest = -HUGE_VAL;
+  double highest = -HUGE_VAL, independent = 0;
   for (const FamilyErrorKind kind :
        {FamilyErrorKind::kIndependent, FamilyErrorKind::kPath, FamilyErrorKind::kCurves}) {
-    const FamilyErrorSizes sizes = FindFamilyErrors(kind, rows.shape, isc_A, voc_V, rows.residual);
-    const double score = Score(rows, others, sizes);
-    if (!(score > highest)) continue;
-    best.gain = kind == FamilyErrorKind::kIndependent ? 0 : best.gain + 2 * (score - highest);
-    highest = score;
-    best.kind = kind;
-    best.sizes = sizes;
+    for (const double power : {1.0, 0.5, 0.0}) {
+      if (kind == FamilyErrorKind::kIndependent && power < 1) continue;
+      const FamilyErrorShape shape = WithPower(rows, brightest, power);
+      const FamilyErrorSizes sizes = FindFamilyErrors(kind, shape, problem.current_scale_A,
+                                                      problem.voltage_scale_V, rows.residual);
+      const double score = others == nullptr ? Score(shape, sizes, rows.residual, true)
+                                             : Score(WithPower(*others, brightest, power), sizes,
+                                                     others->residual, false);
+      if (kind == FamilyErrorKind::kIndependent) independent = score;
+      constexpr double kOneLight = 1e-6;  // curves of one light
+      if (!(score > highest + kOneLight)) continue;
+      highest = score;
+      best = {kind, sizes, power, 0, 2 * (score - independent)};
+    }
   }
   return best;
 }
@@ -181,12 +201,13 @@ void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyR
     not_fitted.quoted = problem.quoted;
     others = RowsOf(std::move(not_fitted), there, fit.end.held);
   }
-  FamilyErrors errors =
-      Choose(rows, held_out ? &others : nullptr, problem.current_scale_A, problem.voltage_scale_V);
+  FamilyErrors errors = ChooseErrors(rows, held_out ? &others : nullptr, problem);
   errors.tested_curves = held_out ? static_cast<int>(tested.size()) : 0;
   report->errors = errors;
   if (errors.kind == FamilyErrorKind::kIndependent) return;
-  const Rows all = RowsOf(problem, point, fit.end.held);
+  Rows all = RowsOf(problem, point, fit.end.held);
+  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
+  all.shape = WithPower(all, brightest, errors.path_power);
   const FamilyModel model(problem);
   const Spread spread = FindSpread(model, model.Pack(point), fit.end.held,
                                    ProductOf(problem, model, all, errors.sizes));

@@ -8,8 +8,9 @@ namespace lyrefit {
 
 // Fills the report's errors and its intervals under them: the joint fit is that of least squares,
 // but points of one curve share the light's path and the errors of the curve's stated light and
-// temperature. How much of that there is, the likelihood of curves that were not fitted decides,
-// where there are some (`rest`, all of them at the joint parameters); else the restricted one.
+// temperature. Which of that there is, and with which power of the light the path grows, the
+// likelihood of curves that were not fitted decides, where there are some (`rest`, at the joint
+// parameters); else that of the fitted ones.
 void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report);
 
 }  // namespace lyrefit

@@ -126,9 +126,10 @@ struct Coefficient {
 // How large the errors of a family's readings are and what hangs together in them.
 struct FamilyErrors {
   FamilyErrorKind kind = FamilyErrorKind::kIndependent;
-  FamilyErrorSizes sizes;
-  int tested_curves = 0;  // not fitted, that chose the kind; 0: the fitted ones did
-  double gain = 0;        // twice that in ln likelihood over independent errors
+  FamilyErrorSizes sizes;  // the path as at the brightest of the curves they were found from
+  double path_power = 1;   // of the light that it grows with from curve to curve
+  int tested_curves = 0;   // not fitted, that chose the kind; 0: the fitted ones did
+  double gain = 0;         // twice that in ln likelihood over independent errors
 };
 
 struct FamilyReport {

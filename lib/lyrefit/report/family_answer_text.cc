@@ -41,9 +41,13 @@ std::string FamilyErrorText(const FamilyReport& report) {
   }
   const FamilyErrorSizes& sizes = errors.sizes;
   std::string shared = fmt::format(
-      "a path of {} of Isc along each curve (light that wanders, or what the model "
-      "misses)",
-      Percent(sizes.readings.path));
+      "a path of {} of Isc along the brightest curve (light that wanders, or what the model "
+      "misses; "
+      "{} light)",
+      Percent(sizes.readings.path),
+      errors.path_power == 1     ? "in proportion to"
+      : errors.path_power == 0.5 ? "growing with the root of the"
+                                 : "of one size at every");
   if (errors.kind == FamilyErrorKind::kCurves) {
     shared += fmt::format(", the stated light of a curve wrong by {}, its temperature by {} K",
                           Percent(sizes.irradiance), Significant(sizes.temperature_K, 2));

@@ -35,6 +35,7 @@ Json FamilyErrorsJson(const std::optional<FamilyErrors>& errors) {
           {"current_noise_A", Number(errors->sizes.readings.current_A)},
           {"voltage_noise_V", Number(errors->sizes.readings.voltage_V)},
           {"path_of_isc", Number(errors->sizes.readings.path)},
+          {"path_power_of_light", Number(errors->path_power)},
           {"curve_irradiance_part", Number(errors->sizes.irradiance)},
           {"curve_temperature_K", Number(errors->sizes.temperature_K)},
           {"tested_curves", errors->tested_curves},

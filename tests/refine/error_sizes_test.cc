@@ -57,18 +57,18 @@ TEST(ErrorSizes, AreFoundFromErrorsOfThatSize) {
   const RowMatrix jacobian = MadeJacobian(150);
   const ErrorSizes truth = {8e-4, 0.012, 1.5e-3};
   constexpr int kDraws = 40;
-  double current = 0, voltage = 0, path = 0;  // means of the logarithms
+  double current = 0, voltage = 0, path = 0;  // mean squares
   for (int seed = 0; seed < kDraws; ++seed) {
     const FoundErrors found =
         FindErrorSizes(shape, UsualErrors(kIsc, kVoc), DrawErrors(shape, truth, seed), jacobian);
-    current += std::log(found.sizes.current_A / truth.current_A) / kDraws;
-    voltage += std::log(found.sizes.voltage_V / truth.voltage_V) / kDraws;
-    path += std::log(found.sizes.path / truth.path) / kDraws;
+    current += std::pow(found.sizes.current_A / truth.current_A, 2) / kDraws;
+    voltage += std::pow(found.sizes.voltage_V / truth.voltage_V, 2) / kDraws;
+    path += std::pow(found.sizes.path / truth.path, 2) / kDraws;
     EXPECT_GT(found.gain, 20) << seed;
   }
-  EXPECT_NEAR(current, 0, 0.1);
-  EXPECT_NEAR(voltage, 0, 0.1);
-  EXPECT_NEAR(path, 0, 0.1);
+  EXPECT_NEAR(current, 1, 0.15);
+  EXPECT_NEAR(voltage, 1, 0.15);
+  EXPECT_NEAR(path, 1, 0.15);
 }
 
 TEST(ErrorSizes, WhiteErrorsDoNotAskForMore) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/family_errors.h"
 #include "lyrefit/refine/family_model.h"
 #include "lyrefit/refine/linearize.h"
 

@@ -10,7 +10,7 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
-#include "lyrefit/refine/family_errors.h"
+#include "lyrefit/refine/error_terms.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

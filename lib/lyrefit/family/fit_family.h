@@ -9,7 +9,7 @@
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
-#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/search/search.h"
 

@@ -10,7 +10,7 @@
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/refine/error_sizes.h"
+#include "lyrefit/refine/error_terms.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

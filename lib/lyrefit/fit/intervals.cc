@@ -11,6 +11,7 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
 #include "lyrefit/refine/thin.h"

@@ -5,6 +5,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {

@@ -1,37 +1,15 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "lyrefit/base/enum_text.h"
-#include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/error_sizes.h"
 #include "lyrefit/refine/problem.h"
 
 namespace lyrefit {
-
-// What a fit takes the errors of the readings for.
-enum class ErrorKind {
-  kWhite,   // of one size (or as stated in sigma_A), and knowing nothing of each other
-  kField,   // the error model, its three sizes found from the residuals
-  kStated,  // the error model with sizes that somebody knows
-};
-
-struct ErrorSpec {
-  ErrorKind kind = ErrorKind::kWhite;
-  ErrorSizes sizes;            // where they are stated
-  std::string name = "white";  // "white", "field" or the name of the file
-};
-
-// {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}: all three, none below
-// 0, one at least above. Errors carry file, line and column.
-Expected<ErrorSpec> ReadErrorFile(const std::string& path);
-
-// "white", "field", or such a file.
-Expected<ErrorSpec> ErrorsNamed(const std::string& name);
 
 // A curve's readings and its device at parameters `p`.
 struct ReadingsAt {

@@ -5,18 +5,9 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/refine/error_model.h"
+#include "lyrefit/refine/error_terms.h"
 
 namespace lyrefit {
-
-// How large the errors of one instrument and one device are.
-struct ErrorSizes {
-  double current_A = 0;  // standard deviation of every current by itself
-  double voltage_V = 0;  // of a voltage at Voc, which shows by the slope of the curve
-  double path = 0;       // of the light, relative, along the sweep, or of what looks like it
-};
-
-// Whether each size is within a relative `tolerance` of the other's.
-bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance);
 
 // What of every reading the sizes multiply, in the unit of the residuals per unit of the size.
 struct ErrorShape {

@@ -4,35 +4,15 @@
 #include <vector>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/base/enum_text.h"
 #include "lyrefit/refine/error_sizes.h"
 
 namespace lyrefit {
-
-// Errors of many curves of one device: those of readings, a path for each curve, and what all
-// readings of one curve share.
-struct FamilyErrorSizes {
-  ErrorSizes readings;
-  double irradiance = 0;     // of a curve's stated light, relative
-  double temperature_K = 0;  // of its stated temperature
-};
 
 // What the sizes multiply, in the unit of the residuals, curves below each other.
 struct FamilyErrorShape {
   ErrorShape readings;     // of each curve its own chain, numbered from 0
   RowMatrix common;        // two columns, by irradiance (relative) and temperature
   std::vector<int> first;  // row of each curve, and the end
-};
-
-// How many of the sizes there are: the simpler kinds are nested in the richer ones.
-enum class FamilyErrorKind { kIndependent, kPath, kCurves };
-
-template <>
-struct EnumTable<FamilyErrorKind> {
-  static constexpr EnumText<FamilyErrorKind> kRows[] = {
-      {FamilyErrorKind::kIndependent, "independent"},
-      {FamilyErrorKind::kPath, "path"},
-      {FamilyErrorKind::kCurves, "curves"}};
 };
 
 // The sizes at which the likelihood of the residuals, times weak priors, is largest. Not the

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {

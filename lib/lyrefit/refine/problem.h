@@ -5,9 +5,10 @@
 
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/kernel.h"
-#include "lyrefit/refine/error_model.h"
 
 namespace lyrefit {
+
+struct ErrorModel;
 
 // A bounded least-squares problem on one curve: minimise the mean of weight x residual^2.
 struct RefineProblem {

@@ -303,6 +303,11 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
                      FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
+  // No few points stand for many that hang together: their profiles would take minutes.
+  constexpr std::size_t kMostProfiled = 2000;
+  const bool many = job->problem.errors != nullptr && job->curve.size() > kMostProfiled;
+  const Intervals method =
+      many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
     OrderDiodes(report->device, job->bounds, &end->p, &end->held);
@@ -312,7 +317,7 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
     const IntervalInput input{job->problem,
                               *end,
                               ends,
-                              wanted ? options.intervals : Intervals::kNone,
+                              wanted ? method : Intervals::kNone,
                               job->free_parameters,
                               options.threads,
                               &job->watch,

@@ -11,6 +11,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/floor.h"
@@ -23,6 +24,7 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
+#include "lyrefit/fit/weigh.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/quote.h"
@@ -65,18 +67,6 @@ Expected<void> AddEffects(Job* job, FitReport* report) {
     job->fixed.push_back(kUnknown);
   }
   for (const EffectUse& use : options.with) report->causes.push_back(use.effect->id);
-  return {};
-}
-
-Expected<void> CheckErrorSpec(const FitOptions& options) {
-  if (options.errors.kind == ErrorKind::kWhite) return {};
-  if (options.objective == Objective::kMeasuredCurrent) {
-    return Fail(
-        "noise weighs the solved current alone: the errors of a reading stand on both sides of the "
-        "measured-current equation");
-  }
-  if (options.loss != Loss::kSquared) return Fail("noise weighs squared residuals: leave out loss");
-  if (!options.polish) return Fail("noise weighs the polish, which is switched off");
   return {};
 }
 
@@ -259,35 +249,6 @@ void FindFloor(Job* job, FitReport* report) {
   if (certificate->interrupted) job->watch.MarkStopped();
 }
 
-void EchoOptions(const FitOptions& options, FitReport* report) {
-  const FitOptions defaults;
-  std::vector<OptionEcho>& echoes = report->non_default_options;
-  const auto echo = [&](const char* name, const std::string& value, const std::string& usual) {
-    if (value != usual) echoes.push_back({name, value, usual});
-  };
-  echo("objective", ToText(options.objective), ToText(defaults.objective));
-  echo("constants", ToText(options.constants), ToText(defaults.constants));
-  echo("bounds", options.bounds.name, defaults.bounds.name);
-  for (const auto& [key, range] : options.bounds.overrides) {
-    echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
-  }
-  for (const EffectUse& use : options.with) echo("with", DescribeUse(use), "");
-  echo("force", options.force_effects ? "yes" : "no", "no");
-  for (const auto& [key, value] : options.fixed)
-    echo("fix", fmt::format("{}={:g}", key, value), "");
-  echo("searcher", options.searcher ? "custom" : "", "");
-  echo("plain-polish", options.plain_polish ? "yes" : "no", "no");
-  echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
-  AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
-  echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
-  echo("polish", options.polish ? "yes" : "no", "yes");
-  echo("floor", options.floor ? "yes" : "no", "no");
-  echo("noise", options.errors.name, defaults.errors.name);
-  echo("loss", ToText(options.loss), ToText(defaults.loss));
-  echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));
-  echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
-}
-
 // Takes `better` as the end of the polish.
 void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& better,
                RefineReport* report) {
@@ -332,37 +293,6 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
   }
 }
 
-// Weighs the fit that ended at `end` by the errors of its own residuals, or by those that are
-// stated, and goes on from there until both stand still.
-void WeighAndRefine(Job* job, RefineEnd* end, FitReport* report) {
-  constexpr int kRounds = 5;
-  constexpr double kSettled = 0.01;  // relative, of every size
-  ErrorSpec spec = job->options.errors;
-  ErrorReport errors;
-  errors.weighed = errors.believed = true;
-  errors.stated = spec.kind == ErrorKind::kStated;
-  errors.current_stated = !errors.stated && !job->curve.sigma_A.empty();
-  errors.least_squares = BothRmse(report->device, end->p, job->curve);
-  RefineOptions how;
-  how.stop = job->watch.stop();
-  const RefineProblem plain = job->problem;
-  for (int round = 0; round < kRounds && !job->watch.stopped(); ++round) {
-    if (!errors.stated) {
-      const std::optional<FoundErrors> found = FindErrors(plain, job->curve, *end);
-      if (!found) return;
-      const ErrorSizes &now = found->sizes, &before = spec.sizes;
-      const bool settled = AreClose(now, before, kSettled);
-      spec.sizes = now;
-      errors.gain = found->gain;
-      if (settled) break;
-    }
-    job->problem = WeighByErrors(plain, job->curve, spec, end->p);
-    *end = Refine(job->problem, end->p, how);
-  }
-  errors.sizes = spec.sizes;
-  report->errors = errors;
-}
-
 // What the errors of a plain fit are, and intervals under them where they are believed.
 void FindIntervalsUnderErrors(Job* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
                               FitReport* report) {
@@ -404,7 +334,11 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
-  if (options.errors.kind != ErrorKind::kWhite) WeighAndRefine(job, &end, report);
+  if (options.errors.kind != ErrorKind::kWhite) {
+    const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
+    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &job->problem, &end);
+    if (report->errors) report->errors->least_squares = least_squares;
+  }
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);

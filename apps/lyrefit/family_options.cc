@@ -118,6 +118,11 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFla
   if (joint && verb.Given("--intervals") && fit.intervals == Intervals::kProfile) {
     return Fail("--intervals: a joint fit has symmetric intervals or none, not profile");
   }
+  if (joint && fit.errors.kind != ErrorKind::kWhite) {
+    return Fail(
+        "--noise: a joint fit weighs by --weights alone; its intervals take the errors of the "
+        "readings and of whole curves into account by themselves");
+  }
   options.law = flags.family == Family::kPvsyst ? TranslationLaw::kPvsyst : TranslationLaw::kDeSoto;
   options.model = fit.model;
   options.objective = fit.objective;
@@ -128,6 +133,7 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFla
   options.free_fits = !flags.no_free_fits;
   options.with = fit.with;
   options.force_effects = fit.force_effects;
+  options.errors = fit.errors;
   options.search = fit.search;
   const SearchOptions usual = FamilyOptions::FamilySearch();
   if (joint && !verb.Given("--population")) options.search.population = usual.population;

@@ -85,6 +85,13 @@ void FitCommand::AddPolishFlags() {
       ->AddSwitch("--floor", &options_.floor,
                   "also prove how low the measured-current RMSE can go within the bounds")
       .Group("Polish");
+  verb_
+      ->AddOption("--noise", &noise_,
+                  "errors of the readings that the polish weighs by: white, field (found from the "
+                  "residuals), or a JSON file with their sizes (default white)")
+      .Type("NAME|FILE")
+      .Group("Polish")
+      .Reads();
   AddEnumFlag(verb_, "--loss", "of the polish", &options_.loss).Group("Polish");
   verb_
       ->AddOption("--loss-scale", &options_.loss_scale,
@@ -124,6 +131,13 @@ Expected<void> FitCommand::SetFixed() {
   if (auto_model_ && !options_.with.empty()) {
     return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
   }
+  return {};
+}
+
+Expected<void> FitCommand::SetErrors() {
+  Expected<ErrorSpec> errors = ErrorsNamed(noise_);
+  if (!errors) return Fail("--noise: " + errors.error().ToString());
+  options_.errors = std::move(*errors);
   return {};
 }
 
@@ -185,7 +199,9 @@ int FitCommand::RunFamilyFit() {
     return Refuse({"--family takes one set of curves: put the files into a folder", {}});
   }
   curve_.file = files_.front();
-  if (auto fixed = SetFixed(); !fixed) return Refuse(fixed.error());
+  for (const auto& checked : {SetFixed(), SetErrors()}) {
+    if (!checked) return Refuse(checked.error());
+  }
   const Expected<FamilyOptions> options =
       FamilyOptionsFromFlags(*verb_, family_, options_, bounds_.ranges);
   if (!options) return Refuse(options.error());
@@ -244,7 +260,7 @@ int FitCommand::Run() {
   }
   if (family_.family) return RunFamilyFit();
   options_.polish = !no_polish_;
-  for (const auto& checked : {SetFixed(), SetKernel(), verb_->CheckFiles()}) {
+  for (const auto& checked : {SetFixed(), SetErrors(), SetKernel(), verb_->CheckFiles()}) {
     if (!checked) return Refuse(checked.error());
   }
   return files_.size() == 1 ? RunOne() : RunMany();

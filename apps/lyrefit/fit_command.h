@@ -26,6 +26,7 @@ class FitCommand {
   void AddPolishFlags();
   int RunFamilyFit();
   Expected<void> SetFixed();
+  Expected<void> SetErrors();
   Expected<void> SetKernel();
   int RunOne();
   int RunMany();
@@ -42,6 +43,7 @@ class FitCommand {
   BoundsFlags bounds_;
   std::vector<std::string> fix_list_;
   std::vector<std::string> with_list_;
+  std::string noise_ = "white";
   std::string kernel_;
   FamilyFlags family_;
   ReportFlags output_;

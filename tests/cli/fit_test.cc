@@ -188,6 +188,45 @@ TEST(Fit, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreadsAndKernel) {
   }
 }
 
+TEST(Fit, WeighsByErrorsThatAreFoundOrStated) {
+  const json plain = FitJson(kRtc);
+  EXPECT_FALSE(plain["errors"]["weighed"]);
+  EXPECT_GT(plain["errors"]["path_of_isc"], 0);
+  const json field = FitJson(kRtc + " --noise field");
+  EXPECT_TRUE(field["errors"]["weighed"]);
+  EXPECT_EQ(field["rmse"]["least_squares"], plain["rmse"]["refined"]);
+  EXPECT_GT(field["rmse"]["refined"]["solved_current_A"],
+            plain["rmse"]["refined"]["solved_current_A"]);
+  const TempFolder folder;
+  const std::string file = folder.Write(
+      "errors.json", R"({"current_noise_A": 1e-3, "voltage_noise_V": 0, "path_of_isc": 2e-3})");
+  const json stated = FitJson(kRtc + " --noise " + file);
+  EXPECT_EQ(stated["errors"]["sizes"], "stated");
+  EXPECT_EQ(stated["errors"]["path_of_isc"], 2e-3);
+  const AppResult text = RunApp("fit " + kRtc + " --noise field");
+  EXPECT_THAT(text.out, HasSubstr("its plain RMSE is not the lowest"));
+}
+
+TEST(Fit, RefusesErrorsItCannotWeighBy) {
+  const TempFolder folder;
+  const std::string file = folder.Write("errors.json", "{\n\"current_noise_A\": -1}");
+  for (const auto& [flags, sentence] :
+       {std::pair<std::string, std::string>{"--noise " + file,
+                                            "errors.json:2:1: expected a number"},
+        {"--noise nothing.json", "nothing.json"},
+        {"--noise field --objective measured-current", "solved current alone"},
+        {"--noise field --no-polish", "switched off"},
+        {"--noise field --loss huber", "leave out loss"}}) {
+    const AppResult result = RunApp("fit " + kRtc + " " + flags);
+    EXPECT_EQ(result.exit_code, 1) << flags;
+    EXPECT_THAT(result.err, HasSubstr(sentence)) << flags;
+  }
+  const AppResult family = RunApp("fit " + std::string(LYREFIT_DATA_DIR) +
+                                  "/s75_constructed --family desoto --noise field");
+  EXPECT_EQ(family.exit_code, 1);
+  EXPECT_THAT(family.err, HasSubstr("--noise"));
+}
+
 TEST(Fit, EndsWith2WhereTheFitIsNotUsable) {
   // A light curve held against a single bad point of the box.
   const AppResult result = RunApp(

@@ -74,6 +74,13 @@ TEST(ErrorModel, LeavesOutReadingsAsIfTheyHadNotBeenTaken) {
   for (int k = 0; k < kRows; ++k) EXPECT_EQ(white.row(k).norm() == 0, used[k] == 0) << k;
 }
 
+TEST(ErrorModel, TimesTheCovarianceIsTheDenseProduct) {
+  const ErrorModel errors = MadeErrors();
+  const RowMatrix rows = Draw(3);
+  const RowMatrix dense = Covariance(errors) * rows;
+  EXPECT_LT((CovarianceTimes(errors, rows) - dense).norm(), 1e-12 * dense.norm());
+}
+
 TEST(ErrorModel, WithoutAPathDividesByTheNoise) {
   ErrorModel errors = MadeErrors();
   errors.path.clear();

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "family/made_family.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/linearize.h"
 #include "lyrefit/refine/refine.h"
 #include "refine/test_curves.h"
 
@@ -153,6 +155,28 @@ TEST(FindSpread, IsTheScatterOfRepeatedMeasurements) {
     EXPECT_NEAR(mean[i], kSingleTruth[i],
                 5 * scatter / std::sqrt(kRepeats) + 0.02 * kSingleTruth[i])
         << i;
+  }
+}
+
+TEST(FindSpread, UnderOtherErrorsIsTheSandwich) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
+                                              kSingleTruth, 1e-3, Objective::kSolvedCurrent);
+  const RefineEnd end = Refine(problem, kSingleTruth);
+  const CurveModel model(problem);
+  const Spread plain = FindSpread(model, end, end.held, 4e-6);
+  const Spread same = FindSpread(model, end, end.held,
+                                 [](const RowMatrix& rows) { return RowMatrix(4e-6 * rows); });
+  // Errors of one shape and nothing else move the parameters by what they are worth.
+  const Linearization now = Linearize(model, end, end.held);
+  const Eigen::MatrixXd inverse = (now.jacobian.transpose() * now.jacobian).inverse();
+  Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(now.residual.size(), 0, 1e-3);
+  const Spread one = FindSpread(model, end, end.held, [&](const RowMatrix& rows) {
+    return RowMatrix(ramp * (ramp.transpose() * rows) + 1e-20 * rows);
+  });
+  const Eigen::VectorXd moved = now.natural_slope * (inverse * (now.jacobian.transpose() * ramp));
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(same.standard_error[i] / plain.standard_error[i], 1, 1e-9) << i;
+    EXPECT_NEAR(one.standard_error[i] / std::fabs(moved[i]), 1, 1e-4) << i;
   }
 }
 

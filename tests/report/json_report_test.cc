@@ -29,7 +29,7 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
       "key_points",      "information", "residuals", "correlations",
       "search",          "refine",      "intervals", "model_choice",
       "options",         "interrupted", "usable",    "not_usable_because",
-      "warnings",        "data"};
+      "warnings",        "data",        "errors"};
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
                                         "iterations", "evaluations", "termination", "message",

@@ -88,6 +88,8 @@ bool SolvePositive(const MatrixXd& a, const VectorXd& b, VectorXd* x) {
 
 VectorXd SolveSymmetric(const MatrixXd& a, const VectorXd& b) { return a.ldlt().solve(b); }
 
+MatrixXd LowerRoot(const MatrixXd& a) { return a.llt().matrixL(); }
+
 RightSingular FindRightSingular(const MatrixXd& a) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.singularValues(), svd.matrixV()};

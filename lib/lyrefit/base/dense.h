@@ -67,6 +67,9 @@ Eigen::MatrixXd SchurComplement(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
 bool SolvePositive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd* x);
 Eigen::VectorXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
+// The lower triangle l of a positive definite `a` = l l'.
+Eigen::MatrixXd LowerRoot(const Eigen::MatrixXd& a);
+
 // Singular values, falling, and the right singular vectors that belong to them, n x their number.
 struct RightSingular {
   Eigen::VectorXd values;

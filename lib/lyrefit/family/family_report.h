@@ -10,6 +10,7 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
+#include "lyrefit/refine/error_terms.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -57,6 +58,10 @@ struct FamilyCurve {
   // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
   std::vector<double> free_parameters;   // empty: not done
   std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
+  // The same with intervals under the errors its residuals show; empty where those are believed to
+  // be independent, or the fit was weighed by them.
+  std::vector<Estimate> free_under_errors;
+  std::optional<ErrorReport> free_errors;
   RmsePair free_rmse;
   // Isc and Voc of that fit beside those of the shared parameters: what the stated conditions miss.
   double isc_excess = kUnknown;  // relative
@@ -118,6 +123,15 @@ struct Coefficient {
   Interval value;
 };
 
+// How large the errors of a family's readings are and what hangs together in them.
+struct FamilyErrors {
+  FamilyErrorKind kind = FamilyErrorKind::kIndependent;
+  FamilyErrorSizes sizes;  // the path as at the brightest of the curves they were found from
+  double path_power = 1;   // of the light that it grows with from curve to curve
+  int tested_curves = 0;   // not fitted, that chose the kind; 0: the fitted ones did
+  double gain = 0;         // twice that in ln likelihood over independent errors
+};
+
 struct FamilyReport {
   std::string version;
   std::string name;
@@ -149,6 +163,10 @@ struct FamilyReport {
   // Half width of the shared intervals when whole curves, not points, are taken as independent
   // (delete-one-curve jackknife); in the order of `estimates`, empty where not done.
   std::vector<Interval> jackknife;
+  // The same when points are what varies, under the errors found; empty where those are
+  // independent.
+  std::optional<FamilyErrors> errors;
+  std::vector<Interval> under_errors;
   SearchOptions search_options;
   SearchSummary search;
   std::string termination;  // of the joint fit

@@ -11,6 +11,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/family_echo.h"
 #include "lyrefit/family/family_effects.h"
+#include "lyrefit/family/family_errors.h"
 #include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
@@ -236,6 +237,10 @@ void Refine(Job* job, FamilyReport* report) {
   report->rmse.refined = FamilyRmse(problem, end.point);
   const QuotedFit quoted = Quote(job->family, job->options, problem, end, job->observer);
   JudgeFamily(quoted, job->options, job->observer, report);
+  if (job->options.intervals && !report->interrupted) {
+    const std::vector<int>& held = job->family.curves.held_out;
+    FindFamilyIntervals(quoted, JointProblemOn(job->family, job->options, held), report);
+  }
   FillCurves(*job, problem, end, report);
   job->stopped = job->stopped || end.stopped || report->interrupted;
   if (!job->stopped) {

@@ -9,6 +9,7 @@
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/search/search.h"
 
@@ -44,6 +45,7 @@ struct FamilyOptions {
   // and fitted to the solved current. Dark curves are then fitted as well.
   std::vector<EffectUse> with;
   bool force_effects = false;  // also those that data of this kind cannot show
+  ErrorSpec errors;            // of curves fitted one by one, as in FitOptions
   FamilyWeights weights = FamilyWeights::kEqual;
   SearchOptions search = FamilySearch();
   int search_curves = 6;  // the search sees so many well-spread curves

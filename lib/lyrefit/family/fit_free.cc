@@ -45,6 +45,8 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
 void FillFreeFit(const FitReport& fit, FamilyCurve* curve) {
   curve->free_parameters = Reported(fit.device, fit.refined);
   curve->free_estimates = fit.estimates;
+  curve->free_under_errors = fit.under_errors;
+  curve->free_errors = fit.errors;
   curve->free_rmse = fit.polished ? fit.rmse.refined : fit.rmse.searched;
 }
 
@@ -97,6 +99,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   fit.with = options.with;
   fit.force_effects = options.force_effects;
   fit.bounds.overrides = options.bounds;
+  fit.errors = options.errors;
   fit.search = options.search;
   fit.random_baseline = false;
   fit.intervals = options.intervals ? Intervals::kProfile : Intervals::kNone;

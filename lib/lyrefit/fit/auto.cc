@@ -98,6 +98,7 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
     FitOptions own = ForModel(options, model, curve);
     own.polish = true;
     own.intervals = Intervals::kNone;  // only the chosen model needs them
+    own.errors = {};
     auto fit = Fit(curve, own, observer);
     if (!fit && fits.empty()) return fit;
     if (!fit) {

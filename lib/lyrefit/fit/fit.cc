@@ -11,17 +11,20 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
+#include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
+#include "lyrefit/fit/weigh.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/quote.h"
@@ -77,6 +80,7 @@ Expected<void> Prepare(Job* job, FitReport* report) {
   if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
   if (auto valid = ValidateThreads(options.threads); !valid) return valid;
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
+  if (auto fine = CheckErrorSpec(options); !fine) return fine;
   report->device = MakeDevice(options.model, curve.conditions, options.constants);
   auto bounds = MakeBounds(options.bounds, report->device, curve);
   if (!bounds) return tl::unexpected(bounds.error());
@@ -178,19 +182,19 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
 }
 
 // All in the units of reports.
-void FillEstimates(const Job& job, FitReport* report) {
-  const Device& device = report->device;
-  const std::vector<double> searched = Reported(device, report->searched);
-  const std::vector<double> refined = Reported(device, report->refined);
-  report->estimates.clear();
+void FillEstimates(const Job& job, const FitReport& report, std::vector<Estimate>* estimates) {
+  const Device& device = report.device;
+  const std::vector<double> searched = Reported(device, report.searched);
+  const std::vector<double> refined = Reported(device, report.refined);
+  estimates->clear();
   for (int i = 0; i < device.size(); ++i) {
     Estimate e;
     e.info = device.parameters[i];
-    e.bounds = ReportedBounds(device, job.bounds[i], report->refined, i);
+    e.bounds = ReportedBounds(device, job.bounds[i], report.refined, i);
     e.fixed = !std::isnan(job.fixed[i]);
     e.searched = searched[i];
-    if (report->polished) e.refined = refined[i];
-    report->estimates.push_back(std::move(e));
+    if (report.polished) e.refined = refined[i];
+    estimates->push_back(std::move(e));
   }
 }
 
@@ -213,8 +217,11 @@ void FillResults(const Job& job, FitReport* report) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
   }
-  report->criteria = FindInformation(MeanSquare(job.problem, p), static_cast<int>(curve.size()),
-                                     job.free_parameters);
+  const RefineProblem& problem = job.problem;  // whitened or not, these are of plain residuals
+  const double mean_square =
+      MeanSquare(device, problem.objective, p.data(), problem.points, *problem.kernel);
+  report->criteria =
+      FindInformation(mean_square, static_cast<int>(curve.size()), job.free_parameters);
   report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
   report->not_usable_because =
       WhyNotUsable(*report, job.watch.stopped(), job.options.loss != Loss::kSquared);
@@ -242,34 +249,6 @@ void FindFloor(Job* job, FitReport* report) {
   if (certificate->interrupted) job->watch.MarkStopped();
 }
 
-void EchoOptions(const FitOptions& options, FitReport* report) {
-  const FitOptions defaults;
-  std::vector<OptionEcho>& echoes = report->non_default_options;
-  const auto echo = [&](const char* name, const std::string& value, const std::string& usual) {
-    if (value != usual) echoes.push_back({name, value, usual});
-  };
-  echo("objective", ToText(options.objective), ToText(defaults.objective));
-  echo("constants", ToText(options.constants), ToText(defaults.constants));
-  echo("bounds", options.bounds.name, defaults.bounds.name);
-  for (const auto& [key, range] : options.bounds.overrides) {
-    echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
-  }
-  for (const EffectUse& use : options.with) echo("with", DescribeUse(use), "");
-  echo("force", options.force_effects ? "yes" : "no", "no");
-  for (const auto& [key, value] : options.fixed)
-    echo("fix", fmt::format("{}={:g}", key, value), "");
-  echo("searcher", options.searcher ? "custom" : "", "");
-  echo("plain-polish", options.plain_polish ? "yes" : "no", "no");
-  echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
-  AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
-  echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
-  echo("polish", options.polish ? "yes" : "no", "yes");
-  echo("floor", options.floor ? "yes" : "no", "no");
-  echo("loss", ToText(options.loss), ToText(defaults.loss));
-  echo("loss-scale", NumberText(options.loss_scale), NumberText(defaults.loss_scale));
-  echo("intervals", ToText(options.intervals), ToText(defaults.intervals));
-}
-
 // Takes `better` as the end of the polish.
 void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& better,
                RefineReport* report) {
@@ -285,16 +264,21 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
                      FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
+  // No few points stand for many that hang together: their profiles would take minutes.
+  constexpr std::size_t kMostProfiled = 2000;
+  const bool many = job->problem.errors != nullptr && job->curve.size() > kMostProfiled;
+  const Intervals method =
+      many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
     OrderDiodes(report->device, job->bounds, &end->p, &end->held);
     report->refined = end->p;
-    FillEstimates(*job, report);
+    FillEstimates(*job, *report, &report->estimates);
     report->correlations.clear();
     const IntervalInput input{job->problem,
                               *end,
                               ends,
-                              wanted ? options.intervals : Intervals::kNone,
+                              wanted ? method : Intervals::kNone,
                               job->free_parameters,
                               options.threads,
                               &job->watch,
@@ -307,6 +291,32 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
     *end = Refine(job->problem, better, how);
     StartOver(*job, *end, better, &report->refine);
   }
+}
+
+// What the errors of a plain fit are, and intervals under them where they are believed.
+void FindIntervalsUnderErrors(Job* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
+                              FitReport* report) {
+  constexpr double kLeastGain = 6;  // independent errors would reach it in some 3 % of all curves
+  const bool possible = job->options.loss == Loss::kSquared && report->no_intervals_because.empty();
+  if (job->options.intervals == Intervals::kNone || !possible || job->watch.stopped()) return;
+  const std::optional<FoundErrors> found = FindErrors(job->problem, job->curve, end);
+  if (!found) return;
+  ErrorReport errors;
+  errors.sizes = found->sizes;
+  errors.gain = found->gain;
+  errors.current_stated = !job->curve.sigma_A.empty();
+  errors.believed = found->gain > kLeastGain;
+  report->errors = errors;
+  if (!errors.believed) return;
+  const ErrorModel model =
+      MakeErrorModel(ShapeOfErrors(job->problem, job->curve, end.p), found->sizes);
+  FillEstimates(*job, *report, &report->under_errors);
+  const IntervalInput input{
+      job->problem, end,  ends,  job->options.intervals, job->free_parameters, job->options.threads,
+      &job->watch,  true, &model};
+  std::vector<Correlation> correlations;
+  double condition = 0;
+  FindIntervals(input, &report->under_errors, &correlations, &condition);
 }
 
 // Polishes, finds intervals around what is usable, and says where the polish ended.
@@ -324,6 +334,11 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
+  if (options.errors.kind != ErrorKind::kWhite) {
+    const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
+    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &job->problem, &end);
+    if (report->errors) report->errors->least_squares = least_squares;
+  }
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
@@ -335,6 +350,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   const auto begin = std::chrono::steady_clock::now();
   for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, polish.ends, &end, report);
+  if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds =
@@ -369,7 +385,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     PolishAndJudge(&job, elites, &report);
   } else {
     report.refined = report.searched;
-    FillEstimates(job, &report);
+    FillEstimates(job, report, &report.estimates);
     FillResults(job, &report);
   }
   report.interrupted = job.watch.stopped();

@@ -9,6 +9,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/fit/bounds.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/kernel.h"
@@ -57,6 +58,10 @@ struct FitOptions {
   bool plain_polish =
       false;  // also try one bounded least-squares solve from the best bird, and nothing more
   bool floor = false;  // also prove how low the measured-current RMSE can go within the bounds
+  // What the polish and the intervals take the errors of the readings for. kWhite: the estimates
+  // are those of least squares, and where the residuals ask for it intervals under the error model
+  // stand beside theirs. The others need the solved current and squared residuals.
+  ErrorSpec errors;
   Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
   Intervals intervals =

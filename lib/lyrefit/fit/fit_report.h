@@ -10,6 +10,7 @@
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
+#include "lyrefit/refine/error_terms.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -145,6 +146,18 @@ struct ModelChoice {
   std::string sentence;
 };
 
+// The errors of the readings as their residuals, or somebody, say they are.
+struct ErrorReport {
+  ErrorSizes sizes;
+  bool stated = false;          // by whoever asked for the fit
+  bool current_stated = false;  // current_A is the readings' own sigma_A
+  double gain = kUnknown;       // see FoundErrors; NaN where stated
+  bool weighed = false;         // the estimates are weighed by them
+  // They say clearly more than independent errors: intervals under them are those to believe.
+  bool believed = false;
+  RmsePair least_squares;  // where weighed: of the fit with the lowest RMSE
+};
+
 struct FitReport {
   std::string version;  // of lyrefit
   IvCurve curve;
@@ -157,7 +170,11 @@ struct FitReport {
   std::vector<double> best_bird_polished;
   std::vector<double> refined;  // equal to `searched` where there was no polish
   bool polished = false;
-  std::vector<Estimate> estimates;  // in the device's order
+  std::vector<Estimate> estimates;    // in the device's order
+  std::optional<ErrorReport> errors;  // none: not looked for, or too few readings
+  // The estimates with intervals under these errors, beside those that take them for independent.
+  // Empty where they are not believed, or where `estimates` have them already.
+  std::vector<Estimate> under_errors;
   double nNsVth = kUnknown;  // modified ideality of the first diode, in volt, as pvlib wants it
   RmseTable rmse;
   std::optional<FloorReport> floor;  // where it was asked for

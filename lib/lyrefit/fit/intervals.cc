@@ -11,6 +11,7 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
 #include "lyrefit/refine/thin.h"
@@ -50,7 +51,7 @@ class IntervalFinder {
   std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
     MarkBounds();
     if (input_.method == Intervals::kNone) return {};
-    Spread spread = SpreadOfQuoted();
+    Spread spread = SpreadOfQuoted(input_.end.held);
     // Where a direction is open, one curve's straight lines say little of the others: profiles do.
     if (spread.open.cols() > 0) spread = Unknown();
     *condition = spread.condition;
@@ -58,6 +59,7 @@ class IntervalFinder {
       estimates_[i].standard_error = spread.standard_error[i];
       if (!estimates_[i].fixed) Symmetric(i);
     }
+    FindStretch();
     FindCorrelations(spread, correlations);
     if (input_.method == Intervals::kProfile && ResidualsAreNoise()) {
       FindOtherValleys();
@@ -76,15 +78,42 @@ class IntervalFinder {
     return std::sqrt(input_.end.mean_square) > 1e-11 * input_.problem.current_scale_A;
   }
 
-  Spread SpreadOfQuoted() const {
-    const double variance = Variance(input_.problem, input_.end);
-    std::vector<bool> held = input_.end.held;
+  Spread SpreadOfQuoted(std::vector<bool> held) const {
     if (input_.problem.device.extension == nullptr) {
-      return FindSpread(CurveModel(input_.problem), input_.end, held, variance);
+      return SpreadOfModel(CurveModel(input_.problem), input_.end, held);
     }
     const std::vector<bool> flat = FindFlat(input_.problem, quoted_);
     for (int i = 0; i < size_; ++i) held[i] = held[i] || flat[i];
-    return FindSpread(QuotedModel(input_.problem), {quoted_, {}}, held, variance);
+    return SpreadOfModel(QuotedModel(input_.problem), {quoted_, {}}, held);
+  }
+
+  Spread SpreadOfModel(const FitModel& model, const FitPoint& point,
+                       const std::vector<bool>& held) const {
+    if (input_.errors != nullptr) {
+      return FindSpread(model, point, held, [this](const RowMatrix& rows) {
+        return CovarianceTimes(*input_.errors, rows);
+      });
+    }
+    return FindSpread(model, point, held, Variance(input_.problem, input_.end));
+  }
+
+  // By how much the errors stretch what the fit itself would say; of a parameter at its bound by
+  // how much they would if it were not there, or at most stretch the others.
+  void FindStretch() {
+    stretch_.assign(size_, 1);
+    if (input_.errors == nullptr) return;
+    std::vector<bool> fixed(size_);
+    for (int i = 0; i < size_; ++i) fixed[i] = estimates_[i].fixed;
+    IntervalInput plain = input_;
+    plain.errors = nullptr;
+    const Spread own = IntervalFinder(plain, &estimates_).SpreadOfQuoted(fixed);
+    const Spread under = SpreadOfQuoted(fixed);
+    double largest = 1;
+    for (int i = 0; i < size_; ++i) {
+      stretch_[i] = under.standard_error[i] / own.standard_error[i];
+      if (std::isfinite(stretch_[i])) largest = std::max(largest, stretch_[i]);
+    }
+    for (double& stretch : stretch_) stretch = std::isfinite(stretch) ? stretch : largest;
   }
 
   Spread Unknown() const {
@@ -96,6 +125,7 @@ class IntervalFinder {
 
   // Of a residual of weight 1; few points stand for many, and count as them.
   double Variance(const RefineProblem& problem, const RefineEnd& end) const {
+    if (problem.errors != nullptr) return problem.noise_A * problem.noise_A;  // as it is believed
     return end.mean_square * static_cast<double>(problem.voltage_V.size()) / degrees_;
   }
 
@@ -137,7 +167,8 @@ class IntervalFinder {
       if (saturation != saturation_currents || !NeedsProfile(i)) continue;
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_, Variance(few_, few_end_), estimates_[i].standard_error,
+        queries.push_back({i, upper, t_ * stretch_[i], Variance(few_, few_end_),
+                           estimates_[i].standard_error / stretch_[i],
                            /*end_at_better=*/!input_.final && !Thinned(), valleys_});
       }
     }
@@ -147,7 +178,8 @@ class IntervalFinder {
   void FindOtherValleys() {
     if (input_.problem.device.extension == nullptr) return;
     const double points = static_cast<double>(input_.problem.voltage_V.size());
-    const double rise = t_ * t_ * Variance(input_.problem, input_.end) / points;
+    const double reach = t_ * *std::max_element(stretch_.begin(), stretch_.end());
+    const double rise = reach * reach * Variance(input_.problem, input_.end) / points;
     valleys_ = FindValleys(input_.problem, input_.end, input_.ends, input_.end.mean_square + rise,
                            input_.watch->stop());
     for (const FitPoint& valley : valleys_) TakeIfBetter(valley.p);
@@ -297,6 +329,7 @@ class IntervalFinder {
   const std::vector<double> neutral_;  // of effects' parameters, likewise
   int degrees_ = 1;
   double t_ = 2;
+  std::vector<double> stretch_;  // of t, by the errors
   RefineProblem few_;
   RefineEnd few_end_;
   std::vector<FitPoint> valleys_;  // what fits as well

@@ -5,6 +5,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -18,6 +19,9 @@ struct IntervalInput {
   int threads = 0;
   FitWatch* watch;
   bool final = false;  // true: the profiles go on where one comes upon a lower optimum
+  // The errors that the residuals have, in A, where they are others than the fit took them for: a
+  // profile then goes as much further as the standard error is larger.
+  const ErrorModel* errors = nullptr;
 };
 
 // Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and

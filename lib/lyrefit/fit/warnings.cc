@@ -112,11 +112,13 @@ void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
 
 void WarnOfResiduals(const FitReport& report, Sentences* out) {
   if (!(report.residuals.runs_p_value < 0.01)) return;
+  const bool allowed_for = report.errors && report.errors->believed;
   out->push_back(fmt::format(
       "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): "
-      "the "
-      "model misses something, and intervals are too narrow",
-      report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value));
+      "the model misses something, or the light wandered; {}",
+      report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value,
+      allowed_for ? "the intervals under the error model allow for it"
+                  : "the intervals are too narrow"));
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include "lyrefit/refine/curve_model.h"
 
-#include <cmath>
 #include <utility>
 
-#include "lyrefit/refine/model_current.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -30,15 +28,7 @@ CurveModel::CurveModel(std::unique_ptr<RefineProblem> own)
 
 bool CurveModel::Evaluate(int /*block*/, const double* p, const double* /*local*/,
                           double* residuals, double* slopes, double* /*local_slopes*/) const {
-  ModelCurrents(problem_.device, problem_.objective, p,
-                {problem_.voltage_V, problem_.current_A, problem_.points}, *problem_.kernel,
-                residuals, slopes);
-  const int count = problem_.device.size();
-  for (std::size_t k = 0; k < problem_.voltage_V.size(); ++k) {
-    const double root = std::sqrt(problem_.weights[k]);
-    residuals[k] = (residuals[k] - problem_.current_A[k]) * root;
-    for (int i = 0; slopes != nullptr && i < count; ++i) slopes[k * count + i] *= root;
-  }
+  Residuals(problem_, p, residuals, slopes);
   return true;
 }
 
@@ -47,7 +37,7 @@ double CurveModel::MeanSquare(const FitPoint& point) const {
 }
 
 std::unique_ptr<FitModel> CurveModel::Few() const {
-  if (problem_.voltage_V.size() <= kFewPoints || problem_.device.extension) return nullptr;
+  if (!CanThin(problem_)) return nullptr;
   return std::unique_ptr<FitModel>(new CurveModel(std::make_unique<RefineProblem>(Thin(problem_))));
 }
 

@@ -37,6 +37,29 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
   return logs;
 }
 
+RowMatrix CovarianceTimes(const ErrorModel& errors, const RowMatrix& rows) {
+  RowMatrix product = rows;
+  for (int k = 0; k < errors.size(); ++k) product.row(k) *= errors.white[k] * errors.white[k];
+  if (errors.path.empty()) return product;
+  // What each reading shares with those before it and itself, then with those after it.
+  const auto kept = [&](int a, int b) {
+    return errors.chain[a] == errors.chain[b] ? std::exp(errors.position[a] - errors.position[b])
+                                              : 0.0;
+  };
+  Eigen::RowVectorXd shared = Eigen::RowVectorXd::Zero(rows.cols());
+  for (int k = 0; k < errors.size(); ++k) {
+    if (k > 0) shared *= kept(k - 1, k);
+    shared += errors.path[k] * rows.row(k);
+    product.row(k) += errors.path[k] * shared;
+  }
+  shared.setZero();
+  for (int k = errors.size() - 2; k >= 0; --k) {
+    shared = kept(k, k + 1) * (shared + errors.path[k + 1] * rows.row(k + 1));
+    product.row(k) += errors.path[k] * shared;
+  }
+  return product;
+}
+
 double RestrictedLogLikelihood(const ErrorModel& errors, const std::vector<char>& used,
                                const Eigen::VectorXd& residual, const RowMatrix& jacobian) {
   const int columns = static_cast<int>(jacobian.cols());

@@ -28,6 +28,9 @@ struct ErrorModel {
 // are. Returns the sum of ln variance of the innovations, which is ln det cov of the used rows.
 double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows);
 
+// The covariance times rows, one for each reading; in proportion to them.
+RowMatrix CovarianceTimes(const ErrorModel& errors, const RowMatrix& rows);
+
 // ln of the restricted likelihood, up to a constant: of the errors, given residuals and their
 // derivatives by what was fitted to them (Patterson and Thompson 1971,
 // doi:10.1093/biomet/58.3.545).

@@ -7,6 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "lyrefit/refine/error_model.h"
+#include "lyrefit/refine/model_current.h"
+
 namespace lyrefit {
 namespace {
 
@@ -43,7 +46,27 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
   return problem;
 }
 
+void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes) {
+  ModelCurrents(problem.device, problem.objective, p,
+                {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel, residuals,
+                slopes);
+  const int points = static_cast<int>(problem.voltage_V.size()), count = problem.device.size();
+  for (int k = 0; k < points; ++k) {
+    const double root = std::sqrt(problem.weights[k]);
+    residuals[k] = (residuals[k] - problem.current_A[k]) * root;
+    for (int i = 0; slopes != nullptr && i < count; ++i) slopes[k * count + i] *= root;
+  }
+  if (problem.errors == nullptr) return;
+  Whiten(*problem.errors, {}, Eigen::Map<RowMatrix>(residuals, points, 1));
+  if (slopes != nullptr) Whiten(*problem.errors, {}, Eigen::Map<RowMatrix>(slopes, points, count));
+}
+
 double MeanSquare(const RefineProblem& problem, const std::vector<double>& p) {
+  if (problem.errors != nullptr) {
+    Eigen::VectorXd residuals(problem.voltage_V.size());
+    Residuals(problem, p.data(), residuals.data(), nullptr);
+    return residuals.squaredNorm() / static_cast<double>(residuals.size());
+  }
   return MeanSquare(problem.device, problem.objective, p.data(), problem.points, *problem.kernel);
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
+
+struct ErrorModel;
 
 // A bounded least-squares problem on one curve: minimise the mean of weight x residual^2.
 struct RefineProblem {
@@ -14,7 +17,11 @@ struct RefineProblem {
   std::vector<double> voltage_V;
   std::vector<double> current_A;
   std::vector<double> weights;  // of the squared residuals, mean 1
-  std::vector<double> lower;    // of each parameter; lower == upper: fixed
+  // Where it is known how the errors hang together: in parts of `noise_A`, of weighted residuals,
+  // which are whitened by it and then have noise_A as their standard deviation. None: independent.
+  std::shared_ptr<const ErrorModel> errors;
+  double noise_A = 0;
+  std::vector<double> lower;  // of each parameter; lower == upper: fixed
   std::vector<double> upper;
   const Kernel* kernel = nullptr;
   PointSet points;  // the same points, laid out for the kernel
@@ -32,7 +39,11 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
                                 std::vector<double> current_A, std::vector<double> weights,
                                 std::vector<double> lower, std::vector<double> upper);
 
-// Weighted mean square of the problem's own objective, in A^2.
+// Residuals of the problem's own objective in ampere, weighted and whitened; where `slopes` is
+// given, their derivatives by the device's parameters, row by row.
+void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes);
+
+// Mean square of them, in A^2.
 double MeanSquare(const RefineProblem& problem, const std::vector<double>& p);
 
 }  // namespace lyrefit

@@ -103,16 +103,10 @@ std::vector<double> FindLocalErrors(const Linearization& now, const Directions& 
   return errors;
 }
 
-}  // namespace
-
-Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
-                  double variance) {
-  const int count = model.shape().size();
+Spread SpreadOf(const Linearization& now, const Directions& found, int count, double variance) {
   Spread spread;
   spread.standard_error.assign(count, std::numeric_limits<double>::quiet_NaN());
   spread.correlation = Eigen::MatrixXd::Zero(count, count);
-  const Linearization now = Linearize(model, point, held);
-  const Directions found = FindDirections(now);
   spread.condition = found.condition;
   const Eigen::MatrixXd natural = Times(now.natural_slope, found.half);
   spread.covariance = TimesTransposed(natural, variance);
@@ -128,8 +122,29 @@ Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vecto
       if (norm > 0) spread.correlation(i, j) = natural.row(i).dot(natural.row(j)) / norm;
     }
   }
+  return spread;
+}
+
+}  // namespace
+
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+                  double variance) {
+  const Linearization now = Linearize(model, point, held);
+  const Directions found = FindDirections(now);
+  Spread spread = SpreadOf(now, found, model.shape().size(), variance);
   spread.local_error = FindLocalErrors(now, found, variance);
   return spread;
+}
+
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+                  const CovarianceProduct& covariance_times) {
+  const Linearization now = Linearize(model, point, held);
+  Directions found = FindDirections(now);
+  const RowMatrix taken = Times(ProjectOut(now), found.half);
+  const Eigen::MatrixXd shared =
+      TransposedTimes(Eigen::MatrixXd(taken), Eigen::MatrixXd(covariance_times(taken)));
+  found.half = Times(found.half, LowerRoot(shared));
+  return SpreadOf(now, found, model.shape().size(), 1);
 }
 
 }  // namespace lyrefit

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/refine/active_set.h"
 
 namespace lyrefit {
@@ -26,5 +28,12 @@ struct Spread {
 // `variance`: of a residual, in A^2.
 Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
                   double variance);
+
+// The same of the same fit where the residuals' errors are others than its weights take them for:
+// (J'J)^-1 J'CJ (J'J)^-1 with their covariance C, in A, of which nothing but its product with rows,
+// one for each residual, is asked. Without errors of the blocks' own unknowns.
+using CovarianceProduct = std::function<RowMatrix(const RowMatrix&)>;
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+                  const CovarianceProduct& covariance_times);
 
 }  // namespace lyrefit

@@ -168,9 +168,14 @@ void AddConstant(double squares, Points* points) {
 
 }  // namespace
 
+// Effects act on readings, of which no few stand for many; and errors do that hang together.
+bool CanThin(const RefineProblem& problem) {
+  return problem.voltage_V.size() > kFewPoints && problem.device.extension == nullptr &&
+         problem.errors == nullptr;
+}
+
 RefineProblem Thin(const RefineProblem& problem) {
-  // Effects act on readings, of which no few stand for many.
-  if (problem.voltage_V.size() <= kFewPoints || problem.device.extension != nullptr) return problem;
+  if (!CanThin(problem)) return problem;
   const bool smooth = problem.objective == Objective::kSolvedCurrent;
   const std::vector<int> order = VoltageOrder(problem.voltage_V);
   const std::vector<Iterator> begins =

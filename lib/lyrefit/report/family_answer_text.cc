@@ -24,21 +24,71 @@ std::string WithRange(const Interval& interval, const std::string& unit) {
   return text;
 }
 
-std::string JackknifeTable(const FamilyReport& report) {
-  if (report.jackknife.size() != report.estimates.size()) return "";
-  TextTable table("lll");
-  table.Add({"", "points", "whole curves"});
-  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
-    const Estimate& e = report.estimates[i];
-    if (e.fixed) continue;
-    const Interval& jackknife = report.jackknife[i];
-    table.Add({LabelWithUnit(e.info), Range(e.low_95, e.high_95),
-               Range(jackknife.low_95, jackknife.high_95)});
+std::string Percent(double part) { return Significant(100 * part, 2) + " %"; }
+
+// What hangs together in the errors, in a sentence each.
+std::string FamilyErrorText(const FamilyReport& report) {
+  if (!report.errors) return "";
+  const FamilyErrors& errors = *report.errors;
+  const std::string by =
+      errors.tested_curves > 0
+          ? fmt::format("{} that were not fitted say", Plural(errors.tested_curves, "curve"))
+          : "the fitted curves say";
+  if (errors.kind == FamilyErrorKind::kIndependent) {
+    return Wrap("  ", fmt::format("Errors of the readings: {} that they are independent of each "
+                                  "other.",
+                                  by));
+  }
+  const FamilyErrorSizes& sizes = errors.sizes;
+  std::string shared = fmt::format(
+      "a path of {} of Isc along the brightest curve (light that wanders, or what the model "
+      "misses; "
+      "{} light)",
+      Percent(sizes.readings.path),
+      errors.path_power == 1     ? "in proportion to"
+      : errors.path_power == 0.5 ? "growing with the root of the"
+                                 : "of one size at every");
+  if (errors.kind == FamilyErrorKind::kCurves) {
+    shared += fmt::format(", the stated light of a curve wrong by {}, its temperature by {} K",
+                          Percent(sizes.irradiance), Significant(sizes.temperature_K, 2));
   }
   return Wrap("  ",
-              "95 % intervals, with points and with whole curves (each left out in turn) as what "
-              "varies independently:") +
-         table.Text();
+              fmt::format("Errors of the readings: {} A of a current, {} V of a voltage at Voc, "
+                          "and beside these {}; {} so. Believe intervals of points with these "
+                          "errors, or of whole curves, not those of independent points.",
+                          Significant(sizes.readings.current_A, 2),
+                          Significant(sizes.readings.voltage_V, 2), shared, by));
+}
+
+// What the shared intervals are when something else than independent points varies.
+std::string OtherIntervals(const FamilyReport& report) {
+  const std::size_t count = report.estimates.size();
+  const bool jackknife = report.jackknife.size() == count;
+  const bool under = report.under_errors.size() == count;
+  if (!jackknife && !under) return FamilyErrorText(report);
+  const auto row = [&](const std::string& label, const std::string& points,
+                       const std::string& with_errors, const std::string& curves) {
+    std::vector<std::string> cells = {label, points};
+    if (under) cells.push_back(with_errors);
+    if (jackknife) cells.push_back(curves);
+    return cells;
+  };
+  const auto range = [](const std::vector<Interval>& intervals, std::size_t i) {
+    return i < intervals.size() ? Range(intervals[i].low_95, intervals[i].high_95) : "";
+  };
+  TextTable table(under && jackknife ? "llll" : "lll");
+  table.Add(row("", "points", "points with errors", "whole curves"));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Estimate& e = report.estimates[i];
+    if (e.fixed) continue;
+    table.Add(row(LabelWithUnit(e.info), Range(e.low_95, e.high_95), range(report.under_errors, i),
+                  range(report.jackknife, i)));
+  }
+  const std::string what = std::string("95 % intervals, with independent points") +
+                           (under ? ", points with the errors below" : "") +
+                           (jackknife ? " and whole curves (each left out in turn)" : "") +
+                           " as what varies:";
+  return Wrap("  ", what) + table.Text() + FamilyErrorText(report);
 }
 
 }  // namespace
@@ -54,7 +104,7 @@ std::string FamilyParameterSection(const FamilyReport& report) {
   }
   std::string text = "Shared parameters at 1000 W/m2 and 25 C\n" + table.Text();
   text += UnidentifiableNotes(report.estimates);
-  text += JackknifeTable(report);
+  text += OtherIntervals(report);
   const std::string correlations = CorrelationsText(report.correlations);
   if (!correlations.empty()) text += Field("correlations", correlations + " (above 0.9)");
   return text;

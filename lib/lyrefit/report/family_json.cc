@@ -22,9 +22,24 @@ Json SharedJson(const FamilyReport& report) {
     const Estimate& e = report.estimates[i];
     Json one = EstimateJson(e, true);
     one["jackknife"] = i < report.jackknife.size() ? IntervalJson(report.jackknife[i]) : nullptr;
+    const bool under = i < report.under_errors.size();
+    one["under_errors"] = under ? IntervalJson(report.under_errors[i]) : nullptr;
     parameters[e.info.name] = std::move(one);
   }
   return parameters;
+}
+
+Json FamilyErrorsJson(const std::optional<FamilyErrors>& errors) {
+  if (!errors) return nullptr;
+  return {{"kind", ToText(errors->kind)},
+          {"current_noise_A", Number(errors->sizes.readings.current_A)},
+          {"voltage_noise_V", Number(errors->sizes.readings.voltage_V)},
+          {"path_of_isc", Number(errors->sizes.readings.path)},
+          {"path_power_of_light", Number(errors->path_power)},
+          {"curve_irradiance_part", Number(errors->sizes.irradiance)},
+          {"curve_temperature_K", Number(errors->sizes.temperature_K)},
+          {"tested_curves", errors->tested_curves},
+          {"gain", Number(errors->gain)}};
 }
 
 // Shared values by name, without what is known about them.
@@ -161,6 +176,7 @@ void AddAnswer(const FamilyReport& report, Json* json) {
   j["reference"] = shared ? KeyPointsJson(report.reference) : Json(nullptr);
   j["rmse"] = RmseJson(report.rmse);
   j["noise_A"] = Number(report.noise_A);
+  j["errors"] = FamilyErrorsJson(report.errors);
 }
 
 // How far to trust it.

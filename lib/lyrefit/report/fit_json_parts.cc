@@ -21,6 +21,20 @@ Json EstimateJson(const Estimate& e, bool polished) {
           {"upper", Number(e.bounds.upper)}};
 }
 
+Json ErrorsJson(const std::optional<ErrorReport>& errors) {
+  if (!errors) return nullptr;
+  return {{"current_noise_A", Number(errors->sizes.current_A)},
+          {"voltage_noise_V", Number(errors->sizes.voltage_V)},
+          {"path_of_isc", Number(errors->sizes.path)},
+          {"sizes", errors->stated ? "stated" : "found"},
+          {"current_noise", errors->current_stated ? "stated"
+                            : errors->stated       ? "stated"
+                                                   : "found"},
+          {"gain", Number(errors->gain)},
+          {"weighed", errors->weighed},
+          {"believed", errors->believed}};
+}
+
 Json RmsePairJson(const RmsePair& rmse) {
   return {{"measured_current_A", Number(rmse.measured_current_A)},
           {"solved_current_A", Number(rmse.solved_current_A)}};

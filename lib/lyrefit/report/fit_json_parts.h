@@ -15,6 +15,9 @@ Json FitJson(const FitReport& report, JsonPoints points);
 // Everything about one parameter; without a polish nothing is refined.
 Json EstimateJson(const Estimate& estimate, bool polished);
 
+// The sizes of the errors of the readings; null where nobody looked for them.
+Json ErrorsJson(const std::optional<ErrorReport>& errors);
+
 // Both errors, each under its label.
 Json RmsePairJson(const RmsePair& rmse);
 

@@ -8,8 +8,15 @@ namespace {
 
 Json ParametersJson(const FitReport& report) {
   Json parameters = Json::object();
-  for (const Estimate& e : report.estimates) {
-    parameters[e.info.name] = EstimateJson(e, report.polished);
+  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
+    const Estimate& e = report.estimates[i];
+    Json& parameter = parameters[e.info.name] = EstimateJson(e, report.polished);
+    if (report.under_errors.empty()) continue;
+    const Estimate& under = report.under_errors[i];
+    parameter["under_errors"] = {{"standard_error", Number(under.standard_error)},
+                                 {"low_95", Number(under.low_95)},
+                                 {"high_95", Number(under.high_95)},
+                                 {"interval", ToText(under.interval)}};
   }
   return parameters;
 }
@@ -31,6 +38,7 @@ Json RmseJson(const FitReport& report) {
   return {{"random_baseline", pair(report.rmse.random_baseline, true)},
           {"searched", pair(report.rmse.searched, true)},
           {"plain_polished", pair(report.rmse.plain_polished, true)},
+          {"least_squares", pair(report.errors ? report.errors->least_squares : RmsePair{}, true)},
           {"best_bird_polished", pair(report.rmse.best_bird_polished, report.polished)},
           {"refined", pair(report.rmse.refined, report.polished)}};
 }
@@ -88,6 +96,7 @@ void AddAnswer(const FitReport& report, Json* json) {
   j["nNsVth"] = Number(report.nNsVth);
   j["singlediode"] = SingleDiodeJson(report);
   j["rmse"] = RmseJson(report);
+  j["errors"] = ErrorsJson(report.errors);
   j["floor"] = FloorJson(report);
   j["largest_error"] = LargestErrorJson(report.residuals);
   j["key_points"] = {{"measured", KeyPointsJson(report.measured)},

@@ -79,6 +79,24 @@ std::string ParameterSection(const FitReport& report) {
   return text;
 }
 
+// The three sizes in words, and what they are good for.
+std::string ErrorSection(const FitReport& report) {
+  if (!report.errors) return "";
+  const ErrorReport& errors = *report.errors;
+  std::string text = "Errors of the readings\n" + ErrorSizesText(errors);
+  if (!report.under_errors.empty()) {
+    TextTable table("lrl");
+    table.Add({"parameter", "std err", "95 % interval under these errors"});
+    for (const Estimate& e : report.under_errors) {
+      table.Add({LabelWithUnit(e.info), Significant(e.standard_error, kErrorDigits),
+                 Range(e.low_95, e.high_95)});
+    }
+    text += table.Text();
+    text += Wrap("  ", "95 % intervals: " + IntervalNote(report.under_errors));
+  }
+  return text + Wrap("  ", WhichToBelieve(errors));
+}
+
 std::string RmseSection(const FitReport& report) {
   const auto label = [&](Objective objective) {
     return ToText(objective) + (objective == report.objective ? " *" : "");
@@ -93,8 +111,15 @@ std::string RmseSection(const FitReport& report) {
   table.Add(row("random points, as many", report.rmse.random_baseline, true));
   table.Add(row("searched (best bird)", report.rmse.searched, true));
   table.Add(row("best bird polished", report.rmse.best_bird_polished, report.polished));
-  table.Add(row("refined (best of all starts)", report.rmse.refined, report.polished));
-  return "RMSE in A   (* the objective that was fitted)\n" + table.Text() + FloorNote(report);
+  const bool weighed = report.errors && report.errors->weighed;
+  if (weighed) table.Add(row("least squares", report.errors->least_squares, true));
+  table.Add(row(weighed ? "weighed by the errors" : "refined (best of all starts)",
+                report.rmse.refined, report.polished));
+  const std::string note =
+      weighed ? Wrap("  ", "The answer is weighed by the errors: its plain RMSE is not the lowest.")
+              : "";
+  return "RMSE in A   (* the objective that was fitted)\n" + table.Text() + note +
+         FloorNote(report);
 }
 
 std::string KeyPointSection(const FitReport& report) {

@@ -103,6 +103,41 @@ std::string List(const std::string& title, const std::vector<std::string>& sente
   return text;
 }
 
+std::string ErrorSizesText(const ErrorReport& errors) {
+  const char* found = errors.stated ? "stated" : "found";
+  const auto line = [](const std::string& name, const std::string& size, const char* how,
+                       const char* meaning) {
+    return Field(name, fmt::format("{} ({}): {}", size, how, meaning));
+  };
+  return line("current noise", Significant(errors.sizes.current_A, 2) + " A",
+              errors.current_stated ? "stated" : found, "every current by itself") +
+         line("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
+              "of a voltage near Voc, which shows where the curve is steep") +
+         line("path", Significant(100 * errors.sizes.path, 2) + " % of Isc", found,
+              "what neighbours share: light that wanders during the sweep, or the device's own "
+              "departure from the model");
+}
+
+std::string WhichToBelieve(const ErrorReport& errors) {
+  if (errors.weighed) {
+    return "The fit is weighed by these errors and its intervals hold under them.";
+  }
+  const std::string gain =
+      fmt::format("2 ln of the ratio of likelihoods {}", Significant(errors.gain, 3));
+  if (!errors.believed) {
+    return fmt::format(
+        "The residuals do not ask for more than independent errors ({}): the intervals above are "
+        "to "
+        "be believed.",
+        gain);
+  }
+  return fmt::format(
+      "The residuals say clearly that errors hang together ({}): believe these intervals, not "
+      "those "
+      "above, which take them for independent.",
+      gain);
+}
+
 std::string LabelWithUnit(const ParameterInfo& info) {
   return info.unit.empty() ? info.symbol : fmt::format("{} ({})", info.symbol, info.unit);
 }

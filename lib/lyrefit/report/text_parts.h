@@ -47,6 +47,11 @@ std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
 std::string List(const std::string& title, const std::vector<std::string>& sentences);
 
 // "Rs (ohm)", "n1".
+// The sizes of the errors of the readings, a line each, with what they mean.
+std::string ErrorSizesText(const ErrorReport& errors);
+// One sentence on which intervals to believe.
+std::string WhichToBelieve(const ErrorReport& errors);
+
 std::string LabelWithUnit(const ParameterInfo& info);
 
 // "fixed", "lower bound, not identifiable"; empty where there is nothing to say.

@@ -27,7 +27,7 @@ std::string Header(const FitReport& report) {
 std::string FullReport(const FitReport& report) {
   std::string text = Header(report);
   for (const std::string& section :
-       {ChoiceSection(report), ParameterSection(report), RmseSection(report),
+       {ChoiceSection(report), ParameterSection(report), ErrorSection(report), RmseSection(report),
         KeyPointSection(report), ResidualSection(report), SearchSection(report),
         List("Assumptions", report.curve.assumptions), List("Warnings", report.warnings)}) {
     if (!section.empty()) text += "\n" + section;

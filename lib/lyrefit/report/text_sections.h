@@ -10,6 +10,7 @@ namespace lyrefit {
 
 // text_answer.cc: what came out.
 std::string ParameterSection(const FitReport& report);
+std::string ErrorSection(const FitReport& report);
 std::string RmseSection(const FitReport& report);
 std::string KeyPointSection(const FitReport& report);
 

@@ -17,12 +17,15 @@ std::string SignedPart(double value) {
 
 std::string Part(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2e}", value); }
 
+std::string CountText(int hits, int of) { return of > 0 ? fmt::format("{} of {}", hits, of) : "-"; }
+
 std::string ErrorTable(const TruthComparison& comparison) {
-  TextTable table("lrlrr");
-  table.Add({"parameter", "worst", "of curve", "median", "in the 95 % interval"});
+  TextTable table("lrlrrr");
+  table.Add({"parameter", "worst", "of curve", "median", "in the plain 95 % interval",
+             "in the one to believe"});
   for (const TruthParameter& p : comparison.parameters) {
     table.Add({p.info.symbol, Part(p.worst), p.worst_id, Part(p.median),
-               p.intervals > 0 ? fmt::format("{} of {}", p.covered, p.intervals) : "-"});
+               CountText(p.covered, p.intervals), CountText(p.covered_believed, p.intervals)});
   }
   return table.Text();
 }

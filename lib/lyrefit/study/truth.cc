@@ -58,13 +58,18 @@ struct Pair {
 };
 
 void CountInterval(const Pair& pair, int index, TruthParameter* result) {
-  const std::vector<Estimate>& estimates = pair.curve->free_estimates;
-  if (static_cast<int>(estimates.size()) <= index) return;
-  const Estimate& e = estimates[index];
+  const std::vector<Estimate>& plain = pair.curve->free_estimates;
+  if (static_cast<int>(plain.size()) <= index) return;
+  const std::vector<Estimate>& under = pair.curve->free_under_errors;
+  const Estimate& e = plain[index];
   if (e.fixed || std::isnan(e.low_95) || std::isnan(e.high_95)) return;
   const double truth = pair.row->values[index];
+  const auto holds = [&](const Estimate& one) {
+    return one.low_95 <= truth && truth <= one.high_95 ? 1 : 0;
+  };
   ++result->intervals;
-  result->covered += e.low_95 <= truth && truth <= e.high_95 ? 1 : 0;
+  result->covered += holds(e);
+  result->covered_believed += holds(under.empty() ? e : under[index]);
 }
 
 // What the fits of one device say together. Averaged is the value, of the shunt its inverse.

@@ -30,6 +30,9 @@ struct TruthParameter {
   double median = kUnknown;  // of |error|
   int intervals = 0;         // curves with a 95 % interval
   int covered = 0;           // of those: it holds the truth
+  // The same of the intervals to believe: where the residuals ask for it, those under the error
+  // model.
+  int covered_believed = 0;
   // Of sets with one truth, else NaN. The shunt takes part as a conductance: a curve that says
   // nothing of it has a resistance without limit, which no mean survives.
   double truth = kUnknown;

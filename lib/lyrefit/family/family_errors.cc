@@ -1,0 +1,217 @@
+#include "lyrefit/family/family_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/fit/statistics.h"
+#include "lyrefit/refine/family_errors.h"
+#include "lyrefit/refine/family_model.h"
+#include "lyrefit/refine/linearize.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kMostCurves = 60;  // that sizes are found from
+
+// Residuals of some curves, and how their errors show.
+struct Rows {
+  FamilyErrorShape shape;     // with a path in proportion to each curve's light
+  std::vector<double> light;  // of each curve, W/m2
+  Eigen::VectorXd residual;
+};
+
+// Evenly among all of them.
+std::vector<int> SomeOf(int curves) {
+  std::vector<int> some;
+  const int count = std::min(curves, kMostCurves);
+  for (int k = 0; k < count; ++k) some.push_back(static_cast<int>(1LL * k * curves / count));
+  return some;
+}
+
+void AppendCurve(const JointProblem& problem, const JointPoint& point, int c, Rows* rows) {
+  const JointCurve& curve = problem.curves[c];
+  const Device& device = DeviceOf(problem, c);
+  const std::vector<double> p = DeviceAt(problem, point, c);
+  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
+  const std::size_t before = rows->shape.readings.path.size();
+  AppendErrorShape({device, problem.objective, curve.voltage_V, curve.current_A, curve.weight,
+                    voc > 0 ? voc : problem.voltage_scale_V, p},
+                   c, &rows->shape.readings);
+  rows->light.push_back(curve.irradiance_W_m2);
+  if (!problem.translation.extended) return;
+  // The photocurrent of such a device is that at the reference.
+  const double suns = curve.irradiance_W_m2 / kReferenceIrradiance_W_m2;
+  std::vector<double>& path = rows->shape.readings.path;
+  for (std::size_t k = before; k < path.size(); ++k) path[k] *= suns;
+}
+
+// The same with a path in proportion to that power of the light, as it is at `brightest`.
+FamilyErrorShape WithPower(const Rows& rows, double brightest, double power) {
+  FamilyErrorShape shape = rows.shape;
+  for (std::size_t c = 0; c + 1 < shape.first.size(); ++c) {
+    const double light = rows.light[c] / brightest;
+    if (!(light > 0)) continue;  // in the dark there is no path
+    const double factor = std::pow(light, power - 1);
+    for (int k = shape.first[c]; k < shape.first[c + 1]; ++k) shape.readings.path[k] *= factor;
+  }
+  return shape;
+}
+
+// Of the wanted curves. A curve's error that the fit has as an unknown is no error of its rows any
+// more, and priors are rows of the problem but not of readings.
+Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<bool>& held) {
+  Rows rows;
+  std::vector<bool> has_light, has_temperature;
+  for (JointCurve& curve : problem.curves) {
+    has_light.push_back(curve.irradiance_sd > 0);
+    has_temperature.push_back(curve.temperature_sd_K > 0);
+    const bool none = problem.translation.extended.has_value();
+    curve.irradiance_sd = curve.temperature_sd_K = none ? 0 : kInfinity;
+  }
+  const FamilyModel model(problem);
+  const Linearization now = Linearize(model, model.Pack(point), held);
+  rows.residual = now.residual;
+  rows.shape.common = RowMatrix::Zero(now.residual.size(), 2);
+  for (std::size_t c = 0; c < problem.curves.size(); ++c) {
+    rows.shape.first.push_back(now.first_row[c]);
+    AppendCurve(problem, point, static_cast<int>(c), &rows);
+    const RowMatrix& local = now.local[c];
+    if (local.cols() < 2) continue;
+    auto common = rows.shape.common.middleRows(now.first_row[c], local.rows());
+    if (!has_light[c]) common.col(0) = local.col(0);
+    if (!has_temperature[c]) common.col(1) = local.col(1);
+  }
+  rows.shape.first.push_back(static_cast<int>(now.residual.size()));
+  return rows;
+}
+
+JointProblem Only(const JointProblem& problem, const std::vector<int>& curves) {
+  JointProblem some = problem;
+  some.curves.clear();
+  for (const int c : curves) some.curves.push_back(problem.curves[c]);
+  return some;
+}
+
+JointPoint Only(const JointPoint& point, const std::vector<int>& curves) {
+  JointPoint some{point.shared, {}};
+  for (const int c : curves) some.local.push_back(point.local[c]);
+  return some;
+}
+
+// How well sizes say the residuals; those found from the same ones, each taken for one thing less
+// known.
+double Score(const FamilyErrorShape& shape, const FamilyErrorSizes& sizes,
+             const Eigen::VectorXd& residual, bool same) {
+  const double used[] = {sizes.readings.voltage_V, sizes.readings.path, sizes.irradiance,
+                         sizes.temperature_K};
+  const auto count =
+      std::count_if(std::begin(used), std::end(used), [](double s) { return s > 0; });
+  return LogLikelihood(shape, sizes, residual) - (same ? static_cast<double>(count) : 0);
+}
+
+// Of all kinds and powers of the light the best by `others`, or where there are none by `rows`.
+FamilyErrors ChooseErrors(const Rows& rows, const Rows* others, const JointProblem& problem) {
+  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
+  FamilyErrors best;
+  double highest = -HUGE_VAL, independent = 0;
+  for (const FamilyErrorKind kind :
+       {FamilyErrorKind::kIndependent, FamilyErrorKind::kPath, FamilyErrorKind::kCurves}) {
+    for (const double power : {1.0, 0.5, 0.0}) {
+      if (kind == FamilyErrorKind::kIndependent && power < 1) continue;
+      const FamilyErrorShape shape = WithPower(rows, brightest, power);
+      const FamilyErrorSizes sizes = FindFamilyErrors(kind, shape, problem.current_scale_A,
+                                                      problem.voltage_scale_V, rows.residual);
+      const double score = others == nullptr ? Score(shape, sizes, rows.residual, true)
+                                             : Score(WithPower(*others, brightest, power), sizes,
+                                                     others->residual, false);
+      if (kind == FamilyErrorKind::kIndependent) independent = score;
+      constexpr double kOneLight = 1e-6;  // curves of one light
+      if (!(score > highest + kOneLight)) continue;
+      highest = score;
+      best = {kind, sizes, power, 0, 2 * (score - independent)};
+    }
+  }
+  return best;
+}
+
+// The covariance of all rows of a joint model: its readings' and, of each prior, that of one of
+// them.
+CovarianceProduct ProductOf(const JointProblem& problem, const FamilyModel& model, const Rows& rows,
+                            const FamilyErrorSizes& sizes) {
+  return [&](const RowMatrix& all) {
+    RowMatrix product = problem.noise_A * problem.noise_A * all;
+    RowMatrix readings(rows.residual.size(), all.cols());
+    const auto each = [&](const auto& move) {
+      int row = 0;
+      for (std::size_t c = 0; c + 1 < rows.shape.first.size(); ++c) {
+        const int first = rows.shape.first[c];
+        move(row, first, rows.shape.first[c + 1] - first);
+        row += model.shape().blocks[c].residuals;
+      }
+    };
+    each([&](int row, int first, int count) {
+      readings.middleRows(first, count) = all.middleRows(row, count);
+    });
+    readings = CovarianceTimes(rows.shape, sizes, readings);
+    each([&](int row, int first, int count) {
+      product.middleRows(row, count) = readings.middleRows(first, count);
+    });
+    return product;
+  };
+}
+
+std::vector<Interval> IntervalsOf(const QuotedFit& fit, const Spread& spread, double t,
+                                  const std::vector<Estimate>& estimates) {
+  std::vector<Interval> intervals;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const Estimate& e = estimates[i];
+    Interval interval;
+    interval.value = e.refined;
+    interval.standard_error = spread.standard_error[i];
+    if (std::isfinite(interval.standard_error)) {
+      const ParameterKind kind = fit.family.translation.parameters[i].kind;
+      const ParameterRange range = RangeAround(kind, e.refined, t * interval.standard_error);
+      interval.low_95 = std::max(range.low, e.bounds.lower);
+      interval.high_95 = std::min(range.high, e.bounds.upper);
+    }
+    intervals.push_back(interval);
+  }
+  return intervals;
+}
+
+}  // namespace
+
+void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report) {
+  constexpr int kFewest = 3;        // curves that say something of what curves share
+  constexpr double kExact = 1e-11;  // of the currents: nothing but rounding
+  const JointProblem& problem = fit.problem;
+  const JointPoint& point = fit.end.point;
+  const int curves = static_cast<int>(problem.curves.size());
+  if (curves < kFewest || !(report->noise_A > kExact * problem.current_scale_A)) return;
+  const std::vector<int> some = SomeOf(curves);
+  const Rows rows = RowsOf(Only(problem, some), Only(point, some), fit.end.held);
+  Rows others;
+  const std::vector<int> tested = SomeOf(static_cast<int>(rest.curves.size()));
+  const bool held_out = static_cast<int>(tested.size()) >= kFewest;
+  if (held_out) {
+    const JointPoint there{point.shared, std::vector<JointLocal>(tested.size(), {0, 0})};
+    JointProblem not_fitted = Only(rest, tested);
+    not_fitted.quoted = problem.quoted;
+    others = RowsOf(std::move(not_fitted), there, fit.end.held);
+  }
+  FamilyErrors errors = ChooseErrors(rows, held_out ? &others : nullptr, problem);
+  errors.tested_curves = held_out ? static_cast<int>(tested.size()) : 0;
+  report->errors = errors;
+  if (errors.kind == FamilyErrorKind::kIndependent) return;
+  Rows all = RowsOf(problem, point, fit.end.held);
+  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
+  all.shape = WithPower(all, brightest, errors.path_power);
+  const FamilyModel model(problem);
+  const Spread spread = FindSpread(model, model.Pack(point), fit.end.held,
+                                   ProductOf(problem, model, all, errors.sizes));
+  report->under_errors = IntervalsOf(fit, spread, StudentT95(curves - 1), report->estimates);
+}
+
+}  // namespace lyrefit

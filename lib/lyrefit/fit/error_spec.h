@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/refine/error_terms.h"
+
+namespace lyrefit {
+
+// What a fit takes the errors of the readings for.
+enum class ErrorKind {
+  kWhite,   // of one size (or as stated in sigma_A), and knowing nothing of each other
+  kField,   // the error model, its three sizes found from the residuals
+  kStated,  // the error model with sizes that somebody knows
+};
+
+struct ErrorSpec {
+  ErrorKind kind = ErrorKind::kWhite;
+  ErrorSizes sizes;            // where they are stated
+  std::string name = "white";  // "white", "field" or the name of the file
+};
+
+// {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}: all three, none below
+// 0, the first or the last above. Errors carry file, line and column.
+Expected<ErrorSpec> ReadErrorFile(const std::string& path);
+
+// "white", "field", or such a file.
+Expected<ErrorSpec> ErrorsNamed(const std::string& name);
+
+}  // namespace lyrefit

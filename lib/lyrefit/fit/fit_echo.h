@@ -1,0 +1,13 @@
+#pragma once
+
+#include "lyrefit/fit/fit.h"
+
+namespace lyrefit {
+
+// Refuses options that do not go with weighing by errors.
+Expected<void> CheckErrorSpec(const FitOptions& options);
+
+// The options that are not at their defaults.
+void EchoOptions(const FitOptions& options, FitReport* report);
+
+}  // namespace lyrefit

@@ -1,0 +1,100 @@
+#include "lyrefit/fit/reading_errors.h"
+
+#include <cmath>
+#include <memory>
+
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/linearize.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSpare = 3;  // readings beyond the parameters, to find three sizes from
+constexpr double kExactReadings = 1e-11;
+
+// Of the curve; of one that does not reach it, its largest forward voltage.
+double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
+  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
+  return voc > 0 ? voc : problem.voltage_scale_V;
+}
+
+// The problem with independent errors: whose residuals are not whitened.
+RefineProblem Plain(RefineProblem problem) {
+  problem.errors = nullptr;
+  return problem;
+}
+
+}  // namespace
+
+void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
+  const bool measured = at.objective == Objective::kMeasuredCurrent;
+  const std::vector<double> current =
+      SolveCurrents(at.device, at.p.data(), MakePointSet(at.voltage_V, at.current_A));
+  double way = 0;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    const double voltage = at.voltage_V[k];
+    const OperatingPoint point = KnownOperatingPoint(at.device, at.p.data(), voltage, current[k]);
+    const double factor = ImplicitFactor(at.device, at.p.data(), point);
+    // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
+    const double unit = std::sqrt(at.weight[k]) / (measured ? factor : 1);
+    const double slope = std::fabs(point.conductance_S) * factor;
+    shape->current.push_back(unit);
+    // Instruments read voltages to a part of what they read.
+    shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
+    shape->path.push_back(unit * at.p[kIph] * factor);
+    if (k > 0) way += std::fabs(voltage - at.voltage_V[k - 1]) / at.open_circuit_V;
+    shape->position.push_back(way);
+    shape->chain.push_back(chain);
+  }
+}
+
+ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
+                         const std::vector<double>& p) {
+  ErrorShape shape;
+  AppendErrorShape({problem.device, problem.objective, problem.voltage_V, problem.current_A,
+                    problem.weights, OpenCircuit(problem, curve), p},
+                   0, &shape);
+  for (std::size_t k = 0; k < curve.sigma_A.size(); ++k) {
+    shape.stated.push_back(shape.current[k] * curve.sigma_A[k]);
+  }
+  return shape;
+}
+
+std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
+                                      const RefineEnd& end) {
+  const RefineProblem plain = Plain(problem);
+  const Linearization now = Linearize(CurveModel(plain), end, end.held);
+  const auto spare = now.jacobian.rows() - now.jacobian.cols();
+  const double smallest = kExactReadings * problem.current_scale_A;
+  const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));
+  if (spare < kSpare || !(rms > smallest)) return {};
+  const ErrorPrior prior = UsualErrors(problem.current_scale_A, OpenCircuit(problem, curve));
+  FoundErrors found =
+      FindErrorSizes(ShapeOfErrors(problem, curve, end.p), prior, now.residual, now.jacobian);
+  if (!curve.sigma_A.empty()) {
+    double squares = 0;
+    for (const double sigma : curve.sigma_A) squares += sigma * sigma;
+    found.sizes.current_A = std::sqrt(squares / static_cast<double>(curve.size()));
+  }
+  return found;
+}
+
+RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
+                            const std::vector<double>& p) {
+  RefineProblem weighed = plain;
+  ErrorShape shape = ShapeOfErrors(plain, curve, p);
+  if (spec.kind == ErrorKind::kStated) shape.stated.clear();
+  ErrorModel errors = MakeErrorModel(shape, spec.sizes);
+  double squares = 0;
+  for (const double white : errors.white) squares += white * white;
+  for (const double path : errors.path) squares += path * path;
+  weighed.noise_A = std::sqrt(squares / static_cast<double>(errors.size()));
+  for (double& white : errors.white) white /= weighed.noise_A;
+  for (double& path : errors.path) path /= weighed.noise_A;
+  weighed.errors = std::make_shared<const ErrorModel>(std::move(errors));
+  return weighed;
+}
+
+}  // namespace lyrefit

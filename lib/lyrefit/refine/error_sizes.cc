@@ -1,0 +1,168 @@
+#include "lyrefit/refine/error_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/refine/climb.h"
+
+namespace lyrefit {
+namespace {
+
+// Of more readings, so many evenly spaced ones say where to begin.
+constexpr int kManyReadings = 4096;
+constexpr int kStartReadings = 1024;
+
+using Logs = std::vector<double>;  // ln of current_A, voltage_V, path
+
+Logs LogsOf(const ErrorSizes& sizes) {
+  return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path)};
+}
+
+ErrorSizes SizesAt(const Logs& at) { return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2])}; }
+
+// The same problem on every n-th reading.
+struct Rows {
+  ErrorShape shape;
+  RowMatrix columns;  // orthonormal ones for what was fitted, then the residual
+};
+
+Rows EveryNth(const Rows& all, int n) {
+  Rows few;
+  const int count = (static_cast<int>(all.columns.rows()) + n - 1) / n;
+  few.columns.resize(count, all.columns.cols());
+  for (int k = 0; k < count; ++k) few.columns.row(k) = all.columns.row(k * n);
+  const auto thin = [&](const auto& from, auto* to) {
+    for (std::size_t k = 0; k < from.size(); k += n) to->push_back(from[k]);
+  };
+  thin(all.shape.current, &few.shape.current);
+  thin(all.shape.voltage, &few.shape.voltage);
+  thin(all.shape.path, &few.shape.path);
+  thin(all.shape.position, &few.shape.position);
+  thin(all.shape.chain, &few.shape.chain);
+  thin(all.shape.stated, &few.shape.stated);
+  return few;
+}
+
+// From products with each other of whitened columns, which are nearly independent, the residual
+// last, and ln det of the covariance.
+double RestrictedFromProducts(Eigen::MatrixXd products, double log_determinant) {
+  const Eigen::Index last = products.cols() - 1;
+  for (Eigen::Index i = 0; i < last; ++i) {  // Cholesky's decomposition; the last pivot is the rest
+    const double pivot = products(i, i);
+    if (!(pivot > 0)) return -HUGE_VAL;
+    log_determinant += std::log(pivot);
+    for (Eigen::Index j = i + 1; j <= last; ++j) {
+      const double part = products(j, i) / pivot;
+      for (Eigen::Index k = i + 1; k <= j; ++k) products(j, k) -= part * products(k, i);
+    }
+  }
+  return -0.5 * (log_determinant + std::max(products(last, last), 0.0));
+}
+
+double LogLikelihood(const ErrorModel& errors, const RowMatrix& columns) {
+  RowMatrix rows = columns;
+  const double logs = Whiten(errors, {}, rows);
+  const Eigen::MatrixXd white = rows;
+  return RestrictedFromProducts(TransposedTimes(white, white), logs);
+}
+
+double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
+  const Logs center = LogsOf(prior.center);
+  const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path};
+  double sum = LogLikelihood(MakeErrorModel(rows.shape, SizesAt(at)), rows.columns);
+  for (int i = 0; i < 3; ++i) sum -= 0.5 * std::pow((at[i] - center[i]) / width[i], 2);
+  return std::isnan(sum) ? -HUGE_VAL : sum;
+}
+
+// The best of a coarse grid about the prior and about what the residuals measure.
+Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
+  const Eigen::VectorXd residual = rows.columns.rightCols(1);
+  double typical = 0;
+  for (const double one : rows.shape.current) typical += one * one;
+  const double rms_A =
+      std::max(residual.norm() / std::sqrt(typical), 1e-12 * prior.center.current_A);
+  const Logs usual = LogsOf(prior.center);
+  const double relative = rms_A / prior.center.current_A * prior.width.path;
+  Logs best;
+  double highest = -HUGE_VAL;
+  for (const double current : {1.0, 0.2}) {
+    for (const double voltage : {0.03, 1.0}) {
+      for (const double path : {0.05, 0.5, 2.0}) {
+        const Logs at = {std::log(current * rms_A), usual[1] + std::log(voltage),
+                         usual[2] + std::log(path * std::min(std::max(relative, 1e-3), 10.0))};
+        const double value = LogPosterior(rows, prior, at);
+        if (!(value > highest)) continue;
+        highest = value;
+        best = at;
+      }
+    }
+  }
+  return highest > -HUGE_VAL ? best : usual;
+}
+
+// The same of errors that know nothing of each other, at the size that suits them best.
+double WhiteLogLikelihood(const Rows& rows) {
+  ErrorModel white;
+  white.white = rows.shape.stated.empty() ? rows.shape.current : rows.shape.stated;
+  RowMatrix unit = rows.columns;
+  Whiten(white, {}, unit);
+  const Eigen::MatrixXd slopes = unit.leftCols(unit.cols() - 1);
+  const double degrees = static_cast<double>(slopes.rows() - slopes.cols());
+  const double rest = WithoutColumns(slopes, Eigen::VectorXd(unit.rightCols(1))).norm();
+  for (double& one : white.white) one *= rest / std::sqrt(degrees);
+  return LogLikelihood(white, rows.columns);
+}
+
+}  // namespace
+
+bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
+  const auto close = [&](double one, double other) {
+    return std::fabs(one - other) <= tolerance * std::fabs(other);
+  };
+  return close(a.current_A, b.current_A) && close(a.voltage_V, b.voltage_V) &&
+         close(a.path, b.path);
+}
+
+ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
+  ErrorModel errors;
+  for (std::size_t k = 0; k < shape.current.size(); ++k) {
+    const double current =
+        shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
+    errors.white.push_back(std::hypot(current, sizes.voltage_V * shape.voltage[k]));
+    if (sizes.path > 0) errors.path.push_back(sizes.path * shape.path[k]);
+  }
+  errors.position = shape.position;
+  errors.chain = shape.chain;
+  return errors;
+}
+
+ErrorPrior UsualErrors(double isc_A, double voc_V) {
+  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3}, {3, 3, 1}};
+}
+
+FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
+                           const Eigen::VectorXd& residual, const RowMatrix& jacobian) {
+  const Eigen::MatrixXd basis = RankedBasis(Eigen::MatrixXd(jacobian));
+  Rows all{shape, RowMatrix(residual.size(), basis.cols() + 1)};
+  all.columns.leftCols(basis.cols()) = basis;
+  all.columns.rightCols(1) = residual;
+  const int rows = static_cast<int>(residual.size());
+  const auto climb = [&](const Rows& on, const Logs& from, int most_steps) {
+    return Climb([&](const Logs& at) { return LogPosterior(on, prior, at); }, from, most_steps);
+  };
+  Logs at;
+  if (rows > kManyReadings) {
+    const Rows few = EveryNth(all, rows / kStartReadings);
+    at = climb(few, FindStart(few, prior), 20);
+    at = climb(all, at, 3);
+  } else {
+    at = climb(all, FindStart(all, prior), 30);
+  }
+  FoundErrors found;
+  found.sizes = SizesAt(at);
+  const double likely = LogLikelihood(MakeErrorModel(shape, found.sizes), all.columns);
+  found.gain = 2 * (likely - WhiteLogLikelihood(all));
+  return found;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,138 @@
+#include "lyrefit/refine/error_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/refine/climb.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kIsc = 8, kVoc = 40;
+
+// A curve that is flat, then falls; `points` readings.
+ErrorShape MadeShape(int points) {
+  ErrorShape shape;
+  for (int k = 0; k < points; ++k) {
+    const double u = static_cast<double>(k) / (points - 1);
+    shape.current.push_back(1);
+    shape.voltage.push_back(0.01 + 5 * std::exp(12 * (u - 1)));
+    shape.path.push_back(kIsc * (1 - 0.5 * std::exp(12 * (u - 1))));
+    shape.position.push_back(u);
+    shape.chain.push_back(0);
+  }
+  return shape;
+}
+
+// Five smooth functions: what a fit takes out.
+RowMatrix MadeJacobian(int points) {
+  RowMatrix jacobian(points, 5);
+  for (int k = 0; k < points; ++k) {
+    const double u = static_cast<double>(k) / (points - 1);
+    jacobian.row(k) << 1, u, std::exp(8 * (u - 1)), std::exp(12 * (u - 1)), std::exp(16 * (u - 1));
+  }
+  return jacobian;
+}
+
+Eigen::VectorXd DrawErrors(const ErrorShape& shape, const ErrorSizes& sizes, int seed) {
+  RandomStream random(seed, 0);
+  Eigen::VectorXd errors(shape.current.size());
+  double state = random.Normal();
+  for (Eigen::Index k = 0; k < errors.size(); ++k) {
+    if (k > 0) {
+      const double kept = std::exp(shape.position[k - 1] - shape.position[k]);
+      state = kept * state + std::sqrt(1 - kept * kept) * random.Normal();
+    }
+    const double own = shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
+    errors[k] = own * random.Normal() + sizes.voltage_V * shape.voltage[k] * random.Normal() +
+                sizes.path * shape.path[k] * state;
+  }
+  return errors;
+}
+
+TEST(ErrorSizes, AreFoundFromErrorsOfThatSize) {
+  const ErrorShape shape = MadeShape(150);
+  const RowMatrix jacobian = MadeJacobian(150);
+  const ErrorSizes truth = {8e-4, 0.012, 1.5e-3};
+  constexpr int kDraws = 40;
+  double current = 0, voltage = 0, path = 0;  // mean squares
+  for (int seed = 0; seed < kDraws; ++seed) {
+    const FoundErrors found =
+        FindErrorSizes(shape, UsualErrors(kIsc, kVoc), DrawErrors(shape, truth, seed), jacobian);
+    current += std::pow(found.sizes.current_A / truth.current_A, 2) / kDraws;
+    voltage += std::pow(found.sizes.voltage_V / truth.voltage_V, 2) / kDraws;
+    path += std::pow(found.sizes.path / truth.path, 2) / kDraws;
+    EXPECT_GT(found.gain, 20) << seed;
+  }
+  EXPECT_NEAR(current, 1, 0.15);
+  EXPECT_NEAR(voltage, 1, 0.15);
+  EXPECT_NEAR(path, 1, 0.15);
+}
+
+TEST(ErrorSizes, WhiteErrorsDoNotAskForMore) {
+  const ErrorShape shape = MadeShape(100);
+  const RowMatrix jacobian = MadeJacobian(100);
+  int asked = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    const Eigen::VectorXd errors = DrawErrors(shape, {8e-3, 0, 0}, seed);
+    const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc), errors, jacobian);
+    EXPECT_NEAR(found.sizes.current_A, 8e-3, 2.5e-3);
+    EXPECT_LT(found.sizes.path, 3e-3);
+    asked += found.gain > 6 ? 1 : 0;
+  }
+  EXPECT_LE(asked, 10);
+}
+
+TEST(ErrorSizes, ArePulledDownWhereReadingsAreFarBetterThanUsual) {
+  const ErrorShape shape = MadeShape(150);
+  const ErrorSizes truth = {2e-6, 1e-5, 5e-6};
+  const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
+                                           DrawErrors(shape, truth, 3), MadeJacobian(150));
+  EXPECT_LT(found.sizes.path, 2e-5);
+  EXPECT_LT(found.sizes.current_A, 1e-5);
+}
+
+TEST(ErrorSizes, WithoutInformationThePriorIsTheAnswer) {
+  ErrorShape shape = MadeShape(60);
+  shape.path.assign(60, 0.0);
+  const ErrorPrior prior = UsualErrors(kIsc, kVoc);
+  const FoundErrors found =
+      FindErrorSizes(shape, prior, DrawErrors(shape, {1e-3, 0.01, 0}, 1), MadeJacobian(60));
+  EXPECT_NEAR(found.sizes.path / prior.center.path, 1, 0.01);
+}
+
+TEST(ErrorSizes, StatedSizesOfCurrentsAreBelieved) {
+  ErrorShape shape = MadeShape(150);
+  shape.stated.assign(150, 2e-3);
+  const ErrorModel errors = MakeErrorModel(shape, {1, 0, 1e-3});
+  for (const double white : errors.white) EXPECT_DOUBLE_EQ(white, 2e-3);
+  const ErrorSizes truth = {0, 0.012, 1.5e-3};
+  const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
+                                           DrawErrors(shape, truth, 5), MadeJacobian(150));
+  EXPECT_NEAR(std::log(found.sizes.path / truth.path), 0, 0.4);
+}
+
+TEST(ErrorSizes, OfManyReadingsAreThoseOfAll) {
+  constexpr int kMany = 20000;
+  const ErrorShape shape = MadeShape(kMany);
+  const ErrorSizes truth = {8e-3, 0.012, 1.5e-3};
+  const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
+                                           DrawErrors(shape, truth, 2), MadeJacobian(kMany));
+  EXPECT_NEAR(found.sizes.current_A / truth.current_A, 1, 0.02);
+  EXPECT_NEAR(found.sizes.voltage_V / truth.voltage_V, 1, 0.1);
+  EXPECT_NEAR(found.sizes.path / truth.path, 1, 0.35);
+}
+
+TEST(Climb, FindsTheTopOfASmoothHill) {
+  const auto hill = [](const std::vector<double>& x) {
+    return -std::cosh(x[0] - 1) - 0.5 * std::pow(x[1] + 2 - 0.5 * x[0], 2);
+  };
+  const std::vector<double> top = Climb(hill, {-4, 5}, 50);
+  EXPECT_NEAR(top[0], 1, 1e-3);
+  EXPECT_NEAR(top[1], -1.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace lyrefit

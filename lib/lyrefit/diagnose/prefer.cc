@@ -47,13 +47,11 @@ int Complexity(const Readings& readings, const Rival& rival) {
                                                     : place("partly");
 }
 
-// Bends to whatever shape there is: anything that happens during a sweep in one direction, else a
-// moment.
+}  // namespace
+
 bool IsGeneric(const Readings& readings, const Effect& effect) {
   return readings.traits.up_down ? effect.momentary : effect.where == Where::kSweep;
 }
-
-}  // namespace
 
 bool LightMoved(const Readings& readings) {
   constexpr double kLeast = 0.01;

@@ -14,6 +14,10 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 // Whether the current rises with the voltage, which no module does by itself: the light moved.
 bool LightMoved(const Readings& readings);
 
+// Whether an effect bends to whatever shape there is: anything that happens during a sweep in one
+// direction, of one in both a moment.
+bool IsGeneric(const Readings& readings, const Effect& effect);
+
 // Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:
 // the best first, none of an impossible size). A cause in the device is preferred to a moment of
 // the sweep that explains about as much, a simple one to a complex one; where the current rises

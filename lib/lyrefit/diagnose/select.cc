@@ -166,11 +166,14 @@ class Selector {
   // Whether an effect is certainly larger than the floors, and explains its part of what there was
   // to explain in the first place.
   bool IsWorthAName(const Rival& rival) const {
-    constexpr double kLaterPart = 0.02;
+    // What bends to everything bends to what a cause's own model gets wrong.
+    constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
     const int last = static_cast<int>(rival.fit.law.effects.size()) - 1;
     const EffectSize size = SizeOf(bench_, rival.fit, last, fit_);
     if (!IsMaterial(size, options_.floors)) return false;
-    return causes_.empty() || size.current * size.current > kLaterPart * first_misfit_;
+    if (causes_.empty()) return true;
+    const bool generic = IsGeneric(readings_, *rival.score.effect);
+    return size.current * size.current > (generic ? kGenericPart : kLaterPart) * first_misfit_;
   }
 
   // Whether the base model is so far off that scores beside it say nothing.

@@ -66,16 +66,6 @@ DiagnoseCommand::DiagnoseCommand(CommandLine* line)
 }
 
 void DiagnoseCommand::AddDiagnosisFlags() {
-  const auto parse_noise = [this](const std::string& text) -> Expected<void> {
-    const auto noise = FromText<ErrorKind>(text);
-    if (!noise) return Fail("expected white or field, found '" + text + "'");
-    options_.noise = *noise;
-    return {};
-  };
-  verb_->AddReader(
-      "--noise", parse_noise,
-      "what the readings' errors are: white, each its own; field, beside it light that "
-      "wanders and a module that departs from the model (default field)");
   const auto parse_base = [this](const std::string& text) -> Expected<void> {
     const std::optional<Model> model = FromText<Model>(text);
     if (!model || *model == Model::kTripleDiode) {
@@ -89,6 +79,15 @@ void DiagnoseCommand::AddDiagnosisFlags() {
                   "the model that is diagnosed: sd, or dd with n2 = 2 (default sd)")
       .Type("NAME")
       .Group("Diagnosis");
+  verb_
+      ->AddOption(
+          "--noise", &noise_,
+          "errors of the readings: white, each its own; field, beside it light that wanders "
+          "and a module that departs from the model; or a JSON file with their sizes "
+          "(default field)")
+      .Type("NAME|FILE")
+      .Group("Diagnosis")
+      .Reads();
   verb_->AddOption("--effects", &effects_, "those to try (default: all that the data can show)")
       .Type("ID[,ID]")
       .Group("Diagnosis");
@@ -119,6 +118,9 @@ Expected<void> DiagnoseCommand::CheckFlags() {
   }
   options_.held_out = !no_held_out_;
   options_.extend = !extend_file_.empty();
+  Expected<ErrorSpec> errors = ErrorsNamed(noise_);
+  if (!errors) return Fail("--noise: " + errors.error().ToString());
+  options_.noise = std::move(*errors);
   if (!effects_.empty()) {
     auto ids = ParseList("--effects", effects_);
     if (!ids) return tl::unexpected(ids.error());

@@ -35,6 +35,7 @@ class DiagnoseCommand {
   bool list_columns_ = false;
   ConditionFlags conditions_;
   std::string effects_;
+  std::string noise_ = "field";
   bool no_held_out_ = false;
   bool together_ = false;
   std::string extend_file_;

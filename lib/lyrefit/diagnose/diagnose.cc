@@ -43,7 +43,7 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptio
       EstimateAutocorrelation(readings, whitened, selection->bench.used,
                               FreeCount(selection->bench, selection->extended.law));
   const bool coarse = IsCoarse(measurement, selection->noise);
-  if (!measurement.has_path && !coarse && correlation.value > kNotable &&
+  if (!measurement.has_path() && !coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
     Selection again =
         SelectCauses(measurement, used, std::min(correlation.value, kLargest), options);
@@ -119,8 +119,8 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
 }
 
 void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes) {
-  if (options.noise != ErrorKind::kField) {
-    echoes->push_back({"noise", ToText(options.noise), ToText(ErrorKind::kField)});
+  if (options.noise.kind != ErrorKind::kField) {
+    echoes->push_back({"noise", options.noise.name, DiagnoseOptions().noise.name});
   }
   if (options.base != Model::kSingleDiode) {
     echoes->push_back({"base", ToText(options.base), ToText(Model::kSingleDiode)});
@@ -227,7 +227,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   auto measurement = MakeMeasurement(set);
   if (!measurement) return tl::unexpected(measurement.error());
   measurement->warnings.insert(measurement->warnings.begin(), disorder.begin(), disorder.end());
-  measurement->has_path = options.noise == ErrorKind::kField;
+  measurement->errors = options.noise;
   const Readings& readings = measurement->readings;
   Watch watch(observer);
   const SelectOptions select =

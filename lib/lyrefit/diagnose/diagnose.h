@@ -4,27 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/device.h"
 
 namespace lyrefit {
 
 struct Effect;  // law/effect.h
-
-// What errors a diagnosis allows for.
-enum class ErrorKind {
-  kWhite,  // noise that every reading has for itself: a laboratory's
-  kField,  // beside it a rough path: light that wanders, a module that departs from the model
-};
-template <>
-struct EnumTable<ErrorKind> {
-  static constexpr EnumText<ErrorKind> kRows[] = {{ErrorKind::kWhite, "white"},
-                                                  {ErrorKind::kField, "field"}};
-};
 
 struct DiagnoseOptions {
   double level = 0.05;               // rate of false alarms over the whole catalogue
@@ -34,7 +23,9 @@ struct DiagnoseOptions {
   // runs. Each needs an id, parameters with finite bounds, a stage and probes.
   std::vector<const Effect*> own_effects;
   std::uint64_t seed = 1;
-  ErrorKind noise = ErrorKind::kField;
+  // White: a laboratory's. Field: beside it a rough path along the sweeps, light that wanders or a
+  // module that departs from the model. Stated: believed.
+  ErrorSpec noise = {ErrorKind::kField, {}, "field"};
   // A cause is named where its effect is certainly larger than one of these: in parts of Isc (root
   // mean square over the curve), in parts of Pmax. What is there below them is said apart.
   double floor_current = 0.0025;
@@ -51,7 +42,7 @@ struct DiagnoseOptions {
 // noise, and whatever is there is named.
 inline DiagnoseOptions LaboratoryOptions() {
   DiagnoseOptions options;
-  options.noise = ErrorKind::kWhite;
+  options.noise = ErrorSpec();
   options.floor_current = options.floor_power = 0;
   return options;
 }

@@ -6,6 +6,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/values.h"
+#include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/reading.h"
 
 namespace lyrefit {
@@ -15,7 +16,10 @@ struct Measurement {
   Readings readings;
   DeviceNotes notes;  // of the first curve: noise stated beforehand
   ValueFindings values;
-  bool has_path = false;  // a rough path along the sweeps is allowed for beside the noise
+  ErrorSpec errors;  // what is allowed for
+
+  // A rough path along the sweeps beside the noise.
+  bool has_path() const { return errors.kind != ErrorKind::kWhite; }
   std::vector<std::string> warnings;  // metadata that the data contradict, in plain sentences
 };
 

@@ -82,7 +82,8 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 }
 
 std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
-  constexpr double kAboutAsMuch = 0.9, kHardlyMore = 0.98, kMuchSimpler = 0.88;
+  constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
+                   kMuchSimpler = 0.88;
   constexpr int kComplex = 5;
   const auto first = [&](auto is_wanted) {
     return static_cast<std::size_t>(std::find_if(rivals.begin(), rivals.end(), is_wanted) -
@@ -96,7 +97,8 @@ std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
   }
   std::size_t best = 0;
   if (IsGeneric(readings, *rivals.front().score.effect)) {
-    const double enough = kAboutAsMuch * rivals.front().Charged();
+    const double enough =
+        (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * rivals.front().Charged();
     const std::size_t specific = first([&](const Rival& rival) {
       return !IsGeneric(readings, *rival.score.effect) && rival.Charged() > enough;
     });

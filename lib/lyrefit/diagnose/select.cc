@@ -179,7 +179,7 @@ class Selector {
   // Whether the base model is so far off that scores beside it say nothing.
   bool IsRuined() const {
     constexpr double kMisfit = 0.01;
-    if (!measurement_.has_path) return false;
+    if (!measurement_.has_path()) return false;
     std::vector<double> currents;
     for (const Reading& r : readings_.points) currents.push_back(r.current);
     return Departure(bench_, fit_, currents) > kMisfit;

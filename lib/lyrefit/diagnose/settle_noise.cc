@@ -34,6 +34,23 @@ void LevelNoise(Workbench* bench, const std::vector<double>& residual) {
   bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
 }
 
+// What somebody knows is believed. The voltage's errors show by the slope of the fitted curve.
+void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* bench) {
+  const ErrorSizes& sizes = measurement.errors.sizes;
+  const std::vector<Reading>& points = measurement.readings.points;
+  const ReadingScale& scale = measurement.readings.scale;
+  const double voltage = sizes.voltage_V / scale.cells / measurement.readings.pivot_voltage;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t a = k > 0 ? k - 1 : k, b = k + 1 < points.size() ? k + 1 : k;
+    const double span = points[b].voltage - points[a].voltage;
+    const double slope = span != 0 ? (fit.current[b] - fit.current[a]) / span : 0;
+    bench->sigma[k] =
+        std::max(std::hypot(sizes.current_A / scale.current_A, voltage * points[k].voltage * slope),
+                 kSmallestNoise);
+  }
+  bench->path = sizes.path;
+}
+
 }  // namespace
 
 Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit) {
@@ -50,10 +67,14 @@ Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit)
     const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
                        10 * kSmallestNoise;  // computed readings: what is left is arithmetic
     if (exact) bench->least_variance = 1;
-    if (measurement.has_path) {
+    if (measurement.has_path()) {
       bench->least_variance = 1;
-      LevelNoise(bench, residual);
-      bench->path = FindPath(*bench, *fit);
+      if (measurement.errors.kind == ErrorKind::kStated) {
+        TakeStated(measurement, *fit, bench);
+      } else {
+        LevelNoise(bench, residual);
+        bench->path = FindPath(*bench, *fit);
+      }
     }
     LawFit again = FitLaw(*bench, fit->law, fit->p);
     if (again.usable) *fit = std::move(again);

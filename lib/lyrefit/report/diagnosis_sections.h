@@ -20,6 +20,9 @@ std::string DiagnosisCauseSections(const Diagnosis& diagnosis);
 std::string DiagnosisGainSection(const Diagnosis& diagnosis);
 std::string DiagnosisShiftSection(const Diagnosis& diagnosis);
 
+// diagnosis_plan_text.cc: what to measure next.
+std::string DiagnosisPlanSection(const Diagnosis& diagnosis);
+
 // diagnosis_evidence_text.cc: how far to trust it.
 std::string DiagnosisEvidenceSection(const Diagnosis& diagnosis);
 std::string DiagnosisTrialSection(const Diagnosis& diagnosis);

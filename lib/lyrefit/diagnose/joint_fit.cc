@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/dense.h"
 
@@ -190,8 +191,8 @@ void Disturb(RandomStream* random, Joint* joint) {
   }
 }
 
-JointEnd FitJoint(const Joint& joint, const LawFit& candidate) {
-  const Law& law = candidate.law;
+JointEnd FitJoint(const Joint& joint, const Law& law,
+                  const std::vector<std::vector<double>>& starts) {
   Readings old = joint.readings;
   old.points.resize(joint.taken);
   LeastSquaresProblem problem;
@@ -210,13 +211,21 @@ JointEnd FitJoint(const Joint& joint, const LawFit& candidate) {
   problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
     return EvaluateJoint(joint, old, law, p, &workspace, residuals, jacobian);
   };
-  std::vector<double> start = candidate.p;
-  start.resize(law.size() + unknown, 0.0);
-  const LeastSquaresEnd end = SolveLeastSquares(problem, start, UpTo(40, 1e-6));
+  LeastSquaresEnd best;
+  for (std::vector<double> start : starts) {
+    start.resize(law.size() + unknown, 0.0);
+    LeastSquaresOptions options = UpTo(40, 1e-6);
+    if (best.usable) options.to_beat = best.sum_of_squares;
+    LeastSquaresEnd end = SolveLeastSquares(problem, start, options);
+    if (end.usable && (!best.usable || end.sum_of_squares < best.sum_of_squares)) {
+      best = std::move(end);
+    }
+  }
   JointEnd fit;
+  if (!best.usable) return fit;
   std::vector<double> residuals(problem.residuals);
-  fit.usable = end.usable && problem.evaluate(end.p.data(), residuals.data(), nullptr);
-  fit.sum = end.sum_of_squares;
+  fit.usable = problem.evaluate(best.p.data(), residuals.data(), nullptr);
+  fit.sum = best.sum_of_squares;
   fit.after = Eigen::Map<Eigen::VectorXd>(residuals.data() + joint.taken, count - joint.taken);
   return fit;
 }

@@ -39,7 +39,8 @@ struct JointEnd {
   Eigen::VectorXd after;  // whitened residuals of the further readings
 };
 
-// A candidate fitted to all of them, from where it stands.
-JointEnd FitJoint(const Joint& joint, const LawFit& candidate);
+// A law fitted to all of them, from the best of `starts`.
+JointEnd FitJoint(const Joint& joint, const Law& law,
+                  const std::vector<std::vector<double>>& starts);
 
 }  // namespace lyrefit

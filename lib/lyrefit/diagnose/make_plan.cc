@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/parallel.h"
@@ -14,10 +15,6 @@ namespace {
 constexpr std::size_t kMostCandidates = 5;
 constexpr int kTruths = 8;     // drawn from what the readings leave open of a candidate
 constexpr int kNoises = 2000;  // of the further readings
-
-PlanCandidate CandidateOf(const Rival& rival) {
-  return {rival.score.effect, rival.fit, rival.score.charge + rival.freedom};
-}
 
 // A candidate as it would have been fitted, had the noise been another.
 LawFit DrawTruth(const Workbench& bench, const ErrorModel& errors, const LawFit& fit,
@@ -41,13 +38,13 @@ struct Contest {
 
 std::optional<Contest> Meet(const Joint& joint, const std::vector<PlanCandidate>& candidates,
                             std::size_t truth) {
-  const JointEnd own = FitJoint(joint, candidates[truth].fit);
+  const JointEnd own = FitJoint(joint, candidates[truth].fit.law, candidates[truth].starts);
   if (!own.usable) return std::nullopt;
   Contest contest;
   contest.between.resize(own.after.size(), static_cast<int>(candidates.size()) - 1);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (c == truth) continue;
-    const JointEnd other = FitJoint(joint, candidates[c].fit);
+    const JointEnd other = FitJoint(joint, candidates[c].fit.law, candidates[c].starts);
     const int at = static_cast<int>(contest.ahead.size());
     // One that cannot follow at all is beaten for certain.
     const double ahead = other.usable ? other.sum - own.sum : 1e6;
@@ -135,6 +132,26 @@ std::string PlanSentence(const Plan& plan) {
 
 }  // namespace
 
+PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double charge) {
+  constexpr std::size_t kFew = 8;
+  PlanCandidate candidate{fit.law.effects.back(), fit, charge, {fit.p}};
+  const Effect& effect = *candidate.effect;
+  const std::size_t first = fit.p.size() - effect.parameters.size();
+  std::set<std::vector<double>> settings;
+  if (effect.probes == nullptr) return candidate;
+  for (const Probe& probe : effect.probes(readings.traits)) {
+    std::vector<double> start = fit.p;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].searched) start[first + k] = probe[k];
+    }
+    if (start != fit.p) settings.insert(start);
+  }
+  if (settings.size() <= kFew) {
+    candidate.starts.insert(candidate.starts.end(), settings.begin(), settings.end());
+  }
+  return candidate;
+}
+
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   const ChosenCause* first = nullptr;
   for (const ChosenCause& cause : selection.causes) {
@@ -143,9 +160,13 @@ std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   }
   std::vector<PlanCandidate> candidates;
   if (first == nullptr) return candidates;
-  candidates.push_back(CandidateOf(*OwnRival(*first)));
+  const auto add = [&](const Rival& rival) {
+    candidates.push_back(
+        MakeCandidate(*selection.bench.readings, rival.fit, rival.score.charge + rival.freedom));
+  };
+  add(*OwnRival(*first));
   for (const Rival* rival : EquivalentsOf(*first)) {
-    if (candidates.size() < kMostCandidates) candidates.push_back(CandidateOf(*rival));
+    if (candidates.size() < kMostCandidates) add(*rival);
   }
   return candidates;
 }

@@ -10,10 +10,14 @@ namespace lyrefit {
 
 // What a plan decides between.
 struct PlanCandidate {
-  const Effect* effect = nullptr;
+  const Effect* effect = nullptr;  // the last of its law
   LawFit fit;
   double charge = 0;  // on the sum of squares, for its freedom
+  // From where it is fitted to more readings: where it stands and, where these are few, other
+  // settings of what is searched.
+  std::vector<std::vector<double>> starts;
 };
+PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double charge);
 
 // The first cause that has equivalents, and these; none where every cause stands alone.
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection);

@@ -38,17 +38,17 @@ TEST(CoveredTest, AWeakCellGoesWithItsSubstring) {
   EXPECT_EQ(p, before);
 }
 
-TEST(CoveredTest, OfSubstringsOneGoesAtATime) {
+TEST(CoveredTest, OfSubstringsTheDarkestGoesFirst) {
   const Effect& substrings = *FindEffect("substrings");
   const std::vector<double> two = {0.3, 1.0 / 3, 0.6, 1.0 / 3, 0, 0, 0, 0, 0.5, 1};
   std::vector<double> p = two;
   EXPECT_TRUE(substrings.covered(p.data(), 0, 3));
-  EXPECT_NEAR(p[1], 0, 1e-12);
-  EXPECT_NEAR(p[3], 0.5, 1e-12);
-  p = two;
-  EXPECT_TRUE(substrings.covered(p.data(), 1, 3));
   EXPECT_NEAR(p[1], 0.5, 1e-12);
   EXPECT_NEAR(p[3], 0, 1e-12);
+  p = two;
+  EXPECT_TRUE(substrings.covered(p.data(), 1, 3));
+  EXPECT_NEAR(p[1], 0, 1e-12);
+  EXPECT_NEAR(p[3], 0.5, 1e-12);
   p = two;
   EXPECT_TRUE(substrings.covered(p.data(), 2, 3));
   EXPECT_NEAR(p[1] + p[3], 0.999, 1e-9);

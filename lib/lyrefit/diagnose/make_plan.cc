@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/parallel.h"
@@ -17,17 +18,24 @@ constexpr int kTruths = 8;     // drawn from what the readings leave open of a c
 constexpr int kNoises = 2000;  // of the further readings
 
 // A candidate as it would have been fitted, had the noise been another.
-LawFit DrawTruth(const Workbench& bench, const ErrorModel& errors, const LawFit& fit,
+LawFit DrawTruth(const Workbench& bench, const ErrorModel& errors, const PlanCandidate& candidate,
                  RandomStream* random) {
   Readings again = *bench.readings;
   const std::vector<double> drawn = DrawErrors(errors, random);
   for (std::size_t k = 0; k < drawn.size(); ++k) {
-    again.points[k].current = fit.current[k] + drawn[k];
+    again.points[k].current = candidate.fit.current[k] + drawn[k];
   }
   Workbench other = bench;
   other.readings = &again;
-  LawFit truth = FitLaw(other, fit.law, fit.p, UpTo(30, 1e-5));
-  return truth.usable ? truth : fit;
+  LawFit truth = candidate.fit;
+  bool fitted = false;
+  for (const std::vector<double>& start : candidate.starts) {
+    LawFit fit = FitLaw(other, candidate.fit.law, start, UpTo(30, 1e-5));
+    if (!fit.usable || (fitted && fit.sum >= truth.sum)) continue;
+    truth = std::move(fit);
+    fitted = true;
+  }
+  return truth;
 }
 
 // What the further readings, without noise, leave between the true candidate and the others.
@@ -93,7 +101,7 @@ PlannedCause ForeseeOne(const Workbench& bench, double deviation, const Further&
   double probability = 0;
   int drawn = 0;
   for (int draw = 0; draw < kTruths; ++draw) {
-    const LawFit law = DrawTruth(bench, errors, candidates[truth].fit, &random);
+    const LawFit law = DrawTruth(bench, errors, candidates[truth], &random);
     std::vector<double> unknown;
     for (std::size_t k = 0; k < further.unknown.size(); ++k) unknown.push_back(random.Normal());
     const auto joint = TakeFurther(bench, deviation, further, law, unknown);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
@@ -97,8 +98,12 @@ Effect Substrings() {
   };
   e.groups = true;
   e.covered = [](double* p, int which, int groups) {
+    int darkest_first[kGroups];
+    std::iota(darkest_first, darkest_first + kGroups, 0);
+    std::stable_sort(darkest_first, darkest_first + kGroups,
+                     [p](int a, int b) { return p[2 * a] > p[2 * b]; });
     double before = 0, left = 0;
-    for (int k = 0; k < kGroups; ++k) {
+    for (const int k : darkest_first) {
       double& share = p[2 * k + 1];
       const int first = static_cast<int>(std::lround(before * groups));
       before += share;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/law/make_readings.h"
 #include "made_bench.h"
 
 namespace lyrefit {
@@ -48,7 +49,7 @@ TEST(FurtherMeasurementsTest, FollowTheKindOfData) {
   const Readings lit_and_dark = ReadingsOf({MadeCurve({}), MadeDarkCurve()});
   EXPECT_THAT(Ids(FurtherMeasurements(lit_and_dark)),
               ElementsAre("slower_sweep", "second_light", "isc_voc"));
-  EXPECT_TRUE(FurtherMeasurements(*MakeReadings(SetOf({MadeDarkCurve()}), nullptr)).empty());
+  EXPECT_TRUE(FurtherMeasurements(ReadingsOf(std::vector{MadeDarkCurve()})).empty());
 }
 
 TEST(FurtherMeasurementsTest, TheReverseSweepGoesOnInTime) {

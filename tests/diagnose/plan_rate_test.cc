@@ -59,7 +59,6 @@ std::vector<Pair> Pairs() {
 }
 
 struct Outcome {
-  bool counted = false;
   std::map<std::string, double> foreseen;  // by measurement
   std::map<std::string, bool> right;
 };
@@ -119,6 +118,22 @@ std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
   return candidates;
 }
 
+// Those of so many measurements of the pair that leave both.
+std::vector<int> OpenOnes(const Pair& pair, int tries) {
+  std::vector<char> open(tries);
+  ParallelFor(tries, 0, [&](int k) {
+    RandomStream random(17, k);
+    Made made = Make(pair, &random);
+    made.bench.readings = &made.measurement.readings;
+    open[k] = FitPair(pair, made).empty() ? 0 : 1;
+  });
+  std::vector<int> numbers;
+  for (int k = 0; k < tries; ++k) {
+    if (open[k] != 0) numbers.push_back(k);
+  }
+  return numbers;
+}
+
 // The pair with its cause at the strength, from the one given down, at which the measurement most
 // often leaves both.
 Pair Settled(Pair pair) {
@@ -129,14 +144,7 @@ Pair Settled(Pair pair) {
   int most = -1;
   for (int step = 0; step <= kSteps; ++step) {
     strength = given * std::pow(0.5, 0.5 * step);
-    std::vector<char> open(kTries);
-    ParallelFor(kTries, 0, [&](int k) {
-      RandomStream random(5, k);
-      Made made = Make(pair, &random);
-      made.bench.readings = &made.measurement.readings;
-      open[k] = FitPair(pair, made).empty() ? 0 : 1;
-    });
-    const int count = static_cast<int>(std::count(open.begin(), open.end(), 1));
+    const int count = static_cast<int>(OpenOnes(pair, kTries).size());
     if (count <= most) continue;
     most = count;
     best = strength;
@@ -152,8 +160,6 @@ Outcome Try(const Pair& pair, int number) {
   made.bench.readings = &made.measurement.readings;
   const std::vector<PlanCandidate> candidates = FitPair(pair, made);
   Outcome outcome;
-  outcome.counted = !candidates.empty();
-  if (!outcome.counted) return outcome;
   for (const Further& further : FurtherMeasurements(*made.bench.readings)) {
     outcome.foreseen[further.id] =
         Foresee(made.bench, 1, further, candidates, number).front().probability;
@@ -180,19 +186,19 @@ TEST(PlanRateTest, ForeseesHowOftenTheRightNameComesOut) {
               "foreseen%", "right%", "error");
   for (const Pair& given : Pairs()) {
     const Pair pair = Settled(given);
-    std::vector<Outcome> outcomes(kAttempts);
-    ParallelFor(kAttempts, 0, [&](int k) { outcomes[k] = Try(pair, k); });
+    const std::vector<int> open = OpenOnes(pair, kAttempts);
+    std::vector<Outcome> outcomes(std::min<std::size_t>(open.size(), kRepeats));
+    ParallelFor(static_cast<int>(outcomes.size()), 0,
+                [&](int k) { outcomes[k] = Try(pair, open[k]); });
     std::map<std::string, std::vector<double>> foreseen;
     std::map<std::string, int> right;
-    int counted = 0;
     for (const Outcome& outcome : outcomes) {
-      if (!outcome.counted || counted == kRepeats) continue;
-      ++counted;
       for (const auto& [id, is_right] : outcome.right) {
         foreseen[id].push_back(outcome.foreseen.at(id));
         right[id] += is_right ? 1 : 0;
       }
     }
+    std::fflush(stdout);
     for (const auto& [id, all] : foreseen) {
       const double n = static_cast<double>(all.size());
       double mean = 0, variance = 0;

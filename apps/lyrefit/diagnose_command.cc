@@ -97,6 +97,11 @@ void DiagnoseCommand::AddDiagnosisFlags() {
                   "do not measure the gain on readings that were not fitted")
       .Group("Diagnosis");
   verb_
+      ->AddSwitch(
+          "--plan", &options_.plan,
+          "simulate which further measurement tells the first cause from what looks like it")
+      .Group("Diagnosis");
+  verb_
       ->AddOption("--threads", &options_.threads,
                   "0: all cores; never changes a result (default 0)")
       .Between(0, 1024)

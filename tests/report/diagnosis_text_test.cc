@@ -37,6 +37,20 @@ TEST(DiagnosisText, GivesEachCauseItsSizeAndWhatElseItCouldBe) {
   EXPECT_THAT(text, HasSubstr("to tell       a reference cell read with every point"));
 }
 
+TEST(DiagnosisText, TellsWhatToMeasureNextWhereThatWasAskedFor) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("What would tell them apart")));
+  diagnosis.plan = SamplePlan();
+  const std::string text = DiagnosisText(diagnosis);
+  EXPECT_THAT(text, HasSubstr("What would tell them apart\n  take the sweep backwards.\n"));
+  EXPECT_THAT(text, HasSubstr("between       irradiance_step, irradiance_drift\n"));
+  EXPECT_THAT(text, HasSubstr("reverse_sweep"));
+  EXPECT_THAT(text, HasSubstr("97 %"));
+  EXPECT_THAT(text, HasSubstr("- reverse_sweep: the sweep backwards; noise as measured."));
+  diagnosis.plan->measurements.clear();
+  EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("between ")));
+}
+
 TEST(DiagnosisText, ShowsTheGainAndWhatMoved) {
   const std::string text = DiagnosisText(SampleDiagnosis());
   EXPECT_THAT(text, HasSubstr("RMSE in A, solved-current"));

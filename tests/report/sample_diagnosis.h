@@ -162,6 +162,17 @@ inline Diagnosis SampleDiagnosis() {
 }
 
 // Up and down, with two causes.
+inline Plan SamplePlan() {
+  return {{"irradiance_step", "irradiance_drift"},
+          {{"reverse_sweep",
+            "the sweep backwards",
+            "noise as measured",
+            0.97,
+            {{"irradiance_step", 0.96, 3.5, "irradiance_drift"},
+             {"irradiance_drift", 0.98, kUnknown, "irradiance_step"}}}},
+          "take the sweep backwards"};
+}
+
 inline Diagnosis SampleUpDown() {
   Diagnosis d = SampleDiagnosisHead();
   d.name = "up_down";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/words.h"
@@ -14,10 +15,6 @@
 
 namespace lyrefit {
 namespace {
-
-// Causes whose fit is at most this much worse cannot be told from the best (in chi-square, after
-// what each pays for its freedom).
-constexpr double kEquivalenceWidth = 6;
 
 std::string Short(double value) {
   std::ostringstream text;
@@ -217,16 +214,10 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     const bool by_values = chosen.in_values;
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.corrected_p);
     DescribeSize(bench, selection.extended, static_cast<int>(c), selection.without[c], &cause);
-    double own = 0;
-    for (const Rival& rival : chosen.rivals) {
-      if (rival.score.effect == &effect) own = rival.Charged();
-    }
-    for (const Rival& rival : chosen.rivals) {
-      if (rival.score.effect == &effect || by_values) continue;
-      if (rival.Charged() < own - kEquivalenceWidth) continue;
-      cause.equivalents.push_back(rival.score.effect->id);
+    for (const Rival* rival : EquivalentsOf(chosen)) {
+      cause.equivalents.push_back(rival->score.effect->id);
       AddSeparation(effect, &cause.separate_by);
-      AddSeparation(*rival.score.effect, &cause.separate_by);
+      AddSeparation(*rival->score.effect, &cause.separate_by);
     }
     if (by_values) {
       cause.points = values.clipped;

@@ -16,6 +16,7 @@
 #include "lyrefit/diagnose/extended_report.h"
 #include "lyrefit/diagnose/held_out.h"
 #include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/make_plan.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
@@ -136,6 +137,7 @@ void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes
       ids += (ids.empty() ? "" : ",") + std::string(own->id);
     echoes->push_back({"own-effects", ids, "none"});
   }
+  if (options.plan) echoes->push_back({"plan", "yes", "no"});
   if (!options.held_out) echoes->push_back({"held-out", "no", "yes"});
   AppendNonDefaults(options, kDiagnoseOptionRows, echoes);
 }
@@ -251,6 +253,9 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   diagnosis.verdict =
       Decide(*measurement, shown, options, diagnosis.evidence.whiteness_after_p_value);
   DescribeGain(shown, &diagnosis.gain);
+  if (options.plan && !watch.Stopped()) {
+    diagnosis.plan = MakePlan(outcome.found, options.seed, options.threads);
+  }
   DescribePoints(set, *measurement, shown, &diagnosis);
   AddWarnings(outcome.found, *measurement, &diagnosis);
   diagnosis.interrupted = watch.Stopped();

@@ -34,6 +34,7 @@ struct DiagnoseOptions {
   int largest_causes = 4;  // at most so many are named
   bool held_out = true;    // measure the gain on what was not fitted
   int folds = 10;
+  bool plan = false;    // simulate what would tell the first cause from its equivalents
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;
 };

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/diagnose/plan.h"
 #include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
@@ -165,6 +167,7 @@ struct Diagnosis {
   std::vector<Trial> trials;  // in the order of the catalogue
   Verdict verdict;
   Gain gain;
+  std::optional<Plan> plan;  // where it was asked for
   // The extended model (the base model where nothing was found) as a fit like any other. With
   // DiagnoseOptions::extend it is searched and polished; without, only `estimates`,
   // `causes`, `curves` and `usable` are filled. `device` is empty: the law is the catalogue's.

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/prefer.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
@@ -34,6 +35,9 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
       const bool own = score.effect == selection->causes[c].effect;
       const double sum = own ? std::min(rival.fit.sum, selection->extended.sum) : rival.fit.sum;
       rival.statistic = (without.sum - sum) / variance;
+      rival.freedom = FreedomOf(bench, rival.fit.law);
+      const bool has_floors = options.floors.current > 0 || options.floors.power > 0;
+      if (has_floors && !own && !HasPossibleSize(*bench.readings, without, rival)) continue;
       rivals.push_back(std::move(rival));
     }
     std::stable_sort(rivals.begin(), rivals.end(),

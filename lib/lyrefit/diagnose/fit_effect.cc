@@ -59,8 +59,7 @@ const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
 double Paid(const Workbench& bench, const LawFit& fit) {
-  const double each = std::log(bench.count()) * NoiseVariance(bench, fit);
-  return fit.sum + each * static_cast<double>(fit.law.freed.size());
+  return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
 }
 
 // The best end of those that the curve's shape suggests.
@@ -98,6 +97,10 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
 }
 
 }  // namespace
+
+double FreedomOf(const Workbench& bench, const Law& law) {
+  return std::log(bench.count()) * static_cast<double>(law.freed.size());
+}
 
 LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, Effort effort) {
   const Effect& effect = *score.effect;

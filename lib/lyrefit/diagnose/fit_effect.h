@@ -13,6 +13,9 @@ enum class Effort { kFull, kInPassing, kForTheRecord };
 LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score,
                  Effort effort = Effort::kFull);
 
+// What a law pays for the parameters that it lets go, in units of the noise variance.
+double FreedomOf(const Workbench& bench, const Law& law);
+
 // `fit`'s law without effect number `index`, from where it stands.
 LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index);
 

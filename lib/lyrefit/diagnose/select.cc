@@ -154,7 +154,7 @@ class Selector {
     for (const Rival& rival : rivals) variance = std::min(variance, Variance(rival.fit));
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
-      rival.freedom = std::log(bench_.count()) * static_cast<double>(rival.fit.law.freed.size());
+      rival.freedom = FreedomOf(bench_, rival.fit.law);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });

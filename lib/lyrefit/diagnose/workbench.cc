@@ -4,17 +4,13 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/refine/error_model.h"
 
 namespace lyrefit {
-namespace {
-
 bool Held(const Readings& readings, const Law& law, int parameter) {
   if (parameter == kBasePhotocurrent && readings.traits.only_dark) return true;
   return law.Searched(parameter);
 }
 
-// Of each reading, as the bench has them.
 ErrorModel ErrorsOf(const Workbench& bench) {
   const std::vector<Reading>& points = bench.readings->points;
   ErrorModel errors;
@@ -37,6 +33,8 @@ ErrorModel ErrorsOf(const Workbench& bench) {
   if (neighbours) errors.white.assign(points.size(), 0);
   return errors;
 }
+
+namespace {
 
 // Row by row, in place: rows of left-out readings become 0.
 void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {

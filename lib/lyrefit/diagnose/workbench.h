@@ -6,6 +6,7 @@
 #include "lyrefit/diagnose/watch.h"
 #include "lyrefit/law/law.h"
 #include "lyrefit/law/reading.h"
+#include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/least_squares.h"
 
 namespace lyrefit {
@@ -26,6 +27,12 @@ struct Workbench {
 
   int count() const;  // of used readings
 };
+
+// Whether fits leave a parameter where it is.
+bool Held(const Readings& readings, const Law& law, int parameter);
+
+// Errors of the bench's readings.
+ErrorModel ErrorsOf(const Workbench& bench);
 
 // Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
 // remains. Left-out readings become 0.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -36,6 +37,7 @@ Effect BypassOpen() {
     cell->reverse_exponent = p[3];
   };
   e.groups = true;
+  e.covered = SecondIsShare;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

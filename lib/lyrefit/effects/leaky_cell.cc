@@ -1,4 +1,5 @@
 #include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -38,6 +39,7 @@ Effect LeakyCell() {
     cell->bypass = p[2];
   };
   e.groups = true;
+  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -54,6 +55,7 @@ Effect Shading() {
     cell->bypass = p[2];
   };
   e.groups = true;
+  e.covered = SecondIsShare;
   e.why_not = NeedsBypassDiodes;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -94,6 +97,24 @@ Effect Substrings() {
     cell->bypass = p[kBypass];
   };
   e.groups = true;
+  e.covered = [](double* p, int which, int groups) {
+    int darkest_first[kGroups];
+    std::iota(darkest_first, darkest_first + kGroups, 0);
+    std::stable_sort(darkest_first, darkest_first + kGroups,
+                     [p](int a, int b) { return p[2 * a] > p[2 * b]; });
+    double before = 0, left = 0;
+    for (const int k : darkest_first) {
+      double& share = p[2 * k + 1];
+      const int first = static_cast<int>(std::lround(before * groups));
+      before += share;
+      share = ShareLeft(share, which, groups, first);
+      if (share < 1e-3) share = 0;
+      left += share;
+    }
+    constexpr double kMost = 0.999;
+    for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
+    return left > 0;
+  };
   e.starts = [](const CurveShape& shape, const DataTraits& traits) {
     std::vector<ShapeStart> starts;
     const int known = traits.substrings;

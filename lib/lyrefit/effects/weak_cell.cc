@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -59,6 +60,7 @@ Effect WeakCell() {
     cell->reverse_exponent = p[kExponent];
   };
   e.groups = true;
+  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

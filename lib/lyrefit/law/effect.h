@@ -254,6 +254,10 @@ struct Effect {
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
   // Where one lit condition was measured.
   std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&) = nullptr;
+  // What becomes of the effect, which begins in the first of `groups` bypass groups, while group
+  // `which` stands covered and the others work alone: its parameters, changed to theirs; false
+  // where it is gone. None where all cells have it alike.
+  bool (*covered)(double* p, int which, int groups) = nullptr;
 
   FoundBy found_by = FoundBy::kFit;
   // Splits the cells of a string into kinds: only one effect of a law can.

@@ -133,6 +133,26 @@ Json GainJson(const Gain& gain) {
           {"parameter_shift", std::move(shifts)}};
 }
 
+Json PlanJson(const Plan& plan) {
+  Json measurements = Json::array();
+  for (const PlannedMeasurement& measurement : plan.measurements) {
+    Json causes = Json::object();
+    for (const PlannedCause& cause : measurement.causes) {
+      causes[cause.id] = {{"probability", Number(cause.probability)},
+                          {"separation", Number(cause.separation)},
+                          {"nearest", cause.nearest}};
+    }
+    measurements.push_back({{"id", measurement.id},
+                            {"title", measurement.title},
+                            {"taken", measurement.taken},
+                            {"probability", Number(measurement.probability)},
+                            {"causes", std::move(causes)}});
+  }
+  return {{"causes", plan.causes},
+          {"sentence", plan.sentence},
+          {"measurements", std::move(measurements)}};
+}
+
 Json CurvesJson(const std::vector<DiagnosedCurve>& curves) {
   Json list = Json::array();
   for (const DiagnosedCurve& curve : curves) {
@@ -181,6 +201,7 @@ Json ToJson(const Diagnosis& diagnosis) {
   json["level"] = Number(diagnosis.level);
   json["verdict"] = VerdictJson(diagnosis.verdict);
   json["gain"] = GainJson(diagnosis.gain);
+  if (diagnosis.plan) json["plan"] = PlanJson(*diagnosis.plan);
   json["evidence"] = EvidenceJson(diagnosis.evidence);
   json["trials"] = std::move(trials);
   json["non_default_options"] = OptionsJson(diagnosis.non_default_options);

@@ -21,6 +21,9 @@ std::string DiagnosisBelowSection(const Diagnosis& diagnosis);
 std::string DiagnosisGainSection(const Diagnosis& diagnosis);
 std::string DiagnosisShiftSection(const Diagnosis& diagnosis);
 
+// diagnosis_plan_text.cc: what to measure next.
+std::string DiagnosisPlanSection(const Diagnosis& diagnosis);
+
 // diagnosis_evidence_text.cc: how far to trust it.
 std::string DiagnosisEvidenceSection(const Diagnosis& diagnosis);
 std::string DiagnosisTrialSection(const Diagnosis& diagnosis);

@@ -74,10 +74,10 @@ std::string DiagnosisText(const Diagnosis& diagnosis) {
   std::string text = Header(diagnosis);
   for (const std::string& section :
        {DiagnosisVerdictSection(diagnosis), DiagnosisCauseSections(diagnosis),
-        DiagnosisBelowSection(diagnosis), DiagnosisGainSection(diagnosis),
-        DiagnosisShiftSection(diagnosis), DiagnosisEvidenceSection(diagnosis),
-        DiagnosisTrialSection(diagnosis), DiagnosisUntriedSection(diagnosis),
-        DiagnosisLimitSection(diagnosis), RunSection(diagnosis),
+        DiagnosisPlanSection(diagnosis), DiagnosisBelowSection(diagnosis),
+        DiagnosisGainSection(diagnosis), DiagnosisShiftSection(diagnosis),
+        DiagnosisEvidenceSection(diagnosis), DiagnosisTrialSection(diagnosis),
+        DiagnosisUntriedSection(diagnosis), DiagnosisLimitSection(diagnosis), RunSection(diagnosis),
         List("Assumed", diagnosis.assumptions), List("Warnings", diagnosis.warnings)}) {
     if (!section.empty()) text += "\n" + section;
   }

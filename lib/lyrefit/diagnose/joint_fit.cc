@@ -1,0 +1,233 @@
+#include "lyrefit/diagnose/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lyrefit/base/dense.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kStep = 1e-3;      // of an unknown, in standard deviations
+constexpr double kFarthest = 6;     // the same
+constexpr double kOpenCircuit = 1;  // Voc is looked for so far from where it was, V per cell
+
+bool Currents(const CurveLaw& own, const Readings& readings, double* current,
+              double* jacobian = nullptr) {
+  LawWorkspace workspace;
+  return EvaluateLaw(own.law, readings, own.p.data(), &workspace, current, jacobian);
+}
+
+// Moves the readings beyond 0 V to where the law delivers nothing. The other unknowns move light
+// and temperature only.
+bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, FurtherCurve* curve) {
+  constexpr int kHalvings = 40;
+  std::vector<Reading>& points = curve->readings.points;
+  std::vector<double> low, high, current(points.size());
+  for (const Reading& r : points) {
+    low.push_back(0);
+    high.push_back(r.voltage + kOpenCircuit);
+  }
+  for (int round = 0; round < kHalvings; ++round) {
+    Readings at = Under(*curve, unknown);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].voltage > 0) at.points[k].voltage = 0.5 * (low[k] + high[k]);
+    }
+    if (!Currents(own, at, current.data())) return false;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      (current[k] > 0 ? low[k] : high[k]) = 0.5 * (low[k] + high[k]);
+    }
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].voltage > 0) points[k].voltage = 0.5 * (low[k] + high[k]);
+  }
+  return true;
+}
+
+// Noise of the used reading whose current comes nearest.
+double SigmaAt(const Workbench& measured, double current) {
+  double nearest = 1e300, sigma = 0;
+  for (std::size_t k = 0; k < measured.sigma.size(); ++k) {
+    if (measured.used[k] == 0) continue;
+    const double off = std::fabs(measured.readings->points[k].current - current);
+    if (off >= nearest) continue;
+    nearest = off;
+    sigma = measured.sigma[k];
+  }
+  return sigma;
+}
+
+std::vector<double> InUnits(const std::vector<double>& unknown, const std::vector<double>& sizes) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < sizes.size(); ++k) values.push_back(unknown[k] * sizes[k]);
+  return values;
+}
+
+// Residuals of one further curve from row `first` on, with derivatives by all parameters.
+bool EvaluateCurve(const Joint& joint, const FurtherCurve& curve, int first, const Law& law,
+                   const std::vector<double>& p, double* residuals, RowMatrix* rows) {
+  const int count = static_cast<int>(curve.readings.points.size());
+  const int size = law.size();
+  const CurveLaw own = LawOn(curve, law, p);
+  std::vector<double> unknown(p.begin() + size, p.end());
+  const Readings readings = Under(curve, InUnits(unknown, joint.unknown));
+  std::vector<double> current(count);
+  RowMatrix slopes(count, own.law.size());
+  if (!Currents(own, readings, current.data(), rows != nullptr ? slopes.data() : nullptr)) {
+    return false;
+  }
+  for (int k = 0; k < count; ++k) {
+    residuals[first + k] = current[k] - joint.readings.points[first + k].current;
+  }
+  if (rows == nullptr) return true;
+  for (std::size_t k = 0; k < own.from.size(); ++k) {
+    rows->block(first, own.from[k], count, 1) = slopes.col(static_cast<int>(k));
+  }
+  std::vector<double> moved(count);
+  for (const int u : {curve.light, curve.temperature, curve.drop}) {
+    if (u < 0) continue;
+    std::vector<double> further = unknown;
+    further[u] += kStep;
+    if (!Currents(own, Under(curve, InUnits(further, joint.unknown)), moved.data())) return false;
+    for (int k = 0; k < count; ++k) (*rows)(first + k, size + u) = (moved[k] - current[k]) / kStep;
+  }
+  return true;
+}
+
+// All rows: old readings, further ones, unknowns.
+bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, const double* values,
+                   LawWorkspace* workspace, double* residuals, double* jacobian) {
+  const int size = law.size(), unknown = static_cast<int>(joint.unknown.size());
+  const int count = static_cast<int>(joint.readings.points.size());
+  const std::vector<double> p(values, values + size + unknown);
+  RowMatrix rows;
+  if (jacobian != nullptr) rows.setZero(count, size + unknown);
+  RowMatrix slopes(joint.taken, size);
+  std::vector<double> current(joint.taken);
+  if (!EvaluateLaw(law, old, values, workspace, current.data(),
+                   jacobian != nullptr ? slopes.data() : nullptr)) {
+    return false;
+  }
+  for (int k = 0; k < joint.taken; ++k) {
+    residuals[k] = current[k] - joint.readings.points[k].current;
+  }
+  if (jacobian != nullptr) rows.topLeftCorner(joint.taken, size) = slopes;
+  int first = joint.taken;
+  for (const FurtherCurve& curve : joint.curves) {
+    if (!EvaluateCurve(joint, curve, first, law, p, residuals,
+                       jacobian != nullptr ? &rows : nullptr)) {
+      return false;
+    }
+    first += static_cast<int>(curve.readings.points.size());
+  }
+  Eigen::Map<RowMatrix> r(residuals, count, 1);
+  Whiten(joint.errors, joint.used, r);
+  for (int k = 0; k < unknown; ++k) residuals[count + k] = p[size + k];
+  if (!r.allFinite()) return false;
+  if (jacobian == nullptr) return true;
+  Whiten(joint.errors, joint.used, rows);
+  Eigen::Map<RowMatrix> all(jacobian, count + unknown, size + unknown);
+  all.topRows(count) = rows;
+  all.bottomRows(unknown).setZero();
+  for (int k = 0; k < unknown; ++k) all(count + k, size + k) = 1;
+  return all.allFinite();
+}
+
+}  // namespace
+
+std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
+                                 const Further& further, const LawFit& truth,
+                                 const std::vector<double>& unknown) {
+  Joint joint{
+      further.curves, further.unknown, *measured.readings, measured.sigma, measured.used, {}, 0};
+  for (double& sigma : joint.sigma) sigma *= deviation;
+  joint.taken = static_cast<int>(measured.readings->points.size());
+  const std::vector<double> values = InUnits(unknown, further.unknown);
+  for (FurtherCurve& curve : joint.curves) {
+    const CurveLaw own = LawOn(curve, truth.law, truth.p);
+    if (curve.open_circuit && !FindOpenCircuit(own, values, &curve)) return std::nullopt;
+    std::vector<double> current(curve.readings.points.size());
+    if (!Currents(own, Under(curve, values), current.data())) return std::nullopt;
+    const Reading last = joint.readings.points.back();
+    for (std::size_t k = 0; k < current.size(); ++k) {
+      Reading reading = curve.readings.points[k];
+      reading.current = current[k];
+      reading.curve = last.curve + 1;
+      reading.segment += last.segment + 1;
+      joint.readings.points.push_back(reading);
+      joint.sigma.push_back(deviation * SigmaAt(measured, current[k]));
+      joint.used.push_back(1);
+    }
+  }
+  Workbench bench = measured;
+  bench.readings = &joint.readings;
+  bench.sigma = joint.sigma;
+  bench.used = joint.used;
+  bench.path *= deviation;
+  joint.errors = ErrorsOf(bench);
+  return joint;
+}
+
+std::vector<double> DrawErrors(const ErrorModel& errors, RandomStream* random) {
+  std::vector<double> drawn;
+  double path = 0;
+  for (int k = 0; k < errors.size(); ++k) {
+    if (!errors.path.empty()) {
+      const bool follows = k > 0 && errors.chain[k] == errors.chain[k - 1];
+      const double kept = follows ? std::exp(errors.position[k - 1] - errors.position[k]) : 0;
+      path = kept * path + std::sqrt(1 - kept * kept) * random->Normal();
+    }
+    const double shared = errors.path.empty() ? 0 : errors.path[k] * path;
+    drawn.push_back(shared + errors.white[k] * random->Normal());
+  }
+  return drawn;
+}
+
+void Disturb(RandomStream* random, Joint* joint) {
+  const std::vector<double> drawn = DrawErrors(joint->errors, random);
+  for (std::size_t k = joint->taken; k < drawn.size(); ++k) {
+    joint->readings.points[k].current += drawn[k];
+  }
+}
+
+JointEnd FitJoint(const Joint& joint, const Law& law,
+                  const std::vector<std::vector<double>>& starts) {
+  Readings old = joint.readings;
+  old.points.resize(joint.taken);
+  LeastSquaresProblem problem;
+  const int unknown = static_cast<int>(joint.unknown.size());
+  const int count = static_cast<int>(joint.readings.points.size());
+  problem.residuals = count + unknown;
+  for (int k = 0; k < law.size(); ++k) {
+    problem.lower.push_back(law.Lower(k));
+    problem.upper.push_back(law.Upper(k));
+    problem.held.push_back(Held(old, law, k) ? 1 : 0);
+  }
+  problem.lower.resize(law.size() + unknown, -kFarthest);
+  problem.upper.resize(law.size() + unknown, kFarthest);
+  problem.held.resize(law.size() + unknown, 0);
+  LawWorkspace workspace;
+  problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
+    return EvaluateJoint(joint, old, law, p, &workspace, residuals, jacobian);
+  };
+  LeastSquaresEnd best;
+  for (std::vector<double> start : starts) {
+    start.resize(law.size() + unknown, 0.0);
+    LeastSquaresOptions options = UpTo(40, 1e-6);
+    if (best.usable) options.to_beat = best.sum_of_squares;
+    LeastSquaresEnd end = SolveLeastSquares(problem, start, options);
+    if (end.usable && (!best.usable || end.sum_of_squares < best.sum_of_squares)) {
+      best = std::move(end);
+    }
+  }
+  JointEnd fit;
+  if (!best.usable) return fit;
+  std::vector<double> residuals(problem.residuals);
+  fit.usable = problem.evaluate(best.p.data(), residuals.data(), nullptr);
+  fit.sum = best.sum_of_squares;
+  fit.after = Eigen::Map<Eigen::VectorXd>(residuals.data() + joint.taken, count - joint.taken);
+  return fit;
+}
+
+}  // namespace lyrefit

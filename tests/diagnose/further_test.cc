@@ -1,0 +1,115 @@
+#include "lyrefit/diagnose/further.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/law/make_readings.h"
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+
+Readings ReadingsOf(const std::vector<IvCurve>& curves) {
+  std::vector<std::string> warnings;
+  return *MakeReadings(SetOf(curves), &warnings);
+}
+
+Readings ReadingsOf(const Recipe& recipe) { return ReadingsOf(std::vector{MadeCurve(recipe)}); }
+
+Recipe Module() {
+  Recipe recipe;
+  recipe.cells = 60;
+  return recipe;
+}
+
+std::vector<std::string> Ids(const std::vector<Further>& all) {
+  std::vector<std::string> ids;
+  for (const Further& further : all) ids.push_back(further.id);
+  return ids;
+}
+
+const Further& Find(const std::vector<Further>& all, const std::string& id) {
+  return *std::find_if(all.begin(), all.end(), [&](const Further& f) { return f.id == id; });
+}
+
+TEST(FurtherMeasurementsTest, FollowTheKindOfData) {
+  EXPECT_THAT(
+      Ids(FurtherMeasurements(ReadingsOf(Recipe()))),
+      ElementsAre("reverse_sweep", "slower_sweep", "second_light", "dark_curve", "isc_voc"));
+  EXPECT_THAT(Ids(FurtherMeasurements(ReadingsOf(Module()))),
+              ElementsAre("reverse_sweep", "slower_sweep", "second_light", "dark_curve",
+                          "cover_part", "isc_voc"));
+  const Readings lit_and_dark = ReadingsOf({MadeCurve({}), MadeDarkCurve()});
+  EXPECT_THAT(Ids(FurtherMeasurements(lit_and_dark)),
+              ElementsAre("slower_sweep", "second_light", "isc_voc"));
+  EXPECT_TRUE(FurtherMeasurements(ReadingsOf(std::vector{MadeDarkCurve()})).empty());
+}
+
+TEST(FurtherMeasurementsTest, TheReverseSweepGoesOnInTime) {
+  const Readings readings = ReadingsOf(Recipe());
+  const std::vector<Further> all = FurtherMeasurements(readings);
+  const auto& points = Find(all, "reverse_sweep").curves.front().readings.points;
+  ASSERT_EQ(points.size(), readings.points.size());
+  EXPECT_EQ(points.front().voltage, readings.points.back().voltage);
+  EXPECT_EQ(points.front().rate, -readings.points.back().rate);
+  EXPECT_DOUBLE_EQ(points.front().x, 0.5);
+  EXPECT_DOUBLE_EQ(points.back().x, 1.5);
+}
+
+TEST(FurtherMeasurementsTest, CoveringLeavesTheOtherGroups) {
+  const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
+  const Further& cover = Find(all, "cover_part");
+  ASSERT_EQ(cover.curves.size(), 3U);
+  for (const FurtherCurve& curve : cover.curves) {
+    EXPECT_EQ(curve.readings.traits.cells, 40);
+    EXPECT_EQ(SubstringsOf(curve.readings.traits), 2);
+  }
+  EXPECT_EQ(cover.unknown.size(), 9U);
+}
+
+// What happened while the sweep was taken does not happen again, but goes on at once after it.
+TEST(LawOnTest, WhatHappenedInTimeStaysThere) {
+  const Readings readings = ReadingsOf(Module());
+  Law law = StartingLaw(readings, Model::kSingleDiode);
+  law.effects = {FindEffect("irr_step"), FindEffect("shading")};
+  std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.02, 0.1, 0.4, 1.0 / 3, 0.5, 1};
+  const std::vector<Further> all = FurtherMeasurements(readings);
+  const CurveLaw at_once = LawOn(Find(all, "reverse_sweep").curves.front(), law, p);
+  EXPECT_EQ(at_once.law.effects, law.effects);
+  EXPECT_EQ(at_once.p, p);
+  const CurveLaw later = LawOn(Find(all, "slower_sweep").curves.front(), law, p);
+  EXPECT_THAT(later.law.effects, ElementsAre(FindEffect("shading")));
+  EXPECT_THAT(later.from, ElementsAre(0, 1, 2, 3, 4, 7, 8, 9, 10));
+  EXPECT_EQ(later.p[5], 0.4);
+}
+
+TEST(LawOnTest, ACoveredShadeIsGone) {
+  const Readings readings = ReadingsOf(Module());
+  Law law = StartingLaw(readings, Model::kSingleDiode);
+  law.effects = {FindEffect("shading")};
+  const std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.4, 1.0 / 3, 0.5, 1};
+  const std::vector<Further> all = FurtherMeasurements(readings);
+  const auto& curves = Find(all, "cover_part").curves;
+  EXPECT_TRUE(LawOn(curves[0], law, p).law.effects.empty());
+  EXPECT_NEAR(LawOn(curves[1], law, p).p[6], 0.5, 1e-12);
+}
+
+TEST(UnderTest, MovesWhatIsUnknown) {
+  const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
+  const Further& light = Find(all, "second_light");
+  const FurtherCurve& curve = light.curves.front();
+  const Readings moved = Under(curve, {0.1, 2});
+  EXPECT_DOUBLE_EQ(moved.points[3].irradiance, 0.55);
+  EXPECT_DOUBLE_EQ(moved.points[3].temperature_K, curve.readings.points[3].temperature_K + 2);
+  EXPECT_EQ(moved.points[3].voltage, curve.readings.points[3].voltage);
+}
+
+}  // namespace
+}  // namespace lyrefit

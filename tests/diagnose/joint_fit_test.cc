@@ -1,0 +1,106 @@
+#include "lyrefit/diagnose/joint_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lyrefit/diagnose/choose_base.h"
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+Further Find(const Readings& readings, const std::string& id) {
+  for (Further& further : FurtherMeasurements(readings)) {
+    if (further.id == id) return further;
+  }
+  ADD_FAILURE() << id;
+  return {};
+}
+
+struct Healthy {
+  MadeBench made;
+  LawFit fit;
+};
+Healthy FitHealthy() {
+  Healthy healthy{OnTheBench(MadeCurve({})), {}};
+  healthy.fit = FitBase(healthy.made.bench,
+                        StartingLaw(healthy.made.measurement->readings, Model::kSingleDiode));
+  return healthy;
+}
+
+TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
+  const Healthy healthy = FitHealthy();
+  const Further further = Find(*healthy.made.bench.readings, "isc_voc");
+  const std::vector<double> unknown(further.unknown.size(), 0.5);
+  const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, unknown);
+  ASSERT_TRUE(joint);
+  double before = 1;
+  for (std::size_t k = joint->taken; k < joint->readings.points.size(); k += 2) {
+    const Reading &isc = joint->readings.points[k], &voc = joint->readings.points[k + 1];
+    EXPECT_NEAR(voc.current, 0, 1e-9);
+    EXPECT_LT(voc.voltage, before);
+    EXPECT_NEAR(isc.current, isc.irradiance * 1.015 * healthy.fit.p[kBasePhotocurrent],
+                0.01 * isc.irradiance);
+    before = voc.voltage;
+  }
+}
+
+// The truth itself fits what it gave: what is left are the old readings' residuals.
+TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
+  const Healthy healthy = FitHealthy();
+  for (const Further& further : FurtherMeasurements(*healthy.made.bench.readings)) {
+    const std::vector<double> unknown(further.unknown.size(), 0.0);
+    const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, unknown);
+    ASSERT_TRUE(joint) << further.id;
+    const JointEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
+    ASSERT_TRUE(end.usable) << further.id;
+    EXPECT_NEAR(end.sum, healthy.fit.sum, 1e-3 * healthy.fit.sum) << further.id;
+    EXPECT_LT(end.after.norm(), 0.1) << further.id;
+  }
+}
+
+// A light and a temperature that turned out otherwise cost what they are unlikely, and little more.
+TEST(FitJointTest, FindsWhatWasUnknown) {
+  const Healthy healthy = FitHealthy();
+  const Further further = Find(*healthy.made.bench.readings, "second_light");
+  const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, {2, -1});
+  ASSERT_TRUE(joint);
+  const JointEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
+  EXPECT_NEAR(end.sum - healthy.fit.sum, 5, 1.5);
+  EXPECT_LT(end.after.norm(), 1);
+}
+
+TEST(FitJointTest, WhatIsNotThereMisfits) {
+  const Healthy healthy = FitHealthy();
+  LawFit truth = healthy.fit;
+  truth.law.effects = {FindEffect("nonohmic_shunt")};
+  truth.p.insert(truth.p.end(), {0.5, 2});
+  const Further further = Find(*healthy.made.bench.readings, "dark_curve");
+  const auto joint = TakeFurther(healthy.made.bench, 1, further, truth, {0});
+  ASSERT_TRUE(joint);
+  EXPECT_GT(FitJoint(*joint, healthy.fit.law, {healthy.fit.p}).sum, 100 * healthy.fit.sum);
+}
+
+TEST(DrawErrorsTest, AreOfTheirSizeAndShared) {
+  constexpr int kRows = 20000;
+  ErrorModel errors;
+  errors.white.assign(kRows, 0.5);
+  errors.path.assign(kRows, 2);
+  errors.chain.assign(kRows, 0);
+  for (int k = 0; k < kRows; ++k) errors.position.push_back(0.1 * k);
+  RandomStream random(3);
+  const std::vector<double> drawn = DrawErrors(errors, &random);
+  double square = 0, product = 0;
+  for (int k = 0; k < kRows; ++k) {
+    square += drawn[k] * drawn[k] / kRows;
+    if (k > 0) product += drawn[k] * drawn[k - 1] / kRows;
+  }
+  EXPECT_NEAR(square, 4.25, 0.6);
+  EXPECT_NEAR(product, 4 * std::exp(-0.1), 0.6);
+}
+
+}  // namespace
+}  // namespace lyrefit

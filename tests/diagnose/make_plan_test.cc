@@ -1,0 +1,111 @@
+#include "lyrefit/diagnose/make_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/equivalents.h"
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::IsEmpty;
+
+Rival RivalOf(const char* id, double statistic) {
+  Rival rival;
+  rival.score.effect = FindEffect(id);
+  rival.score.charge = 2;
+  rival.statistic = statistic;
+  return rival;
+}
+
+TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
+  ChosenCause cause;
+  cause.effect = FindEffect("drift");
+  cause.rivals = {RivalOf("shading", 52), RivalOf("drift", 50), RivalOf("clip", 45),
+                  RivalOf("transient", 43)};
+  const auto equivalents = EquivalentsOf(cause);
+  ASSERT_EQ(equivalents.size(), 2U);
+  EXPECT_STREQ(equivalents[0]->score.effect->id, "shading");
+  EXPECT_STREQ(equivalents[1]->score.effect->id, "clip");
+  EXPECT_EQ(OwnRival(cause), &cause.rivals[1]);
+  cause.in_values = true;
+  EXPECT_THAT(EquivalentsOf(cause), IsEmpty());
+}
+
+DiagnoseOptions Quick(const std::vector<std::string>& effects) {
+  DiagnoseOptions options;
+  options.noise = ErrorKind::kWhite;
+  options.floor_current = options.floor_power = 0;
+  options.held_out = false;
+  options.draws = 300;
+  options.effects = effects;
+  options.plan = true;
+  return options;
+}
+
+// A cell that loses a part of the light's current: on one lit sweep a bent shunt does the same.
+IvCurve CurveOfPoorCollection() {
+  constexpr double kRs = 0.004, kSaturation = 1.2e-8, kThermal = 1.2 * 0.02569, kLoss = 0.04 * 8;
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double v = curve.voltage_V[k] + kRs * curve.current_A[k];
+    const double slope = kSaturation / kThermal * std::exp(v / kThermal);
+    curve.current_A[k] -= kLoss / (0.9 - v) / (1 + kRs * slope);
+  }
+  return curve;
+}
+
+const PlannedMeasurement& Find(const Plan& plan, const std::string& id) {
+  return *std::find_if(plan.measurements.begin(), plan.measurements.end(),
+                       [&](const PlannedMeasurement& m) { return m.id == id; });
+}
+
+TEST(PlanTest, ADarkCurveTellsAShuntFromCollection) {
+  const auto diagnosis = Diagnose(CurveOfPoorCollection(), Quick({"nonohmic_shunt", "collection"}));
+  ASSERT_TRUE(diagnosis);
+  ASSERT_TRUE(diagnosis->plan);
+  const Plan& plan = *diagnosis->plan;
+  ASSERT_EQ(plan.causes.size(), 2U);
+  for (std::size_t k = 1; k < plan.measurements.size(); ++k) {
+    EXPECT_GE(plan.measurements[k - 1].probability, plan.measurements[k].probability);
+  }
+  EXPECT_GT(Find(plan, "dark_curve").probability, 0.95);
+  EXPECT_LT(Find(plan, "reverse_sweep").probability, Find(plan, "dark_curve").probability);
+  EXPECT_EQ(plan.sentence.rfind("take ", 0), 0U);
+}
+
+TEST(PlanTest, IsTheSameOnAnyNumberOfThreads) {
+  DiagnoseOptions options = Quick({"nonohmic_shunt", "collection"});
+  options.threads = 1;
+  const auto one = Diagnose(CurveOfPoorCollection(), options);
+  options.threads = 3;
+  const auto three = Diagnose(CurveOfPoorCollection(), options);
+  ASSERT_TRUE(one && three);
+  ASSERT_EQ(one->plan->measurements.size(), three->plan->measurements.size());
+  for (std::size_t k = 0; k < one->plan->measurements.size(); ++k) {
+    EXPECT_EQ(one->plan->measurements[k].id, three->plan->measurements[k].id);
+    EXPECT_EQ(one->plan->measurements[k].probability, three->plan->measurements[k].probability);
+  }
+}
+
+TEST(PlanTest, WhereOneCauseStandsAloneThereIsNothingToTell) {
+  const auto diagnosis = Diagnose(CurveOfPoorCollection(), Quick({"collection"}));
+  ASSERT_TRUE(diagnosis);
+  EXPECT_THAT(diagnosis->plan->causes, IsEmpty());
+  EXPECT_THAT(diagnosis->plan->measurements, IsEmpty());
+}
+
+TEST(PlanTest, IsThereOnlyWhereAskedFor) {
+  DiagnoseOptions options = Quick({"collection"});
+  options.plan = false;
+  EXPECT_FALSE(Diagnose(CurveOfPoorCollection(), options)->plan);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,7 +11,6 @@
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
 namespace {
@@ -89,16 +87,17 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
   return doses;
 }
 
-// What a dose does to the currents, in scales; empty where the law cannot have it.
-std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose) {
+// What so many doses do to the currents, in scales; empty where the law cannot have them.
+std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
   const Readings& readings = sweep.measurement->readings;
   Law law = sweep.fit.law;
   std::vector<double> p = sweep.fit.p;
   if (dose.parameter >= 0) {
-    p[dose.parameter] += dose.raise;
+    p[dose.parameter] = std::max(p[dose.parameter] + doses * dose.raise, 0.0);
   } else {
     law.effects.push_back(FindEffect(dose.effect));
     p.insert(p.end(), dose.p.begin(), dose.p.end());
+    p[p.size() - dose.p.size()] *= doses;
     if (law.size() != static_cast<int>(p.size())) return {};
   }
   LawWorkspace workspace;
@@ -108,22 +107,23 @@ std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose) {
   return change;
 }
 
-// What a dose does to the quantities and the shape, beyond what its own change of Isc and Voc lets
-// expect.
-Eigen::VectorXd Direction(const FittedSweep& sweep, const Expectation& expected,
-                          const std::vector<double>& change) {
-  const SweepState after = StateWith(sweep, change);
+// What taking a change off the readings takes off the quantities and the shape, less what its own
+// change of Isc and Voc lets expect.
+Eigen::VectorXd TakenOff(const FittedSweep& sweep, const Expectation& expected,
+                         std::vector<double> change) {
+  for (double& value : change) value = -value;
+  const SweepState without = StateWith(sweep, change);
   Eigen::VectorXd moved(3);
-  moved << 0, std::log(after.isc_A / sweep.state.isc_A), after.voc_V - sweep.state.voc_V;
+  moved << 0, std::log(sweep.state.isc_A / without.isc_A), sweep.state.voc_V - without.voc_V;
   moved.conservativeResize(expected.regressors);
-  Eigen::VectorXd direction(kParameterQuantities + kShapeBins);
   const Eigen::VectorXd foretold = TransposedTimes(expected.slopes, moved);
-  direction.head(kParameterQuantities) =
-      ParametersOf(after) - ParametersOf(sweep.state) - foretold.head(kParameterQuantities);
-  Eigen::VectorXd shape = after.shape - sweep.state.shape;
+  Eigen::VectorXd taken(kParameterQuantities + kShapeBins);
+  taken.head(kParameterQuantities) =
+      ParametersOf(sweep.state) - ParametersOf(without) - foretold.head(kParameterQuantities);
+  Eigen::VectorXd shape = sweep.state.shape - without.shape;
   for (double& value : shape) value = std::isfinite(value) ? value : 0;
-  direction.tail(kShapeBins) = shape;
-  return direction;
+  taken.tail(kShapeBins) = shape;
+  return taken;
 }
 
 // The inverse covariance of what Direction gives. Neighbouring bins of a shape go together: they
@@ -148,73 +148,102 @@ Eigen::MatrixXd Precision(const Expectation& expected) {
   return precision;
 }
 
-// What the readings would give of Pmax with and without a change of so many doses.
-double PowerOf(const FittedSweep& sweep, const std::vector<double>& change, double doses) {
+// What a change gives of Pmax.
+double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
   const Readings& readings = sweep.measurement->readings;
-  std::vector<double> voltage, now, without;
+  std::vector<double> voltage, without;
   for (std::size_t k = 0; k < change.size(); ++k) {
     voltage.push_back(readings.points[k].voltage);
-    now.push_back(sweep.fit.current[k]);
-    without.push_back(sweep.fit.current[k] - doses * change[k]);
+    without.push_back(sweep.fit.current[k] - change[k]);
   }
-  return FindKeyPoints(voltage, now).max_power_W / FindKeyPoints(voltage, without).max_power_W - 1;
+  return FindKeyPoints(voltage, sweep.fit.current).max_power_W /
+             FindKeyPoints(voltage, without).max_power_W -
+         1;
 }
+
+// The difference, and how sure each part of it is.
+struct Puzzle {
+  const FittedSweep& sweep;
+  const Expectation& expected;
+  double widening;
+  Eigen::VectorXd off;
+  Eigen::MatrixXd precision;
+};
 
 struct Attempt {
   HealthyCause cause;
-  double left = 0;  // of the squared difference
+  bool generic = false;  // no fault of the device
+  double left = 0;       // of the squared difference
 };
 
-std::optional<Attempt> Try(const FittedSweep& sweep, const Expectation& expected,
-                           const Difference& difference, const Eigen::VectorXd& off,
-                           const Eigen::MatrixXd& precision, const Dose& dose) {
-  const std::vector<double> change = ChangeBy(sweep, dose);
-  if (change.empty()) return {};
-  const Eigen::VectorXd direction = Direction(sweep, expected, change);
-  const Eigen::VectorXd weighed = Times(precision, direction);
-  const double length = weighed.dot(direction);
-  if (!(length > 0)) return {};
-  const double doses = weighed.dot(off) / length;
-  if (!dose.either_way && doses <= 0) return {};
-  const double all = off.dot(Times(precision, off));
-  const double error = std::sqrt(difference.widening / length) *
-                       StudentQuantile(0.975, static_cast<double>(expected.degrees));
+// By secants from `doses`: a shunt that comes out as none, a shade less than the slope of the
+// plateau, do not grow in proportion.
+std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double doses) {
+  constexpr int kRounds = 5;
+  constexpr double kMost = 60, kNear = 0.02;
+  Eigen::VectorXd taken;
+  std::vector<double> change;
+  double length = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    change = ChangeBy(puzzle.sweep, dose, doses);
+    if (change.empty()) return {};
+    taken = TakenOff(puzzle.sweep, puzzle.expected, change);
+    const Eigen::VectorXd weighed = Times(puzzle.precision, taken);
+    length = weighed.dot(taken);
+    if (!(length > 0)) return {};
+    const double factor = weighed.dot(puzzle.off) / length;
+    if (round + 1 == kRounds || std::fabs(factor - 1) < kNear) break;
+    doses = std::clamp(factor * doses, -kMost, kMost);
+    if (doses == 0 || (doses < 0 && !dose.either_way)) return {};
+  }
+  const Eigen::VectorXd left = puzzle.off - taken;
+  const double all = puzzle.off.dot(Times(puzzle.precision, puzzle.off));
+  const double error = std::fabs(doses) * dose.percent * std::sqrt(puzzle.widening / length) *
+                       StudentQuantile(0.975, puzzle.expected.degrees);
   Attempt attempt;
-  attempt.left = (all - doses * doses * length) / difference.widening;
+  attempt.generic = dose.id == "drift";
+  attempt.left = left.dot(Times(puzzle.precision, left)) / puzzle.widening;
   HealthyCause& cause = attempt.cause;
   cause.id = dose.id;
   cause.size = doses * dose.percent;
-  cause.low_95 = cause.size - error * dose.percent;
-  cause.high_95 = cause.size + error * dose.percent;
+  cause.low_95 = cause.size - error;
+  cause.high_95 = cause.size + error;
   cause.unit = "%";
-  cause.power = PowerOf(sweep, change, doses);
-  cause.explained = doses * doses * length / all;
+  cause.power = PowerOf(puzzle.sweep, change);
+  cause.explained = 1 - attempt.left * puzzle.widening / all;
   cause.sentence = fmt::format(fmt::runtime(dose.words), cause.size) +
                    fmt::format(": {:+.2f} % of Pmax", 100 * cause.power);
   return attempt;
+}
+
+void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts) {
+  std::optional<Attempt> best = TryFrom(puzzle, dose, 1);
+  if (dose.either_way) {
+    std::optional<Attempt> less = TryFrom(puzzle, dose, -1);
+    if (less && (!best || less->left < best->left)) best = std::move(less);
+  }
+  if (best) attempts->push_back(std::move(*best));
 }
 
 }  // namespace
 
 std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                             const Difference& difference) {
-  // As good: within two deviations of the best. An explanation: of half of the difference.
-  constexpr double kAsGood = 4, kHalf = 0.5;
-  Eigen::VectorXd off(kParameterQuantities + kShapeBins);
-  off.head(kParameterQuantities) = difference.value.head(kParameterQuantities);
-  off.tail(kShapeBins) = difference.shape;
-  const Eigen::MatrixXd precision = Precision(expected);
+  // As good: within two deviations of the best, and within three where light alone is to blame. An
+  // explanation: of half of the difference.
+  constexpr double kAsGood = 4, kClearly = 9, kHalf = 0.5;
+  Puzzle puzzle{sweep, expected, difference.widening,
+                Eigen::VectorXd(kParameterQuantities + kShapeBins), Precision(expected)};
+  puzzle.off.head(kParameterQuantities) = difference.value.head(kParameterQuantities);
+  puzzle.off.tail(kShapeBins) = difference.shape;
   std::vector<Attempt> attempts;
-  for (const Dose& dose : DosesFor(sweep)) {
-    if (auto attempt = Try(sweep, expected, difference, off, precision, dose)) {
-      attempts.push_back(std::move(*attempt));
-    }
-  }
+  for (const Dose& dose : DosesFor(sweep)) Try(puzzle, dose, &attempts);
+  const auto worth = [](const Attempt& a) { return a.left + (a.generic ? kClearly : 0); };
   std::stable_sort(attempts.begin(), attempts.end(),
-                   [](const Attempt& a, const Attempt& b) { return a.left < b.left; });
+                   [&](const Attempt& a, const Attempt& b) { return worth(a) < worth(b); });
   std::vector<HealthyCause> causes;
   for (Attempt& attempt : attempts) {
-    if (attempt.left > attempts.front().left + kAsGood || attempt.cause.explained < kHalf) break;
+    if (attempt.left > attempts.front().left + kAsGood || attempt.cause.explained < kHalf) continue;
     causes.push_back(std::move(attempt.cause));
   }
   return causes;

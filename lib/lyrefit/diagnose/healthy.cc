@@ -62,22 +62,18 @@ std::string LightSentence(const HealthyRow& row) {
                                  : "the light's sensor, or healthy sweeps that were soiled");
 }
 
-std::string SentenceOf(const HealthyComparison& c, bool light) {
-  const std::string whom = fmt::format("{} healthy sweeps", c.references.size());
+// `whom`: what it is compared with.
+std::string SentenceOf(const HealthyComparison& c, bool light, const std::string& whom) {
   if (!c.differs) {
-    return fmt::format(
-        "Like its {} (p = {:.2g}): the fill factor is as expected, {:.2f} % "
-        "against {:.2f} %.",
-        whom, c.p_value, c.rows.front().now, c.rows.front().expected);
+    return fmt::format("Like {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is expected.",
+                       whom, c.p_value, c.rows.front().now, c.rows.front().expected);
   }
-  std::string text = fmt::format("Unlike its {} (p = {:.1g}): ", whom, c.p_value);
+  std::string text = fmt::format("Unlike {} (p = {:.1g}): ", whom, c.p_value);
   for (std::size_t i = 0; i < c.causes.size(); ++i) {
     text += (i > 0 ? "; or " : "") + c.causes[i].sentence;
   }
   if (light) text += (c.causes.empty() ? "" : "; and ") + LightSentence(c.rows.back());
-  if (c.causes.empty() && !light) {
-    text += "nothing that is known here makes this difference; see the table";
-  }
+  if (c.causes.empty() && !light) text += "nothing that is known makes this difference";
   return text + ".";
 }
 
@@ -120,7 +116,10 @@ HealthyComparison Compare(const FittedSweep& sweep,
   result.p_value = std::min(1.0, looks * std::min(d.p_value, light_p));
   result.differs = result.p_value < level;
   if (looks * d.p_value < level) result.causes = ExplainDifference(sweep, e, d);
-  result.sentence = SentenceOf(result, by_light);
+  result.sentence = SentenceOf(
+      result, by_light,
+      fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} healthy sweeps"),
+                  result.references.size()));
   return result;
 }
 

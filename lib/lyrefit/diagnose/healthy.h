@@ -10,7 +10,7 @@
 namespace lyrefit {
 
 struct HealthyOptions {
-  double level = 0.02;  // rate of false alarms over all that is compared
+  double level = 0.01;  // rate of false alarms over all that is compared
   int threads = 0;      // 0: all cores; never changes a result
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,7 @@ struct Dose {
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
   const DataTraits& traits = sweep.measurement->readings.traits;
   const std::vector<double>& p = sweep.fit.p;
-  const double voltage = std::max(traits.open_circuit, 0.1);
+  const double voltage = sweep.state.voc_V / sweep.state.cells;
   std::vector<Dose> doses = {{"series_resistance",
                               "series resistance {:+.2g} %",
                               5,
@@ -87,13 +88,16 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
   return doses;
 }
 
-// What so many doses do to the currents, in scales; empty where the law cannot have them.
+// What so many doses do to the currents, in scales; empty where the law cannot have them. What is
+// always there, and has become more, is taken off the law; what may not have been is added to it.
 std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
   const Readings& readings = sweep.measurement->readings;
   Law law = sweep.fit.law;
   std::vector<double> p = sweep.fit.p;
+  const bool taken = dose.parameter >= 0 && dose.either_way;
+  const double sign = taken ? -1 : 1;
   if (dose.parameter >= 0) {
-    p[dose.parameter] = std::max(p[dose.parameter] + doses * dose.raise, 0.0);
+    p[dose.parameter] = std::max(p[dose.parameter] + sign * doses * dose.raise, 0.0);
   } else {
     law.effects.push_back(FindEffect(dose.effect));
     p.insert(p.end(), dose.p.begin(), dose.p.end());
@@ -103,7 +107,9 @@ std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double 
   LawWorkspace workspace;
   std::vector<double> change(readings.points.size());
   if (!EvaluateLaw(law, readings, p.data(), &workspace, change.data(), nullptr)) return {};
-  for (std::size_t k = 0; k < change.size(); ++k) change[k] -= sweep.fit.current[k];
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    change[k] = sign * (change[k] - sweep.fit.current[k]);
+  }
   return change;
 }
 
@@ -176,6 +182,12 @@ struct Attempt {
   double left = 0;       // of the squared difference
 };
 
+// A parameter's doses are parts of what it is now; a person reads parts of what it was.
+double InPercent(const Dose& dose, double percent) {
+  if (dose.parameter < 0 || !dose.either_way) return percent;
+  return percent / std::max(1 - percent / 100, 0.01);
+}
+
 // By secants from `doses`: a shunt that comes out as none, a shade less than the slope of the
 // plateau, do not grow in proportion.
 std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double doses) {
@@ -205,9 +217,9 @@ std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double do
   attempt.left = left.dot(Times(puzzle.precision, left)) / puzzle.widening;
   HealthyCause& cause = attempt.cause;
   cause.id = dose.id;
-  cause.size = doses * dose.percent;
-  cause.low_95 = cause.size - error;
-  cause.high_95 = cause.size + error;
+  cause.size = InPercent(dose, doses * dose.percent);
+  cause.low_95 = InPercent(dose, doses * dose.percent - error);
+  cause.high_95 = InPercent(dose, doses * dose.percent + error);
   cause.unit = "%";
   cause.power = PowerOf(puzzle.sweep, change);
   cause.explained = 1 - attempt.left * puzzle.widening / all;
@@ -229,22 +241,28 @@ void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts)
 
 std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                             const Difference& difference) {
-  // As good: within two deviations of the best, and within three where light alone is to blame. An
+  // As good: within two deviations of the best, and within three where light alone is to blame; the
+  // deviations are the larger, the more the best leaves (of some nine independent numbers). An
   // explanation: of half of the difference.
-  constexpr double kAsGood = 4, kClearly = 9, kHalf = 0.5;
+  constexpr double kAsGood = 4, kClearly = 9, kHalf = 0.5, kNumbers = 9;
   Puzzle puzzle{sweep, expected, difference.widening,
                 Eigen::VectorXd(kParameterQuantities + kShapeBins), Precision(expected)};
   puzzle.off.head(kParameterQuantities) = difference.value.head(kParameterQuantities);
   puzzle.off.tail(kShapeBins) = difference.shape;
   std::vector<Attempt> attempts;
   for (const Dose& dose : DosesFor(sweep)) Try(puzzle, dose, &attempts);
-  const auto worth = [](const Attempt& a) { return a.left + (a.generic ? kClearly : 0); };
+  double least = std::numeric_limits<double>::max();
+  for (const Attempt& a : attempts) least = std::min(least, a.left);
+  const double unit = std::max(1.0, least / kNumbers);
+  const auto worth = [unit](const Attempt& a) {
+    return a.left + (a.generic ? kClearly * unit : 0);
+  };
   std::stable_sort(attempts.begin(), attempts.end(),
                    [&](const Attempt& a, const Attempt& b) { return worth(a) < worth(b); });
   std::vector<HealthyCause> causes;
-  for (Attempt& attempt : attempts) {
-    if (attempt.left > attempts.front().left + kAsGood || attempt.cause.explained < kHalf) continue;
-    causes.push_back(std::move(attempt.cause));
+  for (Attempt& a : attempts) {
+    const bool as_good = a.left <= attempts.front().left + kAsGood * unit;
+    if (as_good && a.cause.explained >= kHalf) causes.push_back(std::move(a.cause));
   }
   return causes;
 }

@@ -13,7 +13,7 @@ namespace {
 
 std::string TableSection(const HealthyComparison& comparison) {
   TextTable table("lrrlrrl");
-  table.Add({"", "now", "expected", "95 % of healthy sweeps", "z", "Pmax", ""});
+  table.Add({"", "now", "expected", "95 % interval", "z", "Pmax", ""});
   for (const HealthyRow& row : comparison.rows) {
     const std::string label = row.name + (row.unit.empty() ? "" : " (" + row.unit + ")");
     table.Add({label, Significant(row.now, 4), Significant(row.expected, 4),
@@ -23,7 +23,9 @@ std::string TableSection(const HealthyComparison& comparison) {
   }
   return "Now and as expected\n" + table.Text() +
          Wrap("  ",
-              "z: difference in standard deviations of its prediction; Pmax: what the difference "
+              "95 % interval: of what a healthy sweep shows; z: difference in standard deviations "
+              "of "
+              "its prediction; Pmax: what the difference "
               "alone gives of it or costs; parameters make up for one another, the causes do not");
 }
 

@@ -30,7 +30,8 @@ class DiagnoseCommand {
   // diagnose_healthy.cc: against the module's own past.
   void AddHealthyFlags();
   Expected<void> CheckHealthyFlags() const;
-  Expected<std::vector<IvCurve>> ReadSweeps(const std::vector<std::string>& files) const;
+  Expected<std::vector<IvCurve>> ReadSweeps(const std::vector<std::string>& files,
+                                            const ConditionFlags& conditions) const;
   int RunHealthy();
   int RunModule();
   Expected<void> WriteText(const std::vector<Diagnosis>& diagnoses) const;

@@ -41,8 +41,8 @@ Expected<void> DiagnoseCommand::CheckHealthyFlags() const {
   return {};
 }
 
-Expected<std::vector<IvCurve>> DiagnoseCommand::ReadSweeps(
-    const std::vector<std::string>& files) const {
+Expected<std::vector<IvCurve>> DiagnoseCommand::ReadSweeps(const std::vector<std::string>& files,
+                                                           const ConditionFlags& conditions) const {
   std::vector<IvCurve> sweeps;
   for (const std::string& file : files) {
     Expected<CurveSet> set;
@@ -54,7 +54,7 @@ Expected<std::vector<IvCurve>> DiagnoseCommand::ReadSweeps(
       set = SetOfOne(std::move(*curve));
     }
     if (!set) return tl::unexpected(set.error());
-    if (auto applied = ApplyConditionFlags(conditions_, &*set); !applied) {
+    if (auto applied = ApplyConditionFlags(conditions, &*set); !applied) {
       return tl::unexpected(applied.error());
     }
     for (IvCurve& curve : set->curves) sweeps.push_back(std::move(curve));
@@ -64,7 +64,7 @@ Expected<std::vector<IvCurve>> DiagnoseCommand::ReadSweeps(
 
 int DiagnoseCommand::RunModule() {
   healthy_.threads = options_.threads;
-  const auto sweeps = ReadSweeps(files_);
+  const auto sweeps = ReadSweeps(files_, conditions_);
   if (!sweeps) return Refuse(sweeps.error());
   const auto odd = FindOddSweeps(*sweeps, healthy_);
   if (!odd) return Refuse(odd.error());
@@ -79,14 +79,17 @@ int DiagnoseCommand::RunModule() {
 
 int DiagnoseCommand::RunHealthy() {
   healthy_.threads = options_.threads;
-  const auto sweep = ReadSweeps(files_);
+  const auto sweep = ReadSweeps(files_, conditions_);
   if (!sweep) return Refuse(sweep.error());
   if (sweep->size() != 1) {
     return Refuse(Error{
         fmt::format("--healthy compares one sweep, this measurement has {} curves", sweep->size()),
         files_.front()});
   }
-  const auto healthy = ReadSweeps(healthy_files_);
+  ConditionFlags module = conditions_;  // light and temperature are this sweep's
+  module.irradiance_W_m2.reset();
+  module.temperature_C.reset();
+  const auto healthy = ReadSweeps(healthy_files_, module);
   if (!healthy) return Refuse(healthy.error());
   const auto comparison = CompareWithHealthy(sweep->front(), *healthy, healthy_);
   if (!comparison) return Refuse(comparison.error());

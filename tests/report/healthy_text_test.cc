@@ -16,8 +16,8 @@ TEST(HealthyText, SaysWhatDiffersThenShowsTheTable) {
   EXPECT_THAT(text, HasSubstr("today against healthy sweeps\n"));
   EXPECT_THAT(text, HasSubstr("12 healthy sweeps, brought to this sweep's Isc and Voc"));
   EXPECT_THAT(text, HasSubstr("misses 0.11 % of Isc"));
-  EXPECT_THAT(text, HasSubstr("73.20     73.70  73.50 .. 73.90  -6.1  -0.68 %  differs"));
-  EXPECT_THAT(text, HasSubstr("series_resistance  8.00 %  6.90 .. 9.10  -0.62 %      97 %"));
+  EXPECT_THAT(text, HasSubstr("73.20     73.70  73.500 .. 73.900  -6.1  -0.68 %  differs"));
+  EXPECT_THAT(text, HasSubstr("series_resistance  8.00 %  6.90 .. 9.10   -0.62 %      97 %"));
   EXPECT_THAT(text, HasSubstr("wet: unlike the other healthy sweeps"));
   EXPECT_THAT(text, HasSubstr("a warning"));
   EXPECT_LT(text.find("Unlike its 12"), text.find("fill factor"));

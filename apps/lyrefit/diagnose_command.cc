@@ -23,6 +23,8 @@ constexpr char kDiagnoseFooter[] =
     "  lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --plot diagnosis.svg\n"
     "  lyrefit diagnose folder_of_curves --base dd --json diagnosis.json --extend model.json\n"
     "  lyrefit diagnose roof/*.csv --effects nonohmic_shunt,clip --answers answers.json\n"
+    "  lyrefit diagnose today.csv --healthy last_year/*.csv\n"
+    "  lyrefit diagnose folder_of_sweeps --module\n"
     "  lyrefit diagnose --explain nonohmic_shunt\n"
     "\n"
     "A measurement is one sweep, up and down sweeps, a lit and a dark curve, or curves over\n"
@@ -49,6 +51,7 @@ DiagnoseCommand::DiagnoseCommand(CommandLine* line)
   AddColumnFlags(verb_, &reading_, &list_columns_);
   AddConditionFlags(verb_, &conditions_);
   AddDiagnosisFlags();
+  AddHealthyFlags();
   AddCatalogueFlags();
   AddReportFlags(verb_, "diagnosis", "diagnosis", &output_);
   AddFullJsonSwitch(verb_, &output_);
@@ -133,6 +136,7 @@ Expected<void> DiagnoseCommand::CheckFlags() {
   }
   if (auto checked = CheckEffects("--effects", options_.effects); !checked) return checked;
   if (auto checked = CheckNames(); !checked) return checked;
+  if (auto checked = CheckHealthyFlags(); !checked) return checked;
   return verb_->CheckFiles();
 }
 
@@ -213,6 +217,8 @@ int DiagnoseCommand::Run() {
   }
   if (auto checked = CheckFlags(); !checked) return Refuse(checked.error());
   const InterruptGuard guard;
+  if (module_) return RunModule();
+  if (!healthy_files_.empty()) return RunHealthy();
   std::vector<std::string> names;
   std::vector<Diagnosis> diagnoses;
   int exit_code = kExitFine;

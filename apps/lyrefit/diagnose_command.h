@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "flags.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/healthy.h"
 
 namespace lyrefit {
 
@@ -26,6 +27,13 @@ class DiagnoseCommand {
   Expected<Diagnosis> DiagnoseFiles(const std::vector<std::string>& files) const;
   Expected<void> Write(const std::vector<std::string>& names,
                        const std::vector<Diagnosis>& diagnoses) const;
+  // diagnose_healthy.cc: against the module's own past.
+  void AddHealthyFlags();
+  Expected<void> CheckHealthyFlags() const;
+  Expected<std::vector<IvCurve>> ReadSweeps(const std::vector<std::string>& files,
+                                            const ConditionFlags& conditions) const;
+  int RunHealthy();
+  int RunModule();
   Expected<void> WriteText(const std::vector<Diagnosis>& diagnoses) const;
 
   Verb* verb_;
@@ -42,6 +50,9 @@ class DiagnoseCommand {
   std::string answers_file_;
   std::string explain_;
   bool list_ = false;
+  std::vector<std::string> healthy_files_;
+  bool module_ = false;
+  HealthyOptions healthy_;
   ReportFlags output_;
 };
 

@@ -1,0 +1,218 @@
+#include "lyrefit/diagnose/expectation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/base/distributions.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kNone;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+// Bin by bin, where at least half of the sweeps have readings.
+Eigen::VectorXd MedianShape(const std::vector<const SweepState*>& sweeps, int without = -1) {
+  Eigen::VectorXd shape(kShapeBins);
+  for (int bin = 0; bin < kShapeBins; ++bin) {
+    std::vector<double> values;
+    for (int i = 0; i < static_cast<int>(sweeps.size()); ++i) {
+      if (i != without && std::isfinite(sweeps[i]->shape[bin])) {
+        values.push_back(sweeps[i]->shape[bin]);
+      }
+    }
+    shape[bin] = 2 * values.size() >= sweeps.size() ? Median(std::move(values)) : kNone;
+  }
+  return shape;
+}
+
+Eigen::VectorXd ShapeFrom(const Eigen::VectorXd& common, const SweepState& sweep) {
+  Eigen::VectorXd off = sweep.shape - common;
+  for (double& value : off) value = std::isfinite(value) ? value : 0;
+  return off;
+}
+
+double ShapeOff(const Eigen::VectorXd& common, const SweepState& sweep) {
+  constexpr double kSmallest = 1e-6;  // computed sweeps have none
+  int bins = 0;
+  for (int k = 0; k < kShapeBins; ++k) bins += std::isfinite(sweep.shape[k] - common[k]) ? 1 : 0;
+  const double squares = ShapeFrom(common, sweep).squaredNorm();
+  return 0.5 * std::log(squares / std::max(bins, 1) + kSmallest * kSmallest);
+}
+
+Eigen::VectorXd Quantities(const SweepState& state, const Eigen::VectorXd& common) {
+  Eigen::VectorXd y(kQuantities);
+  y.head(kParameterQuantities) = ParametersOf(state);
+  y[kShapeOff] = ShapeOff(common, state);
+  return y;
+}
+
+Eigen::VectorXd Regressors(const Expectation& e, const SweepState& state) {
+  Eigen::VectorXd x(3);
+  x << 1, std::log(state.isc_A) - e.centre[0], state.voc_V - e.centre[1];
+  return x.head(e.regressors);
+}
+
+// The references nearest to the sweep: a hundredth of Voc is worth four of Isc.
+std::vector<int> Nearest(const std::vector<const SweepState*>& references,
+                         const SweepState& sweep) {
+  constexpr std::size_t kMost = 40;
+  constexpr double kVoltageWeight = 4;
+  std::vector<double> distance;
+  for (const SweepState* r : references) {
+    distance.push_back(std::hypot(std::log(r->isc_A / sweep.isc_A),
+                                  kVoltageWeight * std::log(r->voc_V / sweep.voc_V)));
+  }
+  std::vector<int> order(references.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&distance](int a, int b) { return distance[a] < distance[b]; });
+  order.resize(std::min(order.size(), kMost));
+  return order;
+}
+
+struct Rows {
+  Eigen::MatrixXd x, y;
+};
+
+// Weight 0 takes a sweep out.
+Eigen::MatrixXd Slopes(const Rows& rows, const std::vector<char>& keep) {
+  Eigen::MatrixXd x = rows.x, y = rows.y;
+  for (int i = 0; i < x.rows(); ++i) {
+    if (keep[i] != 0) continue;
+    x.row(i).setZero();
+    y.row(i).setZero();
+  }
+  return LeastSquares(x, y);
+}
+
+// Those that lie within a few of their fellows' median distances in every quantity. A shape can
+// only lie too far off.
+std::vector<char> KeepUsual(const Rows& rows) {
+  constexpr double kFar = 4, kToDeviation = 1.4826;
+  constexpr int kFewest = 8, kRounds = 4;
+  const int count = static_cast<int>(rows.x.rows()), columns = static_cast<int>(rows.x.cols());
+  std::vector<char> keep(count, 1);
+  if (count < kFewest) return keep;
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::MatrixXd off = rows.y - Times(rows.x, Slopes(rows, keep));
+    std::vector<char> usual(count, 1);
+    for (int j = 0; j < kQuantities; ++j) {
+      std::vector<double> sizes;
+      for (int i = 0; i < count; ++i) sizes.push_back(std::fabs(off(i, j)));
+      const double widen = std::sqrt(static_cast<double>(count) / (count - columns));
+      const double far = kFar * kToDeviation * widen * Median(sizes);
+      for (int i = 0; i < count; ++i) {
+        const double size = j == kShapeOff ? off(i, j) : sizes[i];
+        if (size > far) usual[i] = 0;
+      }
+    }
+    if (3 * std::count(usual.begin(), usual.end(), 1) < 2 * count || usual == keep) break;
+    keep = usual;
+  }
+  return keep;
+}
+
+int RegressorsFor(std::size_t references) { return references < 6 ? 1 : references < 10 ? 2 : 3; }
+
+Rows RowsOf(const Expectation& e, const std::vector<const SweepState*>& near) {
+  const int count = static_cast<int>(near.size());
+  Rows rows{Eigen::MatrixXd(count, e.regressors), Eigen::MatrixXd(count, kQuantities)};
+  for (int i = 0; i < count; ++i) {
+    rows.x.row(i) = Regressors(e, *near[i]).transpose();
+    rows.y.row(i) = Quantities(*near[i], MedianShape(near, i)).transpose();
+  }
+  return rows;
+}
+
+double Leverage(const Expectation& e, const Eigen::VectorXd& x) {
+  return x.dot(SolveSymmetric(e.gram, x));
+}
+
+// Of one sweep's differences, each reference's from what the others make it expect.
+void FindCovariance(const Rows& rows, Expectation* e) {
+  e->gram = TransposedTimes(rows.x, rows.x);
+  e->slopes = LeastSquares(rows.x, rows.y);
+  Eigen::MatrixXd off = rows.y - Times(rows.x, e->slopes);
+  for (int i = 0; i < off.rows(); ++i) {
+    const double leverage = Leverage(*e, rows.x.row(i).transpose());
+    off.row(i) /= std::sqrt(std::max(1 - leverage, 0.1));
+  }
+  e->degrees = static_cast<int>(rows.x.rows()) - e->regressors;
+  e->covariance = TransposedTimes(off, off) / e->degrees;
+  // What cannot differ between computed sweeps has no variance at all.
+  for (int j = 0; j < kQuantities; ++j) e->covariance(j, j) += 1e-14;
+}
+
+}  // namespace
+
+Eigen::VectorXd ParametersOf(const SweepState& state) {
+  const double ohm = state.voc_V / state.isc_A;
+  Eigen::VectorXd y(kParameterQuantities);
+  y << std::log(state.fill_factor), state.series_ohm / ohm, state.ideality, state.shunt_S * ohm;
+  return y;
+}
+
+Expectation Expect(const std::vector<const SweepState*>& references, const SweepState& sweep) {
+  Expectation e;
+  const std::vector<int> nearest = Nearest(references, sweep);
+  std::vector<const SweepState*> near;
+  for (const int i : nearest) near.push_back(references[i]);
+  e.centre = Eigen::Vector2d(std::log(sweep.isc_A), sweep.voc_V);
+  e.regressors = RegressorsFor(near.size());
+  const std::vector<char> keep = KeepUsual(RowsOf(e, near));
+  std::vector<const SweepState*> kept;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    (keep[i] != 0 ? e.used : e.odd).push_back(nearest[i]);
+    if (keep[i] != 0) kept.push_back(near[i]);
+  }
+  e.regressors = RegressorsFor(kept.size());
+  FindCovariance(RowsOf(e, kept), &e);
+  e.shape = MedianShape(kept);
+  e.shape_scale = Eigen::VectorXd::Zero(kShapeBins);
+  for (const SweepState* sweep_state : kept) {
+    e.shape_scale += ShapeFrom(e.shape, *sweep_state).cwiseAbs2();
+  }
+  e.shape_scale = (e.shape_scale / static_cast<double>(kept.size())).cwiseSqrt();
+  return e;
+}
+
+Difference Differ(const Expectation& e, const SweepState& sweep) {
+  Difference d;
+  const Eigen::VectorXd x = Regressors(e, sweep);
+  d.expected = TransposedTimes(e.slopes, x);
+  d.value = Quantities(sweep, e.shape) - d.expected;
+  d.widening = 1 + Leverage(e, x);
+  d.shape = ShapeFrom(e.shape, sweep);
+  double smallest = 1;
+  for (int j = 0; j < kQuantities; ++j) {
+    const double squared = d.value[j] * d.value[j] / (e.covariance(j, j) * d.widening);
+    double p = FisherTail(squared, 1, e.degrees);
+    if (j == kShapeOff) p = d.value[j] > 0 ? p / 2 : 1;
+    d.p.push_back(p);
+    smallest = std::min(smallest, p);
+  }
+  d.p_value = kQuantities * smallest;
+  Eigen::VectorXd weighed;
+  if (e.degrees >= 2 * kQuantities && SolvePositive(e.covariance, d.value, &weighed)) {
+    const int below = e.degrees - kQuantities + 1;
+    const double squared = d.value.dot(weighed) / d.widening;
+    const double together =
+        FisherTail(squared * below / (e.degrees * kQuantities), kQuantities, below);
+    d.p_value = 2 * std::min(d.p_value, together);
+  }
+  d.p_value = std::min(d.p_value, 1.0);
+  return d;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,254 @@
+#include "lyrefit/diagnose/healthy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/diagnose/expectation.h"
+#include "lyrefit/diagnose/healthy_causes.h"
+#include "lyrefit/diagnose/healthy_rows.h"
+
+namespace lyrefit {
+namespace {
+
+std::vector<Expected<FittedSweep>> FitAll(const std::vector<IvCurve>& curves, int threads) {
+  std::vector<Expected<FittedSweep>> fits(curves.size());
+  ParallelFor(static_cast<int>(curves.size()), threads,
+              [&](int i) { fits[i] = FitSweep(curves[i]); });
+  return fits;
+}
+
+// What the references miss at u alike: the median, where at least half of them have readings.
+double CommonAt(const std::vector<const SweepState*>& references, double u) {
+  std::vector<double> values;
+  for (const SweepState* r : references) {
+    const std::vector<double>& place = r->place;
+    const auto above = std::lower_bound(place.begin(), place.end(), u);
+    if (above == place.end() || (above == place.begin() && *above > u)) continue;
+    const std::size_t k = above - place.begin();
+    const double step = k > 0 ? place[k] - place[k - 1] : 0;
+    const double part = step > 0 ? (u - place[k - 1]) / step : 1;
+    values.push_back(k > 0 ? r->off[k - 1] + part * (r->off[k] - r->off[k - 1]) : r->off[0]);
+  }
+  if (2 * values.size() < references.size() || values.empty()) return 0;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+void TakeCommonOff(const IvCurve& curve, const SweepState& state,
+                   const std::vector<const SweepState*>& references, HealthyComparison* result) {
+  result->without_common = curve;
+  double squares = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double common = CommonAt(references, curve.voltage_V[k] / state.voc_V);
+    result->without_common.current_A[k] -= common * state.isc_A;
+    squares += common * common;
+  }
+  result->common = std::sqrt(squares / static_cast<double>(curve.size()));
+  result->without_common.assumptions.push_back(fmt::format(
+      "what the single diodes of {} healthy sweeps miss alike ({:.2g} % of Isc) is taken off the "
+      "readings",
+      references.size(), 100 * result->common));
+}
+
+std::string LightSentence(const HealthyRow& row) {
+  const double percent = 100 * row.power;
+  return fmt::format("current per light {:+.2g} %: {}", percent,
+                     percent < 0 ? "soiling, a shade on all cells alike, or the light's sensor"
+                                 : "the light's sensor, or healthy sweeps that were soiled");
+}
+
+// `whom`: what it is compared with.
+std::string SentenceOf(const HealthyComparison& c, bool light, const std::string& whom) {
+  if (!c.differs) {
+    return fmt::format("Like {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is expected.",
+                       whom, c.p_value, c.rows.front().now, c.rows.front().expected);
+  }
+  std::string text = fmt::format("Unlike {} (p = {:.1g}): ", whom, c.p_value);
+  for (std::size_t i = 0; i < c.causes.size(); ++i) {
+    text += (i > 0 ? "; or " : "") + c.causes[i].sentence;
+  }
+  if (light) text += (c.causes.empty() ? "" : "; and ") + LightSentence(c.rows.back());
+  if (c.causes.empty() && !light) text += "nothing that is known makes this difference";
+  return text + ".";
+}
+
+void NameSweeps(const std::vector<const SweepState*>& references, const Expectation& e,
+                HealthyComparison* result) {
+  for (const int i : e.used) result->references.push_back(references[i]->name);
+  for (const int i : e.odd) {
+    result->left_out.push_back(references[i]->name + ": unlike the other healthy sweeps");
+  }
+  static const char* const kRegressors[] = {"Isc", "Voc"};
+  for (int k = 1; k < e.regressors; ++k) result->regressed_on.push_back(kRegressors[k - 1]);
+  const std::size_t far = references.size() - e.used.size() - e.odd.size();
+  if (far > 0) {
+    result->left_out.push_back(fmt::format("{} more: the nearest in Isc and Voc were taken", far));
+  }
+  if (e.degrees < 2 * kQuantities) {
+    result->warnings.push_back(
+        fmt::format("{} healthy sweeps show only large differences: with 15 and more all "
+                    "parameters are judged together",
+                    e.used.size()));
+  }
+}
+
+// `looks`: how many sweeps are compared alike. `used` receives the references that count.
+HealthyComparison Compare(const FittedSweep& sweep,
+                          const std::vector<const SweepState*>& references, double level, int looks,
+                          std::vector<const SweepState*>* used) {
+  const Expectation e = Expect(references, sweep.state);
+  const Difference d = Differ(e, sweep.state);
+  for (const int i : e.used) used->push_back(references[i]);
+  HealthyComparison result;
+  result.name = sweep.state.name;
+  NameSweeps(references, e, &result);
+  result.rows = DescribeDifference(sweep, e, d);
+  const std::vector<HealthyRow> light = DescribeLight(sweep.state, *used);
+  result.rows.insert(result.rows.end(), light.begin(), light.end());
+  for (HealthyRow& row : result.rows) row.differs = row.corrected_p * looks < level;
+  const bool by_light = !light.empty() && result.rows.back().differs;
+  const double light_p = light.empty() ? 1 : light.front().corrected_p;
+  result.p_value = std::min(1.0, looks * std::min(d.p_value, light_p));
+  result.differs = result.p_value < level;
+  if (looks * d.p_value < level) result.causes = ExplainDifference(sweep, e, d);
+  result.sentence = SentenceOf(
+      result, by_light,
+      fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} healthy sweeps"),
+                  result.references.size()));
+  return result;
+}
+
+// Whether the references reach the sweep's Isc and Voc.
+Expected<void> CheckReach(const SweepState& sweep,
+                          const std::vector<const SweepState*>& references) {
+  constexpr double kReach = 1.2;
+  const auto check = [&](double SweepState::*field, const char* what,
+                         const char* unit) -> Expected<void> {
+    double low = references.front()->*field, high = low;
+    for (const SweepState* r : references) {
+      low = std::min(low, r->*field);
+      high = std::max(high, r->*field);
+    }
+    const double value = sweep.*field;
+    if (value <= kReach * high && value * kReach >= low) return {};
+    return Fail(
+        fmt::format("{}: {} {:.4g} {} is more than 20 % beyond the healthy sweeps' {:.4g} "
+                    "to {:.4g} {}; compare it with sweeps under like light",
+                    sweep.name, what, value, unit, low, high, unit));
+  };
+  if (auto isc = check(&SweepState::isc_A, "Isc", "A"); !isc) return isc;
+  return check(&SweepState::voc_V, "Voc", "V");
+}
+
+Expected<void> CheckOptions(const HealthyOptions& options) {
+  if (auto valid = ValidateOptions(options, kHealthyOptionRows); !valid) return valid;
+  return ValidateThreads(options.threads);
+}
+
+}  // namespace
+
+Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
+                                               const std::vector<IvCurve>& healthy,
+                                               const HealthyOptions& options) {
+  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
+  auto sweep = FitSweep(curve);
+  if (!sweep) return tl::unexpected(sweep.error());
+  const auto fits = FitAll(healthy, options.threads);
+  std::vector<const SweepState*> references;
+  std::vector<std::string> left_out;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const Expected<FittedSweep>& fit = fits[i];
+    if (healthy[i].voltage_V == curve.voltage_V && healthy[i].current_A == curve.current_A) {
+      left_out.push_back(healthy[i].name + ": it is the sweep that is compared");
+    } else if (!fit) {
+      left_out.push_back(fit.error().message);
+    } else if (fit->state.cells != sweep->state.cells) {
+      return Fail(
+          fmt::format("{} has {} cells in series, the healthy sweep {} has {}: compare "
+                      "sweeps of one module or of its like",
+                      curve.name, sweep->state.cells, fit->state.name, fit->state.cells));
+    } else {
+      references.push_back(&fit->state);
+    }
+  }
+  if (references.size() < kFewestReferences) {
+    return Fail(fmt::format("{} healthy sweeps can be used, a comparison needs {} or more{}",
+                            references.size(), kFewestReferences,
+                            left_out.empty() ? "" : " (" + left_out.front() + ")"));
+  }
+  if (auto near = CheckReach(sweep->state, references); !near) {
+    return tl::unexpected(near.error());
+  }
+  std::vector<const SweepState*> used;
+  HealthyComparison result = Compare(*sweep, references, options.level, 1, &used);
+  result.left_out.insert(result.left_out.begin(), left_out.begin(), left_out.end());
+  TakeCommonOff(curve, sweep->state, used, &result);
+  return result;
+}
+
+Expected<OddSweeps> FindOddSweeps(const std::vector<IvCurve>& curves,
+                                  const HealthyOptions& options) {
+  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
+  const auto fits = FitAll(curves, options.threads);
+  OddSweeps result;
+  std::vector<const FittedSweep*> sweeps;
+  for (const auto& fit : fits) {
+    if (!fit) {
+      result.rejected.push_back(fit.error().message);
+    } else if (!sweeps.empty() && fit->state.cells != sweeps.front()->state.cells) {
+      return Fail(
+          fmt::format("{} has {} cells in series, {} has {}: these are not sweeps of one "
+                      "module",
+                      fit->state.name, fit->state.cells, sweeps.front()->state.name,
+                      sweeps.front()->state.cells));
+    } else {
+      sweeps.push_back(&*fit);
+    }
+  }
+  const int count = static_cast<int>(sweeps.size());
+  if (count <= kFewestReferences) {
+    return Fail(fmt::format("{} sweeps can be compared with each other, that takes {} or more",
+                            count, kFewestReferences + 1));
+  }
+  // Those that look odd by themselves are nobody's reference the second time.
+  std::vector<char> odd(count, 0);
+  std::vector<HealthyComparison> found(count);
+  std::vector<char> compared(count, 0);
+  for (const bool last : {false, true}) {
+    std::vector<char> now(count, 0);
+    ParallelFor(count, options.threads, [&](int i) {
+      std::vector<const SweepState*> others;
+      for (int k = 0; k < count; ++k) {
+        if (k != i && odd[k] == 0) others.push_back(&sweeps[k]->state);
+      }
+      if (others.size() < kFewestReferences || !CheckReach(sweeps[i]->state, others)) return;
+      compared[i] = 1;
+      if (last) {
+        std::vector<const SweepState*> used;
+        found[i] = Compare(*sweeps[i], others, options.level, count, &used);
+      } else {
+        const SweepState& state = sweeps[i]->state;
+        now[i] = Differ(Expect(others, state), state).p_value < options.level ? 1 : 0;
+      }
+    });
+    odd = now;
+  }
+  for (int i = 0; i < count; ++i) {
+    if (compared[i] == 0) {
+      result.rejected.push_back(sweeps[i]->state.name + ": no other sweeps under like light");
+      continue;
+    }
+    result.odd += found[i].differs ? 1 : 0;
+    result.sweeps.push_back(std::move(found[i]));
+  }
+  std::stable_sort(result.sweeps.begin(), result.sweeps.end(),
+                   [](const auto& a, const auto& b) { return a.p_value < b.p_value; });
+  return result;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,270 @@
+#include "lyrefit/diagnose/healthy_causes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/base/distributions.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/effects/catalogue.h"
+
+namespace lyrefit {
+namespace {
+
+// A dose of something that may have happened to a module: a base parameter raised, or an effect.
+struct Dose {
+  std::string id;
+  std::string words;        // with the size in per cent in place of {}
+  double percent = 1;       // of the dose, in the measure of `words`
+  bool either_way = false;  // less of it is possible as well
+  int parameter = -1;       // of the base that is raised,
+  double raise = 0;         // by so much
+  const char* effect = "";  // or an effect from the catalogue
+  std::vector<double> p;    // with these parameters
+};
+
+std::vector<Dose> DosesFor(const FittedSweep& sweep) {
+  const DataTraits& traits = sweep.measurement->readings.traits;
+  const std::vector<double>& p = sweep.fit.p;
+  const double voltage = sweep.state.voc_V / sweep.state.cells;
+  std::vector<Dose> doses = {{"series_resistance",
+                              "series resistance {:+.2g} %",
+                              5,
+                              true,
+                              kBaseResistance,
+                              0.05 * std::max(p[kBaseResistance], 1e-3),
+                              "",
+                              {}},
+                             {"shunt",
+                              "a leak that takes {:.2g} % of Isc at Voc",
+                              0.5,
+                              false,
+                              kBaseConductance,
+                              0.005 / voltage,
+                              "",
+                              {}},
+                             {"ideality",
+                              "n of the diode {:+.2g} % (recombination; the temperature)",
+                              2,
+                              true,
+                              kBaseIdeality,
+                              0.02 * p[kBaseIdeality],
+                              "",
+                              {}},
+                             {"nonohmic_shunt",
+                              "a leak that grows faster than the voltage, {:.2g} % of Isc at Voc",
+                              0.5,
+                              false,
+                              -1,
+                              0,
+                              "nonohmic_shunt",
+                              {0.005, 3}},
+                             {"drift",
+                              "light that changed by {:+.2g} % while the sweep was taken",
+                              0.5,
+                              true,
+                              -1,
+                              0,
+                              "drift",
+                              {0.005}}};
+  if (traits.module && (traits.substrings > 1 || !traits.bypass_known)) {
+    const int substrings = SubstringsOf(traits);
+    if (substrings > 1) {
+      doses.push_back({"shading",
+                       fmt::format("one of {} substrings with {{:.2g}} % less light", substrings),
+                       0.5,
+                       false,
+                       -1,
+                       0,
+                       "shading",
+                       {0.005, 1.0 / substrings, 0.5, 1}});
+    }
+  }
+  return doses;
+}
+
+// What so many doses do to the currents, in scales; empty where the law cannot have them. What is
+// always there, and has become more, is taken off the law; what may not have been is added to it.
+std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
+  const Readings& readings = sweep.measurement->readings;
+  Law law = sweep.fit.law;
+  std::vector<double> p = sweep.fit.p;
+  const bool taken = dose.parameter >= 0 && dose.either_way;
+  const double sign = taken ? -1 : 1;
+  if (dose.parameter >= 0) {
+    p[dose.parameter] = std::max(p[dose.parameter] + sign * doses * dose.raise, 0.0);
+  } else {
+    law.effects.push_back(FindEffect(dose.effect));
+    p.insert(p.end(), dose.p.begin(), dose.p.end());
+    p[p.size() - dose.p.size()] *= doses;
+    if (law.size() != static_cast<int>(p.size())) return {};
+  }
+  LawWorkspace workspace;
+  std::vector<double> change(readings.points.size());
+  if (!EvaluateLaw(law, readings, p.data(), &workspace, change.data(), nullptr)) return {};
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    change[k] = sign * (change[k] - sweep.fit.current[k]);
+  }
+  return change;
+}
+
+// What taking a change off the readings takes off the quantities and the shape, less what its own
+// change of Isc and Voc lets expect.
+Eigen::VectorXd TakenOff(const FittedSweep& sweep, const Expectation& expected,
+                         std::vector<double> change) {
+  for (double& value : change) value = -value;
+  const SweepState without = StateWith(sweep, change);
+  Eigen::VectorXd moved(3);
+  moved << 0, std::log(sweep.state.isc_A / without.isc_A), sweep.state.voc_V - without.voc_V;
+  moved.conservativeResize(expected.regressors);
+  const Eigen::VectorXd foretold = TransposedTimes(expected.slopes, moved);
+  Eigen::VectorXd taken(kParameterQuantities + kShapeBins);
+  taken.head(kParameterQuantities) =
+      ParametersOf(sweep.state) - ParametersOf(without) - foretold.head(kParameterQuantities);
+  Eigen::VectorXd shape = sweep.state.shape - without.shape;
+  for (double& value : shape) value = std::isfinite(value) ? value : 0;
+  taken.tail(kShapeBins) = shape;
+  return taken;
+}
+
+// The inverse covariance of what Direction gives. Neighbouring bins of a shape go together: they
+// count as a third of their number. Few references say nothing of how quantities go together.
+Eigen::MatrixXd Precision(const Expectation& expected) {
+  constexpr double kTogether = 3, kSmallest = 1e-5;
+  const int size = kParameterQuantities + kShapeBins;
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(size, size);
+  Eigen::MatrixXd covariance =
+      expected.covariance.topLeftCorner(kParameterQuantities, kParameterQuantities);
+  if (expected.degrees < 2 * kQuantities) {
+    covariance = Eigen::MatrixXd(covariance.diagonal().asDiagonal());
+  }
+  for (int j = 0; j < kParameterQuantities; ++j) {
+    precision.col(j).head(kParameterQuantities) =
+        SolveSymmetric(covariance, Eigen::VectorXd::Unit(kParameterQuantities, j));
+  }
+  for (int k = 0; k < kShapeBins; ++k) {
+    const double scale = std::hypot(expected.shape_scale[k], kSmallest);
+    precision(kParameterQuantities + k, kParameterQuantities + k) = 1 / (kTogether * scale * scale);
+  }
+  return precision;
+}
+
+// What a change gives of Pmax.
+double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
+  const Readings& readings = sweep.measurement->readings;
+  std::vector<double> voltage, without;
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    voltage.push_back(readings.points[k].voltage);
+    without.push_back(sweep.fit.current[k] - change[k]);
+  }
+  return FindKeyPoints(voltage, sweep.fit.current).max_power_W /
+             FindKeyPoints(voltage, without).max_power_W -
+         1;
+}
+
+// The difference, and how sure each part of it is.
+struct Puzzle {
+  const FittedSweep& sweep;
+  const Expectation& expected;
+  double widening;
+  Eigen::VectorXd off;
+  Eigen::MatrixXd precision;
+};
+
+struct Attempt {
+  HealthyCause cause;
+  bool generic = false;  // no fault of the device
+  double left = 0;       // of the squared difference
+};
+
+// A parameter's doses are parts of what it is now; a person reads parts of what it was.
+double InPercent(const Dose& dose, double percent) {
+  if (dose.parameter < 0 || !dose.either_way) return percent;
+  return percent / std::max(1 - percent / 100, 0.01);
+}
+
+// By secants from `doses`: a shunt that comes out as none, a shade less than the slope of the
+// plateau, do not grow in proportion.
+std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double doses) {
+  constexpr int kRounds = 5;
+  constexpr double kMost = 60, kNear = 0.02;
+  Eigen::VectorXd taken;
+  std::vector<double> change;
+  double length = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    change = ChangeBy(puzzle.sweep, dose, doses);
+    if (change.empty()) return {};
+    taken = TakenOff(puzzle.sweep, puzzle.expected, change);
+    const Eigen::VectorXd weighed = Times(puzzle.precision, taken);
+    length = weighed.dot(taken);
+    if (!(length > 0)) return {};
+    const double factor = weighed.dot(puzzle.off) / length;
+    if (round + 1 == kRounds || std::fabs(factor - 1) < kNear) break;
+    doses = std::clamp(factor * doses, -kMost, kMost);
+    if (doses == 0 || (doses < 0 && !dose.either_way)) return {};
+  }
+  const Eigen::VectorXd left = puzzle.off - taken;
+  const double all = puzzle.off.dot(Times(puzzle.precision, puzzle.off));
+  const double error = std::fabs(doses) * dose.percent * std::sqrt(puzzle.widening / length) *
+                       StudentQuantile(0.975, puzzle.expected.degrees);
+  Attempt attempt;
+  attempt.generic = dose.id == "drift";
+  attempt.left = left.dot(Times(puzzle.precision, left)) / puzzle.widening;
+  HealthyCause& cause = attempt.cause;
+  cause.id = dose.id;
+  cause.size = InPercent(dose, doses * dose.percent);
+  cause.low_95 = InPercent(dose, doses * dose.percent - error);
+  cause.high_95 = InPercent(dose, doses * dose.percent + error);
+  cause.unit = "%";
+  cause.power = PowerOf(puzzle.sweep, change);
+  cause.explained = 1 - attempt.left * puzzle.widening / all;
+  cause.sentence = fmt::format(fmt::runtime(dose.words), cause.size) +
+                   fmt::format(": {:+.2f} % of Pmax", 100 * cause.power);
+  return attempt;
+}
+
+void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts) {
+  std::optional<Attempt> best = TryFrom(puzzle, dose, 1);
+  if (dose.either_way) {
+    std::optional<Attempt> less = TryFrom(puzzle, dose, -1);
+    if (less && (!best || less->left < best->left)) best = std::move(less);
+  }
+  if (best) attempts->push_back(std::move(*best));
+}
+
+}  // namespace
+
+std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
+                                            const Difference& difference) {
+  // As good: within two deviations of the best, and within three where light alone is to blame; the
+  // deviations are the larger, the more the best leaves (of some nine independent numbers). An
+  // explanation: of half of the difference.
+  constexpr double kAsGood = 4, kClearly = 9, kHalf = 0.5, kNumbers = 9;
+  Puzzle puzzle{sweep, expected, difference.widening,
+                Eigen::VectorXd(kParameterQuantities + kShapeBins), Precision(expected)};
+  puzzle.off.head(kParameterQuantities) = difference.value.head(kParameterQuantities);
+  puzzle.off.tail(kShapeBins) = difference.shape;
+  std::vector<Attempt> attempts;
+  for (const Dose& dose : DosesFor(sweep)) Try(puzzle, dose, &attempts);
+  double least = std::numeric_limits<double>::max();
+  for (const Attempt& a : attempts) least = std::min(least, a.left);
+  const double unit = std::max(1.0, least / kNumbers);
+  const auto worth = [unit](const Attempt& a) {
+    return a.left + (a.generic ? kClearly * unit : 0);
+  };
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [&](const Attempt& a, const Attempt& b) { return worth(a) < worth(b); });
+  std::vector<HealthyCause> causes;
+  for (Attempt& a : attempts) {
+    const bool as_good = a.left <= attempts.front().left + kAsGood * unit;
+    if (as_good && a.cause.explained >= kHalf) causes.push_back(std::move(a.cause));
+  }
+  return causes;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/diagnose/expectation.h"
+#include "lyrefit/diagnose/healthy.h"
+
+namespace lyrefit {
+
+// Now against expected, quantity by quantity.
+std::vector<HealthyRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
+                                           const Difference& difference);
+
+// Isc per light, where the light of all is known: by the sensor, whose own scatter is in the
+// references too. With the temperatures of enough sweeps it follows them. One row or none.
+std::vector<HealthyRow> DescribeLight(const SweepState& now,
+                                      const std::vector<const SweepState*>& references);
+
+}  // namespace lyrefit

@@ -1,0 +1,202 @@
+#include "lyrefit/diagnose/healthy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "law/made_curve.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/sweep_state.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kSeriesOhm = 0.24, kNoise_A = 0.005;
+
+// The same module on another moment of a fair day: other light, other temperature of the cells.
+// What a single diode misses of every sweep of it: `bump`.
+IvCurve Sweep(int number, double bump_A = 0.01) {
+  Recipe recipe;
+  recipe.name = "s" + std::to_string(number);
+  recipe.cells = 60;
+  recipe.irradiance_W_m2 = 850 + 20 * ((7 * number) % 13);
+  recipe.noise_A = kNoise_A;
+  recipe.seed = number;
+  IvCurve curve = MadeCurve(recipe);
+  const double kelvin = (5 * number) % 11;
+  curve.conditions.cell_temperature_K += kelvin;
+  for (double& v : curve.voltage_V) v *= 1 - 0.003 * kelvin;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    curve.current_A[k] += bump_A * std::sin(12 * curve.voltage_V[k] / 36);
+  }
+  return curve;
+}
+
+std::vector<IvCurve> Sweeps(int count, double bump_A = 0.01) {
+  std::vector<IvCurve> sweeps;
+  for (int k = 0; k < count; ++k) sweeps.push_back(Sweep(k + 1, bump_A));
+  return sweeps;
+}
+
+IvCurve WithResistance(IvCurve curve, double ohm) {
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.voltage_V[k] -= ohm * curve.current_A[k];
+  return curve;
+}
+
+IvCurve WithLeak(IvCurve curve, double siemens) {
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] -= siemens * curve.voltage_V[k];
+  return curve;
+}
+
+HealthyComparison Compare(const IvCurve& curve, const std::vector<IvCurve>& healthy) {
+  auto comparison = CompareWithHealthy(curve, healthy);
+  EXPECT_TRUE(comparison) << comparison.error().message;
+  return comparison ? *comparison : HealthyComparison();
+}
+
+TEST(CompareWithHealthy, SaysThatAHealthySweepIsLikeTheOthers) {
+  const HealthyComparison c = Compare(Sweep(50), Sweeps(24));
+  EXPECT_FALSE(c.differs) << c.sentence;
+  EXPECT_THAT(c.sentence, HasSubstr("Like its 24 healthy sweeps"));
+  EXPECT_THAT(c.causes, IsEmpty());
+  EXPECT_EQ(c.references.size(), 24U);
+  for (const HealthyRow& row : c.rows) {
+    EXPECT_LT(row.low_95, row.high_95) << row.symbol;
+    EXPECT_LT(std::fabs(row.z), 4) << row.symbol;
+  }
+}
+
+TEST(CompareWithHealthy, NamesASeriesResistanceWithItsSizeAndItsPower) {
+  const IvCurve before = Sweep(50, 0), now = WithResistance(before, 0.1 * kSeriesOhm);
+  const HealthyComparison c = Compare(now, Sweeps(24, 0));
+  ASSERT_TRUE(c.differs);
+  ASSERT_FALSE(c.causes.empty());
+  const HealthyCause& cause = c.causes.front();
+  EXPECT_EQ(cause.id, "series_resistance");
+  // Of what this sweep had: the warmer cells' voltages, and so their resistance, are smaller.
+  EXPECT_NEAR(cause.size, 10.25, 1);
+  EXPECT_LT(cause.low_95, cause.size);
+  EXPECT_GT(cause.high_95, cause.size);
+  const double lost = FindKeyPoints(now.voltage_V, now.current_A).max_power_W /
+                          FindKeyPoints(before.voltage_V, before.current_A).max_power_W -
+                      1;
+  EXPECT_NEAR(cause.power, lost, 0.3 * std::fabs(lost));
+  EXPECT_THAT(c.sentence, HasSubstr("series resistance +"));
+}
+
+TEST(CompareWithHealthy, NamesALeak) {
+  const HealthyComparison c = Compare(WithLeak(Sweep(50), 0.02 * 8 / 36), Sweeps(24));
+  ASSERT_TRUE(c.differs);
+  ASSERT_FALSE(c.causes.empty());
+  EXPECT_EQ(c.causes.front().id, "shunt");
+  EXPECT_NEAR(c.causes.front().size, 2, 0.7);
+  EXPECT_LT(c.causes.front().power, -0.01);
+}
+
+TEST(CompareWithHealthy, FewHealthySweepsShowOnlyLargeDifferencesAndSaySo) {
+  const HealthyComparison c = Compare(WithResistance(Sweep(50), kSeriesOhm), Sweeps(5));
+  EXPECT_TRUE(c.differs);
+  EXPECT_THAT(c.warnings, Contains(HasSubstr("only large differences")));
+  EXPECT_THAT(c.regressed_on, IsEmpty());
+}
+
+TEST(CompareWithHealthy, TakesOffWhatAllMissAlike) {
+  const IvCurve sweep = Sweep(50);
+  const HealthyComparison c = Compare(sweep, Sweeps(24));
+  const auto size = [](const IvCurve& curve) {
+    double squares = 0;
+    const auto fitted = FitSweep(curve);
+    for (const double off : fitted->state.off) squares += off * off;
+    return std::sqrt(squares / static_cast<double>(curve.size()));
+  };
+  const double before = size(sweep), after = size(c.without_common);
+  EXPECT_GT(c.common, 5e-4);
+  EXPECT_NEAR(after, kNoise_A / 7.5, 0.2 * kNoise_A / 7.5);
+  EXPECT_GT(before, 1.2 * after);
+  EXPECT_THAT(c.without_common.assumptions, Contains(HasSubstr("miss alike")));
+}
+
+TEST(CompareWithHealthy, LeavesOddReferencesAndTheSweepItselfOut) {
+  std::vector<IvCurve> healthy = Sweeps(24);
+  healthy[5] = WithResistance(healthy[5], 0.5 * kSeriesOhm);
+  healthy.push_back(Sweep(50));
+  const HealthyComparison c = Compare(Sweep(50), healthy);
+  EXPECT_THAT(c.left_out, Contains(HasSubstr("s6: unlike")));
+  EXPECT_THAT(c.left_out, Contains(HasSubstr("s50: it is the sweep")));
+  EXPECT_EQ(c.references.size(), 23U);
+}
+
+TEST(CompareWithHealthy, SeesSoilingByTheStatedLight) {
+  IvCurve soiled = Sweep(50);
+  soiled.conditions.irradiance_W_m2 *= 1.05;
+  const HealthyComparison c = Compare(soiled, Sweeps(24));
+  EXPECT_TRUE(c.differs);
+  EXPECT_EQ(c.rows.back().symbol, "Isc/G");
+  EXPECT_NEAR(c.rows.back().power, -0.048, 0.005);
+  EXPECT_THAT(c.sentence, HasSubstr("soiling"));
+  EXPECT_THAT(c.causes, IsEmpty());
+  soiled.irradiance_known = false;
+  EXPECT_FALSE(Compare(soiled, Sweeps(24)).differs);
+}
+
+TEST(CompareWithHealthy, RefusesWhatCannotBeCompared) {
+  const auto complaint = [](const IvCurve& curve, const std::vector<IvCurve>& healthy) {
+    const auto comparison = CompareWithHealthy(curve, healthy);
+    return comparison ? std::string() : comparison.error().message;
+  };
+  EXPECT_THAT(complaint(Sweep(50), Sweeps(3)), HasSubstr("needs 4 or more"));
+  IvCurve other = Sweep(50);
+  other.conditions.cells_in_series = 72;
+  EXPECT_THAT(complaint(other, Sweeps(8)), HasSubstr("72 cells"));
+  IvCurve bright = Sweep(50);
+  for (double& current : bright.current_A) current *= 1.6;
+  EXPECT_THAT(complaint(bright, Sweeps(8)), HasSubstr("more than 20 % beyond"));
+  HealthyOptions options;
+  options.level = 2;
+  EXPECT_FALSE(CompareWithHealthy(Sweep(50), Sweeps(8), options));
+}
+
+TEST(FindOddSweeps, ListsTheOddOnesFirst) {
+  std::vector<IvCurve> sweeps = Sweeps(26);
+  sweeps[3] = WithResistance(sweeps[3], 0.3 * kSeriesOhm);
+  sweeps[17] = WithLeak(sweeps[17], 0.03 * 8 / 36);
+  const auto odd = FindOddSweeps(sweeps);
+  ASSERT_TRUE(odd) << odd.error().message;
+  ASSERT_EQ(odd->sweeps.size(), 26U);
+  EXPECT_EQ(odd->odd, 2);
+  std::vector<std::string> first = {odd->sweeps[0].name, odd->sweeps[1].name};
+  std::sort(first.begin(), first.end());
+  EXPECT_EQ(first, (std::vector<std::string>{"s18", "s4"}));
+  for (std::size_t k = 0; k < 26; ++k) EXPECT_EQ(odd->sweeps[k].differs, k < 2);
+}
+
+TEST(FindOddSweeps, GivesTheSameAnswerOnAnyNumberOfThreads) {
+  HealthyOptions options;
+  options.threads = 1;
+  const auto one = FindOddSweeps(Sweeps(12), options);
+  options.threads = 3;
+  const auto three = FindOddSweeps(Sweeps(12), options);
+  ASSERT_TRUE(one && three);
+  for (std::size_t k = 0; k < one->sweeps.size(); ++k) {
+    EXPECT_EQ(one->sweeps[k].name, three->sweeps[k].name);
+    EXPECT_EQ(one->sweeps[k].p_value, three->sweeps[k].p_value);
+  }
+}
+
+TEST(FindOddSweeps, RefusesTooFewAndOtherModules) {
+  EXPECT_THAT(FindOddSweeps(Sweeps(4)).error().message, HasSubstr("takes 5 or more"));
+  std::vector<IvCurve> sweeps = Sweeps(8);
+  sweeps[2].conditions.cells_in_series = 72;
+  EXPECT_THAT(FindOddSweeps(sweeps).error().message, HasSubstr("not sweeps of one module"));
+}
+
+}  // namespace
+}  // namespace lyrefit

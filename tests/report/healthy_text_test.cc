@@ -1,0 +1,51 @@
+#include "lyrefit/report/healthy_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sample_healthy.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(HealthyText, SaysWhatDiffersThenShowsTheTable) {
+  const std::string text = HealthyText(SampleHealthy());
+  EXPECT_THAT(text, HasSubstr("today against healthy sweeps\n"));
+  EXPECT_THAT(text, HasSubstr("12 healthy sweeps, brought to this sweep's Isc and Voc"));
+  EXPECT_THAT(text, HasSubstr("misses 0.11 % of Isc"));
+  EXPECT_THAT(text, HasSubstr("73.20     73.70  73.500 .. 73.900  -6.1  -0.68 %  differs"));
+  EXPECT_THAT(text, HasSubstr("series_resistance  8.00 %  6.90 .. 9.10   -0.62 %      97 %"));
+  EXPECT_THAT(text, HasSubstr("wet: unlike the other healthy sweeps"));
+  EXPECT_THAT(text, HasSubstr("a warning"));
+  EXPECT_LT(text.find("Unlike its 12"), text.find("fill factor"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(HealthyText, SaysThatSeveralCausesCannotBeTold) {
+  HealthyComparison c = SampleHealthy();
+  EXPECT_THAT(HealthyText(c), Not(HasSubstr("cannot tell")));
+  c.causes.push_back(c.causes.front());
+  EXPECT_THAT(HealthyText(c), HasSubstr("these sweeps cannot tell one from the other"));
+}
+
+TEST(HealthyText, BriefIsOneLine) {
+  EXPECT_EQ(BriefHealthy(SampleHealthy()),
+            "today: Unlike its 12 healthy sweeps (p = 3e-06): series resistance +8 %: -0.62 % of "
+            "Pmax.\n");
+}
+
+TEST(OddSweepsText, ShowsTheOddOnesOnly) {
+  const std::string text = OddSweepsText(SampleOddSweeps());
+  EXPECT_THAT(text, HasSubstr("2 sweeps, each with the nearest"));
+  EXPECT_THAT(text, HasSubstr("odd           1\n"));
+  EXPECT_THAT(text, HasSubstr("\ntoday\n"));
+  EXPECT_THAT(text, Not(HasSubstr("yesterday")));
+  EXPECT_THAT(text, HasSubstr("night: the curve is dark"));
+  EXPECT_THAT(BriefOddSweeps(SampleOddSweeps()), HasSubstr("1 of 2 sweeps odd\n"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -40,7 +40,7 @@ TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
 
 DiagnoseOptions Quick(const std::vector<std::string>& effects) {
   DiagnoseOptions options;
-  options.noise = ErrorKind::kWhite;
+  options.noise = ErrorSpec();
   options.floor_current = options.floor_power = 0;
   options.held_out = false;
   options.draws = 300;

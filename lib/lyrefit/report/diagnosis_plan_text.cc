@@ -9,7 +9,7 @@ namespace lyrefit {
 namespace {
 
 // "97 %"
-std::string Percent(double part) {
+std::string WholePercent(double part) {
   return std::isfinite(part) ? fmt::format("{:.0f} %", 100 * part) : "-";
 }
 
@@ -26,8 +26,8 @@ std::string DiagnosisPlanSection(const Diagnosis& diagnosis) {
   for (const std::string& id : plan.causes) head.push_back("if " + id);
   table.Add(head);
   for (const PlannedMeasurement& measurement : plan.measurements) {
-    std::vector<std::string> row = {measurement.id, Percent(measurement.probability)};
-    for (const PlannedCause& cause : measurement.causes) row.push_back(Percent(cause.probability));
+    std::vector<std::string> row = {measurement.id, WholePercent(measurement.probability)};
+    for (const PlannedCause& cause : measurement.causes) row.push_back(WholePercent(cause.probability));
     table.Add(row);
   }
   text += table.Text();

@@ -28,6 +28,7 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/read_curve.h
   curve/write_curve.h
   law/current.h
+  law/curve_shape.h
   law/device.h
   law/effect.h
   law/extension.h
@@ -44,6 +45,8 @@ set(LYREFIT_PUBLIC_HEADERS
   law/translation.h
   diagnose/diagnose.h
   diagnose/diagnosis.h
+  diagnose/healthy.h
+  diagnose/plan.h
   effects/catalogue.h
   family/coefficients.h
   family/data_sheet.h
@@ -53,10 +56,12 @@ set(LYREFIT_PUBLIC_HEADERS
   family/pvlib_parameters.h
   family/read_pvlib.h
   fit/bounds.h
+  fit/error_spec.h
   fit/fit.h
   fit/fit_report.h
   fit/simulate.h
   fit/statistics.h
+  refine/error_terms.h
   report/audit_csv.h
   report/audit_json.h
   report/audit_text.h

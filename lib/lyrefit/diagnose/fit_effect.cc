@@ -130,6 +130,14 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   if (effect.starts != nullptr && bench.readings->traits.single && effort == Effort::kFull) {
     TryShapes(bench, fit, effect, law, &best);
   }
+  if (!(best.usable && best.sum <= fit.sum) && !probes.empty() && effect.size() > 0) {
+    // From where it is not there it does not get worse.
+    std::vector<double> start = fit.p, absent = probes.front();
+    absent[0] = effect.parameters[0].neutral;
+    start.insert(start.end(), absent.begin(), absent.end());
+    LawFit end = FitLaw(bench, law, start, kBriefly);
+    if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
+  }
   if (!best.usable) return best;
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);

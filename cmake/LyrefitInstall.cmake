@@ -83,6 +83,8 @@ set(LYREFIT_PUBLIC_HEADERS
   report/family_plot.h
   report/family_text.h
   report/fits_table.h
+  report/healthy_json.h
+  report/healthy_text.h
   report/json_report.h
   report/plot.h
   report/pvlib_json.h

@@ -27,7 +27,8 @@ std::string DiagnosisPlanSection(const Diagnosis& diagnosis) {
   table.Add(head);
   for (const PlannedMeasurement& measurement : plan.measurements) {
     std::vector<std::string> row = {measurement.id, WholePercent(measurement.probability)};
-    for (const PlannedCause& cause : measurement.causes) row.push_back(WholePercent(cause.probability));
+    for (const PlannedCause& cause : measurement.causes)
+      row.push_back(WholePercent(cause.probability));
     table.Add(row);
   }
   text += table.Text();

@@ -69,6 +69,7 @@ std::vector<int> Nearest(const std::vector<const SweepState*>& references,
   constexpr std::size_t kMost = 40;
   constexpr double kVoltageWeight = 4;
   std::vector<double> distance;
+  distance.reserve(references.size());
   for (const SweepState* r : references) {
     distance.push_back(std::hypot(std::log(r->isc_A / sweep.isc_A),
                                   kVoltageWeight * std::log(r->voc_V / sweep.voc_V)));
@@ -109,6 +110,7 @@ std::vector<char> KeepUsual(const Rows& rows) {
     std::vector<char> usual(count, 1);
     for (int j = 0; j < kQuantities; ++j) {
       std::vector<double> sizes;
+      sizes.reserve(count);
       for (int i = 0; i < count; ++i) sizes.push_back(std::fabs(off(i, j)));
       const double widen = std::sqrt(static_cast<double>(count) / (count - columns));
       const double far = kFar * kToDeviation * widen * Median(sizes);
@@ -167,6 +169,7 @@ Expectation Expect(const std::vector<const SweepState*>& references, const Sweep
   Expectation e;
   const std::vector<int> nearest = Nearest(references, sweep);
   std::vector<const SweepState*> near;
+  near.reserve(nearest.size());
   for (const int i : nearest) near.push_back(references[i]);
   e.centre = Eigen::Vector2d(std::log(sweep.isc_A), sweep.voc_V);
   e.regressors = RegressorsFor(near.size());

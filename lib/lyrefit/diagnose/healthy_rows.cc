@@ -84,6 +84,7 @@ HealthyRow RowOf(const FittedSweep& sweep, const Expectation& e, const Differenc
 std::vector<HealthyRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
                                            const Difference& difference) {
   std::vector<HealthyRow> rows;
+  rows.reserve(kQuantities);
   for (int j = 0; j < kQuantities; ++j) rows.push_back(RowOf(sweep, expected, difference, j));
   return rows;
 }

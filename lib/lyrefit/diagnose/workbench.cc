@@ -37,7 +37,7 @@ ErrorModel ErrorsOf(const Workbench& bench) {
 namespace {
 
 // Row by row, in place: rows of left-out readings become 0.
-void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {
+void WhitenRows(const Workbench& bench, const Eigen::Ref<RowMatrix>& rows) {
   Whiten(ErrorsOf(bench), bench.used, rows);
 }
 

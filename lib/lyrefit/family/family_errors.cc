@@ -26,6 +26,7 @@ struct Rows {
 std::vector<int> SomeOf(int curves) {
   std::vector<int> some;
   const int count = std::min(curves, kMostCurves);
+  some.reserve(count);
   for (int k = 0; k < count; ++k) some.push_back(static_cast<int>(1LL * k * curves / count));
   return some;
 }

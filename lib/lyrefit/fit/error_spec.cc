@@ -41,7 +41,7 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path) {
   }
   for (const auto& [key, value] : json->items()) {
     const bool known = std::any_of(std::begin(keys), std::end(keys),
-                                   [&](const auto& one) { return key == one.first; });
+                                   [&name = key](const auto& one) { return name == one.first; });
     if (!known) return fields.Refuse(key, "current_noise_A, voltage_noise_V or path_of_isc");
   }
   if (!(spec.sizes.current_A + spec.sizes.path > 0)) {

@@ -55,6 +55,8 @@ void WeakCell(Random* random, Rig* rig, Truth* truth) {
   Group* group = AnyGroup(random, &rig->module);
   const double light = DimCells(random->Uniform(0.10, 0.93), count, random, group);
   truth->accepted = {"weak_cell"};
+  // Several dim cells of one substring are a shade that covers part of it.
+  if (count > 1) truth->accepted.insert(truth->accepted.end(), {"shading", "substrings"});
   truth->figures = {{"light", light}};
 }
 

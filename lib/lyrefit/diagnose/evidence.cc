@@ -214,19 +214,21 @@ Cause WrongCells(const Selection& selection) {
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
   // No junction has n below 1; a little slack for a temperature that is a few kelvin off. Above 3
   // the number of cells is rather wrong than the junction.
-  constexpr double kSmallest = 0.97, kLargest = 3, kSure = 1e-4;
+  // A module that departs from its model along a path bends n by more than its error says.
+  constexpr double kBent = 0.9, kLargest = 3, kSure = 1e-4;
+  const double smallest = selection.bench.path > 0 ? kBent : 0.97;
   const LawFit& fit = selection.extended;
   const Workbench& bench = selection.bench;
   const Readings& readings = *bench.readings;
   const DataTraits& traits = readings.traits;
   if (traits.cells_known && traits.stated_cells != traits.cells) return {WrongCells(selection)};
   const double n = fit.p[kBaseIdeality];
-  if (n >= kSmallest && n <= kLargest) return {};
+  if (n >= smallest && n <= kLargest) return {};
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
   const int degrees = Degrees(bench, fit.law);
   const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
   if (!(error > 0)) return {};
-  const double distance = (n < kSmallest ? kSmallest - n : n - kLargest) / error;
+  const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
   if (!(p < kSure)) return {};
   Cause cause = Metadata("fit", p);

@@ -31,8 +31,8 @@ double CoveredCells(const Readings& readings, double part) {
 
 // Causes among unlike cells, by how much they suppose. A shade that covers part of its substrings
 // supposes more than one that covers them, and where it covers about one cell it is a weak cell.
-int Complexity(const Readings& readings, const Rival& rival) {
-  constexpr double kOneCell = 1.6;
+int Complexity(const Workbench& bench, const Rival& rival) {
+  constexpr double kOneCell = 1.6, kFewCells = 4, kReach = 1.96;
   constexpr std::array<std::string_view, 8> kInOrder = {"shading",   "mismatch",   "substrings",
                                                         "scatter",   "leaky_cell", "partly",
                                                         "weak_cell", "bypass_open"};
@@ -43,8 +43,13 @@ int Complexity(const Readings& readings, const Rival& rival) {
   if (id != "shading" && id != "substrings") return place(id);
   const double covered = Value(rival, rival.score.effect->size() - 1);
   if (covered >= 1) return place(id);
-  return CoveredCells(readings, covered) < kOneCell ? static_cast<int>(kInOrder.size())
-                                                    : place("partly");
+  const double error = StandardErrors(Linearize(bench, rival.fit), rival.fit.law.size()).back() *
+                       std::sqrt(NoiseVariance(bench, rival.fit));
+  const auto cells = [&](double sigmas) {
+    return CoveredCells(*bench.readings, covered + sigmas * error);
+  };
+  const bool one = cells(-kReach) < kOneCell && cells(kReach) < kFewCells;
+  return one ? static_cast<int>(kInOrder.size()) : place("partly");
 }
 
 }  // namespace
@@ -81,7 +86,8 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
   return possible(rival.fit) || !possible(before);
 }
 
-std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
+std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals) {
+  const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
                    kMuchSimpler = 0.88;
   constexpr int kComplex = 5;
@@ -107,13 +113,13 @@ std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals) {
   if (!rivals[best].score.effect->groups) return best;
   // What supposes more must explain more.
   const Rival& likeliest = rivals[best];
-  const int most = Complexity(readings, likeliest);
+  const int most = Complexity(bench, likeliest);
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     if (!rivals[k].score.effect->groups) continue;
-    const int complexity = Complexity(readings, rivals[k]);
+    const int complexity = Complexity(bench, rivals[k]);
     const double part = most >= kComplex && complexity < kComplex ? kMuchSimpler : kHardlyMore;
     if (rivals[k].Charged() < part * likeliest.Charged()) continue;
-    if (complexity < Complexity(readings, rivals[best])) best = k;
+    if (complexity < Complexity(bench, rivals[best])) best = k;
   }
   return best;
 }

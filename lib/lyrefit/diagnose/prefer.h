@@ -22,6 +22,6 @@ bool IsGeneric(const Readings& readings, const Effect& effect);
 // the best first, none of an impossible size). A cause in the device is preferred to a moment of
 // the sweep that explains about as much, a simple one to a complex one; where the current rises
 // with the voltage, which no module does by itself, the light moved.
-std::size_t Prefer(const Readings& readings, const std::vector<Rival>& rivals);
+std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals);
 
 }  // namespace lyrefit

@@ -197,7 +197,7 @@ class Selector {
       }
     }
     if (worthy.empty()) return worthy;
-    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(Prefer(readings_, worthy));
+    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(Prefer(bench_, worthy));
     std::rotate(worthy.begin(), preferred, preferred + 1);
     return worthy;
   }

@@ -27,6 +27,7 @@ Effect BypassOpen() {
       {"w", "shaded_share", "", "part of the cells in it", 0.01, 0.99, 1.0 / 3, true},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 60, 3.2},
       {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4}};
+  e.parameters[0].scatter = kSubstringScatter;
   e.parameters[2].held = e.parameters[3].held = true;
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = 2;

@@ -8,6 +8,11 @@
 
 namespace lyrefit {
 
+// Of the photocurrents of a module's cells, relative to their mean: cells are sorted into classes
+// of half a percent. A substring's plateau is that of its weakest cell.
+constexpr double kCellScatter = 0.004;
+constexpr double kSubstringScatter = 0.003;
+
 // Reasons that several effects share. Nothing: the data can show the effect.
 using WhyNot = std::optional<std::string>;
 WhyNot NeedsLight(const DataTraits& traits);

@@ -41,6 +41,7 @@ Effect Shading() {
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
       {"c", "covered_part", "", "part of the cells of a shaded substring that the shade covers",
        0.03, 1, 1}};
+  e.parameters[0].scatter = kSubstringScatter;
   e.parameters[3].held = true;
   e.parameters[3].absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {

@@ -61,6 +61,7 @@ Effect Substrings() {
     EffectParameter share = {names[2], names[3], "", "part of the cells in it; 0: no such group",
                              0,        0.99,     0};
     share.absent_at = 0;
+    deficit.scatter = kSubstringScatter;
     deficit.held = share.held = true;
     e.parameters.push_back(deficit);
     e.parameters.push_back(share);

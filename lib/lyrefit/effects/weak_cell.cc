@@ -36,6 +36,7 @@ Effect WeakCell() {
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph; 0: Bishop's law", 0, 30,
        0}};
   for (int k = kCells; k <= kSoft; ++k) e.parameters[k].held = true;
+  e.parameters[kDeficit].scatter = kCellScatter;
   e.parameters[kSoft].absent_at = 0;
   e.cell = [](const auto* p, auto* cell) {
     const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;

@@ -193,6 +193,9 @@ struct EffectParameter {
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
   // A fit keeps it at its neutral value unless it is asked for by name.
   bool held = false;
+  // How much it differs from part to part in modules as they are sold, a standard deviation: no
+  // curve of a module says it better.
+  double scatter = 0;
   // A fit that ends at such a bound is not this effect but bends to another.
   bool below_upper = false;
   bool above_lower = false;

@@ -150,7 +150,7 @@ TEST(LawTest, ShadedCellsAreBypassed) {
         },
         -25, 2);
   };
-  const Settled at = WithEffect(*FindEffect("shading"), {depth, share, drop});
+  const Settled at = WithEffect(*FindEffect("shading"), {depth, share, drop, 1});
   const std::vector<double> found = Currents(at.law, readings, at.p);
   ASSERT_FALSE(found.empty());
   for (std::size_t k = 0; k < found.size(); k += 5) {

@@ -129,6 +129,7 @@ struct Settled {
 inline Settled WithEffect(const Effect& effect, const std::vector<double>& values) {
   Settled settled{Law{}, OrdinaryCell()};
   settled.law.effects = {&effect};
+  EXPECT_EQ(static_cast<int>(values.size()), effect.size()) << effect.id;
   settled.p.insert(settled.p.end(), values.begin(), values.end());
   return settled;
 }

@@ -1,0 +1,94 @@
+#include "lyrefit/diagnose/prefer.h"
+
+#include <gtest/gtest.h>
+
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kOrdinary = 1.2;
+
+Recipe Module(bool and_back = false) {
+  Recipe recipe;
+  recipe.cells = 60;
+  recipe.and_back = and_back;
+  return recipe;
+}
+
+// An effect fitted beside an ordinary base, not evaluated.
+Rival RivalOf(const char* id, const std::vector<double>& values, double statistic,
+              double n = kOrdinary) {
+  Rival rival;
+  rival.score.effect = FindEffect(id);
+  rival.statistic = statistic;
+  rival.fit.usable = true;
+  rival.fit.law.effects = {rival.score.effect};
+  rival.fit.p = {1, 0, n, 0.015, 0.05};
+  rival.fit.p.insert(rival.fit.p.end(), values.begin(), values.end());
+  return rival;
+}
+
+const std::vector<double> kShade = {0.3, 1.0 / 3, 0.5, 1}, kDip = {0.1, 0, 0.05},
+                          kUnequal = {0.1, 0.2}, kLag = {0.001, 0};
+
+LawFit Before(double n = kOrdinary) {
+  LawFit before;
+  before.p = {1, 0, n, 0.015, 0.05};
+  return before;
+}
+
+TEST(HasPossibleSize, RefusesWhatCannotBe) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const Readings& readings = *made.bench.readings;
+  const auto possible = [&](const Rival& rival, const LawFit& before = Before()) {
+    return HasPossibleSize(readings, before, rival);
+  };
+  EXPECT_TRUE(possible(RivalOf("temp_drift", {2}, 50)));
+  EXPECT_FALSE(possible(RivalOf("temp_drift", {-12}, 50)));
+  EXPECT_FALSE(possible(RivalOf("irr_step", {0.5, 0}, 50)));  // at its bound
+  EXPECT_TRUE(possible(RivalOf("mismatch", kUnequal, 50)));
+  EXPECT_FALSE(possible(RivalOf("mismatch", {0.1, 0.006}, 50)));  // a third of a cell
+  EXPECT_FALSE(possible(RivalOf("nonohmic_shunt", {0.1, 5}, 50)));
+  EXPECT_FALSE(possible(RivalOf("mismatch", kUnequal, 50, 0.7)));
+  EXPECT_TRUE(possible(RivalOf("mismatch", kUnequal, 50, 0.7), Before(0.6)));
+}
+
+TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)}),
+            1U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)}),
+            0U);
+}
+
+TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
+  const MadeBench made = OnTheBench(MadeCurve(Module(/*and_back=*/true)));
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("capacitance", kLag, 80)}),
+            1U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)}),
+            0U);
+}
+
+TEST(Prefer, TakesWhatSupposesLess) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)}),
+            1U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)}),
+            0U);
+}
+
+TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
+  IvCurve curve = MadeCurve(Module());
+  EXPECT_FALSE(LightMoved(*OnTheBench(curve).bench.readings));
+  for (std::size_t k = 0; k < curve.size() / 2; ++k) {
+    curve.current_A[k] *= 0.9 + 0.1 * static_cast<double>(k) / (0.5 * curve.size());
+  }
+  const MadeBench made = OnTheBench(curve);
+  EXPECT_TRUE(LightMoved(*made.bench.readings));
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("shading", kShade, 100), RivalOf("drift", {0.1}, 40)}), 1U);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -56,10 +56,10 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
 
 TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)}),
-            1U);
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)}),
-            0U);
+  EXPECT_EQ(
+      Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)}), 1U);
+  EXPECT_EQ(
+      Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)}), 0U);
 }
 
 TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {

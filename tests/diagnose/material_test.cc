@@ -1,0 +1,124 @@
+#include "lyrefit/diagnose/material.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/words.h"
+#include "made_bench.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+TEST(IsMaterial, WhereTheWholeIntervalIsAboveAFloor) {
+  const Floors floors = {0.0025, 0.005};
+  EffectSize size;
+  size.reach = 0.1;
+  size.current = 0.003;
+  EXPECT_TRUE(IsMaterial(size, floors));
+  size.reach = 0.2;
+  EXPECT_FALSE(IsMaterial(size, floors));
+  size.power = -0.02;
+  EXPECT_TRUE(IsMaterial(size, floors));
+  size.power_error = 0.012;
+  EXPECT_FALSE(IsMaterial(size, floors));
+  EXPECT_TRUE(IsMaterial({}, {}));  // without floors everything is
+}
+
+// A 60-cell module, one effect done to it exactly, and noise.
+struct Done {
+  IvCurve curve;
+  double healthy_W = 0;
+};
+
+Done Do(const char* id, const std::vector<double>& values, double noise_A = 0.004) {
+  Recipe recipe;
+  recipe.cells = 60;
+  recipe.noise_A = 0;
+  recipe.points = 120;
+  Done done;
+  done.curve = MadeCurve(recipe);
+  done.curve.notes.bypass_diodes = 3;
+  const MadeBench made = OnTheBench(done.curve);
+  LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
+  done.healthy_W = DevicePower(made.bench, fit);
+  fit.law.effects = {FindEffect(id)};
+  fit.p.insert(fit.p.end(), values.begin(), values.end());
+  LawWorkspace workspace;
+  EXPECT_TRUE(EvaluateLaw(fit.law, *made.bench.readings, fit.p.data(), &workspace,
+                          fit.current.data(), nullptr));
+  RandomStream random(3);
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    done.curve.current_A[k] =
+        fit.current[k] * made.bench.readings->scale.current_A + noise_A * random.Normal();
+  }
+  return done;
+}
+
+Diagnosis DiagnosedInTheField(const IvCurve& curve) {
+  DiagnoseOptions options;
+  options.held_out = false;
+  auto diagnosis = Diagnose(curve, options);
+  EXPECT_TRUE(diagnosis.has_value());
+  return diagnosis ? *diagnosis : Diagnosis();
+}
+
+TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
+  const Done done = Do("shading", {0.2, 1.0 / 3, 0.5, 1});
+  const Diagnosis d = DiagnosedInTheField(done.curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  const Cause& cause = d.verdict.causes.front();
+  EXPECT_EQ(cause.id, "shading");
+  ASSERT_EQ(cause.in_words.size(), 2U);
+  EXPECT_THAT(cause.in_words[0], HasSubstr("1 of 3 substrings under 80 % of the others' light"));
+  EXPECT_THAT(cause.in_words[1], HasSubstr("without it Pmax would be"));
+  const double measured_W = [&] {
+    double most = 0;
+    for (std::size_t k = 0; k < done.curve.size(); ++k) {
+      most = std::max(most, done.curve.voltage_V[k] * done.curve.current_A[k]);
+    }
+    return most;
+  }();
+  EXPECT_NEAR(cause.recoverable_power_W, done.healthy_W - measured_W, 0.02 * done.healthy_W);
+  EXPECT_GT(cause.current_effect.low_95, 0.01);
+  // Cells are not sorted better than this.
+  EXPECT_GT(cause.strength[0].high_95 - cause.strength[0].low_95, 0.01);
+  EXPECT_GT(d.evidence.noise_path_A, 0);
+}
+
+TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
+  const Diagnosis d = DiagnosedInTheField(Do("shading", {0.007, 1.0 / 3, 0.5, 1}, 4e-4).curve);
+  EXPECT_THAT(d.verdict.causes, IsEmpty());
+  EXPECT_FALSE(d.verdict.found);
+  ASSERT_THAT(d.verdict.below_floor, Not(IsEmpty()));
+  EXPECT_LT(d.verdict.below_floor.front().current_effect.value, 0.005);
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to act on"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("is there, but below"));
+}
+
+TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
+  // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
+  const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  const Done done = Do("weak_cell", weak);
+  const MadeBench made = OnTheBench(done.curve);
+  LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
+  fit.law.effects = {FindEffect("weak_cell")};
+  fit.p = {1, 0, 1.2, 0.015, 1e-3};
+  fit.p.insert(fit.p.end(), weak.begin(), weak.end());
+  const HotCell hot = FindHotCell(made.bench, fit, 0);
+  EXPECT_NEAR(hot.voltage_V, -3.2 * std::pow(0.6, 1 / 3.4), 0.15);
+  EXPECT_NEAR(hot.heat_W, -hot.voltage_V * 8, 1.5);
+  const Diagnosis d = DiagnosedInTheField(done.curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().id, "weak_cell");
+  EXPECT_THAT(d.verdict.causes.front().in_words.front(),
+              HasSubstr("one cell has 40 % of the others' light"));
+}
+
+}  // namespace
+}  // namespace lyrefit

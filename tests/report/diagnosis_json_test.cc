@@ -73,7 +73,7 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
                  "clipped_points", "clip_level_A", "largest_error", "residuals",
                  "whiteness_p_value", "whiteness_after_p_value", "findings"}));
   EXPECT_EQ(Keys(j["points"]), (Set{"curve", "segment", "voltage_V", "current_A", "sigma_A",
-                                    "before_A", "after_A", "time_s"}));
+                                    "before_A", "after_A", "without_causes_A", "time_s"}));
 }
 
 TEST(DiagnosisJson, TellsTheCauseWithItsInterval) {

@@ -58,12 +58,11 @@ TEST(PlotDiagnosis, DrawsNoModelWithCausesWhereNoneWasFound) {
   EXPECT_THAT(svg, Not(HasSubstr("with the causes")));
 }
 
-// No noise, no points: a picture nevertheless.
+// No model, no points: a picture nevertheless.
 TEST(PlotDiagnosis, LeavesOutWhatIsNotKnown) {
   const TempFolder folder;
   Diagnosis diagnosis = SampleDiagnosis();
-  for (DiagnosedPoint& point : diagnosis.points) point.sigma_A = 0;
-  EXPECT_THAT(Svg(diagnosis, folder.Path("milliampere.svg")), HasSubstr("measured (mA)"));
+  EXPECT_THAT(Svg(diagnosis, folder.Path("percent.svg")), HasSubstr("measured (% of Isc)"));
   for (DiagnosedPoint& point : diagnosis.points) point.before_A = point.after_A = kUnknown;
   EXPECT_THAT(Svg(diagnosis, folder.Path("no_model.svg")), HasSubstr("</svg>"));
   diagnosis.points.clear();

@@ -23,12 +23,18 @@ std::string Short(double value) {
   return text.str();
 }
 
-// Readings at which a cause moves the current most: above half of the largest move, in noise.
-std::vector<int> WhereItActs(const Workbench& bench, const LawFit& with, const LawFit& without) {
+// Readings at which a cause takes most from the current, or adds to it: above half of the most.
+std::vector<int> WhereItActs(const Workbench& bench, const LawFit& with, int index) {
+  const LawFit rest = TakenOut(with, index);
+  std::vector<double> current(with.current.size());
+  LawWorkspace workspace;
+  if (!EvaluateLaw(rest.law, *bench.readings, rest.p.data(), &workspace, current.data(), nullptr)) {
+    return {};
+  }
   std::vector<double> moves;
   double largest = 0;
-  for (std::size_t k = 0; k < with.current.size(); ++k) {
-    moves.push_back(std::fabs(with.current[k] - without.current[k]) / bench.sigma[k]);
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    moves.push_back(std::fabs(with.current[k] - current[k]));
     largest = std::max(largest, moves.back());
   }
   std::vector<int> points;
@@ -225,8 +231,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
       cause.points = values.clipped;
       cause.points.insert(cause.points.end(), values.at_lower.begin(), values.at_lower.end());
       std::sort(cause.points.begin(), cause.points.end());
-    } else if (selection.without[c].usable) {
-      cause.points = WhereItActs(bench, selection.extended, selection.without[c]);
+    } else {
+      cause.points = WhereItActs(bench, selection.extended, static_cast<int>(c));
     }
     cause.sentence = CauseSentence(cause, effect);
     if (by_values) {

@@ -62,6 +62,12 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
                                  curve.conditions.cell_temperature_K - kZeroCelsius_K, false,
                                  static_cast<int>(curve.size())});
   }
+  std::vector<double> without(readings.points.size());
+  const LawFit plain = WithoutEffects(selection.extended);
+  LawWorkspace workspace;
+  if (!EvaluateLaw(plain.law, readings, plain.p.data(), &workspace, without.data(), nullptr)) {
+    without.assign(without.size(), kUnknown);
+  }
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
     const IvCurve& curve = set.curves[r.curve];
@@ -74,6 +80,7 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
     point.sigma_A = selection.bench.sigma[k] * scale;
     point.before_A = selection.base.current[k] * scale;
     point.after_A = selection.extended.current[k] * scale;
+    point.without_A = without[k] * scale;
     point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[r.index];
     diagnosis->points.push_back(point);
   }

@@ -22,10 +22,11 @@ struct DiagnosedPoint {
   int segment = 0;  // monotone stretches of voltage, counted through the set
   double voltage_V = 0;
   double current_A = 0;
-  double sigma_A = 0;   // noise as estimated from the data
-  double before_A = 0;  // base model
-  double after_A = 0;   // extended model; equal to before_A where nothing was found
-  double time_s = 0;    // NaN where no times were recorded
+  double sigma_A = 0;    // noise as estimated from the data
+  double before_A = 0;   // base model
+  double after_A = 0;    // extended model; equal to before_A where nothing was found
+  double without_A = 0;  // the extended model with its causes taken out: as if nothing were wrong
+  double time_s = 0;     // NaN where no times were recorded
 };
 
 struct DiagnosedCurve {

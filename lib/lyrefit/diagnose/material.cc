@@ -6,19 +6,6 @@
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
-namespace {
-
-// The law without effect number `index`, all else as it is.
-LawFit TakenOut(const LawFit& fit, int index) {
-  LawFit rest = fit;
-  const int first = fit.law.Offset(index), size = fit.law.effects[index]->size();
-  rest.p.erase(rest.p.begin() + first, rest.p.begin() + first + size);
-  rest.law.effects.erase(rest.law.effects.begin() + index);
-  return rest;
-}
-
-}  // namespace
-
 double DevicePower(const Workbench& bench, const LawFit& fit) {
   const Readings& measured = *bench.readings;
   Readings grid = measured;
@@ -57,6 +44,21 @@ double DevicePower(const Workbench& bench, const LawFit& fit) {
     if (bend < 0) peak = b - (a - c) * (a - c) / (8 * bend);
   }
   return peak * measured.scale.cells * measured.scale.current_A;
+}
+
+LawFit TakenOut(const LawFit& fit, int index) {
+  LawFit rest = fit;
+  const int first = fit.law.Offset(index), size = fit.law.effects[index]->size();
+  rest.p.erase(rest.p.begin() + first, rest.p.begin() + first + size);
+  rest.law.effects.erase(rest.law.effects.begin() + index);
+  return rest;
+}
+
+LawFit WithoutEffects(const LawFit& fit) {
+  LawFit rest = fit;
+  rest.p.resize(fit.law.base_size());
+  rest.law.effects.clear();
+  return rest;
 }
 
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without) {

@@ -15,6 +15,11 @@ struct Floors {
 // conditions, without what the sweep and the instruments did. NaN where there is none.
 double DevicePower(const Workbench& bench, const LawFit& fit);
 
+// The fit with effect number `index` taken out of its law, or all of them; all else, the currents
+// among them, as it is.
+LawFit TakenOut(const LawFit& fit, int index);
+LawFit WithoutEffects(const LawFit& fit);
+
 // How large an effect of a fit is: number `index` of its law, beside the fit without it.
 struct EffectSize {
   double current = 0;      // in parts of Isc: what the law without it would miss at its best

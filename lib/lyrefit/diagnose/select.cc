@@ -197,7 +197,8 @@ class Selector {
       }
     }
     if (worthy.empty()) return worthy;
-    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(Prefer(bench_, worthy));
+    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(
+                                                Prefer(bench_, worthy, options_.floors.current));
     std::rotate(worthy.begin(), preferred, preferred + 1);
     return worthy;
   }

@@ -184,6 +184,7 @@ Json PointsJson(const std::vector<DiagnosedPoint>& points) {
           {"sigma_A", column(&DiagnosedPoint::sigma_A)},
           {"before_A", column(&DiagnosedPoint::before_A)},
           {"after_A", column(&DiagnosedPoint::after_A)},
+          {"without_causes_A", column(&DiagnosedPoint::without_A)},
           {"time_s", column(&DiagnosedPoint::time_s)}};
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/report/data_block.h"
@@ -18,7 +19,8 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kManyOfAGroup = 150;  // of a group; from here on small symbols
-constexpr double kBand = 2;                 // standard deviations
+// Of one diode fitted to healthy modules: how far the curve departs from it, in % of Isc.
+constexpr double kBand = 0.2;
 // Of causes: none of them the colour of a line.
 constexpr std::array<const char*, 4> kMarks = {"#F0B400", "#E05080", "#40C0A0", "#9070E0"};
 
@@ -29,17 +31,17 @@ struct Group {
   DataBlock measured;  // V, A
   DataBlock base;
   DataBlock extended;
-  DataBlock before;  // V, residual
+  DataBlock without;  // V, A, as if there were no cause
+  DataBlock before;   // V, residual
   DataBlock after;
   std::size_t points = 0;
   int segment = -1;  // of the last point
 };
 
+// Where a cause acts.
 struct Mark {
   std::string title;
-  DataBlock measured;
-  DataBlock before;
-  DataBlock after;
+  std::vector<std::pair<double, double>> bands;  // of the voltage, V
 };
 
 struct DiagnosisData {
@@ -47,13 +49,15 @@ struct DiagnosisData {
   std::vector<Mark> marks;
   std::vector<std::string> legend;  // in the order of colours
   bool triangles = false;
-  bool in_sigmas = true;
+  double low_V = 0;  // of all voltages
+  double span_V = 0;
+  double unit_A = 1;          // a hundredth of Isc; 1 mA where there is none
   double largest_before = 0;  // residual, in the unit it is drawn in
   double largest_after = 0;
 };
 
-double Residual(const DiagnosedPoint& point, double model_A, bool in_sigmas) {
-  return (model_A - point.current_A) * (in_sigmas ? 1 / point.sigma_A : 1e3);
+double Residual(const DiagnosedPoint& point, double model_A, double unit_A) {
+  return (model_A - point.current_A) / unit_A;
 }
 
 // Whether the voltages of each segment fall.
@@ -84,8 +88,8 @@ Group MakeGroup(int colour, bool triangles, std::size_t index) {
   const auto block = [index](const char* what) {
     return DataBlock(fmt::format("{}{}", what, index));
   };
-  return {colour,          triangles,     block("measured"), block("base"), block("extended"),
-          block("before"), block("after")};
+  return {colour,           triangles,       block("measured"), block("base"), block("extended"),
+          block("without"), block("before"), block("after")};
 }
 
 // A curve has one colour and, where directions matter, triangles for its way down; the only curve
@@ -103,39 +107,54 @@ void AddGroups(const Diagnosis& diagnosis, bool both_ways, DiagnosisData* data) 
   if (one && both_ways) data->legend = {"up", "down"};
 }
 
-void AddPoint(const DiagnosedPoint& point, bool in_sigmas, Group* group) {
+void AddPoint(const DiagnosedPoint& point, double unit_A, Group* group) {
   if (group->segment != point.segment && group->points > 0) {
     group->base.EndLine();
     group->extended.EndLine();
+    group->without.EndLine();
   }
   group->segment = point.segment;
   ++group->points;
   group->measured.Add({point.voltage_V, point.current_A});
   group->base.Add({point.voltage_V, point.before_A});
   group->extended.Add({point.voltage_V, point.after_A});
-  group->before.Add({point.voltage_V, Residual(point, point.before_A, in_sigmas)});
-  group->after.Add({point.voltage_V, Residual(point, point.after_A, in_sigmas)});
+  group->without.Add({point.voltage_V, point.without_A});
+  group->before.Add({point.voltage_V, Residual(point, point.before_A, unit_A)});
+  group->after.Add({point.voltage_V, Residual(point, point.after_A, unit_A)});
 }
 
-Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause, std::size_t index, bool in_sigmas,
-              const std::vector<bool>& drawn) {
-  const auto block = [index](const char* what) {
-    return DataBlock(fmt::format("mark_{}{}", what, index));
-  };
-  Mark mark{cause.title, block("measured"), block("before"), block("after")};
+// Readings that stand together become one band; gaps that some readings in between leave do not
+// divide it.
+Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause) {
+  constexpr double kGap = 0.05;  // of the range of the voltages
+  Mark mark{cause.title, {}};
+  std::vector<double> at;
   for (const int i : cause.points) {
-    if (i < 0 || i >= static_cast<int>(diagnosis.points.size()) || !drawn[i]) continue;
-    const DiagnosedPoint& point = diagnosis.points[i];
-    mark.measured.Add({point.voltage_V, point.current_A});
-    mark.before.Add({point.voltage_V, Residual(point, point.before_A, in_sigmas)});
-    mark.after.Add({point.voltage_V, Residual(point, point.after_A, in_sigmas)});
+    if (i >= 0 && i < static_cast<int>(diagnosis.points.size())) {
+      at.push_back(diagnosis.points[i].voltage_V);
+    }
+  }
+  if (at.empty()) return mark;
+  std::sort(at.begin(), at.end());
+  double low = at.front(), high = at.front();
+  for (const DiagnosedPoint& point : diagnosis.points) {
+    low = std::min(low, point.voltage_V);
+    high = std::max(high, point.voltage_V);
+  }
+  const double gap = kGap * (high - low);
+  for (const double v : at) {
+    if (mark.bands.empty() || v > mark.bands.back().second + gap) {
+      mark.bands.emplace_back(v, v);
+    } else {
+      mark.bands.back().second = v;
+    }
   }
   return mark;
 }
 
 // Which points are drawn: all, or of each curve as many as can be told apart, and those that stand
 // out before or after.
-std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, bool in_sigmas) {
+std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, double unit_A) {
   std::map<int, std::vector<std::size_t>> curves;
   for (std::size_t i = 0; i < points.size(); ++i) curves[points[i].curve].push_back(i);
   std::vector<bool> drawn(points.size());
@@ -144,7 +163,7 @@ std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, bool in_sigma
       std::vector<double> voltage_V, residual;
       for (const std::size_t i : places) {
         voltage_V.push_back(points[i].voltage_V);
-        residual.push_back(Residual(points[i], points[i].*model, in_sigmas));
+        residual.push_back(Residual(points[i], points[i].*model, unit_A));
       }
       for (const std::size_t k : MarksToDraw(voltage_V, residual)) drawn[places[k]] = true;
     }
@@ -154,26 +173,36 @@ std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, bool in_sigma
 
 DiagnosisData Collect(const Diagnosis& diagnosis) {
   DiagnosisData data;
-  data.in_sigmas = std::all_of(diagnosis.points.begin(), diagnosis.points.end(),
-                               [](const DiagnosedPoint& point) { return point.sigma_A > 0; });
+  double largest_A = 0;
+  for (const DiagnosedPoint& point : diagnosis.points) {
+    largest_A = std::max(largest_A, point.current_A);
+  }
+  if (!diagnosis.points.empty()) {
+    const auto [low, high] = std::minmax_element(
+        diagnosis.points.begin(), diagnosis.points.end(),
+        [](const DiagnosedPoint& a, const DiagnosedPoint& b) { return a.voltage_V < b.voltage_V; });
+    data.low_V = low->voltage_V;
+    data.span_V = high->voltage_V - low->voltage_V;
+  }
+  data.unit_A = largest_A > 0 ? 0.01 * largest_A : 1e-3;
   const std::vector<bool> falling = Falling(diagnosis.points);
   AddGroups(diagnosis, BothWays(diagnosis, falling), &data);
-  const std::vector<bool> drawn = Drawn(diagnosis.points, data.in_sigmas);
+  const std::vector<bool> drawn = Drawn(diagnosis.points, data.unit_A);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const DiagnosedPoint& point = diagnosis.points[i];
     if (drawn[i]) {
-      AddPoint(point, data.in_sigmas,
+      AddPoint(point, data.unit_A,
                &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)]);
     }
     const auto largest = [&](double model_A, double most) {
-      const double residual = std::fabs(Residual(point, model_A, data.in_sigmas));
+      const double residual = std::fabs(Residual(point, model_A, data.unit_A));
       return std::isfinite(residual) ? std::max(most, residual) : most;
     };
     data.largest_before = largest(point.before_A, data.largest_before);
     data.largest_after = largest(point.after_A, data.largest_after);
   }
   for (const Cause& cause : diagnosis.verdict.causes) {
-    data.marks.push_back(MakeMark(diagnosis, cause, data.marks.size(), data.in_sigmas, drawn));
+    data.marks.push_back(MakeMark(diagnosis, cause));
   }
   return data;
 }
@@ -182,37 +211,44 @@ std::string Blocks(const DiagnosisData& data) {
   std::string text;
   for (const Group& group : data.groups) {
     text += group.measured.Text() + group.base.Text() + group.extended.Text() +
-            group.before.Text() + group.after.Text();
-  }
-  for (const Mark& mark : data.marks) {
-    text += mark.measured.Text() + mark.before.Text() + mark.after.Text();
+            group.without.Text() + group.before.Text() + group.after.Text();
   }
   return text;
 }
 
 const char* MarkColour(std::size_t index) { return kMarks[index % kMarks.size()]; }
 
-// Large pale points under those of the curves.
-void JoinMarks(const DiagnosisData& data, const DataBlock Mark::*block, double size,
-               std::string* command) {
+// Bands behind the points where causes act.
+std::string Bands(const DiagnosisData& data) {
+  constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
+  std::string text;
+  int object = 10;
   for (std::size_t i = 0; i < data.marks.size(); ++i) {
-    JoinPlot(data.marks[i].*block,
-             fmt::format("using 1:2 with points pt 7 ps {} lc rgb '{}' notitle", 2.2 * size,
-                         MarkColour(i)),
-             command);
+    for (const auto& [low, high] : data.marks[i].bands) {
+      const double air = kLeast * data.span_V;
+      text += fmt::format(
+          "set object {} rectangle from first {}, graph 0 to first {}, graph 1 fc rgb '{}' fs "
+          "transparent solid 0.18 noborder behind\n",
+          object++, low - air, high + air, MarkColour(i));
+    }
   }
+  return text;
 }
 
-// The titles of the causes in the lower left, which a curve leaves free, in the colours of their
-// points.
+// The titles of the causes below the curve, each at its place.
 std::string MarkLabels(const DiagnosisData& data) {
   std::string text;
   double height = 0.06;
   for (std::size_t i = data.marks.size(); i-- > 0; height += 0.09) {
-    text += fmt::format(
-        "set label {} {} at graph 0.05, graph {} left noenhanced point pt 7 ps 1.2 lc rgb '{}' "
-        "offset 1,0\n",
-        101 + i, GnuplotText(data.marks[i].title), height, MarkColour(i));
+    const auto& bands = data.marks[i].bands;
+    double middle = 0.5;
+    if (!bands.empty() && data.span_V > 0) {
+      middle = (0.5 * (bands.front().first + bands.back().second) - data.low_V) / data.span_V;
+    }
+    const char* const side = middle < 0.3 ? "left" : middle > 0.7 ? "right" : "center";
+    text += fmt::format("set label {} {} at graph {:.3f}, graph {} {} noenhanced tc rgb '{}'\n",
+                        101 + i, GnuplotText(data.marks[i].title),
+                        std::min(std::max(middle, 0.03), 0.97), height, side, MarkColour(i));
   }
   return text;
 }
@@ -234,7 +270,6 @@ std::string VoltageRange(const std::vector<DiagnosedPoint>& points) {
 
 std::string CurvesPanel(const DiagnosisData& data, bool found, double size) {
   std::string command;
-  JoinMarks(data, &Mark::measured, size, &command);
   for (const Group& group : data.groups) {
     JoinPlot(group.measured,
              fmt::format("using 1:2 with points pt {} ps {} lc rgb '{}' notitle",
@@ -245,6 +280,7 @@ std::string CurvesPanel(const DiagnosisData& data, bool found, double size) {
   for (const Group& group : data.groups) {
     JoinPlot(group.base, "using 1:2 with lines lw 1.4 dt 2 lc rgb '#000000' notitle", &command);
     if (!found) continue;
+    JoinPlot(group.without, "using 1:2 with lines lw 1.2 dt 4 lc rgb '#888888' notitle", &command);
     JoinPlot(group.extended,
              fmt::format("using 1:2 with lines lw 1.6 lc rgb '{}' notitle", ColourOf(group.colour)),
              &command);
@@ -254,38 +290,33 @@ std::string CurvesPanel(const DiagnosisData& data, bool found, double size) {
              "set autoscale noextend\nset xzeroaxis lc rgb '#888888'\n"
              "set offsets 0, 0, graph 0.04, graph {}\n",
              below) +
-         MarkLabels(data) + PlotLine(command);
+         Bands(data) + MarkLabels(data) + PlotLine(command);
 }
 
 // What a model leaves.
 struct Remainder {
   DataBlock Group::*points;
-  DataBlock Mark::*marked;
   double DiagnosisData::*largest;
 };
-constexpr Remainder kBefore = {&Group::before, &Mark::before, &DiagnosisData::largest_before};
-constexpr Remainder kAfter = {&Group::after, &Mark::after, &DiagnosisData::largest_after};
+constexpr Remainder kBefore = {&Group::before, &DiagnosisData::largest_before};
+constexpr Remainder kAfter = {&Group::after, &DiagnosisData::largest_after};
 
-// Residuals with the band of the noise.
+// Residuals with the band of what one diode misses of healthy modules.
 std::string ResidualPanel(const DiagnosisData& data, const Remainder& remainder, double size) {
   std::string command;
-  JoinMarks(data, remainder.marked, size, &command);
   for (const Group& group : data.groups) {
     JoinPlot(group.*remainder.points,
              fmt::format("using 1:2 with points pt {} ps {} lc rgb '{}' notitle",
                          group.triangles ? 9 : 7, SymbolSize(group, size), ColourOf(group.colour)),
              &command);
   }
-  const double most = std::max(1.1 * data.*remainder.largest, data.in_sigmas ? 2 * kBand : 0);
-  const double half = most > 0 ? most : 1;
-  std::string text = fmt::format("set offsets 0, 0, 0, 0\nset yrange [{}:{}]\n", -half, half);
-  if (data.in_sigmas) {
-    text += fmt::format(
-        "set object 1 rectangle from graph 0, first {} to graph 1, first {} fc rgb '#56B4E9' fs "
-        "transparent solid 0.25 noborder behind\n",
-        -kBand, kBand);
-  }
-  return text + PlotLine(command);
+  const double half = std::max(1.1 * data.*remainder.largest, 2 * kBand);
+  return fmt::format(
+             "set offsets 0, 0, 0, 0\nset yrange [{}:{}]\n"
+             "set object 1 rectangle from graph 0, first {} to graph 1, first {} fc rgb '#56B4E9' "
+             "fs transparent solid 0.25 noborder behind\n",
+             -half, half, -kBand, kBand) +
+         Bands(data) + PlotLine(command);
 }
 
 std::string Title(const Diagnosis& diagnosis) {
@@ -303,19 +334,19 @@ std::string Script(const Diagnosis& diagnosis, const DiagnosisData& data,
   const bool found = diagnosis.verdict.found;
   const PanelPage page(found ? 3 : 2, 1, Title(diagnosis), LegendMark::kBox, data.legend, 0);
   const double size = PointSize(terminal);
-  const std::string unit = data.in_sigmas ? "Model - measured (sigma)" : "Model - measured (mA)";
-  const std::string band = data.in_sigmas ? "; band: ± 2 sigma of the noise" : "";
+  const std::string unit = "Model - measured (% of Isc)";
+  const std::string band = "; band: what it misses of healthy modules";
   const std::string base = diagnosis.base + " model";
   std::string script = Blocks(data) + page.Begin(terminal) + VoltageRange(diagnosis.points);
   script += page.Place(
       0, {"Measured points" + std::string(data.triangles ? " (triangles: down), " : ", ") + base +
-              " (dashed)" + (found ? ", with the causes (solid)" : ""),
+              " (dashed)" + (found ? ", with the causes (solid), without them (grey)" : ""),
           "Voltage (V)", "Current (A)"});
   script += CurvesPanel(data, found, size);
   script += page.Place(1, {"Residuals of the " + base + band, "Voltage (V)", unit});
   script += ResidualPanel(data, kBefore, size);
   if (found) {
-    script += page.Place(2, {"Residuals with the causes" + band, "Voltage (V)", unit});
+    script += page.Place(2, {"Residuals with the causes", "Voltage (V)", unit});
     script += ResidualPanel(data, kAfter, size);
   }
   return script + PanelPage::End();

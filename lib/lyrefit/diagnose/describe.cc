@@ -207,6 +207,8 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     Cause cause = MakeCause(effect, "fit", rival.score.corrected_p);
     DescribeSize(selection.bench, rival.fit, static_cast<int>(rival.fit.law.effects.size()) - 1,
                  selection.extended, &cause);
+    cause.in_words.clear();  // nothing to act on
+    cause.recoverable_power_W = kUnknown;
     cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));
   }

@@ -186,9 +186,9 @@ class Selector {
   }
 
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
-  std::vector<Rival> Weigh(const std::vector<Rival>& rivals, std::vector<Rival>* below) const {
+  std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
-    for (const Rival& rival : rivals) {
+    for (const Rival& rival : all) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
       if (IsWorthAName(rival)) {
         worthy.push_back(rival);
@@ -196,10 +196,11 @@ class Selector {
         below->push_back(rival);
       }
     }
-    if (worthy.empty()) return worthy;
-    const auto preferred = worthy.begin() + static_cast<std::ptrdiff_t>(
-                                                Prefer(bench_, worthy, options_.floors.current));
-    std::rotate(worthy.begin(), preferred, preferred + 1);
+    for (std::vector<Rival>* rivals : {&worthy, below}) {
+      const std::size_t at = Prefer(bench_, *rivals, options_.floors.current);
+      const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
+      if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
+    }
     return worthy;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/refine/error_sizes.h"
 
 namespace lyrefit {
 bool Held(const Readings& readings, const Law& law, int parameter) {
@@ -225,17 +226,16 @@ double Departure(const Workbench& bench, const LawFit& fit, const std::vector<do
 }
 
 double FindPath(const Workbench& bench, const LawFit& fit) {
-  // Departures of healthy modules from one diode, in parts of Isc: the middle, and how far they
-  // differ (as ln). More than the largest is no departure but a cause.
-  constexpr double kMiddle = 1.2e-3, kWidth = 0.7, kLargest = 4e-3;
+  constexpr double kLargest = 4e-3;  // of Isc: more is no departure but a cause
   constexpr int kSteps = 12;
+  const ErrorPrior prior = UsualErrors(1, 1);
   Workbench own = Plain(bench);
   const Linearized linear = Linearize(own, fit);
   own.sigma = bench.sigma;
-  double best = -1e300, path = kMiddle;
+  double best = -1e300, path = prior.center.path;
   for (int k = 0; k <= kSteps; ++k) {
     own.path = kLargest * std::pow(0.5, 0.5 * (kSteps - k));
-    const double off = std::log(own.path / kMiddle) / kWidth;
+    const double off = std::log(own.path / prior.center.path) / prior.width.path;
     const double likelihood =
         RestrictedLogLikelihood(ErrorsOf(own), own.used, linear.residual, linear.jacobian) -
         0.5 * off * off;

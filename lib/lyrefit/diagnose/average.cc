@@ -213,6 +213,7 @@ Selection OnAllReadings(const Selection& found, const Averaged& averaged,
   for (Rival& trial : all.trials) {
     if (trial.fit.usable) trial.fit = Seen(all.base_bench, trial.fit);
   }
+  for (Rival& rival : all.below) rival.fit = Seen(all.bench, rival.fit);
   all.without.clear();
   for (std::size_t c = 0; c < all.causes.size(); ++c) {
     all.without.push_back(FitWithout(all.bench, all.extended, static_cast<int>(c)));

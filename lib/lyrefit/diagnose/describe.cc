@@ -198,6 +198,7 @@ void DescribeSize(const Workbench& bench, const LawFit& with, int index, const L
 std::vector<Cause> DescribeBelow(const Selection& selection) {
   std::vector<Cause> causes;
   for (const Rival& rival : selection.below) {
+    if (!rival.fit.usable) continue;
     const Effect& effect = *rival.score.effect;
     if (!causes.empty()) {
       if (rival.Charged() < selection.below.front().Charged() - kEquivalenceWidth) continue;

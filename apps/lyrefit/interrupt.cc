@@ -95,6 +95,8 @@ class ProgressDisplay {
       }
       std::fflush(stderr);
     }
+    // Where a run ends at once it is said all the same.
+    if (terminal && drawn_ && interrupted != 0) fmt::print(stderr, "\r{:<79.79}", "stopping");
   }
 
   const ProgressStyle style_;

@@ -275,10 +275,8 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
       const double error =
           CurrentError(strings, state, root, lane) / (1 + std::fabs(root.current[lane]));
       worst = std::max(worst, error);
-      // Cells that carry hundreds of Isc in a steep reverse law lose their digits to the voltage.
-      const double most = std::fabs(root.current[lane]) > 100 ? 1e-9 : 1e-10;
-      wrong += !(error < most);
-      if (!(error < most) && wrong < 10) {
+      wrong += !(error < 1e-10);
+      if (!(error < 1e-10) && wrong < 10) {
         ADD_FAILURE() << k << " lane " << lane << " error " << error << " kinds "
                       << strings.cell().kinds << " parts " << strings.cell().parts << " strings "
                       << strings.cell().strings << " halved " << strings.cell().halved

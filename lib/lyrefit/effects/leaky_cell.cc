@@ -1,6 +1,7 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/odd_cells.h"
 
 namespace lyrefit {
 
@@ -22,20 +23,7 @@ Effect LeakyCell() {
                   {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
   e.parameters[1].held = e.parameters[2].held = true;
   e.cell = [](const auto* p, auto* cell) {
-    const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
-    const auto leaky = p[1] * (1 / cell->cells);
-    const double elsewhere = 1 - mates / cell->cells;
-    cell->kinds = 2;
-    cell->kind[0] = {mates / cell->cells - leaky, 1.0, 0.0, 0};
-    cell->kind[1] = {leaky, 1.0, p[0], 0};
-    cell->part[0] = {elsewhere > 1e-9, mates, 0};  // all of the cells have no diode
-    cell->parts = 1;
-    if (elsewhere > 1e-9) {
-      cell->kind[2] = {p[1] * 0.0 + elsewhere, 1.0, 0.0, 1};
-      cell->part[1] = {false, mates, 0};  // never in reverse
-      cell->kinds = 3;
-      cell->parts = 2;
-    }
+    SetOddCells(p[1], 1.0 - p[0] * 0.0, p[0], cell);
     cell->bypass = p[2];
   };
   e.groups = true;

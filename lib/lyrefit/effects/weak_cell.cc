@@ -3,6 +3,7 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/odd_cells.h"
 
 namespace lyrefit {
 namespace {
@@ -39,20 +40,7 @@ Effect WeakCell() {
   e.parameters[kDeficit].scatter = kCellScatter;
   e.parameters[kSoft].absent_at = 0;
   e.cell = [](const auto* p, auto* cell) {
-    const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
-    const auto weak = p[kCells] * (1 / cell->cells);
-    const double elsewhere = 1 - mates / cell->cells;
-    cell->kinds = 2;
-    cell->kind[0] = {mates / cell->cells - weak, 1.0, 0.0, 0};
-    cell->kind[1] = {weak, 1.0 - p[0], p[2], 0};
-    cell->part[0] = {elsewhere > 1e-9, mates, 0};  // all of the cells have no diode
-    cell->parts = 1;
-    if (elsewhere > 1e-9) {
-      cell->kind[2] = {p[1] * 0.0 + elsewhere, 1.0, 0.0, 1};
-      cell->part[1] = {false, mates, 0};  // never in reverse
-      cell->kinds = 3;
-      cell->parts = 2;
-    }
+    SetOddCells(p[kCells], 1.0 - p[kDeficit], p[kLeak], cell);
     cell->bypass = p[3];
     const bool soft = ValueOf(p[kSoft])[0] > 0;  // all lanes have the same parameters
     cell->reverse = soft ? ReverseLaw::kSoft : ReverseLaw::kBishop;

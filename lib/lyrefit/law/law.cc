@@ -366,18 +366,9 @@ double Law::Upper(int parameter) const {
 
 bool Law::Searched(int parameter) const {
   if (parameter < base_size()) return false;
-  int at = parameter - base_size();
-  for (const Effect* effect : effects) {
-    if (at >= effect->size()) {
-      at -= effect->size();
-      continue;
-    }
-    const EffectParameter& info = effect->parameters[at];
-    const bool is_freed =
-        std::find(freed.begin(), freed.end(), std::pair{effect, at}) != freed.end();
-    return (info.searched || info.held) && !is_freed;
-  }
-  return false;
+  const EffectParameter* info = ParameterAt(*this, parameter);
+  const auto is_it = [&](const auto& one) { return &one.first->parameters[one.second] == info; };
+  return (info->searched || info->held) && std::none_of(freed.begin(), freed.end(), is_it);
 }
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,

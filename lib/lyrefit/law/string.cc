@@ -274,14 +274,22 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
   Linear linear;
-  bool near = false;
+  constexpr double kLarge = 50;  // scales
+  bool near = false, settled_once = false;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(bench, cell, *state, &terms);
     SolveLinear(cell, limits, voltage, *state, terms, &linear);
     // Whole steps may go round in circles between exponentials that oppose each other.
     const double part = near || k < kPatience || k > kMostSteps - kPatience ? 1 : 0.5;
     const Mask done = Move(cell, limits, terms, linear, part, state);
-    if (All(done) && part == 1) break;
+    if (All(done) && part == 1) {
+      // Through a steep law voltages that hardly move leave much of a large current.
+      Mask large = Pack(kLarge) < abs(linear.current[0]);
+      for (int s = 1; s < cell.strings; ++s)
+        large = large | (Pack(kLarge) < abs(linear.current[s]));
+      if (settled_once || !Any(large)) break;
+      settled_once = true;
+    }
     near = All(done);
     if (k != kMostSteps - kPatience) continue;
     StringState settled;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
 double DevicePower(const Workbench& bench, const LawFit& fit) {

@@ -109,19 +109,24 @@ Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& res
   return squares;
 }
 
-// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut.
-double CutScale(const Eigen::ArrayXd& squares) {
-  const double count = static_cast<double>(squares.size());
+// Where the search for a scale begins: large squares hardly move it.
+double RoughScale(const Eigen::ArrayXd& squares) {
   std::vector<double> sorted(squares.begin(), squares.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  double scale = *middle / 0.455;
-  if (!(scale > 0)) scale = squares.sum() / count;
+  const double scale = *middle / 0.455;
+  return scale > 0 ? scale : squares.sum() / static_cast<double>(squares.size());
+}
+
+// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut.
+double CutScale(const Eigen::ArrayXd& squares, double scale) {
+  const double count = static_cast<double>(squares.size());
   for (int round = 0; round < 6; ++round) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
   }
   return std::max(scale, 1e-30);
 }
+double CutScale(const Eigen::ArrayXd& squares) { return CutScale(squares, RoughScale(squares)); }
 
 // `logs`: sum of ln variance of unit noise.
 double LogLikelihood(const Eigen::ArrayXd& squares, double logs, double scale) {
@@ -135,7 +140,12 @@ NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& square
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
     const Eigen::ArrayXd in_units = squares * differences.inverse.col(k);
-    scale[k] = CutScale(in_units);
+    // From one shape to the next the size of the whole stays about the same.
+    const double count = static_cast<double>(squares.size());
+    const double start =
+        k == 0 ? RoughScale(in_units)
+               : scale[k - 1] * std::exp((differences.logs[k - 1] - differences.logs[k]) / count);
+    scale[k] = CutScale(in_units, start);
     likelihood[k] = LogLikelihood(in_units, differences.logs[k], scale[k]);
     best = std::max(best, likelihood[k]);
   }

@@ -9,6 +9,7 @@
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
+#include "lyrefit/diagnose/stands_still.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -176,6 +177,14 @@ class Selector {
     return size.current * size.current > (generic ? kGenericPart : kLaterPart) * first_misfit_;
   }
 
+  // The same without floors, in units of the noise: what remains of a first cause whose own model
+  // is a little wrong is no second cause.
+  bool ExplainsEnough(const Rival& rival) const {
+    constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
+    const bool generic = IsGeneric(readings_, *rival.score.effect);
+    return rival.statistic >= (generic ? kGenericPart : kLaterPart) * first_gain_;
+  }
+
   // Whether the base model is so far off that scores beside it say nothing.
   bool IsRuined() const {
     constexpr double kMisfit = 0.01;
@@ -264,6 +273,10 @@ class Selector {
         if (causes_.empty())
           first_misfit_ = std::pow(Departure(bench_, fit_, rivals.front().fit.current), 2);
       }
+      if (!HasFloors() && !rivals.empty()) {
+        if (causes_.empty()) first_gain_ = rivals.front().statistic;
+        if (!ExplainsEnough(rivals.front())) return;
+      }
       if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
         return;
@@ -314,8 +327,10 @@ class Selector {
     const bool by_moment = !rivals.empty() && rivals.front().score.effect->momentary;
     if (beaten && !(by_moment && Isolated(outliers->outlier))) return false;
     bench_.used[outliers->outlier] = 0;
-    outliers_.push_back(outliers->outlier);
-    outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
+    if (!StandsStill(bench_, fit, outliers->outlier)) {
+      outliers_.push_back(outliers->outlier);
+      outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
+    }
     fit_ = std::move(fit);
     SettleNoise();
     return true;
@@ -444,6 +459,7 @@ class Selector {
   std::vector<int> outliers_;
   double outlier_p_ = 1;
   double level_ = 0;         // of the present step
+  double first_gain_ = 0;    // statistic of the first cause that was fitted
   double first_misfit_ = 0;  // mean square of what the first cause took away, in scales
 };
 

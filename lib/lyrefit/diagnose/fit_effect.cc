@@ -64,20 +64,6 @@ double Paid(const Workbench& bench, const LawFit& fit) {
   return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
 }
 
-// Whether a law is so far off that what is fitted from it leads astray.
-bool IsRuined(const Workbench& bench, const LawFit& fit) {
-  constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
-  const double n = fit.p[kBaseIdeality];
-  if (!(n > kLeastIdeality && n < kMostIdeality)) return true;
-  double sum = 0;
-  for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const double off = fit.current[k] - bench.readings->points[k].current;
-    sum += off * off;
-  }
-  return sum > kMisfit * kMisfit * std::max(bench.count(), 1);
-}
-
 // What a start decides that no descent changes: the parameters it lets go and the values of those
 // that are searched.
 using Setting = std::pair<std::vector<int>, std::vector<double>>;
@@ -112,7 +98,7 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
   const CurveShape shape = ShapeOf(readings);
   std::vector<ShapeStart> starts = effect.starts(shape, readings.traits);
   std::vector<double> base = fit.p;
-  if (!best->usable || IsRuined(bench, fit)) {
+  if (!best->usable || LeadsAstray(bench, fit)) {
     const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
     std::copy(healthy.begin(), healthy.end(), base.begin());
   } else {
@@ -148,6 +134,19 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
 }
 
 }  // namespace
+
+bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
+  constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
+  const double n = fit.p[kBaseIdeality];
+  if (!(n > kLeastIdeality && n < kMostIdeality)) return true;
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double off = fit.current[k] - bench.readings->points[k].current;
+    sum += off * off;
+  }
+  return sum > kMisfit * kMisfit * std::max(bench.count(), 1);
+}
 
 double FreedomOf(const Workbench& bench, const Law& law) {
   return std::log(bench.count()) * static_cast<double>(law.freed.size());

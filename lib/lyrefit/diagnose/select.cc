@@ -136,10 +136,12 @@ class Selector {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
+    const bool astray = LeadsAstray(bench_, fit_);
     for (const Score& score : scores) {
       CountStep();
-      // What the shape of the curve suggests does not hang on scores, which a fault ruins.
-      const bool by_shape = is_there && score.effect->starts != nullptr && readings_.traits.single;
+      // What the shape of the curve suggests does not hang on scores that a fault ruins.
+      const bool by_shape =
+          astray && is_there && score.effect->starts != nullptr && readings_.traits.single;
       const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
                                      score.effect->probes != nullptr);
       if (!fits || Stopped(bench_.watch)) continue;

@@ -92,9 +92,9 @@ S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell
   solved.diode_conductance = S(0.0);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<S>& diode = cell.diode[d];
-    const S current = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
+    const S through = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
     solved.diode_conductance =
-        solved.diode_conductance + (diode.saturation - current) * diode.inverse_n_vt;
+        solved.diode_conductance + (diode.saturation - through) * diode.inverse_n_vt;
   }
   solved.conductance = solved.diode_conductance + cell.conductance;
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {

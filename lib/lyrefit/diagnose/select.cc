@@ -326,7 +326,7 @@ class Selector {
     fit_ = FitWithout(bench_, present, c);
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
-      const std::vector<Rival> rivals =
+      std::vector<Rival> rivals =
           FitAll(JudgeScores(PrepareAll(bench_, fit_, Open(), &imprints_), *worth_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
@@ -335,6 +335,8 @@ class Selector {
               ? 0
               : own->Charged() + std::max(0.0, own->fit.sum - present.sum) / Variance(present);
       const bool stopped = Stopped(bench_.watch);
+      std::vector<Rival> below;
+      if (HasFloors()) rivals = Weigh(rivals, &below);
       if (!stopped && !rivals.empty() && rivals.front().score.effect != effect &&
           rivals.front().Charged() > kept + 1) {
         fit_ = rivals.front().fit;

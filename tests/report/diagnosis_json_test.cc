@@ -34,26 +34,13 @@ TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
 
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
-  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
-                          "name",
-                          "source",
-                          "base",
-                          "base_sentence",
-                          "objective",
-                          "seed",
-                          "level",
-                          "verdict",
-                          "gain",
-                          "evidence",
-                          "trials",
-                          "non_default_options",
-                          "assumptions",
-                          "warnings",
-                          "interrupted",
-                          "usable",
-                          "seconds",
-                          "curves",
-                          "points"}));
+  EXPECT_EQ(
+      Keys(j),
+      (Set{"lyrefit_version", "name",     "source",        "base",        "base_sentence",
+           "objective",       "seed",     "floor_current", "floor_power", "level",
+           "verdict",         "gain",     "evidence",      "trials",      "non_default_options",
+           "assumptions",     "warnings", "interrupted",   "usable",      "seconds",
+           "curves",          "points"}));
   EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
                                      "departure", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),

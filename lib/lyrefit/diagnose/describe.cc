@@ -205,7 +205,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
       causes.front().equivalents.push_back(effect.id);
       continue;
     }
-    Cause cause = MakeCause(effect, "fit", rival.score.corrected_p);
+    Cause cause = MakeCause(effect, "fit", rival.corrected_p);
     DescribeSize(selection.bench, rival.fit, static_cast<int>(rival.fit.law.effects.size()) - 1,
                  selection.extended, &cause);
     cause.in_words.clear();  // nothing to act on

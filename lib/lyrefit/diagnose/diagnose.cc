@@ -172,6 +172,8 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   diagnosis.base = ToText(options.base);
   diagnosis.seed = options.seed;
   diagnosis.level = options.level;
+  diagnosis.floor_current = options.floor_current;
+  diagnosis.floor_power = options.floor_power;
   diagnosis.cells_in_series = measurement.readings.scale.cells;
   EchoOptions(options, &diagnosis.non_default_options);
   for (const IvCurve& curve : set.curves) {

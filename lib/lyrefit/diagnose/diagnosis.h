@@ -161,6 +161,8 @@ struct Diagnosis {
   std::string base_sentence;  // what the base model assumes
   std::uint64_t seed = 0;
   double level = 0.05;
+  double floor_current = 0;  // smallest effect that is named, rms in parts of Isc
+  double floor_power = 0;    // or in parts of Pmax
   int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;
   std::vector<DiagnosedPoint> points;

@@ -156,6 +156,8 @@ class Selector {
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
       rival.freedom = FreedomOf(bench_, rival.fit.law);
+      rival.corrected_p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                                     worth_->calibration);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
@@ -193,7 +195,7 @@ class Selector {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
       if (IsWorthAName(rival)) {
         worthy.push_back(rival);
-      } else if (PValueOf(rival) < level_) {
+      } else if (rival.corrected_p < level_) {
         below->push_back(rival);
       }
     }
@@ -263,6 +265,7 @@ class Selector {
             causes_.empty() && wrong_.readings.empty() && selection->unknown_p < level_;
         return;
       }
+      selection->below.clear();  // beside a model that is the past
       Exchange();
       Prune();
       if (Readmit(&bench_, &fit_, &wrong_)) SettleNoise();
@@ -288,13 +291,8 @@ class Selector {
     return left_out;
   }
 
-  double PValueOf(const Rival& rival) const {
-    return CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
-                      worth_->calibration);
-  }
-
   bool Accept(const Rival& rival) {
-    double p = PValueOf(rival);
+    double p = rival.corrected_p;
     const bool proven = HasFloors() && causes_.empty() &&
                         rival.score.effect->where == Where::kSweep && LightMoved(readings_);
     if (proven) p = 0;

@@ -51,8 +51,8 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors) {
                 100 * kMostHealthy);
   if (!verdict.below_floor.empty()) {
     text +=
-        fmt::format("; {} is there, but below {:g} % of Isc and {:g} % of Pmax",
-                    verdict.below_floor.front().title, 100 * floors.current, 100 * floors.power);
+        fmt::format("; present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
+                    100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
   }
   return text + ".";
 }

@@ -200,6 +200,8 @@ Json ToJson(const Diagnosis& diagnosis) {
   json["objective"] = "solved-current";
   json["seed"] = diagnosis.seed;
   json["level"] = Number(diagnosis.level);
+  json["floor_current"] = Number(diagnosis.floor_current);
+  json["floor_power"] = Number(diagnosis.floor_power);
   json["verdict"] = VerdictJson(diagnosis.verdict);
   json["gain"] = GainJson(diagnosis.gain);
   if (diagnosis.plan) json["plan"] = PlanJson(*diagnosis.plan);

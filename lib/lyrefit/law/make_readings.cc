@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/law/held_values.h"
 #include "lyrefit/law/law.h"
@@ -237,20 +237,21 @@ void FindTraits(const CurveSet& set, Readings* readings) {
 // The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
 // number would need it, or nobody stated one, the open-circuit voltage says how many there are.
 int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>* warnings) {
-  constexpr double kMost_V = 1.6, kUsual_V = 0.62;
+  constexpr double kMost_V = 1.6;
   const IvCurve& first = set.curves.front();
   traits->stated_cells = first.conditions.cells_in_series;
-  traits->cells_known = std::find(first.assumptions.begin(), first.assumptions.end(),
-                                  kCellsAssumed) == first.assumptions.end();
+  traits->cells_known = first.cells_known;
   double voc = 0;
   for (const IvCurve& curve : set.curves) {
     const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
-    if (points.open_circuit_voltage_V > voc) voc = points.open_circuit_voltage_V;
+    // A sweep that ends before open circuit says that this is more.
+    voc = std::max(voc, points.open_circuit_voltage_V > 0
+                            ? points.open_circuit_voltage_V
+                            : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end()));
   }
   if (!(voc / traits->stated_cells > kMost_V)) return traits->stated_cells;
-  const int cells = std::max(1, static_cast<int>(std::lround(voc / kUsual_V)));
-  warnings->push_back("Voc of " + NumberText(voc) + " V over " +
-                      std::to_string(traits->stated_cells) +
+  const int cells = LikelyCells(voc);
+  warnings->push_back(NumberText(voc) + " V over " + std::to_string(traits->stated_cells) +
                       (traits->cells_known ? " stated" : " assumed") +
                       " cells is more than a junction gives; reckoned with " +
                       std::to_string(cells) + " cells, which n absorbs");

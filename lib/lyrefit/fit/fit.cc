@@ -217,7 +217,7 @@ void FillResults(const Job& job, FitReport* report) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
   }
-  const RefineProblem& problem = job.problem;  // whitened or not, these are of plain residuals
+  const RefineProblem& problem = job.problem;
   const double mean_square =
       MeanSquare(device, problem.objective, p.data(), problem.points, *problem.kernel);
   report->criteria =
@@ -250,23 +250,23 @@ void FindFloor(Job* job, FitReport* report) {
 }
 
 // Takes `better` as the end of the polish.
-void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& better,
+void StartOver(const RefineProblem& problem, const RefineEnd& end, const std::vector<double>& better,
                RefineReport* report) {
   for (StartReport& start : report->starts) start.agrees = false;
   report->starts.push_back(
-      {"profile", std::sqrt(MeanSquare(job.problem, better)), std::sqrt(end.mean_square), true});
+      {"profile", std::sqrt(MeanSquare(problem, better)), std::sqrt(end.mean_square), true});
   report->winner = static_cast<int>(report->starts.size()) - 1;
   report->agreeing = 1;
 }
 
 // Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
-void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end,
-                     FitReport* report) {
+void JudgeAndImprove(Job* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
+                     RefineEnd* end, FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
-  // No few points stand for many that hang together: their profiles would take minutes.
+  // Of many readings that hang together and are not averaged, profiles would take minutes.
   constexpr std::size_t kMostProfiled = 2000;
-  const bool many = job->problem.errors != nullptr && job->curve.size() > kMostProfiled;
+  const bool many = problem.errors != nullptr && problem.voltage_V.size() > kMostProfiled;
   const Intervals method =
       many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
   constexpr int kRestarts = 3;
@@ -275,7 +275,7 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
     report->refined = end->p;
     FillEstimates(*job, *report, &report->estimates);
     report->correlations.clear();
-    const IntervalInput input{job->problem,
+    const IntervalInput input{problem,
                               *end,
                               ends,
                               wanted ? method : Intervals::kNone,
@@ -288,8 +288,8 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
     if (better.empty() || round == kRestarts) break;
     RefineOptions how;
     how.stop = job->watch.stop();
-    *end = Refine(job->problem, better, how);
-    StartOver(*job, *end, better, &report->refine);
+    *end = Refine(problem, better, how);
+    StartOver(problem, *end, better, &report->refine);
   }
 }
 
@@ -334,9 +334,10 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
+  RefineProblem problem = job->problem;
   if (options.errors.kind != ErrorKind::kWhite) {
     const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
-    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &job->problem, &end);
+    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &problem, &end);
     if (report->errors) report->errors->least_squares = least_squares;
   }
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
@@ -349,7 +350,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   }
   const auto begin = std::chrono::steady_clock::now();
   for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
-  JudgeAndImprove(job, polish.ends, &end, report);
+  JudgeAndImprove(job, problem, polish.ends, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;

@@ -1,7 +1,6 @@
 #include "lyrefit/fit/weigh.h"
 
 #include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 
@@ -9,14 +8,12 @@ std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, 
                                           RefineProblem* problem, RefineEnd* end) {
   constexpr int kRounds = 5;
   constexpr double kSettled = 0.01;       // relative, of every size
-  constexpr double kEnoughOnMany = 1e-9;  // of a sum of squares
   ErrorReport errors;
   errors.weighed = errors.believed = true;
   errors.stated = spec.kind == ErrorKind::kStated;
   errors.current_stated = !errors.stated && !curve.sigma_A.empty();
   RefineOptions how;
   how.stop = watch->stop();
-  if (curve.size() > kFewPoints) how.function_tolerance = kEnoughOnMany;
   const RefineProblem plain = *problem;
   for (int round = 0; round < kRounds && !watch->stopped(); ++round) {
     if (!errors.stated) {

@@ -1,5 +1,6 @@
 #include "lyrefit/fit/average_neighbours.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -34,6 +35,21 @@ Values MeanErrors(const std::vector<int>& first, const Values& errors) {
     means[g] = std::sqrt(means[g] / static_cast<double>(first[g + 1] - first[g]));
   }
   return means;
+}
+
+// Readings at even distances d about x: the variance of their mean part in a path is the mean of
+// exp(-|x - x'|) over all pairs, 1 - d (m^2 - 1) / (3 m).
+Values AveragedAway(const std::vector<int>& first, const Values& position) {
+  Values parts;
+  const int groups = GroupCount(first);
+  for (int g = 0; g < groups; ++g) {
+    double width = kWidest;  // of the group: to the nearer of the next ones
+    if (g > 0) width = std::min(width, position[g] - position[g - 1]);
+    if (g + 1 < groups) width = std::min(width, position[g + 1] - position[g]);
+    const double m = first[g + 1] - first[g];
+    parts.push_back(width * (m * m - 1) / (3 * m * m));
+  }
+  return parts;
 }
 
 }  // namespace
@@ -73,6 +89,9 @@ ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape) 
   means.stated = MeanErrors(first, shape.stated);
   means.path = Means(first, shape.path);
   means.position = Means(first, shape.position);
+  if (first.size() <= shape.position.size()) {
+    means.averaged_away = AveragedAway(first, means.position);
+  }
   for (int g = 0; g < GroupCount(first); ++g) means.chain.push_back(shape.chain[first[g]]);
   return means;
 }

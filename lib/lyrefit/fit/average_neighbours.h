@@ -24,7 +24,8 @@ std::vector<int> EachAlone(std::size_t readings);
 // Means of rows, one for each group.
 RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows);
 
-// How errors show in those means: of a reading by itself less, of the path as they are.
+// How errors show in those means: of a reading by itself less, of the path as they are but for what
+// averages away within a group.
 ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape);
 
 // The same problem, of equal weights, on mean voltages. A current is that of the model at `p` plus

@@ -111,6 +111,7 @@ ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
   }
   errors.position = shape.position;
   errors.chain = shape.chain;
+  errors.averaged_away = shape.averaged_away;
   return errors;
 }
 

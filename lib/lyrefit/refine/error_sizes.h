@@ -16,6 +16,7 @@ struct ErrorShape {
   std::vector<double> path;
   std::vector<double> position;  // as in ErrorModel
   std::vector<int> chain;
+  std::vector<double> averaged_away;
   std::vector<double> stated;  // of a current by itself, in the unit of the residuals: believed in
                                // the place of `current`; empty: nobody stated it
 };

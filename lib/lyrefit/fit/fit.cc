@@ -18,6 +18,7 @@
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
+#include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
@@ -261,7 +262,7 @@ void StartOver(const RefineProblem& problem, const RefineEnd& end, const std::ve
 
 // Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
 void JudgeAndImprove(Job* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
-                     RefineEnd* end, FitReport* report) {
+                     const std::vector<int>& degrees, RefineEnd* end, FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
   // Of many readings that hang together and are not averaged, profiles would take minutes.
@@ -282,7 +283,9 @@ void JudgeAndImprove(Job* job, const RefineProblem& problem, const std::vector<F
                               job->free_parameters,
                               options.threads,
                               &job->watch,
-                              round == kRestarts};
+                              round == kRestarts,
+                              nullptr,
+                              degrees};
     const std::vector<double> better =
         FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
     if (better.empty() || round == kRestarts) break;
@@ -291,6 +294,10 @@ void JudgeAndImprove(Job* job, const RefineProblem& problem, const std::vector<F
     *end = Refine(problem, better, how);
     StartOver(problem, *end, better, &report->refine);
   }
+}
+
+int SpareReadings(const Job& job) {
+  return std::max(static_cast<int>(job.curve.size()) - job.free_parameters, 1);
 }
 
 // What the errors of a plain fit are, and intervals under them where they are believed.
@@ -308,15 +315,39 @@ void FindIntervalsUnderErrors(Job* job, const std::vector<FitPoint>& ends, const
   errors.believed = found->gain > kLeastGain;
   report->errors = errors;
   if (!errors.believed) return;
-  const ErrorModel model =
-      MakeErrorModel(ShapeOfErrors(job->problem, job->curve, end.p), found->sizes);
+  const ErrorShape shape = ShapeOfErrors(job->problem, job->curve, end.p);
+  const auto input_under = [&](const ErrorModel& model) {
+    return IntervalInput{job->problem,
+                         end,
+                         ends,
+                         job->options.intervals,
+                         job->free_parameters,
+                         job->options.threads,
+                         &job->watch,
+                         true,
+                         &model};
+  };
+  const auto errors_at = [&](const ErrorSizes& sizes) {
+    return StandardErrors(input_under(MakeErrorModel(shape, sizes)));
+  };
+  const ErrorModel model = MakeErrorModel(shape, found->sizes);
+  IntervalInput input = input_under(model);
+  input.degrees = FindDegrees(*found, errors_at, SpareReadings(*job));
   FillEstimates(*job, *report, &report->under_errors);
-  const IntervalInput input{
-      job->problem, end,  ends,  job->options.intervals, job->free_parameters, job->options.threads,
-      &job->watch,  true, &model};
   std::vector<Correlation> correlations;
   double condition = 0;
   FindIntervals(input, &report->under_errors, &correlations, &condition);
+}
+
+// Of the standard errors of a fit that was weighed by found errors.
+std::vector<int> DegreesOfWeighed(Job* job, const FoundErrors& found, const RefineEnd& end) {
+  const auto errors_at = [&](const ErrorSizes& sizes) {
+    const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
+    const RefineProblem there = WeighByErrors(job->problem, job->curve, spec, end.p);
+    return StandardErrors({there, end, {}, Intervals::kSymmetric, job->free_parameters,
+                           job->options.threads, &job->watch});
+  };
+  return FindDegrees(found, errors_at, SpareReadings(*job));
 }
 
 // Polishes, finds intervals around what is usable, and says where the polish ended.
@@ -335,10 +366,15 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
   RefineProblem problem = job->problem;
+  std::vector<int> degrees;
   if (options.errors.kind != ErrorKind::kWhite) {
     const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
-    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &problem, &end);
-    if (report->errors) report->errors->least_squares = least_squares;
+    const auto weighed = WeighAndRefine(options.errors, job->curve, &job->watch, &problem, &end);
+    if (weighed) {
+      report->errors = weighed->errors;
+      report->errors->least_squares = least_squares;
+    }
+    if (weighed && weighed->found) degrees = DegreesOfWeighed(job, *weighed->found, end);
   }
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
@@ -350,7 +386,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   }
   const auto begin = std::chrono::steady_clock::now();
   for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
-  JudgeAndImprove(job, problem, polish.ends, &end, report);
+  JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;

@@ -4,11 +4,12 @@
 
 namespace lyrefit {
 
-std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
-                                          RefineProblem* problem, RefineEnd* end) {
+std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
+                                         RefineProblem* problem, RefineEnd* end) {
   constexpr int kRounds = 5;
   constexpr double kSettled = 0.01;       // relative, of every size
-  ErrorReport errors;
+  WeighedFit weighed;
+  ErrorReport& errors = weighed.errors;
   errors.weighed = errors.believed = true;
   errors.stated = spec.kind == ErrorKind::kStated;
   errors.current_stated = !errors.stated && !curve.sigma_A.empty();
@@ -19,6 +20,7 @@ std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, 
     if (!errors.stated) {
       const std::optional<FoundErrors> found = FindErrors(plain, curve, *end);
       if (!found) return {};
+      weighed.found = found;
       const bool settled = AreClose(found->sizes, spec.sizes, kSettled);
       spec.sizes = found->sizes;
       errors.gain = found->gain;
@@ -28,7 +30,7 @@ std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, 
     *end = Refine(*problem, end->p, how);
   }
   errors.sizes = spec.sizes;
-  return errors;
+  return weighed;
 }
 
 }  // namespace lyrefit

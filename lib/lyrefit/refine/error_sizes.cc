@@ -78,6 +78,19 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   return highest > -HUGE_VAL ? best : usual;
 }
 
+// 0 where it is not positive.
+Eigen::Matrix3d InverseOf(const Eigen::MatrixXd& curvature) {
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    Eigen::VectorXd column;
+    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(3, j), &column)) {
+      return Eigen::Matrix3d::Zero();
+    }
+    inverse.col(j) = column;
+  }
+  return inverse;
+}
+
 // The same of errors that know nothing of each other, at the size that suits them best.
 double WhiteLogLikelihood(const Rows& rows) {
   ErrorModel white;
@@ -126,10 +139,11 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   all.columns.leftCols(basis.cols()) = basis;
   all.columns.rightCols(1) = residual;
   constexpr int kMostSteps = 30;
-  const Logs at = Climb([&](const Logs& there) { return LogPosterior(all, prior, there); },
-                        FindStart(all, prior), kMostSteps);
+  const auto value = [&](const Logs& there) { return LogPosterior(all, prior, there); };
+  const Logs at = Climb(value, FindStart(all, prior), kMostSteps);
   FoundErrors found;
   found.sizes = SizesAt(at);
+  found.uncertainty = InverseOf(-CurvatureAt(value, at));
   const double likely = LogLikelihood(MakeErrorModel(shape, found.sizes), all.columns);
   found.gain = 2 * (likely - WhiteLogLikelihood(all));
   return found;

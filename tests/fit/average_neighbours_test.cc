@@ -57,13 +57,12 @@ TEST(AverageShape, HasTheCovarianceOfMeans) {
   RowMatrix unit = RowMatrix::Zero(groups, 3);
   const int at[] = {0, groups / 2, groups - 2};
   for (int c = 0; c < 3; ++c) unit(at[c], c) = 1;
-  const RowMatrix found =
-      CovarianceTimes(MakeErrorModel(AverageShape(first, shape), sizes), unit);
+  const RowMatrix found = CovarianceTimes(MakeErrorModel(AverageShape(first, shape), sizes), unit);
 
   RowMatrix spread = RowMatrix::Zero(kReadings, 3);  // a mean's weights of the readings
-  for (int c = 0; c < 3; ++c) spread.middleRows(first[at[c]], kOfEach).col(c).setConstant(1.0 / kOfEach);
-  const RowMatrix exact =
-      AverageRows(first, CovarianceTimes(MakeErrorModel(shape, sizes), spread));
+  for (int c = 0; c < 3; ++c)
+    spread.middleRows(first[at[c]], kOfEach).col(c).setConstant(1.0 / kOfEach);
+  const RowMatrix exact = AverageRows(first, CovarianceTimes(MakeErrorModel(shape, sizes), spread));
   // What tells them apart is what neighbours do not share: 1e-3 of the covariance.
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 2e-6 * exact.maxCoeff());
 }

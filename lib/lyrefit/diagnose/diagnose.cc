@@ -20,8 +20,8 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
-#include "lyrefit/fit/statistics.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
@@ -103,9 +103,9 @@ void DescribeGain(const Selection& selection, bool field, Gain* gain) {
     gain->sentence = "not measured on readings that were not fitted";
   } else {
     const std::string held_out = gain->by_sweeps ? "whole sweeps" : "readings";
-    gain->sentence = gain->gain
-                         ? "the gain holds on " + held_out + " that were not fitted"
-                         : "no gain on " + held_out + " that were not fitted: within its standard error";
+    gain->sentence =
+        gain->gain ? "the gain holds on " + held_out + " that were not fitted"
+                   : "no gain on " + held_out + " that were not fitted: within its standard error";
     if (field && !gain->by_sweeps) {
       gain->sentence +=
           "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "

@@ -16,7 +16,8 @@ struct Measurement {
   Readings readings;
   DeviceNotes notes;  // of the first curve: noise stated beforehand
   ValueFindings values;
-  std::vector<double> stated_sigma;  // of every reading, in current scales; empty unless all have it
+  std::vector<double>
+      stated_sigma;  // of every reading, in current scales; empty unless all have it
   ErrorSpec errors;  // what is allowed for
 
   // A rough path along the sweeps beside the noise.

@@ -66,8 +66,7 @@ std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double op
   if (most <= 1) return EachAlone(voltage_V.size());
   std::vector<int> first = {0};
   for (int k = 1; k < readings; ++k) {
-    const bool far =
-        std::fabs(voltage_V[k] - voltage_V[first.back()]) > kWidest * open_circuit_V;
+    const bool far = std::fabs(voltage_V[k] - voltage_V[first.back()]) > kWidest * open_circuit_V;
     if (far || k - first.back() >= most) first.push_back(k);
   }
   first.push_back(readings);
@@ -107,9 +106,8 @@ RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem&
   Values voltage = Means(first, problem.voltage_V), current = Means(first, distance);
   const Values there = model(voltage, Means(first, problem.current_A));
   for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
-  RefineProblem few =
-      MakeRefineProblem(problem.device, problem.objective, std::move(voltage), std::move(current),
-                        {}, problem.lower, problem.upper);
+  RefineProblem few = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
+                                        std::move(current), {}, problem.lower, problem.upper);
   few.kernel = problem.kernel;
   few.current_scale_A = problem.current_scale_A;
   few.voltage_scale_V = problem.voltage_scale_V;

@@ -11,6 +11,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
@@ -18,7 +19,6 @@
 #include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
-#include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
@@ -251,8 +251,8 @@ void FindFloor(Job* job, FitReport* report) {
 }
 
 // Takes `better` as the end of the polish.
-void StartOver(const RefineProblem& problem, const RefineEnd& end, const std::vector<double>& better,
-               RefineReport* report) {
+void StartOver(const RefineProblem& problem, const RefineEnd& end,
+               const std::vector<double>& better, RefineReport* report) {
   for (StartReport& start : report->starts) start.agrees = false;
   report->starts.push_back(
       {"profile", std::sqrt(MeanSquare(problem, better)), std::sqrt(end.mean_square), true});
@@ -344,8 +344,13 @@ std::vector<int> DegreesOfWeighed(Job* job, const FoundErrors& found, const Refi
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
     const RefineProblem there = WeighByErrors(job->problem, job->curve, spec, end.p);
-    return StandardErrors({there, end, {}, Intervals::kSymmetric, job->free_parameters,
-                           job->options.threads, &job->watch});
+    return StandardErrors({there,
+                           end,
+                           {},
+                           Intervals::kSymmetric,
+                           job->free_parameters,
+                           job->options.threads,
+                           &job->watch});
   };
   return FindDegrees(found, errors_at, SpareReadings(*job));
 }

@@ -335,7 +335,7 @@ class IntervalFinder {
   const std::vector<double> quoted_;   // the end, as it is reported
   const std::vector<double> neutral_;  // of effects' parameters, likewise
   int degrees_ = 1;
-  std::vector<double> t_;  // Student's, of each estimate
+  std::vector<double> t_;        // Student's, of each estimate
   std::vector<double> stretch_;  // of t, by the errors
   RefineProblem few_;
   RefineEnd few_end_;

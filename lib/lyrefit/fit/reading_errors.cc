@@ -22,8 +22,8 @@ double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
   return voc > 0 ? voc : problem.voltage_scale_V;
 }
 
-// The way along a sweep up to every reading, in Voc. Noise of voltages that lie close would lengthen
-// it from reading to reading, so it goes through the means of neighbours.
+// The way along a sweep up to every reading, in Voc. Noise of voltages that lie close would
+// lengthen it from reading to reading, so it goes through the means of neighbours.
 std::vector<double> PositionsOf(const std::vector<double>& voltage_V, double open_circuit_V) {
   const std::vector<int> first = GroupNeighbours(voltage_V, open_circuit_V);
   std::vector<double> positions;
@@ -105,10 +105,9 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p) {
   // Effects act on single readings.
-  const std::vector<int> groups =
-      plain.device.extension == nullptr
-          ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
-          : EachAlone(plain.voltage_V.size());
+  const std::vector<int> groups = plain.device.extension == nullptr
+                                      ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
+                                      : EachAlone(plain.voltage_V.size());
   RefineProblem weighed = plain;
   if (groups.size() <= plain.voltage_V.size()) weighed = AverageProblem(groups, plain, p);
   weighed.weights.assign(weighed.voltage_V.size(), 1);

@@ -93,6 +93,19 @@ Reading Mean(const Readings& readings, const std::vector<int>& lot,
   return mean;
 }
 
+// Of the mean of each lot of independent errors; empty where these are.
+std::vector<double> ErrorsOfMeans(const std::vector<double>& errors,
+                                  const std::vector<std::vector<int>>& lots) {
+  std::vector<double> means;
+  if (errors.empty()) return means;
+  for (const std::vector<int>& lot : lots) {
+    double squares = 0;
+    for (const int k : lot) squares += errors[k] * errors[k];
+    means.push_back(std::sqrt(squares) / static_cast<double>(lot.size()));
+  }
+  return means;
+}
+
 // Positions of the averages that stand for the given readings.
 std::vector<int> Translated(const std::vector<int>& of, const std::vector<int>& readings) {
   std::vector<int> result;
@@ -156,14 +169,10 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
   means.clear();
   std::vector<int> of(count);
   ValueFindings& of_means = averaged.measurement.values;
-  of_means.rounding.clear();
+  of_means.rounding = ErrorsOfMeans(values.rounding, averaged.members);
+  averaged.measurement.stated_sigma = ErrorsOfMeans(measurement.stated_sigma, averaged.members);
   for (const std::vector<int>& lot : averaged.members) {
-    double rounding = 0;
-    for (const int k : lot) {
-      of[k] = static_cast<int>(means.size());
-      rounding += values.rounding[k] * values.rounding[k];
-    }
-    of_means.rounding.push_back(std::sqrt(rounding) / static_cast<double>(lot.size()));
+    for (const int k : lot) of[k] = static_cast<int>(means.size());
     means.push_back(Mean(readings, lot, off));
   }
   of_means.clipped = Translated(of, values.clipped);

@@ -149,7 +149,8 @@ std::string DiagnosisGainSection(const Diagnosis& diagnosis) {
   table.Add({"readings that were fitted", Scientific(gain.rmse_before_A, 4),
              Scientific(gain.rmse_after_A, 4)});
   if (std::isfinite(gain.held_out_before_A)) {
-    table.Add({fmt::format("held out in {}", Plural(gain.folds, "part")),
+    table.Add({fmt::format("held out{} in {}", gain.by_sweeps ? ", whole sweeps," : "",
+                           Plural(gain.folds, "part")),
                Scientific(gain.held_out_before_A, 4), Scientific(gain.held_out_after_A, 4)});
   }
   std::string text = "Gain\n" + table.Text();

@@ -28,6 +28,7 @@ FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch
       {},
       {}};
   for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
+  for (const int k : measurement.values.at_voltage_limit) shape.bench.used[k] = 0;
   if (count <= kQuickToFit) shape.bench.watch = nullptr;
   shape.fit = FitBase(shape.bench, base);
   shape.bench.watch = watch;
@@ -141,7 +142,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
     off[k] = readings.points[k].current - shape.fit.current[k];
   }
   for (int k = 0; shape.fit.usable && k < count; ++k) alone[k] = Sudden(shape, off, k) ? 1 : 0;
-  for (const auto* set : {&values.clipped, &values.at_lower}) {
+  for (const auto* set : {&values.clipped, &values.at_lower, &values.at_voltage_limit}) {
     for (const int k : *set) alone[k] = 1;
   }
   Averaged averaged;
@@ -157,17 +158,21 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
   std::vector<int> of(count);
   ValueFindings& of_means = averaged.measurement.values;
   of_means.rounding.clear();
+  of_means.bin_rounding.clear();
   for (const std::vector<int>& lot : averaged.members) {
-    double rounding = 0;
+    double rounding = 0, bins = 0;
     for (const int k : lot) {
       of[k] = static_cast<int>(means.size());
       rounding += values.rounding[k] * values.rounding[k];
+      bins += values.bin_rounding[k] * values.bin_rounding[k];
     }
     of_means.rounding.push_back(std::sqrt(rounding) / static_cast<double>(lot.size()));
+    of_means.bin_rounding.push_back(std::sqrt(bins) / static_cast<double>(lot.size()));
     means.push_back(Mean(readings, lot, off));
   }
   of_means.clipped = Translated(of, values.clipped);
   of_means.at_lower = Translated(of, values.at_lower);
+  of_means.at_voltage_limit = Translated(of, values.at_voltage_limit);
   std::vector<double> model(means.size(), 0.0);
   LawWorkspace workspace;
   const bool known = shape.fit.usable && EvaluateLaw(shape.fit.law, averages, shape.fit.p.data(),
@@ -182,6 +187,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
   }
   averages.traits.readings = static_cast<int>(means.size());
   SetStepTimes(&averages);
+  SetRangeCurrents(&averages);
   return averaged;
 }
 

@@ -232,7 +232,13 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     }
     if (by_values) {
       cause.points = values.clipped;
-      cause.points.insert(cause.points.end(), values.at_lower.begin(), values.at_lower.end());
+      for (const auto* more : {&values.at_lower, &values.at_voltage_limit}) {
+        cause.points.insert(cause.points.end(), more->begin(), more->end());
+      }
+      if (!values.at_voltage_limit.empty()) {
+        const double limit = values.voltage_limit * bench.readings->scale.cells;
+        cause.strength.push_back({"Vc", "voltage_limit", "V", limit, limit, limit, false});
+      }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
       cause.points = WhereItActs(bench, selection.extended, static_cast<int>(c));

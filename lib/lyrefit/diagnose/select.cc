@@ -32,6 +32,7 @@ class Selector {
                0,
                options.watch} {
     for (const int k : values_.at_lower) bench_.used[k] = 0;
+    for (const int k : values_.at_voltage_limit) bench_.used[k] = 0;
   }
 
   Selection Run() {
@@ -52,7 +53,7 @@ class Selector {
     if (Stopped(bench_.watch)) fit_ = selection.base;
     selection.base = fit_;
     selection.base_bench = bench_;
-    if (values_.clip_level > 0 || values_.limited) AddClip();
+    if (values_.HasLimits()) AddClip();
     Prepared prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
     FindWorth(prepared);
     Extend(std::move(prepared), &selection);

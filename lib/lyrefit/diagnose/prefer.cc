@@ -70,6 +70,7 @@ bool IsGeneric(const Readings& readings, const Effect& effect) {
 bool LightMoved(const Readings& readings) {
   constexpr double kLeast = 0.01;
   if (!readings.traits.single || readings.traits.only_dark) return false;
+  if (readings.traits.up_down) return false;  // charge does the same to two sweeps
   double lowest = 1e300, rise = 0;
   for (const double current : ShapeOf(readings).current) {
     lowest = std::min(lowest, current);
@@ -112,6 +113,14 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     return swept < rivals.size() ? swept : 0;
   }
   std::size_t best = 0;
+  // Clouds are commoner than ranges that disagree by so much.
+  if (std::string_view(rivals.front().score.effect->id) == "range_switch") {
+    const std::size_t step = first([&](const Rival& rival) {
+      return std::string_view(rival.score.effect->id) == "irr_step" &&
+             rival.Charged() > rivals.front().Charged() - kEquivalenceWidth;
+    });
+    if (step < rivals.size()) return step;
+  }
   if (IsGeneric(readings, *rivals.front().score.effect)) {
     const double enough =
         (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * rivals.front().Charged();

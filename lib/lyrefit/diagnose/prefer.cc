@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/law/curve_shape.h"
 
 namespace lyrefit {

@@ -369,7 +369,22 @@ class Selector {
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
     SettleNoise();
+    if (rival.score.effect->momentary) FreeShape(*rival.score.effect);
     return true;
+  }
+
+  // A moment of the light that is there has the shape that it has, where that is worth its freedom.
+  void FreeShape(const Effect& effect) {
+    Law law = fit_.law;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].held) law.freed.emplace_back(&effect, k);
+    }
+    if (law.freed.size() == fit_.law.freed.size()) return;
+    LawFit freed = FitLaw(bench_, law, fit_.p);
+    const double paid = FreedomOf(bench_, law) - FreedomOf(bench_, fit_.law);
+    if (!freed.usable || !(freed.sum + paid * Variance(freed) < fit_.sum)) return;
+    fit_ = std::move(freed);
+    SettleNoise();
   }
 
   // Every cause but the last gives its place to any effect that does better beside the others.

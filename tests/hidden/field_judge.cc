@@ -18,7 +18,7 @@ constexpr Meaning kMeanings[] = {
     {"light", "light", false},         {"share", "share", false},
     {"width", "width", false},         {"spread", "width", false},
     {"relative_step", "step", false},  {"depth", "dip", false},
-    {"relative_drift", "drift", false}};
+    {"relative_change", "drift", false}};
 
 struct Said {
   const char* quantity;

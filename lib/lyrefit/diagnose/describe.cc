@@ -61,7 +61,8 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
 }
 
 // Standard errors of a fit's parameters as they are told of one effect: what moves with the light
-// takes up what the module departs by, which then seems less than it is, and has a shape of its own.
+// takes up what the module departs by, which then seems less than it is, and has a shape of its
+// own.
 std::vector<double> AllowedErrors(const Workbench& bench, const LawFit& fit, const Effect& effect) {
   constexpr double kUnlike = 3;  // modules are so much more unlike than one sweep of one tells
   if (bench.path == 0 || effect.where != Where::kSweep) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/law/curve_shape.h"
 
 namespace lyrefit {
@@ -14,6 +13,8 @@ namespace {
 double Value(const Rival& rival, int parameter) {
   return rival.fit.p[rival.fit.p.size() - rival.score.effect->parameters.size() + parameter];
 }
+
+bool IsCalled(const Rival& rival, std::string_view id) { return rival.score.effect->id == id; }
 
 bool StrengthIsAtBound(const Rival& rival) {
   constexpr double kSlack = 1e-3;
@@ -100,7 +101,7 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double floor) {
   const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
-                   kMuchSimpler = 0.88;
+                   kMuchSimpler = 0.88, kNotClearly = 0.6;
   constexpr int kComplex = 5;
   constexpr double kVisible = 2;  // floors between two curves that a person would not call alike
   const auto first = [&](auto is_wanted) {
@@ -114,11 +115,11 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     return swept < rivals.size() ? swept : 0;
   }
   std::size_t best = 0;
-  // Clouds are commoner than ranges that disagree by so much.
-  if (std::string_view(rivals.front().score.effect->id) == "range_switch") {
+  // Clouds are commoner than ranges that disagree by so much; two sweeps tell them apart.
+  if (IsCalled(rivals.front(), "range_switch") && !readings.traits.up_down) {
     const std::size_t step = first([&](const Rival& rival) {
-      return std::string_view(rival.score.effect->id) == "irr_step" &&
-             rival.Charged() > rivals.front().Charged() - kEquivalenceWidth;
+      return IsCalled(rival, "irr_step") &&
+             rival.Charged() > kNotClearly * rivals.front().Charged();
     });
     if (step < rivals.size()) return step;
   }

@@ -369,7 +369,7 @@ class Selector {
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
     SettleNoise();
-    if (rival.score.effect->momentary) FreeShape(*rival.score.effect);
+    if (HasFloors() && rival.score.effect->momentary) FreeShape(*rival.score.effect);
     return true;
   }
 

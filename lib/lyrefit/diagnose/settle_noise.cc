@@ -11,7 +11,8 @@ void WidenByRounding(const Measurement& measurement, const Noise& noise, Workben
   const ValueFindings& values = measurement.values;
   const auto widen = [&](const std::vector<double>& by) {
     bench->least_variance = 1;
-    for (std::size_t k = 0; k < by.size(); ++k) bench->sigma[k] = std::hypot(bench->sigma[k], by[k]);
+    for (std::size_t k = 0; k < by.size(); ++k)
+      bench->sigma[k] = std::hypot(bench->sigma[k], by[k]);
   };
   if (IsCoarse(measurement, noise)) widen(values.rounding);
   if (HasCoarseBins(measurement, noise)) widen(values.bin_rounding);

@@ -90,21 +90,27 @@ class LowerLimit {
   double step_;
 };
 
-// Readings at the largest voltage that stand together at the high end of a stretch while the current
-// goes on falling: the meter was at its end.
+// Readings at the largest voltage that stand together at the high end of a stretch while the
+// current goes on falling: the meter was at its end.
 void FindVoltageLimit(const Readings& readings, double step, ValueFindings* findings) {
   constexpr std::size_t kFewest = 4;
   const std::vector<Reading>& points = readings.points;
   double largest = 0, least = 1e300, most = -1e300;
   for (const Reading& r : points) largest = std::max(largest, r.voltage);
   std::vector<int> at;
+  std::size_t ties = 0;  // in coarse bins repeats say nothing
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].dark || points[k].voltage < largest * (1 - 1e-9)) continue;
+    if (points[k].dark || points[k].voltage < largest * (1 - 1e-9)) {
+      ties += k > 0 && points[k].voltage == points[k - 1].voltage;
+      continue;
+    }
     at.push_back(static_cast<int>(k));
     least = std::min(least, points[k].current);
     most = std::max(most, points[k].current);
   }
-  if (at.size() < kFewest || !(most - least > std::max(3 * step, 0.01))) return;
+  if (at.size() < kFewest || at.size() <= 3 * (ties + 1) ||
+      !(most - least > std::max(3 * step, 0.01)))
+    return;
   findings->at_voltage_limit = at;
   findings->voltage_limit = largest;
 }
@@ -162,20 +168,21 @@ double FindGrid(const std::vector<double>& values) {
 }
 
 double FindBins(const Readings& readings) {
-  constexpr double kUneven = 0.4;  // of the steps differ from the one before
+  constexpr double kUneven = 0.25, kRepeated = 0.1;  // parts of the steps
   std::vector<double> voltages;
   for (const Reading& r : readings.points) voltages.push_back(r.voltage);
   const double step = FindGrid(voltages);
   if (step == 0) return 0;
   const std::vector<Reading>& points = readings.points;
-  int uneven = 0, all = 0;
+  int uneven = 0, repeated = 0, all = 0;
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {
     if (points[k - 1].segment != points[k + 1].segment) continue;
     const double bend = points[k + 1].voltage - 2 * points[k].voltage + points[k - 1].voltage;
     uneven += std::fabs(bend) > 0.5 * step;
+    repeated += std::fabs(points[k + 1].voltage - points[k].voltage) < 0.5 * step;
     ++all;
   }
-  return uneven > kUneven * all ? step : 0;
+  return uneven > kUneven * all || repeated > kRepeated * all ? step : 0;
 }
 
 ValueFindings LookAtValues(const Readings& readings) {

@@ -145,16 +145,21 @@ TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
 }
 
 TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
-  for (const double bin : {0.011, 0.03}) {  // 60 readings are 0.0105 V apart
-    IvCurve curve = MadeCurve({});
+  for (const double bin : {0.007, 0.017, 0.03}) {  // the readings are 0.0113 V apart
+    const IvCurve exact = MadeCurve({});
+    IvCurve curve = exact;
     curve.voltage_V = Rounded(curve.voltage_V, bin);
     const ValueFindings findings = Look(curve);
     EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
     EXPECT_TRUE(findings.at_voltage_limit.empty());
     // The standard deviation of what a bin hides, times the slope.
-    const double steep = findings.bin_rounding[curve.size() - 4];
-    EXPECT_GT(steep, 10 * findings.bin_rounding[4]);
-    EXPECT_NEAR(steep, bin / std::sqrt(12) * Slope(curve, curve.size() - 4), 0.3 * steep);
+    double steep = 0, expected = 0;
+    for (std::size_t k = curve.size() - 9; k < curve.size() - 3; ++k) {
+      steep += findings.bin_rounding[k];
+      expected += bin / std::sqrt(12) * Slope(exact, k);
+    }
+    EXPECT_NEAR(steep, expected, 0.25 * expected) << bin;
+    EXPECT_LT(findings.bin_rounding[10], 0.01 * steep);
   }
 }
 

@@ -66,7 +66,8 @@ int Complexity(const Workbench& bench, const Rival& rival) {
 }  // namespace
 
 bool IsGeneric(const Readings& readings, const Effect& effect) {
-  return readings.traits.up_down ? effect.momentary : effect.where == Where::kSweep;
+  if (readings.traits.up_down) return effect.momentary;
+  return effect.where == Where::kSweep || std::string_view(effect.id) == "range_switch";
 }
 
 bool LightMoved(const Readings& readings) {

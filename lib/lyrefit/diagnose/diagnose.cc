@@ -197,6 +197,7 @@ void ForgetLimits(ValueFindings* values) {
   values->clipped.clear();
   values->limited = false;
   values->at_lower.clear();
+  values->at_voltage_limit.clear();
 }
 
 // The selection on readings or, where these are many, on averages of them.

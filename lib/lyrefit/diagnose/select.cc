@@ -33,6 +33,7 @@ class Selector {
                0,
                options.watch} {
     for (const int k : values_.at_lower) bench_.used[k] = 0;
+    for (const int k : values_.at_voltage_limit) bench_.used[k] = 0;
   }
 
   Selection Run() {
@@ -53,7 +54,7 @@ class Selector {
     if (Stopped(bench_.watch)) fit_ = selection.base;
     selection.base = fit_;
     selection.base_bench = bench_;
-    if (values_.clip_level > 0 || values_.limited) AddClip();
+    if (values_.HasLimits()) AddClip();
     Prepared prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
     FindWorth(prepared);
     Extend(std::move(prepared), &selection);
@@ -300,7 +301,22 @@ class Selector {
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
     SettleNoise();
+    if (HasFloors() && rival.score.effect->momentary) FreeShape(*rival.score.effect);
     return true;
+  }
+
+  // A moment of the light that is there has the shape that it has, where that is worth its freedom.
+  void FreeShape(const Effect& effect) {
+    Law law = fit_.law;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].held) law.freed.emplace_back(&effect, k);
+    }
+    if (law.freed.size() == fit_.law.freed.size()) return;
+    LawFit freed = FitLaw(bench_, law, fit_.p);
+    const double paid = FreedomOf(bench_, law) - FreedomOf(bench_, fit_.law);
+    if (!freed.usable || !(freed.sum + paid * Variance(freed) < fit_.sum)) return;
+    fit_ = std::move(freed);
+    SettleNoise();
   }
 
   // Every cause but the last gives its place to any effect that does better beside the others.

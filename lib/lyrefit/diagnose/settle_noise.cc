@@ -8,11 +8,14 @@ namespace {
 
 // A grid much coarser than the noise leaves errors that neighbours share.
 void WidenByRounding(const Measurement& measurement, const Noise& noise, Workbench* bench) {
-  if (!IsCoarse(measurement, noise)) return;
-  bench->least_variance = 1;
-  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
-    bench->sigma[k] = std::hypot(bench->sigma[k], measurement.values.rounding[k]);
-  }
+  const ValueFindings& values = measurement.values;
+  const auto widen = [&](const std::vector<double>& by) {
+    bench->least_variance = 1;
+    for (std::size_t k = 0; k < by.size(); ++k)
+      bench->sigma[k] = std::hypot(bench->sigma[k], by[k]);
+  };
+  if (IsCoarse(measurement, noise)) widen(values.rounding);
+  if (HasCoarseBins(measurement, noise)) widen(values.bin_rounding);
 }
 
 // Root mean square of a fit's residuals.

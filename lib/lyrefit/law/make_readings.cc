@@ -232,6 +232,7 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     traits.up_down = traits.up_down || segments.size() > 1;
   }
   SetStepTimes(readings);
+  SetRangeCurrents(readings);
 }
 
 // The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
@@ -306,6 +307,26 @@ void SetStepTimes(Readings* readings) {
   for (std::size_t k = 1; k + 2 < points.size(); ++k) {
     readings->traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
   }
+}
+
+void SetRangeCurrents(Readings* readings) {
+  constexpr double kLeast = 0.03, kMost = 0.97, kApart = 0.01;
+  std::vector<double>& places = readings->traits.range_currents;
+  places.clear();
+  if (!readings->traits.single) return;
+  const std::vector<Reading>& points = readings->points;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k].segment != points[k - 1].segment || points[k].dark) continue;
+    places.push_back(0.5 * (points[k - 1].current + points[k].current));
+  }
+  std::sort(places.begin(), places.end());
+  std::size_t kept = 0;
+  for (const double place : places) {
+    if (place < kLeast || place > kMost) continue;
+    if (kept > 0 && place < places[kept - 1] + kApart) continue;
+    places[kept++] = place;
+  }
+  places.resize(kept);
 }
 
 Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* warnings) {

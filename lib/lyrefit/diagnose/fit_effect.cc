@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -62,17 +64,52 @@ double Paid(const Workbench& bench, const LawFit& fit) {
   return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
 }
 
-// The best end of those that the curve's shape suggests.
+// What a start decides that no descent changes: the parameters it lets go and the values of those
+// that are searched.
+using Setting = std::pair<std::vector<int>, std::vector<double>>;
+Setting SettingOf(const Effect& effect, const ShapeStart& start) {
+  Setting setting{start.freed, {}};
+  for (int k = 0; k < effect.size(); ++k) {
+    if (effect.parameters[k].searched) setting.second.push_back(start.p[k]);
+  }
+  return setting;
+}
+
+// Of each setting the start that is nearest to a strength.
+std::vector<ShapeStart> NearestStarts(const Effect& effect, const std::vector<ShapeStart>& starts,
+                                      double strength) {
+  std::map<Setting, const ShapeStart*> nearest;
+  for (const ShapeStart& start : starts) {
+    const ShapeStart*& best = nearest[SettingOf(effect, start)];
+    if (best == nullptr || std::fabs(start.p[0] - strength) < std::fabs(best->p[0] - strength)) {
+      best = &start;
+    }
+  }
+  std::vector<ShapeStart> kept;
+  for (const auto& [setting, start] : nearest) kept.push_back(*start);
+  return kept;
+}
+
+// The best end of those that the curve's shape suggests. From a healthy module where the law is
+// ruined without the effect, else from where the probes ended.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
   const Readings& readings = *bench.readings;
   const CurveShape shape = ShapeOf(readings);
-  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
+  std::vector<ShapeStart> starts = effect.starts(shape, readings.traits);
+  std::vector<double> base = fit.p;
+  if (!best->usable || LeadsAstray(bench, fit)) {
+    const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
+    std::copy(healthy.begin(), healthy.end(), base.begin());
+  } else {
+    std::copy(best->p.begin(), best->p.begin() + static_cast<std::ptrdiff_t>(base.size()),
+              base.begin());
+    starts = NearestStarts(effect, starts, best->p[base.size()]);
+  }
+  for (const ShapeStart& own : starts) {
     Law freed = law;
     for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
-    std::vector<double> start = fit.p;
-    const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
-    std::copy(healthy.begin(), healthy.end(), start.begin());
+    std::vector<double> start = base;
     start.insert(start.end(), own.p.begin(), own.p.end());
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
@@ -128,6 +165,19 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
 }
 
 }  // namespace
+
+bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
+  constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
+  const double n = fit.p[kBaseIdeality];
+  if (!(n > kLeastIdeality && n < kMostIdeality)) return true;
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double off = fit.current[k] - bench.readings->points[k].current;
+    sum += off * off;
+  }
+  return sum > kMisfit * kMisfit * std::max(bench.count(), 1);
+}
 
 double FreedomOf(const Workbench& bench, const Law& law) {
   return std::log(bench.count()) * static_cast<double>(law.freed.size());

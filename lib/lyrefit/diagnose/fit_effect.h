@@ -13,6 +13,9 @@ enum class Effort { kFull, kInPassing, kForTheRecord };
 LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score,
                  Effort effort = Effort::kFull);
 
+// Whether a law is so far off, by misfit or ideality, that what is seen or fitted from it misleads.
+bool LeadsAstray(const Workbench& bench, const LawFit& fit);
+
 // What a law pays for the parameters that it lets go, in units of the noise variance.
 double FreedomOf(const Workbench& bench, const Law& law);
 

@@ -110,15 +110,25 @@ Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& res
   return squares;
 }
 
-// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut.
-double CutScale(const Eigen::ArrayXd& squares) {
+// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut. From a
+// `guess`, which may be 0, where that leads to an end at once as pure noise does; else from the
+// middle square, which steps and outliers hardly move.
+double CutScale(const Eigen::ArrayXd& squares, double guess) {
+  constexpr int kRounds = 6;
+  constexpr double kSettled = 1e-5;
   const double count = static_cast<double>(squares.size());
+  double before = 0, scale = guess;
+  for (int round = 0; round < kRounds && scale > 0; ++round) {
+    before = scale;
+    scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
+  }
+  if (scale > 0 && std::fabs(scale - before) < kSettled * scale) return std::max(scale, 1e-30);
   std::vector<double> sorted(squares.begin(), squares.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  double scale = *middle / 0.455;
+  scale = *middle / 0.455;
   if (!(scale > 0)) scale = squares.sum() / count;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
   }
   return std::max(scale, 1e-30);
@@ -136,7 +146,12 @@ NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& square
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
     const Eigen::ArrayXd in_units = squares * differences.inverse.col(k);
-    scale[k] = CutScale(in_units);
+    // From one shape to the next the size of the whole stays about the same.
+    const double count = static_cast<double>(squares.size());
+    const double guess =
+        k == 0 ? 0
+               : scale[k - 1] * std::exp((differences.logs[k - 1] - differences.logs[k]) / count);
+    scale[k] = CutScale(in_units, guess);
     likelihood[k] = LogLikelihood(in_units, differences.logs[k], scale[k]);
     best = std::max(best, likelihood[k]);
   }
@@ -164,7 +179,7 @@ NoiseLaw AddVoltage(const NoiseDifferences& differences, const Eigen::ArrayXd& s
   const auto try_shape = [&](const Shape& shape) {
     const Eigen::ArrayXd variance = shape.Variance(differences);
     const Eigen::ArrayXd in_units = squares / variance;
-    scale = CutScale(in_units);
+    scale = CutScale(in_units, 0);
     return LogLikelihood(in_units, variance.log().sum(), scale);
   };
   double best = try_shape(plain) + insist;
@@ -206,7 +221,7 @@ struct NoiseEstimator::Parts {
     if (&differences == &lit && stated) {
       const double relative = std::max(stated->relative, 1e-12);
       const double ratio2 = std::pow(stated->constant / relative, 2);
-      const double scale = CutScale(squares / Shape{ratio2, 1, 0}.Variance(differences));
+      const double scale = CutScale(squares / Shape{ratio2, 1, 0}.Variance(differences), 0);
       return {std::sqrt(scale * ratio2), std::sqrt(scale), 0};
     }
     return AddVoltage(differences, squares, Weigh(differences, squares), voltage);

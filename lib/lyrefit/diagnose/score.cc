@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/diagnose/nulls.h"
@@ -10,13 +13,40 @@
 namespace lyrefit {
 namespace {
 
-// A row a reading and a column a null.
-Eigen::MatrixXf DrawNormal(const Workbench& bench, int draws, std::uint64_t seed,
-                           std::uint64_t run) {
-  Eigen::MatrixXf normal(static_cast<int>(bench.sigma.size()), draws);
-  RandomStream random(seed, run);
-  for (float& number : normal.reshaped()) number = static_cast<float>(random.Normal());
-  return normal;
+using Draws = Eigen::Map<const Eigen::MatrixXf>;
+
+// Numbers of one stream, of which every measurement needs the first so many: those drawn last are
+// kept, for the next of a batch.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t run) : run_(run) {}
+
+  std::shared_ptr<const std::vector<float>> First(std::size_t count, std::uint64_t seed) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (seed_ == seed && drawn_ != nullptr && drawn_->size() >= count) return drawn_;
+    auto drawn = std::make_shared<std::vector<float>>(count);
+    RandomStream random(seed, run_);
+    for (float& number : *drawn) number = static_cast<float>(random.Normal());
+    seed_ = seed;
+    drawn_ = std::move(drawn);
+    return drawn_;
+  }
+
+ private:
+  std::uint64_t run_;
+  std::uint64_t seed_ = 0;
+  std::mutex mutex_;
+  std::shared_ptr<const std::vector<float>> drawn_;
+};
+
+// Of the nulls, and of those that estimate their noise anew.
+NormalNumbers& NumbersOfNulls() {
+  static NormalNumbers numbers(0);
+  return numbers;
+}
+NormalNumbers& NumbersOfRefits() {
+  static NormalNumbers numbers(1);
+  return numbers;
 }
 
 // By the tail of one direction, counted as often as it has any.
@@ -29,7 +59,7 @@ void CountDirections(const Candidate& candidate, int degrees, Score* score) {
 // `list`: a smaller one than what is to be calibrated, so that it scatters more and errs to the
 // safe side.
 Calibration Calibrate(const Workbench& bench, const Prepared& prepared, const ListLaw& list,
-                      const NoiseEstimator& noise, const Eigen::MatrixXf& draws) {
+                      const NoiseEstimator& noise, const Draws& draws) {
   Calibration calibration;
   Begin(bench.watch, "nulls", draws.cols());
   const Eigen::MatrixXf nulls = SimulateRefits(bench, prepared, noise, draws);
@@ -54,12 +84,18 @@ ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
     if (candidate.score.testable) worth.effects.push_back(candidate.score.effect);
   }
   if (worth.effects.empty()) return worth;
-  const Eigen::MatrixXf nulls = SimulateNulls(bench, prepared, DrawNormal(bench, draws, seed, 0));
+  // A row a reading and a column a null.
+  const int readings = static_cast<int>(bench.sigma.size());
+  const std::size_t numbers = static_cast<std::size_t>(readings) * draws;
+  const auto normal = NumbersOfNulls().First(numbers, seed);
+  const Eigen::MatrixXf nulls =
+      SimulateNulls(bench, prepared, Draws(normal->data(), readings, draws));
   worth.list = ListLaw(nulls, prepared.degrees);
   if (noise == nullptr) return worth;
+  const auto others = NumbersOfRefits().First(numbers / 5, seed);
   worth.calibration =
       Calibrate(bench, prepared, ListLaw(nulls.topRows(draws / 5 * 2), prepared.degrees), *noise,
-                DrawNormal(bench, draws / 5, seed, 1));
+                Draws(others->data(), readings, draws / 5));
   return worth;
 }
 

@@ -137,10 +137,12 @@ class Selector {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
+    const bool astray = LeadsAstray(bench_, fit_);
     for (const Score& score : scores) {
       CountStep();
-      // What the shape of the curve suggests does not hang on scores, which a fault ruins.
-      const bool by_shape = is_there && score.effect->starts != nullptr && readings_.traits.single;
+      // What the shape of the curve suggests does not hang on scores that a fault ruins.
+      const bool by_shape =
+          astray && is_there && score.effect->starts != nullptr && readings_.traits.single;
       const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
                                      score.effect->probes != nullptr);
       if (!fits || Stopped(bench_.watch)) continue;
@@ -178,6 +180,14 @@ class Selector {
     if (causes_.empty()) return true;
     const bool generic = IsGeneric(readings_, *rival.score.effect);
     return size.current * size.current > (generic ? kGenericPart : kLaterPart) * first_misfit_;
+  }
+
+  // The same without floors, in units of the noise: what remains of a first cause whose own model
+  // is a little wrong is no second cause.
+  bool ExplainsEnough(const Rival& rival) const {
+    constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
+    const bool generic = IsGeneric(readings_, *rival.score.effect);
+    return rival.statistic >= (generic ? kGenericPart : kLaterPart) * first_gain_;
   }
 
   // Whether the base model is so far off that scores beside it say nothing.
@@ -260,6 +270,10 @@ class Selector {
         if (rivals.empty()) return;
         if (causes_.empty())
           first_misfit_ = std::pow(Departure(bench_, fit_, rivals.front().fit.current), 2);
+      }
+      if (!HasFloors() && !rivals.empty()) {
+        if (causes_.empty()) first_gain_ = rivals.front().statistic;
+        if (!ExplainsEnough(rivals.front())) return;
       }
       if (rivals.empty() || !Accept(rivals.front())) {
         selection->unknown =
@@ -393,6 +407,7 @@ class Selector {
   std::vector<ChosenCause> causes_;
   WrongReadings wrong_;
   double level_ = 0;         // of the present step
+  double first_gain_ = 0;    // statistic of the first cause that was fitted
   double first_misfit_ = 0;  // mean square of what the first cause took away, in scales
 };
 

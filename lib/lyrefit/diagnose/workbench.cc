@@ -38,8 +38,18 @@ ErrorModel ErrorsOf(const Workbench& bench) {
 namespace {
 
 // Row by row, in place: rows of left-out readings become 0.
-void WhitenRows(const Workbench& bench, const Eigen::Ref<RowMatrix>& rows) {
-  Whiten(ErrorsOf(bench), bench.used, rows);
+void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {
+  if (bench.correlation != 0 || bench.path != 0) {
+    Whiten(ErrorsOf(bench), bench.used, rows);
+    return;
+  }
+  for (int k = 0; k < rows.rows(); ++k) {
+    if (bench.used[k] == 0) {
+      rows.row(k).setZero();
+    } else {
+      rows.row(k) *= 1 / std::sqrt(bench.sigma[k] * bench.sigma[k]);
+    }
+  }
 }
 
 // The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,

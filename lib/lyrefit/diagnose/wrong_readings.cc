@@ -27,6 +27,26 @@ bool IsAlone(const Workbench& bench, const LawFit& fit, int reading) {
   return neighbours == 2;
 }
 
+// Whether a reading at an end of its stretch is what the law says of a voltage that stands still.
+// Where a sweep begins, turns or ends its rate is not what neighbours say: beside a charge or a
+// skew such a reading is off, but not wrong.
+bool StandsStill(const Workbench& bench, const LawFit& fit, int reading) {
+  constexpr double kPlausible = 3.5;
+  const std::vector<Reading>& points = bench.readings->points;
+  const int last = static_cast<int>(points.size()) - 1;
+  const auto apart = [&](int k) {
+    return k < 0 || k > last || points[k].segment != points[reading].segment;
+  };
+  if (!apart(reading - 1) && !apart(reading + 1)) return false;
+  Readings alone = *bench.readings;
+  alone.points = {points[reading]};
+  alone.points[0].rate = 0;
+  double current = 0;
+  LawWorkspace workspace;
+  return EvaluateLaw(fit.law, alone, fit.p.data(), &workspace, &current, nullptr) &&
+         std::fabs(current - points[reading].current) < kPlausible * bench.sigma[reading];
+}
+
 }  // namespace
 
 bool StandsOut(const std::vector<Score>& scores) {
@@ -59,8 +79,12 @@ bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<Rival>
     if (beaten && !alone) return false;
   }
   bench->used[furthest->outlier] = 0;
-  wrong->readings.push_back(furthest->outlier);
-  wrong->p = std::min(wrong->p, furthest->corrected_p);
+  if (StandsStill(*bench, rest, furthest->outlier)) {
+    wrong->at_rest.push_back(furthest->outlier);
+  } else {
+    wrong->readings.push_back(furthest->outlier);
+    wrong->p = std::min(wrong->p, furthest->corrected_p);
+  }
   *fit = std::move(rest);
   return true;
 }

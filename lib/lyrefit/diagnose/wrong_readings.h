@@ -6,10 +6,11 @@
 
 namespace lyrefit {
 
-// Single readings that were left out as wrong.
+// Single readings that were left out.
 struct WrongReadings {
   std::vector<int> readings;
-  double p = 1;  // corrected, the smallest of them
+  std::vector<int> at_rest;  // not wrong: at an end of a stretch, where the voltage stood still
+  double p = 1;              // corrected, the smallest of them
 };
 
 // Whether a single reading is off by far more than any cause promises to explain.

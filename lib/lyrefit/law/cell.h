@@ -169,6 +169,7 @@ template <class S>
 Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
   using T = Tangent<S>;
   constexpr double kLeast = 1e-9;  // of the voltage: below it nothing flows
+  if (!Any(voltage < 0.0)) return T(0.0);
   const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
   if (cell.reverse == ReverseLaw::kSoft) {
     const T current = exp(log(depth) * cell.reverse_exponent) * cell.photocurrent;

@@ -185,10 +185,12 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) 
   }
   if (flags.temperature_C) {
     curve->conditions.cell_temperature_K = *flags.temperature_C + kZeroCelsius_K;
+    curve->temperature_known = true;
     ForgetAssumptions("cell temperature", &curve->assumptions);
   }
   if (flags.irradiance_W_m2) {
     curve->conditions.irradiance_W_m2 = *flags.irradiance_W_m2;
+    curve->irradiance_known = true;
     ForgetAssumptions("irradiance", &curve->assumptions);
   }
   return {};

@@ -6,13 +6,18 @@
 #include <benchmark/benchmark.h>
 #include <time.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bench_support.h"
 #include "benchmarks.h"
 #include "claims.h"
+#include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/law/current.h"
 #include "peer.h"
 
 namespace lyrefit::bench {
@@ -97,6 +102,37 @@ void CompletePeer(benchmark::State& state, const Case& subject, Model model, Obj
   state.counters["evaluations"] = evaluations / static_cast<double>(state.iterations());
 }
 
+// A long sweep under light that wanders, voltages noisier than they lie apart.
+IvCurve LongSweep(int readings) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 72;
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const std::vector<double> truth = {8, 5e-10, 1.01, 0.1, 3000};
+  for (int k = 0; k < readings; ++k) curve.voltage_V.push_back(44.0 * k / (readings - 1));
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  RandomStream random(1);
+  const double kept = std::exp(-1.0 / readings);
+  double light = 0;
+  for (int k = 0; k < readings; ++k) {
+    light = kept * light + std::sqrt(1 - kept * kept) * random.Normal();
+    curve.current_A[k] = curve.current_A[k] * (1 + 1e-3 * light) + 1e-3 * random.Normal();
+    curve.voltage_V[k] *= 1 + 3e-4 * random.Normal();
+  }
+  return curve;
+}
+
+void LongFit(benchmark::State& state, const ErrorSpec& errors) {
+  const IvCurve curve = LongSweep(static_cast<int>(state.range(0)));
+  FitOptions options;
+  options.errors = errors;
+  options.random_baseline = false;
+  options.threads = 1;
+  for (auto _ : state) {
+    const Expected<FitReport> report = Fit(curve, options);
+    if (!report || !report->usable) state.SkipWithError("not fitted");
+  }
+}
+
 template <class Body>
 void RegisterRuns(const std::string& name, int runs, const Body& body) {
   benchmark::RegisterBenchmark(name.c_str(), body)->Iterations(runs)->Unit(benchmark::kMillisecond);
@@ -153,6 +189,15 @@ void Register(Model model, Objective objective) {
 }  // namespace
 
 void RegisterFitBenchmarks() {
+  const ErrorSpec field = {ErrorKind::kField, {}, "field"};
+  for (const auto& [name, errors] : {std::pair("white", ErrorSpec()), std::pair("field", field)}) {
+    const std::string row = std::string("long sweep, errors ") + name;
+    benchmark::RegisterBenchmark(row.c_str(), LongFit, errors)
+        ->Arg(1000)
+        ->Arg(10000)
+        ->Arg(100000)
+        ->Unit(benchmark::kMillisecond);
+  }
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     Register(model, Objective::kMeasuredCurrent);
     Register(model, Objective::kSolvedCurrent);

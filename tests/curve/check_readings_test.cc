@@ -130,6 +130,18 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
          c->conditions.cells_in_series = 1;
          c->cells_known = false;
        }},
+      {"cells not stated, and a sweep that ends before open circuit",
+       "cells",
+       false,
+       {"the curve goes to", "--cells"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = false;
+         while (c->current_A.back() < 0.3 * c->current_A.front()) {
+           c->current_A.pop_back();
+           c->voltage_V.pop_back();
+         }
+       }},
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.what);

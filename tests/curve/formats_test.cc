@@ -23,6 +23,8 @@ struct Format {
   std::string file, what, options, points, isc, voc, irradiance, temperature, cells, area, curves;
 };
 
+void PrintTo(const Format& format, std::ostream* out) { *out << format.file; }
+
 std::string Trim(const std::string& text) {
   const auto begin = text.find_first_not_of(" `");
   if (begin == std::string::npos) return "";

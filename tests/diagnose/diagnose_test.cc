@@ -115,6 +115,78 @@ TEST(DiagnoseTest, ANamedCauseIsDescribed) {
   EXPECT_GT(d.gain.folds, 2);
 }
 
+TEST(DiagnoseTest, AStatedSigmaOfTheCurrentsIsBelieved) {
+  IvCurve curve = MadeCurve({});  // noise of 0.004 A
+  curve.sigma_A.assign(curve.size(), 0.02);
+  const Diagnosis d = DiagnoseOrFail(curve);
+  for (const DiagnosedPoint& point : d.points) EXPECT_NEAR(point.sigma_A, 0.02, 1e-12);
+  EXPECT_NEAR(d.evidence.noise_stated_A, 0.02, 1e-12);
+  EXPECT_LT(d.evidence.misfit_ratio, 0.4);
+
+  DiagnoseOptions laboratory = Quick();
+  laboratory.noise = {};
+  const Diagnosis estimated = DiagnoseOrFail(curve, laboratory);
+  EXPECT_NEAR(estimated.points[30].sigma_A, 0.004, 0.0015);
+  EXPECT_EQ(estimated.evidence.noise_stated_A, 0);
+}
+
+TEST(DiagnoseTest, OfALongCurveAStatedSigmaIsThatOfEveryReading) {
+  Recipe recipe;
+  recipe.points = 3000;
+  IvCurve curve = MadeCurve(recipe);
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.sigma_A.push_back(0.004 + 1e-6 * k);
+  const Diagnosis d = DiagnoseOrFail(curve);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    ASSERT_NEAR(d.points[k].sigma_A, curve.sigma_A[k], 1e-12);
+  }
+  EXPECT_THAT(Ids(d), IsEmpty());
+}
+
+TEST(DiagnoseTest, WithinOneSweepItSaysThatHeldOutConfirmsNothing) {
+  DiagnoseOptions options = Quick();
+  options.held_out = true;
+  options.folds = 4;
+  const Diagnosis one = DiagnoseOrFail(CurveWithAStep(), options);
+  EXPECT_FALSE(one.gain.by_sweeps);
+  EXPECT_THAT(one.gain.sentence, HasSubstr("within one sweep nothing held out tells a fault"));
+  options.noise = {};
+  EXPECT_THAT(DiagnoseOrFail(CurveWithAStep(), options).gain.sentence, Not(HasSubstr("sweep")));
+}
+
+TEST(DiagnoseTest, OfSeveralSweepsWholeOnesAreHeldOut) {
+  DiagnoseOptions options = Quick();
+  options.held_out = true;
+  options.effects = {"shading"};
+  IvCurve all;
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    Recipe recipe;
+    recipe.cells = 60;
+    recipe.seed = 10 + sweep;
+    IvCurve one = MadeCurve(recipe);
+    for (std::size_t k = 0; k < one.size(); ++k) {  // a third of the module gives 10 % less
+      if (one.voltage_V[k] > 0.6 * one.voltage_V.back()) {
+        one.current_A[k] = std::min(one.current_A[k], 7.2);
+      }
+    }
+    if (sweep % 2 == 1) {
+      std::reverse(one.voltage_V.begin(), one.voltage_V.end());
+      std::reverse(one.current_A.begin(), one.current_A.end());
+    }
+    if (sweep == 0) {
+      all = one;
+      continue;
+    }
+    all.voltage_V.insert(all.voltage_V.end(), one.voltage_V.begin(), one.voltage_V.end());
+    all.current_A.insert(all.current_A.end(), one.current_A.begin(), one.current_A.end());
+  }
+  const Diagnosis d = DiagnoseOrFail(all, options);
+  ASSERT_THAT(Ids(d), Contains("shading"));
+  EXPECT_TRUE(d.gain.by_sweeps);
+  EXPECT_EQ(d.gain.folds, 4);
+  EXPECT_TRUE(d.gain.gain);
+  EXPECT_EQ(d.gain.sentence, "the gain holds on whole sweeps that were not fitted");
+}
+
 TEST(DiagnoseTest, RefusesBadInput) {
   EXPECT_FALSE(Diagnose(CurveSet()));
   Recipe few;

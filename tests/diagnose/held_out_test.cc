@@ -43,6 +43,22 @@ TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
   EXPECT_EQ(Distinct(three).size(), 3U);
 }
 
+TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
+  Recipe recipe;
+  recipe.and_back = true;
+  IvCurve curve = MadeCurve(recipe);  // up and down: two sweeps
+  EXPECT_FALSE(LeavesSweepsOut(OnTheBench(curve).measurement->readings));
+  const IvCurve again = curve;
+  curve.voltage_V.insert(curve.voltage_V.end(), again.voltage_V.begin(), again.voltage_V.end());
+  curve.current_A.insert(curve.current_A.end(), again.current_A.begin(), again.current_A.end());
+  const MadeBench made = OnTheBench(curve);
+  const Readings& readings = made.measurement->readings;
+  ASSERT_TRUE(LeavesSweepsOut(readings));
+  const std::vector<int> folds = MakeFolds(readings, 10);
+  EXPECT_EQ(Distinct(folds).size(), 4U);
+  for (std::size_t k = 0; k < folds.size(); ++k) EXPECT_EQ(folds[k], readings.points[k].segment);
+}
+
 TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
   Recipe recipe;
   recipe.points = 7;

@@ -98,7 +98,7 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
   ASSERT_THAT(d.verdict.below_floor, Not(IsEmpty()));
   EXPECT_LT(d.verdict.below_floor.front().current_effect.value, 0.005);
   EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to act on"));
-  EXPECT_THAT(d.verdict.sentence, HasSubstr("is there, but below"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("present, but not certainly above"));
 }
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {

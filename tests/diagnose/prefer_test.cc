@@ -29,7 +29,7 @@ Rival RivalOf(const char* id, const std::vector<double>& values, double statisti
   return rival;
 }
 
-const std::vector<double> kShade = {0.3, 1.0 / 3, 0.5, 1}, kDip = {0.1, 0, 0.05},
+const std::vector<double> kShade = {0.3, 1.0 / 3, 0.5, 1}, kDip = {0.1, 0, 0.05, 0, 2},
                           kUnequal = {0.1, 0.2}, kLag = {0.001, 0};
 
 LawFit Before(double n = kOrdinary) {
@@ -72,6 +72,37 @@ TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
   EXPECT_EQ(
       Prefer(made.bench, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)}, kFloor),
       0U);
+}
+
+TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
+  const std::vector<double> range = {0.02, 0.6}, cloud = {0.02, 0};
+  for (const bool both : {false, true}) {
+    const MadeBench made = OnTheBench(MadeCurve(Module(both)));
+    const auto preferred = [&](double of_range, double of_cloud) {
+      const Rival a = RivalOf("range_switch", range, of_range);
+      const Rival b = RivalOf("irr_step", cloud, of_cloud);
+      const std::size_t at =
+          Prefer(made.bench,
+                 of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a}, kFloor);
+      return (at == 0) == (of_range > of_cloud) ? "range_switch" : "irr_step";
+    };
+    EXPECT_STREQ(preferred(100, 80), both ? "range_switch" : "irr_step");
+    EXPECT_STREQ(preferred(100, 105), both ? "range_switch" : "irr_step");
+    EXPECT_STREQ(preferred(100, 40), "range_switch");
+    EXPECT_STREQ(preferred(40, 100), "irr_step");
+  }
+}
+
+// The first sweep's current is raised by what charges, the second's is not: sorted by voltage they
+// rise and fall.
+TEST(LightMoved, SaysNothingOfTwoSweeps) {
+  for (const bool both : {false, true}) {
+    IvCurve curve = MadeCurve(Module(both));
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      curve.current_A[k] *= 1 + 0.004 * static_cast<double>(std::min<std::size_t>(k, 15));
+    }
+    EXPECT_EQ(LightMoved(*OnTheBench(curve).bench.readings), !both);
+  }
 }
 
 TEST(Prefer, TakesWhatSupposesLess) {

@@ -30,6 +30,12 @@ ValueFindings Look(const IvCurve& curve) {
   return LookAtValues(*made);
 }
 
+// |dI/dV| of a cell in parts of its largest current.
+double Slope(const IvCurve& curve, std::size_t k) {
+  const double dv = curve.voltage_V[k + 2] - curve.voltage_V[k - 2];
+  return std::fabs((curve.current_A[k + 2] - curve.current_A[k - 2]) / dv / curve.current_A[0]);
+}
+
 TEST(FindGridTest, FindsTheStep) {
   const std::vector<double> current = MadeCurve({}).current_A;
   for (const double step : {0.4, 0.05, 0.02}) {
@@ -136,6 +142,59 @@ TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
   ASSERT_GT(run, 5U);
   EXPECT_NEAR(findings.rounding[0], findings.grids.lit * std::sqrt(run / 12.0), 1e-12);
   EXPECT_EQ(findings.rounding[0], findings.rounding[run - 1]);
+}
+
+TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
+  for (const double bin : {0.007, 0.017, 0.03}) {  // the readings are 0.0113 V apart
+    const IvCurve exact = MadeCurve({});
+    IvCurve curve = exact;
+    curve.voltage_V = Rounded(curve.voltage_V, bin);
+    const ValueFindings findings = Look(curve);
+    EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
+    EXPECT_TRUE(findings.at_voltage_limit.empty());
+    // The standard deviation of what a bin hides, times the slope.
+    double steep = 0, expected = 0;
+    for (std::size_t k = curve.size() - 9; k < curve.size() - 3; ++k) {
+      steep += findings.bin_rounding[k];
+      expected += bin / std::sqrt(12) * Slope(exact, k);
+    }
+    EXPECT_NEAR(steep, expected, 0.25 * expected) << bin;
+    EXPECT_LT(findings.bin_rounding[10], 0.01 * steep);
+  }
+}
+
+// A source goes from voltage to voltage as it is told, coarsely at first, finely at the knee.
+TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
+  EXPECT_EQ(Look(MadeCurve({})).voltage_bin, 0);
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    curve.voltage_V[k] = k < 20 ? 0.02 * k : 0.4 + 0.005 * (k - 20);
+    curve.current_A[k] = 8 - 1e-8 * std::exp(curve.voltage_V[k] / 0.03);
+  }
+  EXPECT_EQ(Look(curve).voltage_bin, 0);
+  EXPECT_THAT(Look(curve).bin_rounding, Each(0));
+}
+
+TEST(LookAtValuesTest, FindsALimitOfTheVoltage) {
+  IvCurve curve = MadeCurve({});
+  const double limit = curve.voltage_V[curve.size() - 7];
+  for (double& v : curve.voltage_V) v = std::min(v, limit);
+  const ValueFindings findings = Look(curve);
+  EXPECT_EQ(findings.at_voltage_limit.size(), 7U);
+  EXPECT_NEAR(findings.voltage_limit, limit, 1e-12);
+  EXPECT_TRUE(findings.HasLimits());
+}
+
+// The load holds the device at one point: all of its readings are right.
+TEST(LookAtValuesTest, SeesNoLimitWhereTheCurrentStandsStillAsWell) {
+  IvCurve curve = MadeCurve({});
+  const std::size_t last = curve.size() - 7;
+  for (std::size_t k = last; k < curve.size(); ++k) {
+    curve.voltage_V[k] = curve.voltage_V[last];
+    curve.current_A[k] = curve.current_A[last] * (1 + 1e-4 * (k % 2));
+  }
+  EXPECT_THAT(Look(curve).at_voltage_limit, IsEmpty());
+  EXPECT_FALSE(Look(MadeCurve({})).HasLimits());
 }
 
 }  // namespace

@@ -42,9 +42,9 @@ Device Extended(Model model, const char* effect) {
 
 TEST(OrderDiodes, TakesNoParametersOfEffectsForDiodes) {
   const Device device = Extended(Model::kSingleDiode, "transient");
-  std::vector<double> p = {8, 2e-9, 1.15, 0.2, 300, 0.3, 0.2, 0.1};
+  std::vector<double> p = {8, 2e-9, 1.15, 0.2, 300, 0.3, 0.2, 0.1, 0, 2};
   const std::vector<double> before = p;
-  OrderDiodes(device, std::vector<ParameterBounds>(8, kAny), &p, nullptr);
+  OrderDiodes(device, std::vector<ParameterBounds>(10, kAny), &p, nullptr);
   EXPECT_EQ(p, before);
 }
 

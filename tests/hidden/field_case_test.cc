@@ -132,5 +132,41 @@ TEST(FieldTracer, CapacitorCrowdsItsReadingsWhereTheCurrentIsSmall) {
   EXPECT_NEAR(readings.current.back(), 0.02 * ShortCircuit(lit.Whole()), 1e-3);
 }
 
+TEST(FieldTracer, TakesReadingsToBinsAndStopsAtItsLimits) {
+  Rig rig = Bare(6);
+  rig.tracer.voltage_bin = 0.02;
+  rig.tracer.voltage_end = 0.9;
+  rig.tracer.least_current = 0.5;
+  Random random(2);
+  Lit lit(rig.module);
+  const double isc = ShortCircuit(lit.Whole()), voc = OpenCircuit(lit.Whole());
+  const Readings readings = Measured(rig, &lit, &random);
+  int at_end = 0, at_least = 0;
+  for (std::size_t i = 0; i < readings.voltage.size(); ++i) {
+    const double bins = readings.voltage[i] / (0.02 * voc);
+    EXPECT_NEAR(bins, std::round(bins), 1e-6);
+    EXPECT_LE(readings.voltage[i], 0.9 * voc * (1 + 1e-9));
+    EXPECT_GE(readings.current[i], 0.5 * isc * (1 - 1e-9));
+    at_end += readings.voltage[i] > 0.8999 * voc;
+    at_least += readings.current[i] < 0.5001 * isc;
+  }
+  EXPECT_GT(at_end, 3);
+  EXPECT_GT(at_least, 3);
+}
+
+TEST(FieldTracer, JumpsWhereItsRangeChanges) {
+  Rig rig = Bare(7);
+  rig.tracer.fine_below = 0.6;
+  rig.tracer.fine_gain = 1.02;
+  Lit lit(rig.module);
+  const double isc = ShortCircuit(lit.Whole());
+  const Readings readings = Exact(rig, &lit);
+  for (std::size_t i = 0; i < readings.voltage.size(); ++i) {
+    const double plain = lit.Current(readings.voltage[i], 1);
+    const double gain = std::fabs(plain) < 0.6 * isc ? 1.02 : 1;
+    EXPECT_NEAR(readings.current[i], gain * plain, 1e-9 * isc) << i;
+  }
+}
+
 }  // namespace
 }  // namespace hidden::field

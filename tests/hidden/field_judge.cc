@@ -14,11 +14,11 @@ struct Meaning {
   bool missing;  // it is the part that is missing of 1
 };
 constexpr Meaning kMeanings[] = {
-    {"deficit", "light", true},        {"shading_depth", "light", true},
-    {"light", "light", false},         {"share", "share", false},
-    {"width", "width", false},         {"spread", "width", false},
-    {"relative_step", "step", false},  {"depth", "dip", false},
-    {"relative_drift", "drift", false}};
+    {"deficit", "light", true},          {"shading_depth", "light", true},
+    {"light", "light", false},           {"share", "share", false},
+    {"width", "width", false},           {"spread", "width", false},
+    {"relative_step", "step", false},    {"depth", "dip", false},
+    {"relative_change", "drift", false}, {"relative_gain", "gain", false}};
 
 struct Said {
   const char* quantity;

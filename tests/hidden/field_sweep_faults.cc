@@ -1,4 +1,5 @@
-// What the sky and the junctions' charge do while the sweep runs.
+// What the sky, the junctions' charge and the tracer do while the sweep runs.
+#include <algorithm>
 #include <cmath>
 
 #include "hidden/field_case.h"
@@ -85,13 +86,43 @@ void Hysteresis(Random* random, Rig* rig, Truth* truth) {
   truth->accepted = {"capacitance", "timing_skew"};
 }
 
+// One sweep does not tell a range from a step of the light: both are right.
+void RangeSwitch(Random* random, Rig* rig, Truth* truth) {
+  if (random->Chance(0.4)) UpAndDown(random, &rig->tracer);
+  rig->tracer.averaged = 1;
+  rig->tracer.fine_below = random->Uniform(0.25, 0.95);
+  rig->tracer.fine_gain = 1 + random->Sign() * random->LogUniform(0.006, 0.06);
+  truth->accepted = {"range_switch"};
+  if (!rig->tracer.up_and_down) truth->accepted.push_back("irr_step");
+  truth->figures = {{"gain", rig->tracer.fine_gain - 1}};
+}
+
+void VoltageBins(Random* random, Rig* rig, Truth* truth) {
+  rig->tracer.averaged = 1;
+  rig->tracer.voltage_bin = random->LogUniform(2.5e-3, 1.2e-2);
+  truth->accepted = {"voltage_bins"};
+}
+
+void Limits(Random* random, Rig* rig, Truth* truth) {
+  rig->tracer.averaged = 1;
+  rig->tracer.current_step = 0;
+  rig->tracer.last_voltage = 1.02;
+  rig->tracer.last_current = 0.002;
+  if (rig->tracer.drive == Drive::kCapacitor) rig->tracer.drive = Drive::kKnee;
+  rig->tracer.points = std::max(rig->tracer.points, 100);
+  const bool voltage = random->Chance(0.5);
+  if (voltage) rig->tracer.voltage_end = random->Uniform(0.88, 0.94);
+  if (!voltage) rig->tracer.least_current = random->Uniform(0.25, 0.6);
+  truth->accepted = {"clip"};
+}
+
 }  // namespace
 
 const std::vector<Fault>& SweepFaults() {
-  static const std::vector<Fault> kFaults = {{"light_step", LightStep},
-                                             {"light_dip", LightDip},
-                                             {"light_drift", LightDrift},
-                                             {"hysteresis", Hysteresis}};
+  static const std::vector<Fault> kFaults = {
+      {"light_step", LightStep},  {"light_dip", LightDip},       {"light_drift", LightDrift},
+      {"hysteresis", Hysteresis}, {"range_switch", RangeSwitch}, {"voltage_bins", VoltageBins},
+      {"limits", Limits}};
   return kFaults;
 }
 

@@ -12,6 +12,10 @@ double Rounded(double value, double step) {
   return step > 0 ? step * std::round(value / step) : value;
 }
 
+double GainOf(const Tracer& tracer, double current, double isc) {
+  return std::fabs(current) < tracer.fine_below * isc ? tracer.fine_gain : 1;
+}
+
 struct Averaged {
   double voltage, current, time;
 };
@@ -22,8 +26,11 @@ void Add(const Rig& rig, const Averaged& mean, double isc, double voc, int sweep
   const Tracer& tracer = rig.tracer;
   const bool fine = std::fabs(mean.current) < tracer.fine_below * isc;
   const double step = tracer.current_step * isc * (fine ? 0.1 : 1);
-  readings->voltage.push_back(Rounded(mean.voltage, tracer.voltage_step * voc));
-  readings->current.push_back(Rounded(mean.current * (fine ? tracer.fine_gain : 1), step));
+  const double voltage = Rounded(std::min(mean.voltage, tracer.voltage_end * voc),
+                                 std::max(tracer.voltage_step, tracer.voltage_bin) * voc);
+  const double current = mean.current * GainOf(tracer, mean.current, isc);
+  readings->voltage.push_back(voltage);
+  readings->current.push_back(Rounded(std::max(current, tracer.least_current * isc), step));
   readings->time.push_back(mean.time);
   readings->sweep.push_back(sweep);
 }
@@ -61,8 +68,9 @@ Readings Exact(const Rig& rig, Lit* lit) {
   Readings readings;
   for (const Instant& now : Instants(rig.tracer, lit->Whole())) {
     readings.voltage.push_back(now.voltage);
-    readings.current.push_back(lit->Current(now.voltage, rig.sky.Light(now.time)) -
-                               Charging(rig, lit->Whole(), now, isc, voc));
+    const double current = lit->Current(now.voltage, rig.sky.Light(now.time)) -
+                           Charging(rig, lit->Whole(), now, isc, voc);
+    readings.current.push_back(current * GainOf(rig.tracer, current, isc));
     readings.time.push_back(now.time);
     readings.sweep.push_back(now.sweep);
   }

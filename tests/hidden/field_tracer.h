@@ -47,6 +47,9 @@ struct Tracer {
   double voltage_step = 0;
   double fine_below = 0;  // a ten times finer range begins; 0: there is none
   double fine_gain = 1;
+  double voltage_bin = 0;         // readings are taken to the middle of a bin; 0: none
+  double voltage_end = 1e300;     // what is above is recorded as this
+  double least_current = -1e300;  // below which the load does not go: it stays there
 };
 
 enum class Bench { kLaboratory, kField };

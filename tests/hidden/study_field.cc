@@ -68,7 +68,7 @@ void PrintTable(const std::string& kind, const std::vector<FieldRun>& runs) {
   std::printf("%-13s %5d %7.2f %7.1f %7.1f %7.1f %6d %7.1f %7.2f %7.2f %6d", kind.c_str(), cases,
               misfit, Percent(named, cases), Percent(first, cases), Percent(any, cases), claims,
               Percent(spurious, claims), seconds, slowest, failed);
-  for (const char* quantity : {"light", "share", "width", "step", "dip", "drift"}) {
+  for (const char* quantity : {"light", "share", "width", "step", "dip", "drift", "gain"}) {
     PrintAgreement(runs, quantity);
   }
   std::printf("\n");
@@ -102,8 +102,10 @@ std::uint64_t FieldSeed(const StudyOptions& options, const std::string& kind, in
 }
 
 field::Case FieldCase(const StudyOptions& options, const std::string& kind, int number) {
-  // A shorted group leaves a curve that a single diode fits as well as a healthy one.
-  const bool any = kind.rfind("clean", 0) == 0 || kind == "bypass_short";
+  // A shorted group leaves a curve that a single diode fits as well as a healthy one; bins and
+  // limits spoil readings, not the curve.
+  const bool any = kind.rfind("clean", 0) == 0 || kind == "bypass_short" ||
+                   kind == "voltage_bins" || kind == "limits";
   return field::MakeCaseAbove(kind, any ? 0 : options.misfit_above,
                               FieldSeed(options, kind, number));
 }

@@ -156,7 +156,7 @@ TEST(Extend, SaysWhatCannotBe) {
               HasSubstr("shares of 1.1 in all leave no cell for the rest"));
   EXPECT_THAT(ErrorOf({Use("substrings"), Use("transient"), Use("back_contact"), Use("clip"),
                        Use("drift")}),
-              HasSubstr("22 parameters are too many for one law, expected 20 at most"));
+              HasSubstr("24 parameters are too many for one law, expected 20 at most"));
 }
 
 }  // namespace

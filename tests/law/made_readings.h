@@ -9,6 +9,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/law.h"
+#include "lyrefit/law/make_readings.h"
 #include "lyrefit/law/reading.h"
 
 namespace lyrefit {
@@ -117,6 +118,7 @@ inline Readings MadeReadings(DataKind kind, int cells) {
   std::vector<double> current(count);
   EXPECT_TRUE(EvaluateLaw(Law{}, readings, OrdinaryCell().data(), &workspace, current.data(), {}));
   for (int k = 0; k < count; ++k) readings.points[k].current = current[k];
+  SetRangeCurrents(&readings);
   return readings;
 }
 

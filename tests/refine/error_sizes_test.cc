@@ -114,17 +114,6 @@ TEST(ErrorSizes, StatedSizesOfCurrentsAreBelieved) {
   EXPECT_NEAR(std::log(found.sizes.path / truth.path), 0, 0.4);
 }
 
-TEST(ErrorSizes, OfManyReadingsAreThoseOfAll) {
-  constexpr int kMany = 20000;
-  const ErrorShape shape = MadeShape(kMany);
-  const ErrorSizes truth = {8e-3, 0.012, 1.5e-3};
-  const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
-                                           DrawErrors(shape, truth, 2), MadeJacobian(kMany));
-  EXPECT_NEAR(found.sizes.current_A / truth.current_A, 1, 0.02);
-  EXPECT_NEAR(found.sizes.voltage_V / truth.voltage_V, 1, 0.1);
-  EXPECT_NEAR(found.sizes.path / truth.path, 1, 0.35);
-}
-
 TEST(Climb, FindsTheTopOfASmoothHill) {
   const auto hill = [](const std::vector<double>& x) {
     return -std::cosh(x[0] - 1) - 0.5 * std::pow(x[1] + 2 - 0.5 * x[0], 2);

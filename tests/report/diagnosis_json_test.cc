@@ -34,26 +34,13 @@ TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
 
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
-  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
-                          "name",
-                          "source",
-                          "base",
-                          "base_sentence",
-                          "objective",
-                          "seed",
-                          "level",
-                          "verdict",
-                          "gain",
-                          "evidence",
-                          "trials",
-                          "non_default_options",
-                          "assumptions",
-                          "warnings",
-                          "interrupted",
-                          "usable",
-                          "seconds",
-                          "curves",
-                          "points"}));
+  EXPECT_EQ(
+      Keys(j),
+      (Set{"lyrefit_version", "name",     "source",        "base",        "base_sentence",
+           "objective",       "seed",     "floor_current", "floor_power", "level",
+           "verdict",         "gain",     "evidence",      "trials",      "non_default_options",
+           "assumptions",     "warnings", "interrupted",   "usable",      "seconds",
+           "curves",          "points"}));
   EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
                                      "departure", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
@@ -67,7 +54,7 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
                  "corrected_p", "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
   EXPECT_EQ(Keys(j["gain"]), (Set{"rmse_before_A", "rmse_after_A", "held_out_before_A",
                                   "held_out_after_A", "held_out_gain_A2", "held_out_gain_error_A2",
-                                  "folds", "gain", "sentence", "parameter_shift"}));
+                                  "folds", "by_sweeps", "gain", "sentence", "parameter_shift"}));
   EXPECT_EQ(Keys(j["evidence"]),
             (Set{"kind", "noise", "misfit_ratio", "autocorrelation", "grid_step_A", "grid_step_V",
                  "clipped_points", "clip_level_A", "largest_error", "residuals",

@@ -240,6 +240,7 @@ inline Diagnosis SampleLitAndDark() {
   d.evidence.whiteness_after_p_value = d.evidence.whiteness_p_value;
   d.gain = {};
   d.gain.rmse_before_A = d.gain.rmse_after_A = 1.31e-2;
+  d.gain.sentence = "nothing to gain";
   return d;
 }
 

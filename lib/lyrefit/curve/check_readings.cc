@@ -129,20 +129,6 @@ void LookAtSigns(const Examined& look, Findings* out) {
   }
 }
 
-// A module of so many volts usually has so many cells.
-int LikelyCells(double open_circuit_voltage_V) {
-  const double cells = open_circuit_voltage_V / kUsualCell_V;
-  constexpr double kTolerance = 0.1;
-  int likely = std::max(1, static_cast<int>(std::lround(std::min(cells, 1e6))));
-  double nearest = kTolerance;
-  for (const int usual : {36, 54, 60, 72, 96}) {
-    const double distance = std::fabs(usual / cells - 1);
-    if (distance < nearest) likely = usual;
-    nearest = std::min(nearest, distance);
-  }
-  return likely;
-}
-
 bool ImplausibleCell(double voltage_V) {
   return voltage_V < kLowestCell_V || voltage_V > kHighestCell_V;
 }
@@ -233,20 +219,22 @@ void LookAtUnits(const Examined& look, Findings* out) {
 
 void LookAtCells(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
-  const double voc = look.key.open_circuit_voltage_V;
+  const bool reached = look.key.open_circuit_voltage_V > 0;
+  // A sweep that ends before says that it is more.
+  const double voc = reached ? look.key.open_circuit_voltage_V
+                             : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
   if (!look.lit || !(voc > 0)) return;
   const int cells = curve.conditions.cells_in_series;
   const double per_cell = voc / cells;
   const bool dim = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDim_W_m2;
   const int likely = LikelyCells(voc);
   if (per_cell > kHighestCell_V && !curve.cells_known) {
-    out->push_back(
-        {"cells",
-         fmt::format("Voc is {:.4g} V: some {} cells in series? give their number (--cells)", voc,
-                     likely),
-         false,
-         {}});
-  } else if (per_cell > kHighestCell_V || (per_cell < kLowestCell_V && !dim)) {
+    out->push_back({"cells",
+                    fmt::format("{} {:.4g} V: some {} cells in series? give their number (--cells)",
+                                reached ? "Voc is" : "the curve goes to", voc, likely),
+                    false,
+                    {}});
+  } else if (per_cell > kHighestCell_V || (reached && per_cell < kLowestCell_V && !dim)) {
     const std::string stated =
         curve.cells_known ? fmt::format("each of {} stated cells", cells) : "one cell";
     const std::string each =
@@ -254,15 +242,28 @@ void LookAtCells(const Examined& look, Findings* out) {
     const std::string instead =
         likely != cells ? fmt::format(": give --cells {}?", likely) : ": is the unit right?";
     out->push_back({"cells",
-                    fmt::format("Voc is {:.4g} V: {} for {}, and a cell at light has {:g} to {:g} "
-                                "V{}",
-                                voc, each, stated, kLowestCell_V, kHighestCell_V, instead),
+                    fmt::format("{} {:.4g} V: {} for {}, and a cell at light has {:g} to {:g} V{}",
+                                reached ? "Voc is" : "the curve goes to", voc, each, stated,
+                                kLowestCell_V, kHighestCell_V, instead),
                     curve.cells_known,
                     {}});
   }
 }
 
 }  // namespace
+
+int LikelyCells(double open_circuit_voltage_V) {
+  const double cells = open_circuit_voltage_V / kUsualCell_V;
+  constexpr double kTolerance = 0.1;
+  int likely = std::max(1, static_cast<int>(std::lround(std::min(cells, 1e6))));
+  double nearest = kTolerance;
+  for (const int usual : {36, 54, 60, 72, 96}) {
+    const double distance = std::fabs(usual / cells - 1);
+    if (distance < nearest) likely = usual;
+    nearest = std::min(nearest, distance);
+  }
+  return likely;
+}
 
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   Findings findings;

@@ -38,4 +38,8 @@ Expected<std::vector<std::string>> JudgeReadings(const IvCurve& curve);
 // The same for curves of one measurement: each doubt once, with the first curve it is about.
 Expected<std::vector<std::string>> JudgeReadings(const std::vector<IvCurve>& curves);
 
+// How many cells in series give so many volts: a usual number of a module's (36, 54, 60, 72, 96)
+// where one is within a tenth.
+int LikelyCells(double open_circuit_voltage_V);
+
 }  // namespace lyrefit

@@ -28,6 +28,7 @@ FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch
       {},
       {}};
   for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
+  for (const int k : measurement.values.at_voltage_limit) shape.bench.used[k] = 0;
   if (count <= kQuickToFit) shape.bench.watch = nullptr;
   shape.fit = FitBase(shape.bench, base);
   shape.bench.watch = watch;
@@ -93,6 +94,19 @@ Reading Mean(const Readings& readings, const std::vector<int>& lot,
   return mean;
 }
 
+// Of the mean of each lot of independent errors; empty where these are.
+std::vector<double> ErrorsOfMeans(const std::vector<double>& errors,
+                                  const std::vector<std::vector<int>>& lots) {
+  std::vector<double> means;
+  if (errors.empty()) return means;
+  for (const std::vector<int>& lot : lots) {
+    double squares = 0;
+    for (const int k : lot) squares += errors[k] * errors[k];
+    means.push_back(std::sqrt(squares) / static_cast<double>(lot.size()));
+  }
+  return means;
+}
+
 // Positions of the averages that stand for the given readings.
 std::vector<int> Translated(const std::vector<int>& of, const std::vector<int>& readings) {
   std::vector<int> result;
@@ -141,7 +155,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
     off[k] = readings.points[k].current - shape.fit.current[k];
   }
   for (int k = 0; shape.fit.usable && k < count; ++k) alone[k] = Sudden(shape, off, k) ? 1 : 0;
-  for (const auto* set : {&values.clipped, &values.at_lower}) {
+  for (const auto* set : {&values.clipped, &values.at_lower, &values.at_voltage_limit}) {
     for (const int k : *set) alone[k] = 1;
   }
   Averaged averaged;
@@ -156,18 +170,16 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
   means.clear();
   std::vector<int> of(count);
   ValueFindings& of_means = averaged.measurement.values;
-  of_means.rounding.clear();
+  of_means.rounding = ErrorsOfMeans(values.rounding, averaged.members);
+  of_means.bin_rounding = ErrorsOfMeans(values.bin_rounding, averaged.members);
+  averaged.measurement.stated_sigma = ErrorsOfMeans(measurement.stated_sigma, averaged.members);
   for (const std::vector<int>& lot : averaged.members) {
-    double rounding = 0;
-    for (const int k : lot) {
-      of[k] = static_cast<int>(means.size());
-      rounding += values.rounding[k] * values.rounding[k];
-    }
-    of_means.rounding.push_back(std::sqrt(rounding) / static_cast<double>(lot.size()));
+    for (const int k : lot) of[k] = static_cast<int>(means.size());
     means.push_back(Mean(readings, lot, off));
   }
   of_means.clipped = Translated(of, values.clipped);
   of_means.at_lower = Translated(of, values.at_lower);
+  of_means.at_voltage_limit = Translated(of, values.at_voltage_limit);
   std::vector<double> model(means.size(), 0.0);
   LawWorkspace workspace;
   const bool known = shape.fit.usable && EvaluateLaw(shape.fit.law, averages, shape.fit.p.data(),
@@ -182,6 +194,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
   }
   averages.traits.readings = static_cast<int>(means.size());
   SetStepTimes(&averages);
+  SetRangeCurrents(&averages);
   return averaged;
 }
 

@@ -60,6 +60,23 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
   return text;
 }
 
+// Standard errors of a fit's parameters as they are told of one effect: what moves with the light
+// takes up what the module departs by, which then seems less than it is, and has a shape of its
+// own.
+std::vector<double> AllowedErrors(const Workbench& bench, const LawFit& fit, const Effect& effect) {
+  constexpr double kUnlike = 3;  // modules are so much more unlike than one sweep of one tells
+  if (bench.path == 0 || effect.where != Where::kSweep) {
+    return StandardErrors(Linearize(bench, fit), fit.law.size());
+  }
+  Workbench allowed = bench;
+  allowed.path *= kUnlike;
+  LawFit freed = fit;
+  for (int k = 0; k < effect.size(); ++k) {
+    if (effect.parameters[k].held) freed.law.freed.emplace_back(&effect, k);
+  }
+  return StandardErrors(Linearize(allowed, freed), fit.law.size());
+}
+
 }  // namespace
 
 Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) {
@@ -96,7 +113,7 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
                                                int index) {
   const Effect& effect = *fit.law.effects[index];
   const int first = fit.law.Offset(index);
-  const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
+  const std::vector<double> errors = AllowedErrors(bench, fit, effect);
   const double spread = StudentT95(Degrees(bench, fit.law)) * std::sqrt(NoiseVariance(bench, fit));
   constexpr double kDeviations = 1.96;
   std::vector<CauseParameter> described;
@@ -205,7 +222,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
       causes.front().equivalents.push_back(effect.id);
       continue;
     }
-    Cause cause = MakeCause(effect, "fit", rival.score.corrected_p);
+    Cause cause = MakeCause(effect, "fit", rival.corrected_p);
     DescribeSize(selection.bench, rival.fit, static_cast<int>(rival.fit.law.effects.size()) - 1,
                  selection.extended, &cause);
     cause.in_words.clear();  // nothing to act on
@@ -232,7 +249,13 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
     }
     if (by_values) {
       cause.points = values.clipped;
-      cause.points.insert(cause.points.end(), values.at_lower.begin(), values.at_lower.end());
+      for (const auto* more : {&values.at_lower, &values.at_voltage_limit}) {
+        cause.points.insert(cause.points.end(), more->begin(), more->end());
+      }
+      if (!values.at_voltage_limit.empty()) {
+        const double limit = values.voltage_limit * bench.readings->scale.cells;
+        cause.strength.push_back({"Vc", "voltage_limit", "V", limit, limit, limit, false});
+      }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
       cause.points = WhereItActs(bench, selection.extended, static_cast<int>(c));

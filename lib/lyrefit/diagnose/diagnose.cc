@@ -21,6 +21,7 @@
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
@@ -91,7 +92,7 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
   }
 }
 
-void DescribeGain(const Selection& selection, Gain* gain) {
+void DescribeGain(const Selection& selection, bool field, Gain* gain) {
   gain->rmse_before_A = RmseOf(selection.bench, selection.base.current);
   gain->rmse_after_A = RmseOf(selection.bench, selection.extended.current);
   gain->shifts = DescribeShifts(selection);
@@ -100,10 +101,16 @@ void DescribeGain(const Selection& selection, Gain* gain) {
     gain->sentence = "no cause that can be modelled was found, so there is nothing to gain";
   } else if (gain->folds < 2) {
     gain->sentence = "not measured on readings that were not fitted";
-  } else if (gain->gain) {
-    gain->sentence = "the gain holds on readings that were not fitted";
   } else {
-    gain->sentence = "no gain on readings that were not fitted: within its standard error";
+    const std::string held_out = gain->by_sweeps ? "whole sweeps" : "readings";
+    gain->sentence =
+        gain->gain ? "the gain holds on " + held_out + " that were not fitted"
+                   : "no gain on " + held_out + " that were not fitted: within its standard error";
+    if (field && !gain->by_sweeps) {
+      gain->sentence +=
+          "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "
+          "fault from the model's own error, which is in it as well (three sweeps or more would)";
+    }
   }
 }
 
@@ -172,6 +179,8 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   diagnosis.base = ToText(options.base);
   diagnosis.seed = options.seed;
   diagnosis.level = options.level;
+  diagnosis.floor_current = options.floor_current;
+  diagnosis.floor_power = options.floor_power;
   diagnosis.cells_in_series = measurement.readings.scale.cells;
   EchoOptions(options, &diagnosis.non_default_options);
   for (const IvCurve& curve : set.curves) {
@@ -188,6 +197,7 @@ void ForgetLimits(ValueFindings* values) {
   values->clipped.clear();
   values->limited = false;
   values->at_lower.clear();
+  values->at_voltage_limit.clear();
 }
 
 // The selection on readings or, where these are many, on averages of them.
@@ -254,12 +264,15 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   const Selection& shown = outcome.shown;
   diagnosis.base_sentence = DescribeLaw(readings, shown.base.law);
   diagnosis.evidence = DescribeEvidence(shown, measurement->values, outcome.correlation);
+  if (measurement->noise_is_stated()) {
+    diagnosis.evidence.noise_stated_A = Median(shown.bench.sigma) * readings.scale.current_A;
+  }
   diagnosis.evidence.whiteness_p_value = Whiteness(outcome.found.base_bench, outcome.found.base);
   diagnosis.evidence.whiteness_after_p_value =
       Whiteness(outcome.found.bench, outcome.found.extended);
   diagnosis.verdict =
       Decide(*measurement, shown, options, diagnosis.evidence.whiteness_after_p_value);
-  DescribeGain(shown, &diagnosis.gain);
+  DescribeGain(shown, measurement->has_path(), &diagnosis.gain);
   if (options.plan && !watch.Stopped()) {
     diagnosis.plan = MakePlan(outcome.found, options.seed, options.threads);
   }

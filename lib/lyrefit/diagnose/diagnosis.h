@@ -50,6 +50,7 @@ struct Evidence {
   double noise_relative = 0;    // part of |current|
   double noise_voltage_V = 0;   // of the voltage readings, where the data insist on it
   double noise_dark_A = 0;      // constant part of dark curves; 0 without
+  double noise_stated_A = 0;    // median of what is stated and believed instead; 0: nothing is
   double noise_path_A = 0;      // of a rough path along the sweep that readings share; 0 without
   double misfit_ratio = 0;  // base residual's standard deviation / noise's from second differences
   double autocorrelation = 0;  // lag 1, of the noise (smooth misfit removed)
@@ -149,6 +150,7 @@ struct Gain {
   double held_out_gain_error_A2 = kUnknown;  // its standard error
   bool gain = false;                         // more than its standard error
   int folds = 0;
+  bool by_sweeps = false;  // what was held out were whole sweeps
   std::string sentence;
   std::vector<ParameterShift> shifts;
 };
@@ -161,6 +163,8 @@ struct Diagnosis {
   std::string base_sentence;  // what the base model assumes
   std::uint64_t seed = 0;
   double level = 0.05;
+  double floor_current = 0;  // smallest effect that is named, rms in parts of Isc
+  double floor_power = 0;    // or in parts of Pmax
   int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;
   std::vector<DiagnosedPoint> points;

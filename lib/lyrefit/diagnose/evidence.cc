@@ -76,6 +76,14 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                                     values.lower_limit * selection.bench.readings->scale.current_A),
                         values.at_lower});
   }
+  if (!values.at_voltage_limit.empty()) {
+    findings.push_back(
+        {"clipping",
+         fmt::format("{} readings repeat the largest voltage, {:.6g} V, while the current falls",
+                     values.at_voltage_limit.size(),
+                     values.voltage_limit * selection.bench.readings->scale.cells),
+         values.at_voltage_limit});
+  }
   if (evidence->grid_step_A > 0) {
     findings.push_back(
         {"grid",

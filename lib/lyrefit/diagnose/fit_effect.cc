@@ -133,6 +133,37 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
+// Scores are lines where the effect is a jump: the place is what fits best among its neighbours.
+void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe>& probes,
+           LawFit* best) {
+  constexpr int kMostSteps = 8;
+  std::vector<int> searched;
+  for (int k = 0; k < effect.size(); ++k) {
+    if (effect.parameters[k].searched) searched.push_back(k);
+  }
+  if (searched.size() != 1) return;
+  std::set<double> settings;
+  for (const Probe& probe : probes) settings.insert(probe[searched.front()]);
+  const std::vector<double> places(settings.begin(), settings.end());
+  const std::size_t at = best->p.size() - effect.parameters.size() + searched.front();
+  const auto here = std::lower_bound(places.begin(), places.end(), best->p[at]);
+  const int count = static_cast<int>(places.size());
+  const int start = static_cast<int>(here - places.begin());
+  for (const int way : {-1, 1}) {
+    int moved = 0;
+    for (int k = start + way; k >= 0 && k < count && moved < kMostSteps; k += way, ++moved) {
+      std::vector<double> p = best->p;
+      p[at] = places[k];
+      LeastSquaresOptions briefly = kBriefly;
+      briefly.to_beat = best->sum;
+      LawFit end = FitLaw(bench, best->law, p, briefly);
+      if (!end.usable || !(end.sum < best->sum)) break;
+      *best = std::move(end);
+    }
+    if (moved > 0) return;
+  }
+}
+
 }  // namespace
 
 bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
@@ -189,6 +220,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
+  if (effort == Effort::kFull && effect.momentary) Climb(bench, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};

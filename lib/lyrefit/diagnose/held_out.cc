@@ -58,17 +58,44 @@ void AddSquares(const Squares& from, Squares* to) {
   to->count += from.count;
 }
 
+// The curve of every reading where there are three or more; else its sweep, counted through the
+// set: a stretch of a few readings, where a voltage hesitates, belongs to a sweep beside it.
+std::vector<int> SweepOfEach(const Readings& readings) {
+  constexpr int kFewest = 7;  // readings that make a sweep
+  const std::vector<Reading>& points = readings.points;
+  const std::size_t count = points.size();
+  const bool by_curve = readings.traits.curves > 2;
+  std::vector<int> of;
+  int sweep = 0, length = 0;
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    while (last < count && points[last].segment == points[first].segment) ++last;
+    const int stretch = static_cast<int>(last - first);
+    const bool next_curve = first > 0 && points[first].curve != points[first - 1].curve;
+    if (next_curve || (!by_curve && stretch >= kFewest && length >= kFewest)) {
+      ++sweep;
+      length = 0;
+    }
+    length += stretch;
+    of.insert(of.end(), stretch, sweep);
+  }
+  return of;
+}
+
 }  // namespace
 
+bool LeavesSweepsOut(const Readings& readings) {
+  const std::vector<int> sweeps = SweepOfEach(readings);
+  return *std::max_element(sweeps.begin(), sweeps.end()) >= 2;
+}
+
 std::vector<int> MakeFolds(const Readings& readings, int folds) {
-  std::vector<int> of;
-  const int count = static_cast<int>(readings.points.size());
-  const bool by_curve = readings.traits.curves > 2;
-  const int length = std::max(2, count / (3 * folds));
-  of.reserve(readings.points.size());
-  for (int k = 0; k < count; ++k) {
-    of.push_back((by_curve ? readings.points[k].curve : k / length) % folds);
+  std::vector<int> of = SweepOfEach(readings);
+  const int count = static_cast<int>(of.size());
+  if (!LeavesSweepsOut(readings)) {
+    const int length = std::max(2, count / (3 * folds));
+    for (int k = 0; k < count; ++k) of[k] = k / length;
   }
+  for (int& fold : of) fold %= folds;
   return of;
 }
 
@@ -123,6 +150,7 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
     gains.push_back(fold.before.Mean() - fold.after.Mean());
   }
   gain->folds = static_cast<int>(gains.size());
+  gain->by_sweeps = LeavesSweepsOut(readings);
   if (gains.size() < 2) return;
   const double scale = readings.scale.current_A;
   gain->held_out_before_A = scale * std::sqrt(before.Mean());

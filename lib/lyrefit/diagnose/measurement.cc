@@ -3,6 +3,18 @@
 #include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
+namespace {
+
+std::vector<double> StatedSigma(const CurveSet& set, double scale_A) {
+  std::vector<double> stated;
+  for (const IvCurve& curve : set.curves) {
+    if (curve.sigma_A.empty()) return {};
+    for (const double sigma : curve.sigma_A) stated.push_back(sigma / scale_A);
+  }
+  return stated;
+}
+
+}  // namespace
 
 Expected<Measurement> MakeMeasurement(const CurveSet& set) {
   constexpr std::size_t kFewest = 7;
@@ -16,6 +28,7 @@ Expected<Measurement> MakeMeasurement(const CurveSet& set) {
   measurement.readings = std::move(*readings);
   measurement.notes = set.curves.front().notes;
   measurement.values = LookAtValues(measurement.readings);
+  measurement.stated_sigma = StatedSigma(set, measurement.readings.scale.current_A);
   return measurement;
 }
 

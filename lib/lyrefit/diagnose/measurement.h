@@ -16,10 +16,16 @@ struct Measurement {
   Readings readings;
   DeviceNotes notes;  // of the first curve: noise stated beforehand
   ValueFindings values;
+  std::vector<double>
+      stated_sigma;  // of every reading, in current scales; empty unless all have it
   ErrorSpec errors;  // what is allowed for
 
   // A rough path along the sweeps beside the noise.
   bool has_path() const { return errors.kind != ErrorKind::kWhite; }
+  // The readings' own errors are believed as stated, by the file or by sizes.
+  bool noise_is_stated() const {
+    return errors.kind == ErrorKind::kStated || (has_path() && !stated_sigma.empty());
+  }
   std::vector<std::string> warnings;  // metadata that the data contradict, in plain sentences
 };
 

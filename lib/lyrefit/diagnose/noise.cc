@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "lyrefit/base/dense.h"
@@ -289,6 +290,19 @@ bool IsCoarse(const Measurement& measurement, const Noise& noise) {
     if (step > kCoarseGrid * sigma[sigma.size() / 2]) return true;
   }
   return false;
+}
+
+bool HasCoarseBins(const Measurement& measurement, const Noise& noise) {
+  if (measurement.values.voltage_bin == 0) return false;
+  const std::vector<double>& rounding = measurement.values.bin_rounding;
+  std::vector<std::size_t> steepest(rounding.size());
+  std::iota(steepest.begin(), steepest.end(), 0);
+  const std::size_t steep = rounding.size() / 8;  // the middle of the steepest quarter
+  std::nth_element(steepest.begin(), steepest.begin() + steep, steepest.end(),
+                   [&](std::size_t a, std::size_t b) { return rounding[a] > rounding[b]; });
+  const std::size_t k = steepest[steep];
+  const double sigma = noise.sigma[k] * std::sqrt(measurement.readings.points[k].weight);
+  return std::sqrt(12) * rounding[k] > kCoarseGrid * sigma;
 }
 
 Autocorrelation EstimateAutocorrelation(const Readings& readings,

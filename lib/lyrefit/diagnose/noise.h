@@ -55,6 +55,8 @@ Noise EstimateNoise(const Measurement& measurement, const std::vector<double>& r
 // A grid coarser than this many noise deviations is a finding.
 constexpr double kCoarseGrid = 2.1;
 bool IsCoarse(const Measurement& measurement, const Noise& noise);
+// The same of voltages in bins, where the curve is steep.
+bool HasCoarseBins(const Measurement& measurement, const Noise& noise);
 
 // Lag-1 correlation of whitened residuals with their smooth part removed, and its standard error.
 struct Autocorrelation {

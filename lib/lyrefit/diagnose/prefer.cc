@@ -14,6 +14,8 @@ double Value(const Rival& rival, int parameter) {
   return rival.fit.p[rival.fit.p.size() - rival.score.effect->parameters.size() + parameter];
 }
 
+bool IsCalled(const Rival& rival, std::string_view id) { return rival.score.effect->id == id; }
+
 bool StrengthIsAtBound(const Rival& rival) {
   constexpr double kSlack = 1e-3;
   const Effect& effect = *rival.score.effect;
@@ -64,12 +66,14 @@ int Complexity(const Workbench& bench, const Rival& rival) {
 }  // namespace
 
 bool IsGeneric(const Readings& readings, const Effect& effect) {
-  return readings.traits.up_down ? effect.momentary : effect.where == Where::kSweep;
+  if (readings.traits.up_down) return effect.momentary;
+  return effect.where == Where::kSweep || std::string_view(effect.id) == "range_switch";
 }
 
 bool LightMoved(const Readings& readings) {
   constexpr double kLeast = 0.01;
   if (!readings.traits.single || readings.traits.only_dark) return false;
+  if (readings.traits.up_down) return false;  // charge does the same to two sweeps
   double lowest = 1e300, rise = 0;
   for (const double current : ShapeOf(readings).current) {
     lowest = std::min(lowest, current);
@@ -98,7 +102,7 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double floor) {
   const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
-                   kMuchSimpler = 0.88;
+                   kMuchSimpler = 0.88, kNotClearly = 0.6;
   constexpr int kComplex = 5;
   constexpr double kVisible = 2;  // floors between two curves that a person would not call alike
   const auto first = [&](auto is_wanted) {
@@ -112,6 +116,14 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     return swept < rivals.size() ? swept : 0;
   }
   std::size_t best = 0;
+  // Clouds are commoner than ranges that disagree by so much; two sweeps tell them apart.
+  if (IsCalled(rivals.front(), "range_switch") && !readings.traits.up_down) {
+    const std::size_t step = first([&](const Rival& rival) {
+      return IsCalled(rival, "irr_step") &&
+             rival.Charged() > kNotClearly * rivals.front().Charged();
+    });
+    if (step < rivals.size()) return step;
+  }
   if (IsGeneric(readings, *rivals.front().score.effect)) {
     const double enough =
         (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * rivals.front().Charged();

@@ -11,18 +11,20 @@ namespace lyrefit {
 // made impossible. `before`: the fit without it.
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival);
 
-// Whether the current rises with the voltage, which no module does by itself: the light moved.
+// Whether the current rises with the voltage, which no module does by itself: the light moved. Of
+// sweeps up and down nothing is said: charge does that to one of them.
 bool LightMoved(const Readings& readings);
 
 // Whether an effect bends to whatever shape there is: anything that happens during a sweep in one
-// direction, of one in both a moment.
+// direction or a jump of the instrument's range, of one in both a moment.
 bool IsGeneric(const Readings& readings, const Effect& effect);
 
 // Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:
 // the best first, none of an impossible size). A cause in the device is preferred to a moment of
 // the sweep that explains about as much, a simple one to a complex one whose
 // curve is the same but for about `floor` (parts of Isc); where the current rises
-// with the voltage, which no module does by itself, the light moved.
+// with the voltage, which no module does by itself, the light moved. A cloud is likelier than a
+// range that is wrong by so much, where no second sweep tells them apart.
 std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double floor);
 
 }  // namespace lyrefit

@@ -33,7 +33,10 @@ bool AreSweeps(const std::vector<IvCurve>& curves) {
 IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
   IvCurve joined = curves.front();
   joined.sweep.assign(joined.size(), 0);
-  joined.sigma_A.clear();
+  if (std::any_of(curves.begin(), curves.end(),
+                  [](const IvCurve& curve) { return curve.sigma_A.empty(); })) {
+    joined.sigma_A.clear();
+  }
   joined.time_s.clear();
   joined.irradiance_W_m2.clear();
   joined.temperature_C.clear();
@@ -41,6 +44,9 @@ IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
     const IvCurve& next = curves[c];
     joined.voltage_V.insert(joined.voltage_V.end(), next.voltage_V.begin(), next.voltage_V.end());
     joined.current_A.insert(joined.current_A.end(), next.current_A.begin(), next.current_A.end());
+    if (!joined.sigma_A.empty()) {
+      joined.sigma_A.insert(joined.sigma_A.end(), next.sigma_A.begin(), next.sigma_A.end());
+    }
     joined.sweep.insert(joined.sweep.end(), next.size(), static_cast<int>(c));
     joined.name += " + " + next.name;
   }

@@ -122,4 +122,11 @@ std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth
   return scores;
 }
 
+const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by) {
+  const auto at = std::find_if(scores.begin(), scores.end(), [&](const Score& score) {
+    return score.effect->found_by == found_by;
+  });
+  return at == scores.end() ? nullptr : &*at;
+}
+
 }  // namespace lyrefit

@@ -36,6 +36,9 @@ ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
 // directions.
 std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth);
 
+// The score of what is found in that way (one effect a way beside probes); null: there is none.
+const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by);
+
 // p-value of a statistic that an effect reached in a fit, its directions and the list counted.
 double CorrectedP(const Score& score, double statistic, int degrees,
                   const Calibration& calibration);

@@ -9,7 +9,7 @@
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
-#include "lyrefit/diagnose/stands_still.h"
+#include "lyrefit/diagnose/wrong_readings.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -33,6 +33,7 @@ class Selector {
                0,
                options.watch} {
     for (const int k : values_.at_lower) bench_.used[k] = 0;
+    for (const int k : values_.at_voltage_limit) bench_.used[k] = 0;
   }
 
   Selection Run() {
@@ -53,14 +54,14 @@ class Selector {
     if (Stopped(bench_.watch)) fit_ = selection.base;
     selection.base = fit_;
     selection.base_bench = bench_;
-    if (values_.clip_level > 0 || values_.limited) AddClip();
+    if (values_.HasLimits()) AddClip();
     Prepared prepared = PrepareAll(bench_, fit_, Open(), &imprints_);
     FindWorth(prepared);
     Extend(std::move(prepared), &selection);
     selection.extended = fit_;
     selection.causes = causes_;
-    selection.outliers = outliers_;
-    selection.outlier_p = outlier_p_;
+    selection.outliers = wrong_.readings;
+    selection.outlier_p = wrong_.p;
     selection.bench = bench_;
     selection.noise = noise_;
     selection.worth = worth_;
@@ -158,6 +159,8 @@ class Selector {
     for (Rival& rival : rivals) {
       rival.statistic = (fit_.sum - rival.fit.sum) / variance;
       rival.freedom = FreedomOf(bench_, rival.fit.law);
+      rival.corrected_p = CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
+                                     worth_->calibration);
     }
     std::stable_sort(rivals.begin(), rivals.end(),
                      [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
@@ -203,7 +206,7 @@ class Selector {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
       if (IsWorthAName(rival)) {
         worthy.push_back(rival);
-      } else if (PValueOf(rival) < level_) {
+      } else if (rival.corrected_p < level_) {
         below->push_back(rival);
       }
     }
@@ -232,13 +235,6 @@ class Selector {
     if (end.usable && (!rival->fit.usable || end.sum < rival->fit.sum)) rival->fit = std::move(end);
   }
 
-  static const Score* Find(const std::vector<Score>& scores, FoundBy found_by) {
-    for (const Score& score : scores) {
-      if (score.effect->found_by == found_by) return &score;
-    }
-    return nullptr;
-  }
-
   void Extend(Prepared prepared, Selection* selection) {
     const int most = options_.largest_causes + static_cast<int>(causes_.size());
     std::set<std::set<const Effect*>> seen;
@@ -251,9 +247,9 @@ class Selector {
       for (const Score& score : scores) {
         if (score.testable) smallest = std::min(smallest, score.corrected_p);
       }
-      const Score* unknown = Find(scores, FoundBy::kWaves);
+      const Score* unknown = FindScore(scores, FoundBy::kWaves);
       selection->unknown_p = unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
-      const bool later = !causes_.empty() || !outliers_.empty();
+      const bool later = !causes_.empty() || !wrong_.readings.empty();
       level_ = options_.level * (later ? kLaterLevel : 1);
       const bool is_there = smallest < level_ || (step == 0 && IsRuined());
       if (step == 0 && options_.trials) {
@@ -264,10 +260,10 @@ class Selector {
       if (static_cast<int>(causes_.size()) >= most) return;
       // Causes gain little from a reading less: no new fits where the next stands out by far.
       const bool left = step > 0 && !rivals.empty();
-      if (left && OutlierStandsOut(scores) && TakeOutlier(scores, rivals)) continue;
+      if (left && StandsOut(scores) && LeaveOut(scores, rivals)) continue;
       if (step > 0 || !options_.trials) rivals = FitAll(scores);
       if (Stopped(bench_.watch)) return;
-      if (TakeOutlier(scores, rivals)) continue;
+      if (LeaveOut(scores, rivals)) continue;
       if (HasFloors()) {
         selection->below.clear();
         rivals = Weigh(rivals, &selection->below);
@@ -280,12 +276,14 @@ class Selector {
         if (!ExplainsEnough(rivals.front())) return;
       }
       if (rivals.empty() || !Accept(rivals.front())) {
-        selection->unknown = causes_.empty() && outliers_.empty() && selection->unknown_p < level_;
+        selection->unknown =
+            causes_.empty() && wrong_.readings.empty() && selection->unknown_p < level_;
         return;
       }
+      selection->below.clear();  // beside a model that is the past
       Exchange();
       Prune();
-      Readmit();
+      if (Readmit(&bench_, &fit_, &wrong_)) SettleNoise();
       const std::set<const Effect*> present(fit_.law.effects.begin(), fit_.law.effects.end());
       if (!seen.insert(present).second) return;  // what was dropped came back
       rivals.clear();
@@ -302,82 +300,14 @@ class Selector {
     }
   }
 
-  static bool OutlierStandsOut(const std::vector<Score>& scores) {
-    constexpr double kByFar = 2;  // times what any cause promises
-    const Score* outliers = Find(scores, FoundBy::kSingleReading);
-    if (outliers == nullptr) return false;
-    return std::all_of(scores.begin(), scores.end(), [&](const Score& score) {
-      const bool other = score.testable && score.effect->probes != nullptr;
-      return !other || outliers->statistic > kByFar * score.statistic;
-    });
-  }
-
-  // A single reading that is further off than any cause explains goes first.
-  bool TakeOutlier(const std::vector<Score>& scores, const std::vector<Rival>& rivals) {
-    const Score* outliers = Find(scores, FoundBy::kSingleReading);
-    if (outliers == nullptr || !outliers->testable || outliers->outlier < 0) return false;
-    if (!(outliers->corrected_p < level_)) return false;
-    const double most = std::max(1.0, 0.05 * static_cast<double>(readings_.points.size()));
-    if (static_cast<double>(outliers_.size()) >= most) return false;
-    Workbench without = bench_;
-    without.used[outliers->outlier] = 0;
-    LawFit fit = FitLaw(without, fit_.law, fit_.p);
-    if (!fit.usable || Stopped(bench_.watch)) return false;
-    const double variance = Variance(rivals.empty() ? fit : rivals.front().fit);
-    const double gain = (fit_.sum - fit.sum) / variance;
-    const bool beaten = !rivals.empty() && gain - outliers->charge < rivals.front().Charged();
-    const bool by_moment = !rivals.empty() && rivals.front().score.effect->momentary;
-    if (beaten && !(by_moment && Isolated(outliers->outlier))) return false;
-    bench_.used[outliers->outlier] = 0;
-    if (!StandsStill(bench_, fit, outliers->outlier)) {
-      outliers_.push_back(outliers->outlier);
-      outlier_p_ = std::min(outlier_p_, outliers->corrected_p);
-    }
-    fit_ = std::move(fit);
-    SettleNoise();
-    return true;
-  }
-
-  // Readings that the causes found since explain are no outliers.
-  void Readmit() {
-    constexpr double kPlausible = 3.5;
-    const std::size_t before = outliers_.size();
-    const auto plausible = [&](int k) {
-      return std::fabs(fit_.current[k] - readings_.points[k].current) <
-             kPlausible * bench_.sigma[k];
-    };
-    for (const int k : outliers_) bench_.used[k] = plausible(k) ? 1 : 0;
-    outliers_.erase(std::remove_if(outliers_.begin(), outliers_.end(), plausible), outliers_.end());
-    if (outliers_.size() == before) return;
-    LawFit again = FitLaw(bench_, fit_.law, fit_.p);
-    if (again.usable) fit_ = std::move(again);
-    SettleNoise();
-  }
-
-  // Whether a reading is far off while its neighbours are not.
-  bool Isolated(int reading) const {
-    const auto off = [&](int k) {
-      return (fit_.current[k] - readings_.points[k].current) / bench_.sigma[k];
-    };
-    const double here = off(reading);
-    int neighbours = 0;
-    for (const int k : {reading - 1, reading + 1}) {
-      const bool there = k >= 0 && k < static_cast<int>(readings_.points.size());
-      if (!there || readings_.points[k].segment != readings_.points[reading].segment) continue;
-      if (bench_.used[k] == 0) continue;
-      if (off(k) / here > 0.35) return false;
-      ++neighbours;
-    }
-    return neighbours == 2;
-  }
-
-  double PValueOf(const Rival& rival) const {
-    return CorrectedP(rival.score, rival.statistic, Degrees(bench_, rival.fit.law),
-                      worth_->calibration);
+  bool LeaveOut(const std::vector<Score>& scores, const std::vector<Rival>& rivals) {
+    const bool left_out = LeaveOutFurthest(scores, rivals, level_, &bench_, &fit_, &wrong_);
+    if (left_out) SettleNoise();
+    return left_out;
   }
 
   bool Accept(const Rival& rival) {
-    double p = PValueOf(rival);
+    double p = rival.corrected_p;
     const bool proven = HasFloors() && causes_.empty() &&
                         rival.score.effect->where == Where::kSweep && LightMoved(readings_);
     if (proven) p = 0;
@@ -385,7 +315,22 @@ class Selector {
     fit_ = rival.fit;
     causes_.push_back({rival.score.effect, p, rival.score, {}});
     SettleNoise();
+    if (HasFloors() && rival.score.effect->momentary) FreeShape(*rival.score.effect);
     return true;
+  }
+
+  // A moment of the light that is there has the shape that it has, where that is worth its freedom.
+  void FreeShape(const Effect& effect) {
+    Law law = fit_.law;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].held) law.freed.emplace_back(&effect, k);
+    }
+    if (law.freed.size() == fit_.law.freed.size()) return;
+    LawFit freed = FitLaw(bench_, law, fit_.p);
+    const double paid = FreedomOf(bench_, law) - FreedomOf(bench_, fit_.law);
+    if (!freed.usable || !(freed.sum + paid * Variance(freed) < fit_.sum)) return;
+    fit_ = std::move(freed);
+    SettleNoise();
   }
 
   // Every cause but the last gives its place to any effect that does better beside the others.
@@ -409,7 +354,7 @@ class Selector {
     fit_ = FitWithout(bench_, present, c);
     causes_.erase(causes_.begin() + c);
     if (fit_.usable) {
-      const std::vector<Rival> rivals =
+      std::vector<Rival> rivals =
           FitAll(JudgeScores(PrepareAll(bench_, fit_, Open(), &imprints_), *worth_));
       const auto own = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const Rival& r) { return r.score.effect == effect; });
@@ -418,6 +363,8 @@ class Selector {
               ? 0
               : own->Charged() + std::max(0.0, own->fit.sum - present.sum) / Variance(present);
       const bool stopped = Stopped(bench_.watch);
+      std::vector<Rival> below;
+      if (HasFloors()) rivals = Weigh(rivals, &below);
       if (!stopped && !rivals.empty() && rivals.front().score.effect != effect &&
           rivals.front().Charged() > kept + 1) {
         fit_ = rivals.front().fit;
@@ -458,8 +405,7 @@ class Selector {
   Noise noise_;
   LawFit fit_;
   std::vector<ChosenCause> causes_;
-  std::vector<int> outliers_;
-  double outlier_p_ = 1;
+  WrongReadings wrong_;
   double level_ = 0;         // of the present step
   double first_gain_ = 0;    // statistic of the first cause that was fitted
   double first_misfit_ = 0;  // mean square of what the first cause took away, in scales

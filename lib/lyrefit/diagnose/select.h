@@ -40,8 +40,9 @@ struct SelectOptions {
 struct Rival {
   Score score;
   LawFit fit;
-  double statistic = 0;  // what it takes off the sum of squares, in units of the noise variance
-  double freedom = 0;    // what it pays for parameters beyond those of its probes
+  double statistic = 0;    // what it takes off the sum of squares, in units of the noise variance
+  double freedom = 0;      // what it pays for parameters beyond those of its probes
+  double corrected_p = 1;  // of the statistic, the whole catalogue counted
   double Charged() const { return statistic - score.charge - freedom; }
 };
 

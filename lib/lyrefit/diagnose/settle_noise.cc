@@ -8,11 +8,14 @@ namespace {
 
 // A grid much coarser than the noise leaves errors that neighbours share.
 void WidenByRounding(const Measurement& measurement, const Noise& noise, Workbench* bench) {
-  if (!IsCoarse(measurement, noise)) return;
-  bench->least_variance = 1;
-  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
-    bench->sigma[k] = std::hypot(bench->sigma[k], measurement.values.rounding[k]);
-  }
+  const ValueFindings& values = measurement.values;
+  const auto widen = [&](const std::vector<double>& by) {
+    bench->least_variance = 1;
+    for (std::size_t k = 0; k < by.size(); ++k)
+      bench->sigma[k] = std::hypot(bench->sigma[k], by[k]);
+  };
+  if (IsCoarse(measurement, noise)) widen(values.rounding);
+  if (HasCoarseBins(measurement, noise)) widen(values.bin_rounding);
 }
 
 // Root mean square of a fit's residuals.
@@ -34,7 +37,14 @@ void LevelNoise(Workbench* bench, const std::vector<double>& residual) {
   bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
 }
 
-// What somebody knows is believed. The voltage's errors show by the slope of the fitted curve.
+// What the file says of each current is believed.
+void TakeStatedSigma(const Measurement& measurement, Workbench* bench) {
+  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
+    bench->sigma[k] = std::max(measurement.stated_sigma[k], kSmallestNoise);
+  }
+}
+
+// And so are sizes that somebody knows. The voltage's errors show by the slope of the fitted curve.
 void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* bench) {
   const ErrorSizes& sizes = measurement.errors.sizes;
   const std::vector<Reading>& points = measurement.readings.points;
@@ -72,7 +82,11 @@ Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit)
       if (measurement.errors.kind == ErrorKind::kStated) {
         TakeStated(measurement, *fit, bench);
       } else {
-        LevelNoise(bench, residual);
+        if (measurement.stated_sigma.empty()) {
+          LevelNoise(bench, residual);
+        } else {
+          TakeStatedSigma(measurement, bench);
+        }
         bench->path = FindPath(*bench, *fit);
       }
     }

@@ -90,6 +90,48 @@ class LowerLimit {
   double step_;
 };
 
+// Readings at the largest voltage that stand together at the high end of a stretch while the
+// current goes on falling: the meter was at its end.
+void FindVoltageLimit(const Readings& readings, double step, ValueFindings* findings) {
+  constexpr std::size_t kFewest = 4;
+  const std::vector<Reading>& points = readings.points;
+  double largest = 0, least = 1e300, most = -1e300;
+  for (const Reading& r : points) largest = std::max(largest, r.voltage);
+  std::vector<int> at;
+  std::size_t ties = 0;  // in coarse bins repeats say nothing
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].dark || points[k].voltage < largest * (1 - 1e-9)) {
+      ties += k > 0 && points[k].voltage == points[k - 1].voltage;
+      continue;
+    }
+    at.push_back(static_cast<int>(k));
+    least = std::min(least, points[k].current);
+    most = std::max(most, points[k].current);
+  }
+  if (at.size() < kFewest || at.size() <= 3 * (ties + 1) ||
+      !(most - least > std::max(3 * step, 0.01)))
+    return;
+  findings->at_voltage_limit = at;
+  findings->voltage_limit = largest;
+}
+
+// |dI/dV| at a reading, from its next neighbours that are two steps of the voltage away.
+double SlopeOver(const std::vector<Reading>& points, int k, double step) {
+  const int count = static_cast<int>(points.size());
+  const auto next = [&](int inwards) {
+    int i = k;
+    while (i + inwards >= 0 && i + inwards < count &&
+           points[i + inwards].segment == points[k].segment &&
+           std::fabs(points[i].voltage - points[k].voltage) < 1.5 * step) {
+      i += inwards;
+    }
+    return i;
+  };
+  const Reading &a = points[next(-1)], &b = points[next(1)];
+  const double dv = b.voltage - a.voltage;
+  return std::fabs(dv) > 0.5 * step ? std::fabs((b.current - a.current) / dv) : 0;
+}
+
 }  // namespace
 
 double FindGrid(const std::vector<double>& values) {
@@ -125,6 +167,24 @@ double FindGrid(const std::vector<double>& values) {
   return 0;
 }
 
+double FindBins(const Readings& readings) {
+  constexpr double kUneven = 0.25, kRepeated = 0.1;  // parts of the steps
+  std::vector<double> voltages;
+  for (const Reading& r : readings.points) voltages.push_back(r.voltage);
+  const double step = FindGrid(voltages);
+  if (step == 0) return 0;
+  const std::vector<Reading>& points = readings.points;
+  int uneven = 0, repeated = 0, all = 0;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    if (points[k - 1].segment != points[k + 1].segment) continue;
+    const double bend = points[k + 1].voltage - 2 * points[k].voltage + points[k - 1].voltage;
+    uneven += std::fabs(bend) > 0.5 * step;
+    repeated += std::fabs(points[k + 1].voltage - points[k].voltage) < 0.5 * step;
+    ++all;
+  }
+  return uneven > kUneven * all || repeated > kRepeated * all ? step : 0;
+}
+
 ValueFindings LookAtValues(const Readings& readings) {
   ValueFindings findings;
   std::vector<double> currents, lit, unlit;
@@ -154,6 +214,13 @@ ValueFindings LookAtValues(const Readings& readings) {
   int ties = 0;
   for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
   LowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark)).Find(&findings);
+  FindVoltageLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
+  findings.voltage_bin = FindBins(readings);
+  findings.bin_rounding.assign(currents.size(), 0.0);
+  for (std::size_t k = 0; k < currents.size() && findings.voltage_bin > 0; ++k) {
+    const double slope = SlopeOver(readings.points, static_cast<int>(k), findings.voltage_bin);
+    findings.bin_rounding[k] = findings.voltage_bin * slope / std::sqrt(12);
+  }
   const bool many = repeats.size() >= 4 && static_cast<int>(repeats.size()) > 3 * (ties + 1);
   if (many && findings.grids.lit == 0) {
     findings.clip_level = largest;

@@ -23,6 +23,22 @@ Cause QuantisationCause(const Effect& effect, const Measurement& measurement) {
   return cause;
 }
 
+// Bins that are coarse beside the noise count where they blur the curve by more than the floor.
+bool HasMaterialBins(const Measurement& measurement, const Noise& noise, double floor) {
+  if (!HasCoarseBins(measurement, noise)) return false;
+  double sum = 0;
+  for (const double rounding : measurement.values.bin_rounding) sum += rounding * rounding;
+  return std::sqrt(sum / static_cast<double>(measurement.readings.points.size())) > floor;
+}
+
+Cause BinsCause(const Effect& effect, const Measurement& measurement) {
+  Cause cause = MakeCause(effect, "values", 0);
+  const double bin = measurement.values.voltage_bin * measurement.readings.scale.cells;
+  cause.strength = {{"b", "bin", "V", bin, bin, bin, false}};
+  cause.sentence += "; " + StrengthText(cause.strength.front());
+  return cause;
+}
+
 Cause UnknownCause(const Selection& selection, double whiteness_after) {
   const Effect& effect = *FindEffect("unknown_structure");
   Cause cause = MakeCause(effect, "fit", std::min(selection.unknown_p, whiteness_after));
@@ -51,8 +67,8 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors) {
                 100 * kMostHealthy);
   if (!verdict.below_floor.empty()) {
     text +=
-        fmt::format("; {} is there, but below {:g} % of Isc and {:g} % of Pmax",
-                    verdict.below_floor.front().title, 100 * floors.current, 100 * floors.power);
+        fmt::format("; present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
+                    100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
   }
   return text + ".";
 }
@@ -110,6 +126,11 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   const Effect& quantisation = *FindEffect("quantisation");
   if (IsWanted(quantisation, options) && IsCoarse(measurement, selection.noise)) {
     verdict.causes.push_back(QuantisationCause(quantisation, measurement));
+  }
+  const Effect& bins = *FindEffect("voltage_bins");
+  if (IsWanted(bins, options) &&
+      HasMaterialBins(measurement, selection.noise, options.floor_current)) {
+    verdict.causes.push_back(BinsCause(bins, measurement));
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });

@@ -29,8 +29,10 @@ namespace lyrefit {
   ENTRY(Capacitance)               \
   ENTRY(TimingSkew)                \
   ENTRY(Clip)                      \
+  ENTRY(RangeSwitch)               \
   ENTRY(Outliers)                  \
   ENTRY(Quantisation)              \
+  ENTRY(VoltageBins)               \
   ENTRY(CurrentOffset)             \
   ENTRY(VoltageOffset)             \
   ENTRY(SensorOffset)              \

@@ -7,15 +7,17 @@ namespace lyrefit {
 Effect Clip() {
   Effect e;
   e.id = "clip";
-  e.title = "clipped current";
+  e.title = "clipped readings";
   e.where = Where::kInstrument;
-  e.equation = "I -> max(Il, min(I, Ic))";
+  e.equation = "I -> max(Il, min(I, Ic)), V -> min(V, Vc)";
   e.reference = "instrument manual (range, compliance)";
-  e.sentence = "the instrument ran into the end of its range: the curve is flat there";
-  e.needs = "any lit curve; exact repeats of the largest or smallest current give it away";
-  e.acts = "at the largest or smallest currents";
+  e.sentence = "the instrument or its load ran into the end of its range: readings stand still";
+  e.needs =
+      "any lit curve; exact repeats of the largest or smallest current, or of the largest voltage, "
+      "give it away";
+  e.acts = "at the largest or smallest currents, or at the largest voltages";
   e.confused_with = {"transient", "collection"};
-  e.separate_by = "repeat with a larger current range or compliance";
+  e.separate_by = "repeat with a larger range or compliance";
   e.parameters = {{"Ic", "limit", "A", "largest current that is recorded", 0.05, kNoUpperLimit, 1.3,
                    false, 1, 1},
                   {"Il", "lower_limit", "A", "smallest current that is recorded", kNoLowerLimit,

@@ -2,13 +2,18 @@
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
+namespace {
+
+constexpr double kNothing = 1e-9;  // beside z^2: keeps its logarithm finite
+
+}  // namespace
 
 Effect Transient() {
   Effect e;
   e.id = "transient";
   e.title = "passing dip of the irradiance";
   e.where = Where::kSweep;
-  e.equation = "Iph -> Iph (1 - a exp(-(x - c)^2 / 2 w^2))";
+  e.equation = "Iph -> Iph (1 - a exp(-|z|^q / 2)), z = (x - c) / (w (1 + k sign(x - c)))";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
   e.sentence = "for a short while during the sweep the light was weaker (or stronger)";
   e.needs = "one sweep with many points; a reference cell confirms it";
@@ -17,12 +22,19 @@ Effect Transient() {
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.parameters = {{"a", "relative_depth", "", "how much light was missing", -0.8, 0.8, 0},
                   {"c", "centre", "", "when, -1/2 .. 1/2 over the measurement", -0.45, 0.45, 0},
-                  {"w", "width", "", "how long, part of the measurement", 0.01, 0.13, 0.05}};
+                  {"w", "width", "", "how long, part of the measurement", 0.01, 0.13, 0.05},
+                  {"k", "skew", "", "how much slower it goes than it comes", -0.7, 0.7, 0},
+                  {"q", "flatness", "", "2: a bell, more: flat with steep sides", 1, 6, 2}};
+  // Clouds have any shape: which, is asked once a dip is there.
+  e.parameters[3].held = e.parameters[4].held = true;
   e.parameters[1].above_lower = e.parameters[1].below_upper = true;
   e.parameters[2].below_upper = true;
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
-    const auto z = (reading.x - p[1]) / p[2];
-    sky->irradiance = sky->irradiance * (1.0 - p[0] * exp(-0.5 * z * z));
+    const auto from = reading.x - p[1];
+    const auto side = Choose(ValueOf(p[1]) < reading.x, 1.0 + p[3], 1.0 - p[3]);
+    const auto z = from / (p[2] * side);
+    const auto power = exp(0.5 * p[4] * log(z * z + kNothing));
+    sky->irradiance = sky->irradiance * (1.0 - p[0] * exp(-0.5 * power));
   };
   e.momentary = true;
   e.why_not = NeedsOneLitCondition;
@@ -31,7 +43,7 @@ Effect Transient() {
     for (const double width : {0.0125, 0.025, 0.05, 0.1}) {
       if (width * traits.readings < 1) continue;  // a dip of one reading is an outlier
       for (double centre = -0.45; centre <= 0.45; centre += width) {
-        probes.push_back({0.01, centre, width});
+        probes.push_back({0.01, centre, width, 0, 2});
       }
     }
     return probes;

@@ -31,6 +31,12 @@ std::vector<int> SomeOf(int curves) {
   return some;
 }
 
+std::vector<int> EveryOther(const std::vector<int>& all, std::size_t from) {
+  std::vector<int> some;
+  for (std::size_t k = from; k < all.size(); k += 2) some.push_back(all[k]);
+  return some;
+}
+
 void AppendCurve(const JointProblem& problem, const JointPoint& point, int c, Rows* rows) {
   const JointCurve& curve = problem.curves[c];
   const Device& device = DeviceOf(problem, c);
@@ -112,26 +118,40 @@ double Score(const FamilyErrorShape& shape, const FamilyErrorSizes& sizes,
   return LogLikelihood(shape, sizes, residual) - (same ? static_cast<double>(count) : 0);
 }
 
-// Of all kinds and powers of the light the best by `others`, or where there are none by `rows`.
-FamilyErrors ChooseErrors(const Rows& rows, const Rows* others, const JointProblem& problem) {
-  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
+FamilyErrorSizes SizesOf(FamilyErrorKind kind, double power, const Rows& rows, double brightest,
+                         const JointProblem& problem) {
+  return FindFamilyErrors(kind, WithPower(rows, brightest, power), problem.current_scale_A,
+                          problem.voltage_scale_V, rows.residual);
+}
+
+// Errors found from the one are tried on the other, whose curves they have not seen, or are the
+// same.
+struct Trial {
+  const Rows& found;
+  const Rows& tried;
+};
+
+// Of all kinds and powers of the light the best by all trials together; without sizes.
+FamilyErrors ChooseErrors(const std::vector<Trial>& trials, double brightest,
+                          const JointProblem& problem) {
   FamilyErrors best;
   double highest = -HUGE_VAL, independent = 0;
   for (const FamilyErrorKind kind :
        {FamilyErrorKind::kIndependent, FamilyErrorKind::kPath, FamilyErrorKind::kCurves}) {
     for (const double power : {1.0, 0.5, 0.0}) {
       if (kind == FamilyErrorKind::kIndependent && power < 1) continue;
-      const FamilyErrorShape shape = WithPower(rows, brightest, power);
-      const FamilyErrorSizes sizes = FindFamilyErrors(kind, shape, problem.current_scale_A,
-                                                      problem.voltage_scale_V, rows.residual);
-      const double score = others == nullptr ? Score(shape, sizes, rows.residual, true)
-                                             : Score(WithPower(*others, brightest, power), sizes,
-                                                     others->residual, false);
+      double score = 0;
+      for (const Trial& trial : trials) {
+        const FamilyErrorSizes sizes = SizesOf(kind, power, trial.found, brightest, problem);
+        score += Score(WithPower(trial.tried, brightest, power), sizes, trial.tried.residual,
+                       &trial.found == &trial.tried);
+      }
       if (kind == FamilyErrorKind::kIndependent) independent = score;
+      constexpr double kClear = 3;        // of a richer kind, in ln likelihood
       constexpr double kOneLight = 1e-6;  // curves of one light
-      if (!(score > highest + kOneLight)) continue;
+      if (!(score > highest + (kind == best.kind ? kOneLight : kClear))) continue;
       highest = score;
-      best = {kind, sizes, power, 0, 2 * (score - independent)};
+      best = {kind, {}, power, FamilyErrorJudge::kFitted, 0, 2 * (score - independent)};
     }
   }
   return best;
@@ -191,23 +211,34 @@ void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyR
   const JointPoint& point = fit.end.point;
   const int curves = static_cast<int>(problem.curves.size());
   if (curves < kFewest || !(report->noise_A > kExact * problem.current_scale_A)) return;
+  const auto rows_of = [&](const std::vector<int>& some) {
+    return RowsOf(Only(problem, some), Only(point, some), fit.end.held);
+  };
   const std::vector<int> some = SomeOf(curves);
-  const Rows rows = RowsOf(Only(problem, some), Only(point, some), fit.end.held);
-  Rows others;
-  const std::vector<int> tested = SomeOf(static_cast<int>(rest.curves.size()));
-  const bool held_out = static_cast<int>(tested.size()) >= kFewest;
-  if (held_out) {
-    const JointPoint there{point.shared, std::vector<JointLocal>(tested.size(), {0, 0})};
-    JointProblem not_fitted = Only(rest, tested);
+  const Rows rows = rows_of(some);
+  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
+  const int tested = std::min(static_cast<int>(rest.curves.size()), kMostCurves);
+  FamilyErrors errors;
+  if (tested >= kFewest) {
+    const JointPoint there{point.shared, std::vector<JointLocal>(tested, {0, 0})};
+    JointProblem not_fitted = Only(rest, SomeOf(static_cast<int>(rest.curves.size())));
     not_fitted.quoted = problem.quoted;
-    others = RowsOf(std::move(not_fitted), there, fit.end.held);
+    const Rows others = RowsOf(std::move(not_fitted), there, fit.end.held);
+    errors = ChooseErrors({{rows, others}}, brightest, problem);
+    errors.judge = FamilyErrorJudge::kHeldOut;
+    errors.tested_curves = tested;
+  } else if (static_cast<int>(some.size()) >= 2 * kFewest) {
+    const Rows even = rows_of(EveryOther(some, 0)), odd = rows_of(EveryOther(some, 1));
+    errors = ChooseErrors({{even, odd}, {odd, even}}, brightest, problem);
+    errors.judge = FamilyErrorJudge::kHalves;
+    errors.tested_curves = static_cast<int>(some.size());
+  } else {
+    errors = ChooseErrors({{rows, rows}}, brightest, problem);
   }
-  FamilyErrors errors = ChooseErrors(rows, held_out ? &others : nullptr, problem);
-  errors.tested_curves = held_out ? static_cast<int>(tested.size()) : 0;
+  errors.sizes = SizesOf(errors.kind, errors.path_power, rows, brightest, problem);
   report->errors = errors;
   if (errors.kind == FamilyErrorKind::kIndependent) return;
   Rows all = RowsOf(problem, point, fit.end.held);
-  const double brightest = *std::max_element(rows.light.begin(), rows.light.end());
   all.shape = WithPower(all, brightest, errors.path_power);
   const FamilyModel model(problem);
   const Spread spread = FindSpread(model, model.Pack(point), fit.end.held,

@@ -123,13 +123,28 @@ struct Coefficient {
   Interval value;
 };
 
+// Whose likelihood chose the kind of errors.
+enum class FamilyErrorJudge {
+  kFitted,   // that of the curves they were found from
+  kHalves,   // each half of the curves, under sizes of the other
+  kHeldOut,  // curves that were not fitted
+};
+
+template <>
+struct EnumTable<FamilyErrorJudge> {
+  static constexpr EnumText<FamilyErrorJudge> kRows[] = {{FamilyErrorJudge::kFitted, "fitted"},
+                                                         {FamilyErrorJudge::kHalves, "halves"},
+                                                         {FamilyErrorJudge::kHeldOut, "held out"}};
+};
+
 // How large the errors of a family's readings are and what hangs together in them.
 struct FamilyErrors {
   FamilyErrorKind kind = FamilyErrorKind::kIndependent;
   FamilyErrorSizes sizes;  // the path as at the brightest of the curves they were found from
   double path_power = 1;   // of the light that it grows with from curve to curve
-  int tested_curves = 0;   // not fitted, that chose the kind; 0: the fitted ones did
-  double gain = 0;         // twice that in ln likelihood over independent errors
+  FamilyErrorJudge judge = FamilyErrorJudge::kFitted;
+  int tested_curves = 0;  // that chose the kind under sizes of others; 0: none
+  double gain = 0;        // twice that in ln likelihood over independent errors
 };
 
 struct FamilyReport {

@@ -11,6 +11,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/fixed_values.h"
@@ -217,7 +218,7 @@ void FillResults(const Job& job, FitReport* report) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
   }
-  const RefineProblem& problem = job.problem;  // whitened or not, these are of plain residuals
+  const RefineProblem& problem = job.problem;
   const double mean_square =
       MeanSquare(device, problem.objective, p.data(), problem.points, *problem.kernel);
   report->criteria =
@@ -250,23 +251,23 @@ void FindFloor(Job* job, FitReport* report) {
 }
 
 // Takes `better` as the end of the polish.
-void StartOver(const Job& job, const RefineEnd& end, const std::vector<double>& better,
-               RefineReport* report) {
+void StartOver(const RefineProblem& problem, const RefineEnd& end,
+               const std::vector<double>& better, RefineReport* report) {
   for (StartReport& start : report->starts) start.agrees = false;
   report->starts.push_back(
-      {"profile", std::sqrt(MeanSquare(job.problem, better)), std::sqrt(end.mean_square), true});
+      {"profile", std::sqrt(MeanSquare(problem, better)), std::sqrt(end.mean_square), true});
   report->winner = static_cast<int>(report->starts.size()) - 1;
   report->agreeing = 1;
 }
 
 // Intervals around `end`, and from a lower optimum once more if a profile comes upon one.
-void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end,
-                     FitReport* report) {
+void JudgeAndImprove(Job* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
+                     const std::vector<int>& degrees, RefineEnd* end, FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
-  // No few points stand for many that hang together: their profiles would take minutes.
+  // Of many readings that hang together and are not averaged, profiles would take minutes.
   constexpr std::size_t kMostProfiled = 2000;
-  const bool many = job->problem.errors != nullptr && job->curve.size() > kMostProfiled;
+  const bool many = problem.errors != nullptr && problem.voltage_V.size() > kMostProfiled;
   const Intervals method =
       many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
   constexpr int kRestarts = 3;
@@ -275,22 +276,28 @@ void JudgeAndImprove(Job* job, const std::vector<FitPoint>& ends, RefineEnd* end
     report->refined = end->p;
     FillEstimates(*job, *report, &report->estimates);
     report->correlations.clear();
-    const IntervalInput input{job->problem,
+    const IntervalInput input{problem,
                               *end,
                               ends,
                               wanted ? method : Intervals::kNone,
                               job->free_parameters,
                               options.threads,
                               &job->watch,
-                              round == kRestarts};
+                              round == kRestarts,
+                              nullptr,
+                              degrees};
     const std::vector<double> better =
         FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
     if (better.empty() || round == kRestarts) break;
     RefineOptions how;
     how.stop = job->watch.stop();
-    *end = Refine(job->problem, better, how);
-    StartOver(*job, *end, better, &report->refine);
+    *end = Refine(problem, better, how);
+    StartOver(problem, *end, better, &report->refine);
   }
+}
+
+int SpareReadings(const Job& job) {
+  return std::max(static_cast<int>(job.curve.size()) - job.free_parameters, 1);
 }
 
 // What the errors of a plain fit are, and intervals under them where they are believed.
@@ -308,15 +315,44 @@ void FindIntervalsUnderErrors(Job* job, const std::vector<FitPoint>& ends, const
   errors.believed = found->gain > kLeastGain;
   report->errors = errors;
   if (!errors.believed) return;
-  const ErrorModel model =
-      MakeErrorModel(ShapeOfErrors(job->problem, job->curve, end.p), found->sizes);
+  const ErrorShape shape = ShapeOfErrors(job->problem, job->curve, end.p);
+  const auto input_under = [&](const ErrorModel& model) {
+    return IntervalInput{job->problem,
+                         end,
+                         ends,
+                         job->options.intervals,
+                         job->free_parameters,
+                         job->options.threads,
+                         &job->watch,
+                         true,
+                         &model};
+  };
+  const auto errors_at = [&](const ErrorSizes& sizes) {
+    return StandardErrors(input_under(MakeErrorModel(shape, sizes)));
+  };
+  const ErrorModel model = MakeErrorModel(shape, found->sizes);
+  IntervalInput input = input_under(model);
+  input.degrees = FindDegrees(*found, errors_at, SpareReadings(*job));
   FillEstimates(*job, *report, &report->under_errors);
-  const IntervalInput input{
-      job->problem, end,  ends,  job->options.intervals, job->free_parameters, job->options.threads,
-      &job->watch,  true, &model};
   std::vector<Correlation> correlations;
   double condition = 0;
   FindIntervals(input, &report->under_errors, &correlations, &condition);
+}
+
+// Of the standard errors of a fit that was weighed by found errors.
+std::vector<int> DegreesOfWeighed(Job* job, const FoundErrors& found, const RefineEnd& end) {
+  const auto errors_at = [&](const ErrorSizes& sizes) {
+    const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
+    const RefineProblem there = WeighByErrors(job->problem, job->curve, spec, end.p);
+    return StandardErrors({there,
+                           end,
+                           {},
+                           Intervals::kSymmetric,
+                           job->free_parameters,
+                           job->options.threads,
+                           &job->watch});
+  };
+  return FindDegrees(found, errors_at, SpareReadings(*job));
 }
 
 // Polishes, finds intervals around what is usable, and says where the polish ended.
@@ -334,10 +370,16 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 
+  RefineProblem problem = job->problem;
+  std::vector<int> degrees;
   if (options.errors.kind != ErrorKind::kWhite) {
     const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
-    report->errors = WeighAndRefine(options.errors, job->curve, &job->watch, &job->problem, &end);
-    if (report->errors) report->errors->least_squares = least_squares;
+    const auto weighed = WeighAndRefine(options.errors, job->curve, &job->watch, &problem, &end);
+    if (weighed) {
+      report->errors = weighed->errors;
+      report->errors->least_squares = least_squares;
+    }
+    if (weighed && weighed->found) degrees = DegreesOfWeighed(job, *weighed->found, end);
   }
   OrderDiodes(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
@@ -349,7 +391,7 @@ void PolishAndJudge(Job* job, const std::vector<std::vector<double>>& elites, Fi
   }
   const auto begin = std::chrono::steady_clock::now();
   for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
-  JudgeAndImprove(job, polish.ends, &end, report);
+  JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;

@@ -45,7 +45,9 @@ class IntervalFinder {
         neutral_(Reported(input.problem.device, Neutral(input.problem.device, input.end.p))) {
     const int points = static_cast<int>(input.problem.voltage_V.size());
     degrees_ = std::max(points - input.free_parameters, 1);
-    t_ = StudentT95(degrees_);
+    for (int i = 0; i < size_; ++i) {
+      t_.push_back(StudentT95(input.degrees.empty() ? degrees_ : input.degrees[i]));
+    }
   }
 
   std::vector<double> Run(std::vector<Correlation>* correlations, double* condition) {
@@ -69,6 +71,10 @@ class IntervalFinder {
     }
     MarkUnidentifiable();
     return better_;
+  }
+
+  std::vector<double> StandardErrors() const {
+    return SpreadOfQuoted(input_.end.held).standard_error;
   }
 
  private:
@@ -140,7 +146,7 @@ class IntervalFinder {
 
   void Symmetric(int i) {
     Estimate& e = estimates_[i];
-    const double reach = t_ * e.standard_error;
+    const double reach = t_[i] * e.standard_error;
     if (!std::isfinite(reach)) return;
     e.interval = IntervalMethod::kSymmetric;
     const ParameterRange range = RangeAround(e.info.kind, quoted_[i], reach);
@@ -157,7 +163,7 @@ class IntervalFinder {
     if (any_at_bound || e.interval == IntervalMethod::kNone || BendsWithOthers(i)) return true;
     if (!valleys_.empty()) return true;
     if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
-    return t_ * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
+    return t_[i] * e.standard_error > kLinearReach * std::fabs(quoted_[i]);
   }
 
   std::vector<ProfileQuery> Queries(bool saturation_currents) const {
@@ -167,7 +173,7 @@ class IntervalFinder {
       if (saturation != saturation_currents || !NeedsProfile(i)) continue;
       if (estimates_[i].interval == IntervalMethod::kProfile) continue;
       for (const bool upper : {false, true}) {
-        queries.push_back({i, upper, t_ * stretch_[i], Variance(few_, few_end_),
+        queries.push_back({i, upper, t_[i] * stretch_[i], Variance(few_, few_end_),
                            estimates_[i].standard_error / stretch_[i],
                            /*end_at_better=*/!input_.final && !Thinned(), valleys_});
       }
@@ -178,7 +184,8 @@ class IntervalFinder {
   void FindOtherValleys() {
     if (input_.problem.device.extension == nullptr) return;
     const double points = static_cast<double>(input_.problem.voltage_V.size());
-    const double reach = t_ * *std::max_element(stretch_.begin(), stretch_.end());
+    double reach = 0;
+    for (int i = 0; i < size_; ++i) reach = std::max(reach, t_[i] * stretch_[i]);
     const double rise = reach * reach * Variance(input_.problem, input_.end) / points;
     valleys_ = FindValleys(input_.problem, input_.end, input_.ends, input_.end.mean_square + rise,
                            input_.watch->stop());
@@ -328,7 +335,7 @@ class IntervalFinder {
   const std::vector<double> quoted_;   // the end, as it is reported
   const std::vector<double> neutral_;  // of effects' parameters, likewise
   int degrees_ = 1;
-  double t_ = 2;
+  std::vector<double> t_;        // Student's, of each estimate
   std::vector<double> stretch_;  // of t, by the errors
   RefineProblem few_;
   RefineEnd few_end_;
@@ -337,6 +344,11 @@ class IntervalFinder {
 };
 
 }  // namespace
+
+std::vector<double> StandardErrors(const IntervalInput& input) {
+  std::vector<Estimate> estimates(input.problem.device.size());
+  return IntervalFinder(input, &estimates).StandardErrors();
+}
 
 std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
                                   std::vector<Correlation>* correlations, double* condition) {

@@ -22,7 +22,12 @@ struct IntervalInput {
   // The errors that the residuals have, in A, where they are others than the fit took them for: a
   // profile then goes as much further as the standard error is larger.
   const ErrorModel* errors = nullptr;
+  std::vector<int> degrees =
+      {};  // of each estimate's standard error; empty: what is left of points
 };
+
+// Those of every estimate alone; NaN where there is none.
+std::vector<double> StandardErrors(const IntervalInput& input);
 
 // Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and
 // condition. The profiles are those of Thin(problem). Returns parameters of a lower optimum if a

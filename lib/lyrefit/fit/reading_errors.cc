@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/fit/average_neighbours.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/linearize.h"
@@ -20,6 +22,23 @@ double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
   return voc > 0 ? voc : problem.voltage_scale_V;
 }
 
+// The way along a sweep up to every reading, in Voc. Noise of voltages that lie close would
+// lengthen it from reading to reading, so it goes through the means of neighbours.
+std::vector<double> PositionsOf(const std::vector<double>& voltage_V, double open_circuit_V) {
+  const std::vector<int> first = GroupNeighbours(voltage_V, open_circuit_V);
+  std::vector<double> positions;
+  double way = 0, last = 0;
+  for (std::size_t g = 0; g + 1 < first.size(); ++g) {
+    const int count = first[g + 1] - first[g];
+    const auto begin = voltage_V.begin() + first[g];
+    const double mean = std::accumulate(begin, begin + count, 0.0) / count;
+    if (g > 0) way += std::fabs(mean - last) / open_circuit_V;
+    last = mean;
+    positions.insert(positions.end(), count, way);
+  }
+  return positions;
+}
+
 // The problem with independent errors: whose residuals are not whitened.
 RefineProblem Plain(RefineProblem problem) {
   problem.errors = nullptr;
@@ -32,7 +51,8 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
   const bool measured = at.objective == Objective::kMeasuredCurrent;
   const std::vector<double> current =
       SolveCurrents(at.device, at.p.data(), MakePointSet(at.voltage_V, at.current_A));
-  double way = 0;
+  const std::vector<double> position = PositionsOf(at.voltage_V, at.open_circuit_V);
+  shape->position.insert(shape->position.end(), position.begin(), position.end());
   for (std::size_t k = 0; k < current.size(); ++k) {
     const double voltage = at.voltage_V[k];
     const OperatingPoint point = KnownOperatingPoint(at.device, at.p.data(), voltage, current[k]);
@@ -44,8 +64,6 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
     // Instruments read voltages to a part of what they read.
     shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
     shape->path.push_back(unit * at.p[kIph] * factor);
-    if (k > 0) way += std::fabs(voltage - at.voltage_V[k - 1]) / at.open_circuit_V;
-    shape->position.push_back(way);
     shape->chain.push_back(chain);
   }
 }
@@ -70,9 +88,12 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   const double smallest = kExactReadings * problem.current_scale_A;
   const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));
   if (spare < kSpare || !(rms > smallest)) return {};
-  const ErrorPrior prior = UsualErrors(problem.current_scale_A, OpenCircuit(problem, curve));
-  FoundErrors found =
-      FindErrorSizes(ShapeOfErrors(problem, curve, end.p), prior, now.residual, now.jacobian);
+  const double open_circuit_V = OpenCircuit(problem, curve);
+  const std::vector<int> groups = GroupNeighbours(problem.voltage_V, open_circuit_V);
+  FoundErrors found = FindErrorSizes(AverageShape(groups, ShapeOfErrors(problem, curve, end.p)),
+                                     UsualErrors(problem.current_scale_A, open_circuit_V),
+                                     AverageRows(groups, RowMatrix(now.residual)),
+                                     AverageRows(groups, now.jacobian));
   if (!curve.sigma_A.empty()) {
     double squares = 0;
     for (const double sigma : curve.sigma_A) squares += sigma * sigma;
@@ -83,8 +104,16 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
 
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p) {
+  // Effects act on single readings.
+  const std::vector<int> groups = plain.device.extension == nullptr
+                                      ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
+                                      : EachAlone(plain.voltage_V.size());
   RefineProblem weighed = plain;
-  ErrorShape shape = ShapeOfErrors(plain, curve, p);
+  if (groups.size() <= plain.voltage_V.size()) weighed = AverageProblem(groups, plain, p);
+  weighed.weights.assign(weighed.voltage_V.size(), 1);
+  RefineProblem unweighted = plain;
+  unweighted.weights.assign(plain.voltage_V.size(), 1);
+  ErrorShape shape = AverageShape(groups, ShapeOfErrors(unweighted, curve, p));
   if (spec.kind == ErrorKind::kStated) shape.stated.clear();
   ErrorModel errors = MakeErrorModel(shape, spec.sizes);
   double squares = 0;

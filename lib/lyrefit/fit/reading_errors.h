@@ -37,8 +37,8 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
                                       const RefineEnd& end);
 
-// The same problem weighed by errors of the sizes of `spec` about the parameters `p`. Stated sizes
-// take the place of sigma_A, too.
+// The same problem weighed by errors of the sizes of `spec` about the parameters `p`; of a long
+// curve without effects, on averages of neighbours. Stated sizes take the place of sigma_A, too.
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p);
 

@@ -1,27 +1,26 @@
 #include "lyrefit/fit/weigh.h"
 
 #include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
 
-std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
-                                          RefineProblem* problem, RefineEnd* end) {
+std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
+                                         RefineProblem* problem, RefineEnd* end) {
   constexpr int kRounds = 5;
-  constexpr double kSettled = 0.01;       // relative, of every size
-  constexpr double kEnoughOnMany = 1e-9;  // of a sum of squares
-  ErrorReport errors;
+  constexpr double kSettled = 0.01;  // relative, of every size
+  WeighedFit weighed;
+  ErrorReport& errors = weighed.errors;
   errors.weighed = errors.believed = true;
   errors.stated = spec.kind == ErrorKind::kStated;
   errors.current_stated = !errors.stated && !curve.sigma_A.empty();
   RefineOptions how;
   how.stop = watch->stop();
-  if (curve.size() > kFewPoints) how.function_tolerance = kEnoughOnMany;
   const RefineProblem plain = *problem;
   for (int round = 0; round < kRounds && !watch->stopped(); ++round) {
     if (!errors.stated) {
       const std::optional<FoundErrors> found = FindErrors(plain, curve, *end);
       if (!found) return {};
+      weighed.found = found;
       const bool settled = AreClose(found->sizes, spec.sizes, kSettled);
       spec.sizes = found->sizes;
       errors.gain = found->gain;
@@ -31,7 +30,7 @@ std::optional<ErrorReport> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, 
     *end = Refine(*problem, end->p, how);
   }
   errors.sizes = spec.sizes;
-  return errors;
+  return weighed;
 }
 
 }  // namespace lyrefit

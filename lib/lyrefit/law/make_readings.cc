@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/law/held_values.h"
 #include "lyrefit/law/law.h"
@@ -232,25 +232,27 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     traits.up_down = traits.up_down || segments.size() > 1;
   }
   SetStepTimes(readings);
+  SetRangeCurrents(readings);
 }
 
 // The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
 // number would need it, or nobody stated one, the open-circuit voltage says how many there are.
 int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>* warnings) {
-  constexpr double kMost_V = 1.6, kUsual_V = 0.62;
+  constexpr double kMost_V = 1.6;
   const IvCurve& first = set.curves.front();
   traits->stated_cells = first.conditions.cells_in_series;
-  traits->cells_known = std::find(first.assumptions.begin(), first.assumptions.end(),
-                                  kCellsAssumed) == first.assumptions.end();
+  traits->cells_known = first.cells_known;
   double voc = 0;
   for (const IvCurve& curve : set.curves) {
     const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
-    if (points.open_circuit_voltage_V > voc) voc = points.open_circuit_voltage_V;
+    // A sweep that ends before open circuit says that this is more.
+    voc = std::max(voc, points.open_circuit_voltage_V > 0
+                            ? points.open_circuit_voltage_V
+                            : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end()));
   }
   if (!(voc / traits->stated_cells > kMost_V)) return traits->stated_cells;
-  const int cells = std::max(1, static_cast<int>(std::lround(voc / kUsual_V)));
-  warnings->push_back("Voc of " + NumberText(voc) + " V over " +
-                      std::to_string(traits->stated_cells) +
+  const int cells = LikelyCells(voc);
+  warnings->push_back(NumberText(voc) + " V over " + std::to_string(traits->stated_cells) +
                       (traits->cells_known ? " stated" : " assumed") +
                       " cells is more than a junction gives; reckoned with " +
                       std::to_string(cells) + " cells, which n absorbs");
@@ -305,6 +307,26 @@ void SetStepTimes(Readings* readings) {
   for (std::size_t k = 1; k + 2 < points.size(); ++k) {
     readings->traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
   }
+}
+
+void SetRangeCurrents(Readings* readings) {
+  constexpr double kLeast = 0.03, kMost = 0.97, kApart = 0.01;
+  std::vector<double>& places = readings->traits.range_currents;
+  places.clear();
+  if (!readings->traits.single) return;
+  const std::vector<Reading>& points = readings->points;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k].segment != points[k - 1].segment || points[k].dark) continue;
+    places.push_back(0.5 * (points[k - 1].current + points[k].current));
+  }
+  std::sort(places.begin(), places.end());
+  std::size_t kept = 0;
+  for (const double place : places) {
+    if (place < kLeast || place > kMost) continue;
+    if (kept > 0 && place < places[kept - 1] + kApart) continue;
+    places[kept++] = place;
+  }
+  places.resize(kept);
 }
 
 Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* warnings) {

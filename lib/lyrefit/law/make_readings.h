@@ -17,4 +17,8 @@ Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* w
 // The times at which an irradiance step may lie, of one curve: between two of its readings.
 void SetStepTimes(Readings* readings);
 
+// The currents at which a range may end: between two readings of a sweep, a percent of the scale
+// apart, none near the plateau or near zero.
+void SetRangeCurrents(Readings* readings);
+
 }  // namespace lyrefit

@@ -62,6 +62,8 @@ struct DataTraits {
   double thermal_voltage = 0;  // k T / q at the reference
   int readings = 0;
   std::vector<double> step_times;  // x between two readings: where an irradiance step may lie
+  // Between two readings of a sweep, in current scales: where a range of the current may end.
+  std::vector<double> range_currents;
 };
 
 // Bypass groups to reckon with: as stated, else as modules of so many cells have them.

@@ -47,6 +47,10 @@ Surroundings LookAround(const Function& value, const std::vector<double>& at) {
 
 }  // namespace
 
+Eigen::MatrixXd CurvatureAt(const Function& value, const std::vector<double>& at) {
+  return LookAround(value, at).curvature;
+}
+
 std::vector<double> Climb(const Function& value, std::vector<double> at, int most_steps) {
   constexpr double kLongest = 2;     // of a step, in any one of them
   constexpr double kSettled = 3e-3;  // the same

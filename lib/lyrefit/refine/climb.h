@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
@@ -9,5 +10,9 @@ namespace lyrefit {
 // function of a handful of logarithms; at most so many steps. -infinity where there is no value.
 std::vector<double> Climb(const std::function<double(const std::vector<double>&)>& value,
                           std::vector<double> at, int most_steps);
+
+// The second derivatives of such a function, by differences.
+Eigen::MatrixXd CurvatureAt(const std::function<double(const std::vector<double>&)>& value,
+                            const std::vector<double>& at);
 
 }  // namespace lyrefit

@@ -3,6 +3,17 @@
 #include <cmath>
 
 namespace lyrefit {
+namespace {
+
+// Of a row by itself. Less than 0 where a mean of neighbours has less of the path than shows at one
+// place: with what it shares with others that is a covariance all the same.
+double OwnVariance(const ErrorModel& errors, int k) {
+  const double own = errors.white[k] * errors.white[k];
+  if (errors.averaged_away.empty() || errors.path.empty()) return own;
+  return own - errors.path[k] * errors.path[k] * errors.averaged_away[k];
+}
+
+}  // namespace
 
 double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
   const bool has_path = !errors.path.empty();
@@ -21,7 +32,7 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
       variance = kept * kept * variance + (1 - kept * kept);
     }
     const double path = has_path ? errors.path[k] : 0.0;
-    const double own = errors.white[k] * errors.white[k];
+    const double own = OwnVariance(errors, k);
     const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
     logs += std::log(total);
     if (!has_path) {
@@ -39,7 +50,7 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
 
 RowMatrix CovarianceTimes(const ErrorModel& errors, const RowMatrix& rows) {
   RowMatrix product = rows;
-  for (int k = 0; k < errors.size(); ++k) product.row(k) *= errors.white[k] * errors.white[k];
+  for (int k = 0; k < errors.size(); ++k) product.row(k) *= OwnVariance(errors, k);
   if (errors.path.empty()) return product;
   // What each reading shares with those before it and itself, then with those after it.
   const auto kept = [&](int a, int b) {

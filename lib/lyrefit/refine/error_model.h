@@ -18,6 +18,9 @@ struct ErrorModel {
   std::vector<double> path;   // of its part in the path; empty: there is no path
   std::vector<double> position;  // along the path, in its lengths; no falling within a chain
   std::vector<int> chain;        // readings of one path, which follow each other, have one number
+  // Of rows that are means of neighbours: the part of path^2 that averaging has taken from their
+  // variance, not from what they share with others. Empty: every row is one reading.
+  std::vector<double> averaged_away;
 
   int size() const { return static_cast<int>(white.size()); }
 };

@@ -8,10 +8,6 @@
 namespace lyrefit {
 namespace {
 
-// Of more readings, so many evenly spaced ones say where to begin.
-constexpr int kManyReadings = 4096;
-constexpr int kStartReadings = 1024;
-
 using Logs = std::vector<double>;  // ln of current_A, voltage_V, path
 
 Logs LogsOf(const ErrorSizes& sizes) {
@@ -20,28 +16,10 @@ Logs LogsOf(const ErrorSizes& sizes) {
 
 ErrorSizes SizesAt(const Logs& at) { return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2])}; }
 
-// The same problem on every n-th reading.
 struct Rows {
-  ErrorShape shape;
+  const ErrorShape& shape;
   RowMatrix columns;  // orthonormal ones for what was fitted, then the residual
 };
-
-Rows EveryNth(const Rows& all, int n) {
-  Rows few;
-  const int count = (static_cast<int>(all.columns.rows()) + n - 1) / n;
-  few.columns.resize(count, all.columns.cols());
-  for (int k = 0; k < count; ++k) few.columns.row(k) = all.columns.row(k * n);
-  const auto thin = [&](const auto& from, auto* to) {
-    for (std::size_t k = 0; k < from.size(); k += n) to->push_back(from[k]);
-  };
-  thin(all.shape.current, &few.shape.current);
-  thin(all.shape.voltage, &few.shape.voltage);
-  thin(all.shape.path, &few.shape.path);
-  thin(all.shape.position, &few.shape.position);
-  thin(all.shape.chain, &few.shape.chain);
-  thin(all.shape.stated, &few.shape.stated);
-  return few;
-}
 
 // From products with each other of whitened columns, which are nearly independent, the residual
 // last, and ln det of the covariance.
@@ -100,6 +78,19 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   return highest > -HUGE_VAL ? best : usual;
 }
 
+// 0 where it is not positive.
+Eigen::Matrix3d InverseOf(const Eigen::MatrixXd& curvature) {
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    Eigen::VectorXd column;
+    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(3, j), &column)) {
+      return Eigen::Matrix3d::Zero();
+    }
+    inverse.col(j) = column;
+  }
+  return inverse;
+}
+
 // The same of errors that know nothing of each other, at the size that suits them best.
 double WhiteLogLikelihood(const Rows& rows) {
   ErrorModel white;
@@ -133,6 +124,7 @@ ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
   }
   errors.position = shape.position;
   errors.chain = shape.chain;
+  errors.averaged_away = shape.averaged_away;
   return errors;
 }
 
@@ -146,20 +138,12 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   Rows all{shape, RowMatrix(residual.size(), basis.cols() + 1)};
   all.columns.leftCols(basis.cols()) = basis;
   all.columns.rightCols(1) = residual;
-  const int rows = static_cast<int>(residual.size());
-  const auto climb = [&](const Rows& on, const Logs& from, int most_steps) {
-    return Climb([&](const Logs& at) { return LogPosterior(on, prior, at); }, from, most_steps);
-  };
-  Logs at;
-  if (rows > kManyReadings) {
-    const Rows few = EveryNth(all, rows / kStartReadings);
-    at = climb(few, FindStart(few, prior), 20);
-    at = climb(all, at, 3);
-  } else {
-    at = climb(all, FindStart(all, prior), 30);
-  }
+  constexpr int kMostSteps = 30;
+  const auto value = [&](const Logs& there) { return LogPosterior(all, prior, there); };
+  const Logs at = Climb(value, FindStart(all, prior), kMostSteps);
   FoundErrors found;
   found.sizes = SizesAt(at);
+  found.uncertainty = InverseOf(-CurvatureAt(value, at));
   const double likely = LogLikelihood(MakeErrorModel(shape, found.sizes), all.columns);
   found.gain = 2 * (likely - WhiteLogLikelihood(all));
   return found;

@@ -16,6 +16,7 @@ struct ErrorShape {
   std::vector<double> path;
   std::vector<double> position;  // as in ErrorModel
   std::vector<int> chain;
+  std::vector<double> averaged_away;
   std::vector<double> stated;  // of a current by itself, in the unit of the residuals: believed in
                                // the place of `current`; empty: nobody stated it
 };
@@ -37,6 +38,9 @@ ErrorPrior UsualErrors(double isc_A, double voc_V);
 // What residuals say of their errors.
 struct FoundErrors {
   ErrorSizes sizes;  // where restricted likelihood times prior is largest
+  // Covariance of the logarithms of current, voltage and path, from the curvature there; 0 where
+  // there is no top.
+  Eigen::Matrix3d uncertainty = Eigen::Matrix3d::Zero();
   // Twice the gain in ln restricted likelihood over errors that know nothing of each other, have
   // the shape of `current` (or `stated`) and the size that suits them best.
   double gain = 0;

@@ -85,6 +85,17 @@ std::string OffBy(const ParameterShift& shift) {
   return std::abs(percent) < kLargestShiftPercent ? fmt::format("{:+.2f} %", percent) : "-";
 }
 
+// Where there is nothing to allow for.
+std::string BaseParameters(const std::vector<ParameterShift>& shifts) {
+  TextTable table("lrr");
+  table.Add({"", "base model", "std err"});
+  for (const ParameterShift& shift : shifts) {
+    table.Add({LabelWithUnit({shift.symbol, shift.name, shift.unit, ""}),
+               Significant(shift.before, kCauseDigits), Significant(shift.standard_error, 2)});
+  }
+  return "Parameters of the base model\n" + table.Text();
+}
+
 }  // namespace
 
 std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
@@ -125,12 +136,21 @@ std::string DiagnosisBelowSection(const Diagnosis& diagnosis) {
 
 std::string DiagnosisGainSection(const Diagnosis& diagnosis) {
   const Gain& gain = diagnosis.gain;
+  if (!diagnosis.verdict.found) {
+    std::string text = Scientific(gain.rmse_before_A, 4) + " A, solved-current";
+    if (std::isfinite(gain.held_out_before_A)) {
+      text += fmt::format("; held out in {} {} A", Plural(gain.folds, "part"),
+                          Scientific(gain.held_out_before_A, 4));
+    }
+    return "Gain\n" + Field("base RMSE", text) + Wrap("  ", FullSentence(gain.sentence));
+  }
   TextTable table("lrr");
   table.Add({"RMSE in A, solved-current", "base model", "with causes"});
   table.Add({"readings that were fitted", Scientific(gain.rmse_before_A, 4),
              Scientific(gain.rmse_after_A, 4)});
   if (std::isfinite(gain.held_out_before_A)) {
-    table.Add({fmt::format("held out in {}", Plural(gain.folds, "part")),
+    table.Add({fmt::format("held out{} in {}", gain.by_sweeps ? ", whole sweeps," : "",
+                           Plural(gain.folds, "part")),
                Scientific(gain.held_out_before_A, 4), Scientific(gain.held_out_after_A, 4)});
   }
   std::string text = "Gain\n" + table.Text();
@@ -141,12 +161,12 @@ std::string DiagnosisGainSection(const Diagnosis& diagnosis) {
                     Significant(gain.held_out_gain_A2, 3),
                     Significant(gain.held_out_gain_error_A2, 2)));
   }
-  if (!gain.sentence.empty()) return text + Wrap("  ", FullSentence(gain.sentence));
-  return text + (gain.gain ? "" : "  No gain.\n");
+  return text + Wrap("  ", FullSentence(gain.sentence));
 }
 
 std::string DiagnosisShiftSection(const Diagnosis& diagnosis) {
   if (diagnosis.gain.shifts.empty()) return "";
+  if (!diagnosis.verdict.found) return BaseParameters(diagnosis.gain.shifts);
   TextTable table("lrrrr");
   table.Add({"", "base model", "with causes", "std err", "base model is off by"});
   for (const ParameterShift& shift : diagnosis.gain.shifts) {

@@ -20,6 +20,10 @@ std::string NoiseText(const Evidence& evidence) {
   if (evidence.noise_dark_A > 0) {
     text += fmt::format("; in the dark {} A", Significant(evidence.noise_dark_A, 3));
   }
+  if (evidence.noise_stated_A > 0) {
+    text += fmt::format("; stated, and believed instead: {} A (median)",
+                        Significant(evidence.noise_stated_A, 3));
+  }
   if (evidence.noise_path_A > 0) {
     text += fmt::format(
         "; a rough path of {} A that neighbours share, light that wanders or a module that departs "

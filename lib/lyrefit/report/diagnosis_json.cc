@@ -17,6 +17,7 @@ Json EvidenceJson(const Evidence& evidence) {
             {"relative", Number(evidence.noise_relative)},
             {"voltage_V", Number(evidence.noise_voltage_V)},
             {"dark_A", Number(evidence.noise_dark_A)},
+            {"stated_A", Number(evidence.noise_stated_A)},
             {"path_A", Number(evidence.noise_path_A)}}},
           {"misfit_ratio", Number(evidence.misfit_ratio)},
           {"autocorrelation", Number(evidence.autocorrelation)},
@@ -128,6 +129,7 @@ Json GainJson(const Gain& gain) {
           {"held_out_gain_A2", Number(gain.held_out_gain_A2)},
           {"held_out_gain_error_A2", Number(gain.held_out_gain_error_A2)},
           {"folds", gain.folds},
+          {"by_sweeps", gain.by_sweeps},
           {"gain", gain.gain},
           {"sentence", gain.sentence},
           {"parameter_shift", std::move(shifts)}};
@@ -200,6 +202,8 @@ Json ToJson(const Diagnosis& diagnosis) {
   json["objective"] = "solved-current";
   json["seed"] = diagnosis.seed;
   json["level"] = Number(diagnosis.level);
+  json["floor_current"] = Number(diagnosis.floor_current);
+  json["floor_power"] = Number(diagnosis.floor_power);
   json["verdict"] = VerdictJson(diagnosis.verdict);
   json["gain"] = GainJson(diagnosis.gain);
   if (diagnosis.plan) json["plan"] = PlanJson(*diagnosis.plan);

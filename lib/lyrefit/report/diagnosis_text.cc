@@ -34,6 +34,17 @@ std::string ConditionsText(const Diagnosis& diagnosis) {
                      dark > 0 ? "; " + Plural(dark, "dark curve") : "");
 }
 
+// What a cause must be to be named.
+std::string NamedText(const Diagnosis& diagnosis) {
+  std::string text =
+      fmt::format("certain at {:g} % over the whole catalogue", 100 * diagnosis.level);
+  if (diagnosis.floor_current > 0) {
+    text += fmt::format(", and above {:g} % of Isc (rms over the curve) or {:g} % of Pmax",
+                        100 * diagnosis.floor_current, 100 * diagnosis.floor_power);
+  }
+  return text;
+}
+
 std::string Header(const Diagnosis& diagnosis) {
   std::string text = Banner(diagnosis.interrupted, diagnosis.extended.usable, {}, diagnosis.doubts);
   text += fmt::format("lyrefit {}: diagnosis of {}\n", diagnosis.version, diagnosis.name);
@@ -44,9 +55,8 @@ std::string Header(const Diagnosis& diagnosis) {
                   diagnosis.source.empty() ? "" : fmt::format(" ({})", diagnosis.source)));
   text += Field("conditions", ConditionsText(diagnosis));
   text += Field("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence));
-  text += Field("objective",
-                fmt::format("solved-current; false alarms {:g} % over the whole catalogue; seed {}",
-                            100 * diagnosis.level, diagnosis.seed));
+  text += Field("objective", fmt::format("solved-current; seed {}", diagnosis.seed));
+  text += Field("named", NamedText(diagnosis));
   return text;
 }
 

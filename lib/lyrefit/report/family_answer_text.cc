@@ -31,8 +31,11 @@ std::string FamilyErrorText(const FamilyReport& report) {
   if (!report.errors) return "";
   const FamilyErrors& errors = *report.errors;
   const std::string by =
-      errors.tested_curves > 0
+      errors.judge == FamilyErrorJudge::kHeldOut
           ? fmt::format("{} that were not fitted say", Plural(errors.tested_curves, "curve"))
+      : errors.judge == FamilyErrorJudge::kHalves
+          ? fmt::format("{}, each half under the errors of the other half, say",
+                        Plural(errors.tested_curves, "curve"))
           : "the fitted curves say";
   if (errors.kind == FamilyErrorKind::kIndependent) {
     return Wrap("  ", fmt::format("Errors of the readings: {} that they are independent of each "

@@ -38,6 +38,7 @@ Json FamilyErrorsJson(const std::optional<FamilyErrors>& errors) {
           {"path_power_of_light", Number(errors->path_power)},
           {"curve_irradiance_part", Number(errors->sizes.irradiance)},
           {"curve_temperature_K", Number(errors->sizes.temperature_K)},
+          {"judge", ToText(errors->judge)},
           {"tested_curves", errors->tested_curves},
           {"gain", Number(errors->gain)}};
 }

@@ -1,0 +1,36 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+// An offset of the finer range, c, is a gain of c / Ir where the range ends, and near the open
+// circuit a shift of the voltage: one sweep does not tell it from a gain.
+Effect RangeSwitch() {
+  Effect e;
+  e.id = "range_switch";
+  e.title = "jump at a change of range";
+  e.where = Where::kInstrument;
+  e.equation = "I -> I (1 + g) where I < Ir";
+  e.reference = "instrument manual (gain errors of the ranges); no published model";
+  e.sentence = "the instrument changed its range, and its two ranges do not agree";
+  e.needs = "one sweep past the knee; a sweep up and down tells it from a step of the light";
+  e.acts = "at all currents below one current, in sweeps up and down alike";
+  e.confused_with = {"irr_step", "shading", "transient"};
+  e.separate_by = "repeat the sweep in one fixed range, or read a resistor in both ranges";
+  e.parameters = {
+      {"g", "relative_gain", "", "of the range of small currents over the other", -0.2, 0.2, 0},
+      {"Ir", "range_end", "A", "current at which the range changes", 0.02, 0.98, 0.5, true, 1, 1}};
+  e.instrument = [](const auto* p, const auto&, auto* solved) {
+    const auto changed = solved->current * (1.0 + p[0]);
+    solved->current = Choose(ValueOf(solved->current) < ValueOf(p[1]), changed, solved->current);
+  };
+  e.why_not = NeedsOneLitCondition;
+  e.probes = [](const DataTraits& traits) {
+    std::vector<Probe> probes;
+    for (const double current : traits.range_currents) probes.push_back({0.01, current});
+    return probes;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

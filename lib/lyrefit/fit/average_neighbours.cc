@@ -1,0 +1,117 @@
+#include "lyrefit/fit/average_neighbours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "lyrefit/law/current.h"
+#include "lyrefit/refine/thin.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kWidest = 0.01;  // of a group, in parts of Voc
+
+using Values = std::vector<double>;
+
+int GroupCount(const std::vector<int>& first) { return static_cast<int>(first.size()) - 1; }
+
+Values Means(const std::vector<int>& first, const Values& values) {
+  Values means;
+  for (int g = 0; g < GroupCount(first) && !values.empty(); ++g) {
+    const auto begin = values.begin() + first[g], end = values.begin() + first[g + 1];
+    means.push_back(std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin));
+  }
+  return means;
+}
+
+// Of the mean of independent errors.
+Values MeanErrors(const std::vector<int>& first, const Values& errors) {
+  Values squares = errors;
+  for (double& one : squares) one *= one;
+  Values means = Means(first, squares);
+  for (std::size_t g = 0; g < means.size(); ++g) {
+    means[g] = std::sqrt(means[g] / static_cast<double>(first[g + 1] - first[g]));
+  }
+  return means;
+}
+
+// Readings at even distances d about x: the variance of their mean part in a path is the mean of
+// exp(-|x - x'|) over all pairs, 1 - d (m^2 - 1) / (3 m).
+Values AveragedAway(const std::vector<int>& first, const Values& position) {
+  Values parts;
+  const int groups = GroupCount(first);
+  for (int g = 0; g < groups; ++g) {
+    double width = kWidest;  // of the group: to the nearer of the next ones
+    if (g > 0) width = std::min(width, position[g] - position[g - 1]);
+    if (g + 1 < groups) width = std::min(width, position[g + 1] - position[g]);
+    const double m = first[g + 1] - first[g];
+    parts.push_back(width * (m * m - 1) / (3 * m * m));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<int> EachAlone(std::size_t readings) {
+  std::vector<int> first(readings + 1);
+  std::iota(first.begin(), first.end(), 0);
+  return first;
+}
+
+std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V) {
+  const int readings = static_cast<int>(voltage_V.size());
+  const int most = (readings + kFewPoints - 1) / kFewPoints;
+  if (most <= 1) return EachAlone(voltage_V.size());
+  std::vector<int> first = {0};
+  for (int k = 1; k < readings; ++k) {
+    const bool far = std::fabs(voltage_V[k] - voltage_V[first.back()]) > kWidest * open_circuit_V;
+    if (far || k - first.back() >= most) first.push_back(k);
+  }
+  first.push_back(readings);
+  return first;
+}
+
+RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows) {
+  RowMatrix means(GroupCount(first), rows.cols());
+  for (int g = 0; g < GroupCount(first); ++g) {
+    means.row(g) = rows.middleRows(first[g], first[g + 1] - first[g]).colwise().mean();
+  }
+  return means;
+}
+
+ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape) {
+  ErrorShape means;
+  means.current = MeanErrors(first, shape.current);
+  means.voltage = MeanErrors(first, shape.voltage);
+  means.stated = MeanErrors(first, shape.stated);
+  means.path = Means(first, shape.path);
+  means.position = Means(first, shape.position);
+  if (first.size() <= shape.position.size()) {
+    means.averaged_away = AveragedAway(first, means.position);
+  }
+  for (int g = 0; g < GroupCount(first); ++g) means.chain.push_back(shape.chain[first[g]]);
+  return means;
+}
+
+RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem& problem,
+                             const std::vector<double>& p) {
+  const auto model = [&](const Values& voltage_V, const Values& near_A) {
+    return SolveCurrents(problem.device, p.data(), MakePointSet(voltage_V, near_A));
+  };
+  Values distance = problem.current_A;
+  const Values fitted = model(problem.voltage_V, problem.current_A);
+  for (std::size_t k = 0; k < distance.size(); ++k) distance[k] -= fitted[k];
+  Values voltage = Means(first, problem.voltage_V), current = Means(first, distance);
+  const Values there = model(voltage, Means(first, problem.current_A));
+  for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
+  RefineProblem few = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
+                                        std::move(current), {}, problem.lower, problem.upper);
+  few.kernel = problem.kernel;
+  few.current_scale_A = problem.current_scale_A;
+  few.voltage_scale_V = problem.voltage_scale_V;
+  return few;
+}
+
+}  // namespace lyrefit

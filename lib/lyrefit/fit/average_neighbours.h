@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/refine/error_sizes.h"
+#include "lyrefit/refine/problem.h"
+
+namespace lyrefit {
+
+// A long sweep in averages of neighbouring readings, for errors that neighbours share. Where
+// readings lie closer than their voltages are noisy, a path that is known to be smooth leaves
+// differences of neighbours to fit, and what a voltage differs by is noise then: slopes come out
+// too small (errors in variables). Averages lie further apart and are less noisy, and a few hundred
+// hold what thousands of readings say of five parameters and a path.
+
+// The first reading of every group of neighbours, and the end: equally many readings each, but none
+// farther from its group's first than a hundredth of Voc. Up to kFewPoints readings stay alone.
+std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V);
+
+// Each reading by itself.
+std::vector<int> EachAlone(std::size_t readings);
+
+// Means of rows, one for each group.
+RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows);
+
+// How errors show in those means: of a reading by itself less, of the path as they are but for what
+// averages away within a group.
+ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape);
+
+// The same problem, of equal weights, on mean voltages. A current is that of the model at `p` plus
+// the mean distance of its readings from the model, so that bends are not averaged away. For solved
+// currents of devices without effects.
+RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem& problem,
+                             const std::vector<double>& p);
+
+}  // namespace lyrefit

@@ -1,0 +1,121 @@
+// What tracers and the light do to a sweep, each alone in the curve of a module.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/made_curve.h"
+#include "lyrefit/diagnose/diagnose.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+IvCurve Module(bool and_back = false) {
+  Recipe recipe;
+  recipe.cells = 60;
+  recipe.points = 120;
+  recipe.and_back = and_back;
+  return MadeCurve(recipe);
+}
+
+std::vector<Cause> CausesOf(const IvCurve& curve) {
+  DiagnoseOptions options;
+  options.draws = 400;
+  options.held_out = false;
+  const auto diagnosis = Diagnose(curve, options);
+  EXPECT_TRUE(diagnosis.has_value());
+  return diagnosis ? diagnosis->verdict.causes : std::vector<Cause>();
+}
+
+void ExpectHeld(const CauseParameter& parameter, const char* symbol, double truth) {
+  EXPECT_EQ(parameter.symbol, symbol);
+  EXPECT_LE(parameter.low_95, truth);
+  EXPECT_GE(parameter.high_95, truth);
+}
+
+void ChangeRange(double below_A, double gain, IvCurve* curve) {
+  for (double& i : curve->current_A) i *= i < below_A ? 1 + gain : 1;
+}
+
+TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
+  for (const double gain : {0.02, -0.03}) {
+    IvCurve curve = Module(true);
+    ChangeRange(6, gain, &curve);
+    const std::vector<Cause> causes = CausesOf(curve);
+    ASSERT_THAT(causes, SizeIs(1));
+    EXPECT_EQ(causes[0].id, "range_switch");
+    EXPECT_THAT(causes[0].equivalents, IsEmpty());
+    ASSERT_THAT(causes[0].strength, SizeIs(2));
+    ExpectHeld(causes[0].strength[0], "g", gain);
+    EXPECT_NEAR(causes[0].strength[1].value, 6, 0.4);
+  }
+}
+
+TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
+  IvCurve curve = Module();
+  ChangeRange(7.3, 0.02, &curve);
+  const std::vector<Cause> causes = CausesOf(curve);
+  ASSERT_FALSE(causes.empty());
+  if (causes[0].id != "range_switch") {
+    EXPECT_EQ(causes[0].id, "irr_step");
+    EXPECT_THAT(causes[0].equivalents, Contains("range_switch"));
+  }
+}
+
+TEST(TracerCauses, CoarseBinsOfTheVoltageAreNamedAndNothingBecauseOfThem) {
+  IvCurve curve = Module();
+  constexpr double kBin_V = 0.23;
+  for (double& v : curve.voltage_V) v = kBin_V * std::round(v / kBin_V);
+  const std::vector<Cause> causes = CausesOf(curve);
+  ASSERT_THAT(causes, SizeIs(1));
+  EXPECT_EQ(causes[0].id, "voltage_bins");
+  ASSERT_THAT(causes[0].strength, SizeIs(1));
+  EXPECT_NEAR(causes[0].strength[0].value, kBin_V, 1e-6);
+}
+
+TEST(TracerCauses, FineDigitsOfTheVoltageAreNone) {
+  IvCurve curve = Module();
+  for (double& v : curve.voltage_V) v = 0.01 * std::round(v / 0.01);
+  EXPECT_THAT(CausesOf(curve), IsEmpty());
+}
+
+TEST(TracerCauses, AVoltageAtTheEndOfItsRangeIsALimit) {
+  IvCurve curve = Module();
+  const double end = curve.voltage_V[curve.size() - 12];
+  for (double& v : curve.voltage_V) v = std::min(v, end);
+  const std::vector<Cause> causes = CausesOf(curve);
+  ASSERT_THAT(causes, SizeIs(1));
+  EXPECT_EQ(causes[0].id, "clip");
+  EXPECT_EQ(causes[0].evidence, "values");
+  EXPECT_THAT(causes[0].points, SizeIs(12));
+  ASSERT_THAT(causes[0].strength, SizeIs(1));
+  ExpectHeld(causes[0].strength[0], "Vc", end);
+}
+
+// A bell only by chance: clouds come soon and go slowly, or cover for a while.
+TEST(TracerCauses, ADipOfAnyShapeIsOneCause) {
+  for (const double skew : {0.0, 0.5}) {
+    IvCurve curve = Module();
+    const double count = static_cast<double>(curve.size());
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      const double from = k / count - 0.45, side = 0.12 * (from < 0 ? 1 - skew : 1 + skew);
+      const double part = std::fabs(from / side);
+      if (part < 1) curve.current_A[k] -= 0.8 * std::pow(std::cos(1.5707963 * part), 2);
+    }
+    const std::vector<Cause> causes = CausesOf(curve);
+    ASSERT_THAT(causes, SizeIs(1)) << skew;
+    EXPECT_EQ(causes[0].id, "transient");
+    ASSERT_THAT(causes[0].strength, SizeIs(5));
+    ExpectHeld(causes[0].strength[0], "a", 0.1);
+    EXPECT_NEAR(causes[0].strength[3].value, skew, 0.15);
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,110 @@
+#include "lyrefit/fit/average_neighbours.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/refine/thin.h"
+#include "simulated.h"
+
+namespace lyrefit {
+namespace {
+
+std::vector<double> Ramp(int readings, double to) {
+  std::vector<double> values;
+  for (int k = 0; k < readings; ++k) values.push_back(to * k / (readings - 1));
+  return values;
+}
+
+TEST(GroupNeighbours, LeavesAFewHundredReadingsAlone) {
+  EXPECT_EQ(GroupNeighbours(Ramp(kFewPoints, 40), 40), EachAlone(kFewPoints));
+}
+
+TEST(GroupNeighbours, MakesAFewHundredOfManyAndNoWideOnes) {
+  std::vector<double> voltage = Ramp(20000, 40);
+  const std::vector<double> again = voltage;
+  voltage.insert(voltage.end(), again.begin(), again.end());  // begins anew at 0 V
+  const std::vector<int> first = GroupNeighbours(voltage, 40);
+  EXPECT_EQ(first.front(), 0);
+  EXPECT_EQ(first.back(), 40000);
+  EXPECT_NEAR(static_cast<double>(first.size()), kFewPoints, 10);
+  for (std::size_t g = 0; g + 1 < first.size(); ++g) {
+    ASSERT_LT(first[g], first[g + 1]);
+    EXPECT_LE(std::fabs(voltage[first[g + 1] - 1] - voltage[first[g]]), 0.4);
+  }
+}
+
+// Of means, by the covariance of every reading.
+TEST(AverageShape, HasTheCovarianceOfMeans) {
+  constexpr int kReadings = 1200, kOfEach = 3;
+  constexpr double kPath = 2e-3;
+  ErrorShape shape;
+  const std::vector<double> position = Ramp(kReadings, 1);
+  std::vector<int> first;
+  for (int k = 0; k < kReadings; ++k) {
+    shape.current.push_back(1 + 0.5 * std::sin(0.01 * k));
+    shape.voltage.push_back(0);
+    shape.path.push_back(8);
+    shape.position.push_back(position[k]);
+    shape.chain.push_back(0);
+    if (k % kOfEach == 0) first.push_back(k);
+  }
+  first.push_back(kReadings);
+  const ErrorSizes sizes = {1e-4, 0, kPath};
+  const int groups = kReadings / kOfEach;
+  RowMatrix unit = RowMatrix::Zero(groups, 3);
+  const int at[] = {0, groups / 2, groups - 2};
+  for (int c = 0; c < 3; ++c) unit(at[c], c) = 1;
+  const RowMatrix found = CovarianceTimes(MakeErrorModel(AverageShape(first, shape), sizes), unit);
+
+  RowMatrix spread = RowMatrix::Zero(kReadings, 3);  // a mean's weights of the readings
+  for (int c = 0; c < 3; ++c)
+    spread.middleRows(first[at[c]], kOfEach).col(c).setConstant(1.0 / kOfEach);
+  const RowMatrix exact = AverageRows(first, CovarianceTimes(MakeErrorModel(shape, sizes), spread));
+  // What tells them apart is what neighbours do not share: 1e-3 of the covariance.
+  EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 2e-6 * exact.maxCoeff());
+}
+
+// Light that wanders, and voltages noisier than they lie apart.
+IvCurve DenseCurve(int readings, int seed) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0, 1, readings);
+  RandomStream random(seed, 0);
+  double light = random.Normal();
+  const double kept = std::exp(-1.0 / readings);
+  for (int k = 0; k < readings; ++k) {
+    light = kept * light + std::sqrt(1 - kept * kept) * random.Normal();
+    curve.current_A[k] *= 1 + 1e-3 * light;
+    curve.voltage_V[k] *= 1 + 3e-4 * random.Normal();
+  }
+  return curve;
+}
+
+TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold) {
+  constexpr int kCurves = 40;
+  int held = 0;
+  double plain = 0, weighed = 0;
+  for (int seed = 0; seed < kCurves; ++seed) {
+    const IvCurve curve = DenseCurve(6000, seed);
+    FitOptions options;
+    options.intervals = Intervals::kSymmetric;
+    const auto white = Fit(curve, options);
+    options.errors = {ErrorKind::kField, {}, "field"};
+    const auto field = Fit(curve, options);
+    ASSERT_TRUE(white && field);
+    EXPECT_NEAR(std::log(field->errors->sizes.path / 1e-3), 0, 0.3);
+    EXPECT_EQ(field->residual_A.size(), curve.size());
+    plain += std::pow(white->refined[2] - kSingleTruth[2], 2);
+    weighed += std::pow(field->refined[2] - kSingleTruth[2], 2);
+    for (int i = 0; i < 5; ++i) {
+      const Estimate& e = field->estimates[i];
+      held += e.low_95 <= kSingleTruth[i] && kSingleTruth[i] <= e.high_95 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(weighed, 0.6 * plain);
+  EXPECT_GT(held, 0.9 * 5 * kCurves);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -141,9 +141,11 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].searched) searched.push_back(k);
   }
+  constexpr std::size_t kFew = 8;  // of which every one is a start
   if (searched.size() != 1) return;
   std::set<double> settings;
   for (const Probe& probe : probes) settings.insert(probe[searched.front()]);
+  if (settings.size() <= kFew) return;
   const std::vector<double> places(settings.begin(), settings.end());
   const std::size_t at = best->p.size() - effect.parameters.size() + searched.front();
   const auto here = std::lower_bound(places.begin(), places.end(), best->p[at]);
@@ -220,7 +222,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull && effect.momentary) Climb(bench, effect, probes, &best);
+  if (effort == Effort::kFull) Climb(bench, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};

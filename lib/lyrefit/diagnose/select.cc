@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
@@ -210,6 +211,15 @@ class Selector {
         below->push_back(rival);
       }
     }
+    // What bends to everything is not larger for fitting worse than something small that is there.
+    const auto is_beaten = [&](const Rival& rival) {
+      if (!IsGeneric(readings_, *rival.score.effect)) return false;
+      return std::any_of(below->begin(), below->end(), [&](const Rival& other) {
+        return !IsGeneric(readings_, *other.score.effect) &&
+               other.Charged() > rival.Charged() + kEquivalenceWidth;
+      });
+    };
+    worthy.erase(std::remove_if(worthy.begin(), worthy.end(), is_beaten), worthy.end());
     for (std::vector<Rival>* rivals : {&worthy, below}) {
       const std::size_t at = Prefer(bench_, *rivals, options_.floors.current);
       const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);

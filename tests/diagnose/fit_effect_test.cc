@@ -24,7 +24,7 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
     const LawFit fit = FitEffect(made.bench, base, score);
     ASSERT_TRUE(fit.usable) << id;
     EXPECT_EQ(fit.law.effects.back(), score.effect);
-    const bool always_there = id == "shading" || id == "clip" || id == "weak_cell";
+    const bool always_there = id == "shading" || id == "clip";
     EXPECT_TRUE(always_there || fit.sum <= base.sum * (1 + 1e-6)) << id;
     for (int k = 0; k < fit.law.size(); ++k) {
       EXPECT_GE(fit.p[k], fit.law.Lower(k)) << id;

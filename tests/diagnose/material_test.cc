@@ -103,7 +103,7 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
-  const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const Done done = Do("weak_cell", weak);
   const MadeBench made = OnTheBench(done.curve);
   LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
@@ -118,6 +118,16 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   EXPECT_EQ(d.verdict.causes.front().id, "weak_cell");
   EXPECT_THAT(d.verdict.causes.front().in_words.front(),
               HasSubstr("one cell has 40 % of the others' light"));
+}
+
+TEST(FieldDiagnosis, FindsAWeakCellInOneHalfOfAHalfCutModule) {
+  // At the terminals a third of the substring's light is missing, of its cell two thirds.
+  const Done done = Do("weak_cell", {0.33, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 2});
+  const Diagnosis d = DiagnosedInTheField(done.curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().id, "weak_cell");
+  EXPECT_NEAR(d.verdict.causes.front().strength.front().value, 0.33, 0.01);
+  EXPECT_THAT(d.verdict.causes.front().in_words.front(), HasSubstr("one cell has 34 %"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
 
 TEST(Prefer, TakesWhatSupposesLess) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
-  const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   EXPECT_EQ(
       Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)}, kFloor),
       1U);

@@ -62,6 +62,19 @@ double Paid(const Workbench& bench, const LawFit& fit) {
   return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
 }
 
+// Whether the last effect of a fit ended as what it is meant to be.
+bool IsItself(const Effect& effect, const LawFit& fit) {
+  const std::size_t first = fit.p.size() - effect.parameters.size();
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    const double slack = 1e-3 * (parameter.upper - parameter.lower);
+    const double value = fit.p[first + k];
+    if (parameter.above_lower && value < parameter.lower + slack) return false;
+    if (parameter.below_upper && value > parameter.upper - slack) return false;
+  }
+  return true;
+}
+
 // The best end of those that the curve's shape suggests.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
@@ -77,23 +90,11 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
     LawFit end = FitLaw(bench, freed, start, briefly);
-    if (end.usable && (!best->usable || Paid(bench, end) < Paid(bench, *best))) {
+    if (!end.usable || !IsItself(effect, end)) continue;
+    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {
       *best = std::move(end);
     }
   }
-}
-
-// Whether the last effect of a fit ended as what it is meant to be.
-bool IsItself(const Effect& effect, const LawFit& fit) {
-  const std::size_t first = fit.p.size() - effect.parameters.size();
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    const double slack = 1e-3 * (parameter.upper - parameter.lower);
-    const double value = fit.p[first + k];
-    if (parameter.above_lower && value < parameter.lower + slack) return false;
-    if (parameter.below_upper && value > parameter.upper - slack) return false;
-  }
-  return true;
 }
 
 }  // namespace

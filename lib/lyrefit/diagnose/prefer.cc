@@ -80,13 +80,16 @@ bool LightMoved(const Readings& readings) {
 
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival) {
   constexpr double kMostExponent = 4.99, kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.9,
-                   kMostIdeality = 2.5;
+                   kMostIdeality = 2.5, kWholeLight = 0.999;
   const Effect& effect = *rival.score.effect;
   const std::string_view id = effect.id;
   if (StrengthIsAtBound(rival)) return false;
   if (id == "temp_drift" && std::fabs(Value(rival, 0)) > kMostKelvin) return false;
   // An exponent at its end is a diode's exponential.
   if (id == "nonohmic_shunt" && Value(rival, 1) > kMostExponent) return false;
+  if (id == "weak_cell" && Value(rival, 0) * Value(rival, effect.size() - 1) > kWholeLight) {
+    return false;
+  }
   if (id == "mismatch" && Value(rival, 1) * readings.traits.cells < kLeastCell) return false;
   const auto possible = [&](const LawFit& fit) {
     const double n = fit.p[kBaseIdeality];

@@ -20,6 +20,6 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
 
 // n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
 // plausible. Nothing where n is.
-std::vector<Cause> CheckTemperatureAndCells(const Selection& selection);
+std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted);
 
 }  // namespace lyrefit

@@ -180,9 +180,14 @@ class Selector {
   bool IsRuined() const {
     constexpr double kMisfit = 0.01;
     if (!measurement_.has_path()) return false;
+    return Misfit() > kMisfit;
+  }
+
+  // Of the present law, parts of Isc.
+  double Misfit() const {
     std::vector<double> currents;
     for (const Reading& r : readings_.points) currents.push_back(r.current);
-    return Departure(bench_, fit_, currents) > kMisfit;
+    return Departure(bench_, fit_, currents);
   }
 
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
@@ -197,7 +202,7 @@ class Selector {
       }
     }
     for (std::vector<Rival>* rivals : {&worthy, below}) {
-      const std::size_t at = Prefer(bench_, *rivals, options_.floors.current);
+      const std::size_t at = Prefer(bench_, *rivals, Misfit(), options_.floors.current);
       const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
       if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
     }

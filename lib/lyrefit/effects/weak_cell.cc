@@ -36,12 +36,14 @@ Effect WeakCell() {
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
       {"a", "breakdown_factor", "", "of reverse breakdown", 0, 10, 0.1},
       {"Vbr", "breakdown_voltage", "V", "of a cell, its size", 3, 60, 15},
-      {"m", "breakdown_exponent", "", "of reverse breakdown", 1, 8, 3.4},
+      {"m", "breakdown_exponent", "", "of reverse breakdown", 1.5, 8, 3.4},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph; 0: Bishop's law", 0, 30,
        0},
       kChains};
   for (int k = kCells; k < e.size(); ++k) e.parameters[k].held = true;
   e.parameters[kDeficit].scatter = kCellScatter;
+  // Towards 1, and towards no breakdown at all, it is a leak.
+  e.parameters[kExponent].above_lower = e.parameters[kBreakdown].below_upper = true;
   e.parameters[kSoft].absent_at = 0;
   e.parameters[kSideBySide].absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {

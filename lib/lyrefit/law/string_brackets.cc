@@ -131,11 +131,19 @@ class Bracketed {
   // To the junction voltage at which a kind carries a current.
   void MoveKind(int kind, const Pack& carried, StringState* state) const {
     const Pack size = 1.0 + abs(carried);
+    constexpr double kFar = 1e6;
+    Pack low = -kFar, high = kFar;  // the current falls as the voltage rises
     for (int k = 0; k < kSteps; ++k) {
       const KindPoint point = PointOf(bench_, cell_, kind, *state);
       const Pack missing = carried - point.current.a, u = state->u[kind];
-      state->u[kind] =
+      const Mask too_high = 0.0 < missing;
+      high = Choose(too_high, Smaller(high, u), high);
+      low = Choose(too_high, low, Larger(low, u));
+      const Pack next =
           NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
+      // Between a flat stretch and a steep one steps may go to and fro.
+      const Mask outside = (next < low) | (high < next);
+      state->u[kind] = Choose(outside, 0.5 * (low + high), next);
       const Pack step = state->u[kind] - u;
       Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
       if (cell_.halved) {

@@ -120,6 +120,26 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
               HasSubstr("one cell has 40 % of the others' light"));
 }
 
+TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
+  Recipe recipe;
+  recipe.cells = 40;
+  recipe.points = 120;
+  IvCurve curve = MadeCurve(recipe);
+  curve.conditions.cells_in_series = 60;
+  curve.notes.bypass_diodes = 3;
+  const Diagnosis d = DiagnosedInTheField(curve);
+  ASSERT_EQ(d.verdict.causes.size(), 1U);
+  const Cause& cause = d.verdict.causes.front();
+  EXPECT_EQ(cause.id, "bypass_short");
+  EXPECT_THAT(cause.sentence, HasSubstr("a group of cells is shorted, or the number of cells"));
+  EXPECT_EQ(cause.equivalents, std::vector<std::string>{"temperature_or_cells"});
+  // Of two groups a half would be missing, which leaves no plausible n.
+  curve.notes.bypass_diodes = 2;
+  const Diagnosis other = DiagnosedInTheField(curve);
+  ASSERT_EQ(other.verdict.causes.size(), 1U);
+  EXPECT_EQ(other.verdict.causes.front().id, "temperature_or_cells");
+}
+
 TEST(FieldDiagnosis, FindsAWeakCellInOneHalfOfAHalfCutModule) {
   // At the terminals a third of the substring's light is missing, of its cell two thirds.
   const Done done = Do("weak_cell", {0.33, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 2});

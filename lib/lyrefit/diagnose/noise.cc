@@ -115,14 +115,14 @@ Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& res
 // middle square, which steps and outliers hardly move.
 double CutScale(const Eigen::ArrayXd& squares, double guess) {
   constexpr int kRounds = 6;
-  constexpr double kSettled = 1e-5;
+  constexpr double kSettled = 1e-6;
   const double count = static_cast<double>(squares.size());
-  double before = 0, scale = guess;
+  double scale = guess;
   for (int round = 0; round < kRounds && scale > 0; ++round) {
-    before = scale;
+    const double before = scale;
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
+    if (std::fabs(scale - before) < kSettled * scale) return std::max(scale, 1e-30);
   }
-  if (scale > 0 && std::fabs(scale - before) < kSettled * scale) return std::max(scale, 1e-30);
   std::vector<double> sorted(squares.begin(), squares.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());

@@ -54,13 +54,13 @@ void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {
 
 // The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,
 // so those that are not become 0.
-bool EvaluateWhitened(const Workbench& bench, const Law& law, const double* p,
-                      LawWorkspace* workspace, std::vector<double>* current, double* residuals,
-                      double* jacobian) {
+bool EvaluateWhitened(const Workbench& bench, const Law& law, const std::vector<char>& held,
+                      const double* p, LawWorkspace* workspace, std::vector<double>* current,
+                      double* residuals, double* jacobian) {
   const Readings& readings = *bench.readings;
   const int count = static_cast<int>(readings.points.size());
   if (jacobian == nullptr && Stopped(bench.watch)) return false;
-  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian)) {
+  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &held)) {
     if (jacobian == nullptr) return false;
     if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
     std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * law.size(), 0.0);
@@ -87,9 +87,9 @@ LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorks
     problem.held.push_back(Held(*bench.readings, law, k) ? 1 : 0);
   }
   current->resize(count);
-  problem.evaluate = [&bench, law, workspace, current](const double* p, double* residuals,
-                                                       double* jacobian) {
-    return EvaluateWhitened(bench, law, p, workspace, current, residuals, jacobian);
+  problem.evaluate = [&bench, law, held = problem.held, workspace, current](
+                         const double* p, double* residuals, double* jacobian) {
+    return EvaluateWhitened(bench, law, held, p, workspace, current, residuals, jacobian);
   };
   return problem;
 }

@@ -92,9 +92,9 @@ S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell
   solved.diode_conductance = S(0.0);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<S>& diode = cell.diode[d];
-    const S current = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
+    const S through = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
     solved.diode_conductance =
-        solved.diode_conductance + (diode.saturation - current) * diode.inverse_n_vt;
+        solved.diode_conductance + (diode.saturation - through) * diode.inverse_n_vt;
   }
   solved.conductance = solved.diode_conductance + cell.conductance;
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
@@ -284,15 +284,17 @@ namespace {
 
 template <class S>
 bool Evaluate(const Law& law, const Readings& readings, const double* values,
-              LawWorkspace* workspace, double* current, double* jacobian) {
+              const std::vector<int>& free, LawWorkspace* workspace, double* current,
+              double* jacobian) {
   constexpr bool kDerivatives = !std::is_same_v<S, Pack>;
-  const int size = law.size();
+  const int size = law.size(), moved = static_cast<int>(free.size());
   std::vector<Pack> plain_values(size);
   for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
   const Bench<Pack> plain = MakeBench(law, readings, static_cast<const Pack*>(plain_values.data()));
   std::vector<S> duals;
   if constexpr (kDerivatives) {
-    for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k]), k));
+    for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
+    for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
   }
   const Bench<S> bench = MakeBench(law, readings, static_cast<const S*>(duals.data()));
   CellKeeper<Pack> plain_cells(plain);
@@ -328,9 +330,9 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         const S junction = DifferentiateJunction(place, at, root, recorded);
         recorded = Recorded(bench, block, cells.cell(), recorded, junction);
       }
-      if (!AllFinite(recorded, size)) return false;
+      if (!AllFinite(recorded, moved)) return false;
       StoreRows(recorded.a, block, 1, current);
-      for (int k = 0; k < size; ++k) StoreRows(recorded.v[k], block, size, jacobian + k);
+      for (int i = 0; i < moved; ++i) StoreRows(recorded.v[i], block, size, jacobian + free[i]);
     }
   }
   state.fresh = state.strings.empty();
@@ -378,12 +380,20 @@ bool Law::Searched(int parameter) const {
 }
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
-                 double* current, double* jacobian) {
+                 double* current, double* jacobian, const std::vector<char>* held) {
   CHECK_LE(law.size(), kMostParameters);
-  if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, workspace, current, nullptr);
-  if (law.size() <= 6) return Evaluate<Narrow>(law, readings, p, workspace, current, jacobian);
-  if (law.size() <= 10) return Evaluate<Middle>(law, readings, p, workspace, current, jacobian);
-  return Evaluate<Wide>(law, readings, p, workspace, current, jacobian);
+  if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, {}, workspace, current, nullptr);
+  std::vector<int> free;
+  for (int k = 0; k < law.size(); ++k) {
+    if (held == nullptr || (*held)[k] == 0) free.push_back(k);
+  }
+  if (static_cast<int>(free.size()) < law.size()) {
+    std::fill(jacobian, jacobian + readings.points.size() * law.size(), 0.0);
+  }
+  const auto evaluate = free.size() <= 6    ? Evaluate<Narrow>
+                        : free.size() <= 10 ? Evaluate<Middle>
+                                            : Evaluate<Wide>;
+  return evaluate(law, readings, p, free, workspace, current, jacobian);
 }
 
 double SaturationCurrent(const Law&, const Readings& readings, const double* p) {

@@ -83,9 +83,10 @@ class LawWorkspace {
 };
 
 // Recorded current of every reading. `jacobian`, where given, receives its derivatives by all
-// parameters, row by row. False where it cannot be had (a step left the physical range).
+// parameters, row by row; those that are `held` (1) get 0 instead, which takes less time. False
+// where it cannot be had (a step left the physical range).
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
-                 double* current, double* jacobian);
+                 double* current, double* jacobian, const std::vector<char>* held = nullptr);
 
 // Saturation current (in scales) and thermal voltage at the reference, as in the base law.
 double SaturationCurrent(const Law& law, const Readings& readings, const double* p);

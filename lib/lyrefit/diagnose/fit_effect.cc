@@ -72,8 +72,7 @@ Setting SettingOf(const Effect& effect, const ShapeStart& start) {
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
     const auto& freed = start.freed;
-    const bool stays =
-        parameter.held && std::find(freed.begin(), freed.end(), k) == freed.end();
+    const bool stays = parameter.held && std::find(freed.begin(), freed.end(), k) == freed.end();
     if (parameter.searched || stays) setting.second.push_back(start.p[k]);
   }
   return setting;

@@ -81,9 +81,9 @@ TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
     const auto preferred = [&](double of_range, double of_cloud) {
       const Rival a = RivalOf("range_switch", range, of_range);
       const Rival b = RivalOf("irr_step", cloud, of_cloud);
-      const std::size_t at =
-          Prefer(made.bench,
-                 of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a}, kFloor);
+      const std::size_t at = Prefer(
+          made.bench, of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a},
+          kMisfit, kFloor);
       return (at == 0) == (of_range > of_cloud) ? "range_switch" : "irr_step";
     };
     EXPECT_STREQ(preferred(100, 80), both ? "range_switch" : "irr_step");

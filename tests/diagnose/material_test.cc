@@ -103,7 +103,7 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
-  const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const Done done = Do("weak_cell", weak);
   const MadeBench made = OnTheBench(done.curve);
   LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
@@ -118,6 +118,36 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   EXPECT_EQ(d.verdict.causes.front().id, "weak_cell");
   EXPECT_THAT(d.verdict.causes.front().in_words.front(),
               HasSubstr("one cell has 40 % of the others' light"));
+}
+
+TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
+  Recipe recipe;
+  recipe.cells = 40;
+  recipe.points = 120;
+  IvCurve curve = MadeCurve(recipe);
+  curve.conditions.cells_in_series = 60;
+  curve.notes.bypass_diodes = 3;
+  const Diagnosis d = DiagnosedInTheField(curve);
+  ASSERT_EQ(d.verdict.causes.size(), 1U);
+  const Cause& cause = d.verdict.causes.front();
+  EXPECT_EQ(cause.id, "bypass_short");
+  EXPECT_THAT(cause.sentence, HasSubstr("a group of cells is shorted, or the number of cells"));
+  EXPECT_EQ(cause.equivalents, std::vector<std::string>{"temperature_or_cells"});
+  // Of two groups a half would be missing, which leaves no plausible n.
+  curve.notes.bypass_diodes = 2;
+  const Diagnosis other = DiagnosedInTheField(curve);
+  ASSERT_EQ(other.verdict.causes.size(), 1U);
+  EXPECT_EQ(other.verdict.causes.front().id, "temperature_or_cells");
+}
+
+TEST(FieldDiagnosis, FindsAWeakCellInOneHalfOfAHalfCutModule) {
+  // At the terminals a third of the substring's light is missing, of its cell two thirds.
+  const Done done = Do("weak_cell", {0.33, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 2});
+  const Diagnosis d = DiagnosedInTheField(done.curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().id, "weak_cell");
+  EXPECT_NEAR(d.verdict.causes.front().strength.front().value, 0.33, 0.01);
+  EXPECT_THAT(d.verdict.causes.front().in_words.front(), HasSubstr("one cell has 34 %"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::vector<Pair> Pairs() {
       {"second_diode", {0.5}, "transient", Cell()},
       {"mismatch", {0.1, 0.3}, "shading", Module(), false, 5e-4},
       {"transient", {0.01, 0.2, 0.08, 0, 2}, "shading", Module(), false, 1e-3},
-      {"weak_cell", {0.06, 1, 0, 0.5, 0.1, 15, 3.4, 3.2}, "leaky_cell", Module(), false, 5e-4},
+      {"weak_cell", {0.06, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1}, "leaky_cell", Module(), false, 5e-4},
   };
 }
 

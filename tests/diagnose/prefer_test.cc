@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kOrdinary = 1.2, kFloor = 0.0025;
+constexpr double kOrdinary = 1.2, kMisfit = 0.004, kFloor = 0.0025;
 
 Recipe Module(bool and_back = false) {
   Recipe recipe;
@@ -57,21 +57,21 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
 TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
   EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)},
-                   kFloor),
+                   kMisfit, kFloor),
             1U);
   EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)},
-                   kFloor),
+                   kMisfit, kFloor),
             0U);
 }
 
 TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
   const MadeBench made = OnTheBench(MadeCurve(Module(/*and_back=*/true)));
   EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("capacitance", kLag, 80)},
-                   kFloor),
+                   kMisfit, kFloor),
             1U);
-  EXPECT_EQ(
-      Prefer(made.bench, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)}, kFloor),
-      0U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)},
+                   kMisfit, kFloor),
+            0U);
 }
 
 TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
@@ -81,9 +81,9 @@ TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
     const auto preferred = [&](double of_range, double of_cloud) {
       const Rival a = RivalOf("range_switch", range, of_range);
       const Rival b = RivalOf("irr_step", cloud, of_cloud);
-      const std::size_t at =
-          Prefer(made.bench,
-                 of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a}, kFloor);
+      const std::size_t at = Prefer(
+          made.bench, of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a},
+          kMisfit, kFloor);
       return (at == 0) == (of_range > of_cloud) ? "range_switch" : "irr_step";
     };
     EXPECT_STREQ(preferred(100, 80), both ? "range_switch" : "irr_step");
@@ -107,25 +107,23 @@ TEST(LightMoved, SaysNothingOfTwoSweeps) {
 
 TEST(Prefer, TakesWhatSupposesLess) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
-  const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
-  EXPECT_EQ(
-      Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)}, kFloor),
-      1U);
-  EXPECT_EQ(
-      Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)}, kFloor),
-      0U);
+  const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)},
+                   kMisfit, kFloor),
+            1U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)},
+                   kMisfit, kFloor),
+            0U);
 }
 
 TEST(Prefer, KeepsTheComplexOneWhereItsCurveIsAnother) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
   const std::vector<double> both = {0.3, 1. / 3, 0.6, 1. / 3, 0, 0, 0, 0, 0.5, 1};
-  Rival substrings = RivalOf("substrings", both, 100), shading = RivalOf("shading", kShade, 99);
-  const std::size_t points = made.bench.readings->points.size();
-  substrings.fit.current.assign(points, 1);
-  shading.fit.current.assign(points, 1.002);
-  EXPECT_EQ(Prefer(made.bench, {substrings, shading}, kFloor), 1U);
-  shading.fit.current.assign(points, 1.02);
-  EXPECT_EQ(Prefer(made.bench, {substrings, shading}, kFloor), 0U);
+  const std::vector<Rival> rivals = {RivalOf("substrings", both, 100),
+                                     RivalOf("shading", kShade, 99)};
+  // A tenth of the misfit is left to the simple one.
+  EXPECT_EQ(Prefer(made.bench, rivals, 9 * kFloor, kFloor), 1U);
+  EXPECT_EQ(Prefer(made.bench, rivals, 11 * kFloor, kFloor), 0U);
 }
 
 TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
@@ -136,9 +134,9 @@ TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
   }
   const MadeBench made = OnTheBench(curve);
   EXPECT_TRUE(LightMoved(*made.bench.readings));
-  EXPECT_EQ(
-      Prefer(made.bench, {RivalOf("shading", kShade, 100), RivalOf("drift", {0.1}, 40)}, kFloor),
-      1U);
+  EXPECT_EQ(Prefer(made.bench, {RivalOf("shading", kShade, 100), RivalOf("drift", {0.1}, 40)},
+                   kMisfit, kFloor),
+            1U);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ void ChangeRange(double below_A, double gain, IvCurve* curve) {
 }
 
 TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
-  for (const double gain : {0.02, -0.03}) {
+  for (const double gain : {0.05, -0.06}) {
     IvCurve curve = Module(true);
     ChangeRange(6, gain, &curve);
     const std::vector<Cause> causes = CausesOf(curve);
@@ -59,7 +59,7 @@ TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
 
 TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
   IvCurve curve = Module();
-  ChangeRange(7.3, 0.02, &curve);
+  ChangeRange(7.3, 0.05, &curve);
   const std::vector<Cause> causes = CausesOf(curve);
   ASSERT_FALSE(causes.empty());
   if (causes[0].id != "range_switch") {

@@ -31,7 +31,7 @@ TEST(CoveredTest, AShadeGoesWithItsSubstring) {
 
 TEST(CoveredTest, AWeakCellGoesWithItsSubstring) {
   const Effect& weak = *FindEffect("weak_cell");
-  std::vector<double> p = {0.4, 1, 0, 0.5, 0.1, 15, 3.4, 3.2};
+  std::vector<double> p = {0.4, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const std::vector<double> before = p;
   EXPECT_FALSE(weak.covered(p.data(), 0, 3));
   EXPECT_TRUE(weak.covered(p.data(), 1, 3));

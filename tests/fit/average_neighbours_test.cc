@@ -81,6 +81,23 @@ IvCurve DenseCurve(int readings, int seed) {
   return curve;
 }
 
+TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
+  IvCurve curve = DenseCurve(30000, 3);
+  RandomStream random(4);
+  for (double& current : curve.current_A) current += 2e-3 * random.Normal();
+  for (const ErrorKind kind : {ErrorKind::kWhite, ErrorKind::kField}) {
+    FitOptions options;
+    options.errors = {kind, {}, kind == ErrorKind::kWhite ? "white" : "field"};
+    const auto report = Fit(curve, options);
+    ASSERT_TRUE(report && report->errors);
+    const double voc = report->measured.open_circuit_voltage_V;
+    EXPECT_NEAR(report->errors->sizes.current_A / 2e-3, 1, 0.03);
+    EXPECT_NEAR(report->errors->sizes.voltage_V / (3e-4 * voc), 1, 0.05);
+    EXPECT_NEAR(report->errors->sizes.path / 1e-3, 1, 0.25);
+    EXPECT_TRUE(report->errors->believed);
+  }
+}
+
 TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold) {
   constexpr int kCurves = 40;
   int held = 0;

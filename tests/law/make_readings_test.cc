@@ -69,6 +69,11 @@ TEST(MakeReadingsTest, FindsTheTraitsOfASweep) {
   EXPECT_EQ(traits.step_times.size(), 57U);
   EXPECT_GT(traits.step_times.front(), made.readings.points[1].x);
   EXPECT_LT(traits.step_times.front(), made.readings.points[2].x);
+  const std::vector<double>& places = traits.range_currents;
+  ASSERT_GT(places.size(), 20U);
+  EXPECT_GE(places.front(), 0.03);
+  EXPECT_LE(places.back(), 0.97);
+  for (std::size_t k = 1; k < places.size(); ++k) EXPECT_GE(places[k] - places[k - 1], 0.01);
 }
 
 TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {

@@ -123,6 +123,12 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
         "the noise of neighbouring readings is correlated; p-values allow for it, but trust them "
         "less");
   }
+  if (!selection.at_rest.empty()) {
+    diagnosis->warnings.push_back(
+        std::to_string(selection.at_rest.size()) +
+        " readings at ends of a sweep, where its voltage stood still, are left out beside what "
+        "depends on its rate");
+  }
   if (selection.unknown_p < diagnosis->level && !selection.unknown) {
     diagnosis->warnings.push_back(
         "structure remains in the residuals that no further cause explains");

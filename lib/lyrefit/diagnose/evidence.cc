@@ -217,9 +217,33 @@ Cause WrongCells(const Selection& selection) {
   return cause;
 }
 
+// Whether n is what it should be once a bypass group without voltage is not counted.
+bool LacksAGroup(const DataTraits& traits, double n) {
+  constexpr double kLeast = 0.97, kMost = 1.5;
+  if (!traits.bypass_known || !traits.cells_known || traits.substrings < 2) return false;
+  const double without = n * traits.substrings / (traits.substrings - 1);
+  return without >= kLeast && without <= kMost;
+}
+
+// As likely as a wrong number of cells, by one curve.
+Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
+  const Effect& effect = *FindEffect("bypass_short");
+  const int groups = traits.substrings;
+  Cause cause = MakeCause(effect, metadata.evidence.c_str(), metadata.corrected_p);
+  cause.equivalents = {metadata.id};
+  cause.separate_by = {effect.separate_by, metadata.separate_by.front()};
+  cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},
+                    metadata.strength.front()};
+  cause.sentence = fmt::format(
+      "a group of cells is shorted, or the number of cells or the temperature is wrong: 1 of {} "
+      "bypass groups gives no voltage; n = {:.2f} at {} cells, {:.2f} without that group",
+      groups, n, traits.stated_cells, n * groups / (groups - 1));
+  return cause;
+}
+
 }  // namespace
 
-std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
+std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted) {
   // No junction has n below 1; a little slack for a temperature that is a few kelvin off. Above 3
   // the number of cells is rather wrong than the junction.
   // A module that departs from its model along a path bends n by more than its error says.
@@ -254,6 +278,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection) {
       cause.sentence, n, readings.scale.cells, readings.reference_temperature_K - kZeroCelsius_K,
       kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, std::ceil(cells / 1.5),
       std::floor(cells));
+  if (shorted && LacksAGroup(traits, n)) return {ShortedGroup(traits, n, cause)};
   return {cause};
 }
 

@@ -19,7 +19,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
                           const Autocorrelation& autocorrelation);
 
 // n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
-// plausible. Nothing where n is.
-std::vector<Cause> CheckTemperatureAndCells(const Selection& selection);
+// plausible. Nothing where n is. With `shorted`, a bypass group without voltage is thought of.
+std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted);
 
 }  // namespace lyrefit

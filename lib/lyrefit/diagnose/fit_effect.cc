@@ -65,12 +65,15 @@ double Paid(const Workbench& bench, const LawFit& fit) {
 }
 
 // What a start decides that no descent changes: the parameters it lets go and the values of those
-// that are searched.
+// that are searched or stay held.
 using Setting = std::pair<std::vector<int>, std::vector<double>>;
 Setting SettingOf(const Effect& effect, const ShapeStart& start) {
   Setting setting{start.freed, {}};
   for (int k = 0; k < effect.size(); ++k) {
-    if (effect.parameters[k].searched) setting.second.push_back(start.p[k]);
+    const EffectParameter& parameter = effect.parameters[k];
+    const auto& freed = start.freed;
+    const bool stays = parameter.held && std::find(freed.begin(), freed.end(), k) == freed.end();
+    if (parameter.searched || stays) setting.second.push_back(start.p[k]);
   }
   return setting;
 }
@@ -88,6 +91,19 @@ std::vector<ShapeStart> NearestStarts(const Effect& effect, const std::vector<Sh
   std::vector<ShapeStart> kept;
   for (const auto& [setting, start] : nearest) kept.push_back(*start);
   return kept;
+}
+
+// Whether the last effect of a fit ended as what it is meant to be.
+bool IsItself(const Effect& effect, const LawFit& fit) {
+  const std::size_t first = fit.p.size() - effect.parameters.size();
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    const double slack = 1e-3 * (parameter.upper - parameter.lower);
+    const double value = fit.p[first + k];
+    if (parameter.above_lower && value < parameter.lower + slack) return false;
+    if (parameter.below_upper && value > parameter.upper - slack) return false;
+  }
+  return true;
 }
 
 // The best end of those that the curve's shape suggests. From a healthy module where the law is
@@ -114,23 +130,11 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
     LawFit end = FitLaw(bench, freed, start, briefly);
-    if (end.usable && (!best->usable || Paid(bench, end) < Paid(bench, *best))) {
+    if (!end.usable || !IsItself(effect, end)) continue;
+    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {
       *best = std::move(end);
     }
   }
-}
-
-// Whether the last effect of a fit ended as what it is meant to be.
-bool IsItself(const Effect& effect, const LawFit& fit) {
-  const std::size_t first = fit.p.size() - effect.parameters.size();
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    const double slack = 1e-3 * (parameter.upper - parameter.lower);
-    const double value = fit.p[first + k];
-    if (parameter.above_lower && value < parameter.lower + slack) return false;
-    if (parameter.below_upper && value > parameter.upper - slack) return false;
-  }
-  return true;
 }
 
 // Scores are lines where the effect is a jump: the place is what fits best among its neighbours.
@@ -141,9 +145,11 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].searched) searched.push_back(k);
   }
+  constexpr std::size_t kFew = 8;  // of which every one is a start
   if (searched.size() != 1) return;
   std::set<double> settings;
   for (const Probe& probe : probes) settings.insert(probe[searched.front()]);
+  if (settings.size() <= kFew) return;
   const std::vector<double> places(settings.begin(), settings.end());
   const std::size_t at = best->p.size() - effect.parameters.size() + searched.front();
   const auto here = std::lower_bound(places.begin(), places.end(), best->p[at]);
@@ -220,7 +226,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull && effect.momentary) Climb(bench, effect, probes, &best);
+  if (effort == Effort::kFull) Climb(bench, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};

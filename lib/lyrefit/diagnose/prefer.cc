@@ -26,15 +26,6 @@ bool StrengthIsAtBound(const Rival& rival) {
          Value(rival, 0) < strength.lower + 1e-3 * slack;
 }
 
-// Root mean square between the currents of two fits, in scales.
-double Distance(const Workbench& bench, const LawFit& a, const LawFit& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.current.size(); ++k) {
-    if (bench.used[k] != 0) sum += (a.current[k] - b.current[k]) * (a.current[k] - b.current[k]);
-  }
-  return std::sqrt(sum / std::max(bench.count(), 1));
-}
-
 // Cells of one shaded substring that the shade covers.
 double CoveredCells(const Readings& readings, double part) {
   return part * readings.traits.cells / std::max(SubstringsOf(readings.traits), 2);
@@ -51,6 +42,8 @@ int Complexity(const Workbench& bench, const Rival& rival) {
   const auto place = [&](std::string_view one) {
     return static_cast<int>(std::find(kInOrder.begin(), kInOrder.end(), one) - kInOrder.begin());
   };
+  // Several leaky cells suppose as much as a weak one.
+  if (id == "leaky_cell" && Value(rival, 1) > kOneCell) return place("weak_cell");
   if (id != "shading" && id != "substrings") return place(id);
   const double covered = Value(rival, rival.score.effect->size() - 1);
   if (covered >= 1) return place(id);
@@ -84,13 +77,16 @@ bool LightMoved(const Readings& readings) {
 
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival) {
   constexpr double kMostExponent = 4.99, kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.9,
-                   kMostIdeality = 2.5;
+                   kMostIdeality = 2.5, kWholeLight = 0.999;
   const Effect& effect = *rival.score.effect;
   const std::string_view id = effect.id;
   if (StrengthIsAtBound(rival)) return false;
   if (id == "temp_drift" && std::fabs(Value(rival, 0)) > kMostKelvin) return false;
   // An exponent at its end is a diode's exponential.
   if (id == "nonohmic_shunt" && Value(rival, 1) > kMostExponent) return false;
+  if (id == "weak_cell" && Value(rival, 0) * Value(rival, effect.size() - 1) > kWholeLight) {
+    return false;
+  }
   if (id == "mismatch" && Value(rival, 1) * readings.traits.cells < kLeastCell) return false;
   const auto possible = [&](const LawFit& fit) {
     const double n = fit.p[kBaseIdeality];
@@ -99,12 +95,12 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
   return possible(rival.fit) || !possible(before);
 }
 
-std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double floor) {
+std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double misfit,
+                   double floor) {
   const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
                    kMuchSimpler = 0.88, kNotClearly = 0.6;
   constexpr int kComplex = 5;
-  constexpr double kVisible = 2;  // floors between two curves that a person would not call alike
   const auto first = [&](auto is_wanted) {
     return static_cast<std::size_t>(std::find_if(rivals.begin(), rivals.end(), is_wanted) -
                                     rivals.begin());
@@ -140,8 +136,8 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     if (!rivals[k].score.effect->groups) continue;
     const int complexity = Complexity(bench, rivals[k]);
     const double part = most >= kComplex && complexity < kComplex ? kMuchSimpler : kHardlyMore;
-    if (rivals[k].Charged() < part * likeliest.Charged()) continue;
-    if (Distance(bench, rivals[k].fit, likeliest.fit) > kVisible * floor) continue;
+    const double reached = rivals[k].Charged() / likeliest.Charged();
+    if (reached < part || misfit * std::sqrt(std::max(1 - reached, 0.0)) > floor) continue;
     if (complexity < Complexity(bench, rivals[best])) best = k;
   }
   return best;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
@@ -61,6 +62,7 @@ class Selector {
     selection.extended = fit_;
     selection.causes = causes_;
     selection.outliers = wrong_.readings;
+    selection.at_rest = wrong_.at_rest;
     selection.outlier_p = wrong_.p;
     selection.bench = bench_;
     selection.noise = noise_;
@@ -194,9 +196,14 @@ class Selector {
   bool IsRuined() const {
     constexpr double kMisfit = 0.01;
     if (!measurement_.has_path()) return false;
+    return Misfit() > kMisfit;
+  }
+
+  // Of the present law, parts of Isc.
+  double Misfit() const {
     std::vector<double> currents;
     for (const Reading& r : readings_.points) currents.push_back(r.current);
-    return Departure(bench_, fit_, currents) > kMisfit;
+    return Departure(bench_, fit_, currents);
   }
 
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
@@ -210,8 +217,17 @@ class Selector {
         below->push_back(rival);
       }
     }
+    // What bends to everything is not larger for fitting worse than something small that is there.
+    const auto is_beaten = [&](const Rival& rival) {
+      if (!IsGeneric(readings_, *rival.score.effect)) return false;
+      return std::any_of(below->begin(), below->end(), [&](const Rival& other) {
+        return !IsGeneric(readings_, *other.score.effect) &&
+               other.Charged() > rival.Charged() + kEquivalenceWidth;
+      });
+    };
+    worthy.erase(std::remove_if(worthy.begin(), worthy.end(), is_beaten), worthy.end());
     for (std::vector<Rival>* rivals : {&worthy, below}) {
-      const std::size_t at = Prefer(bench_, *rivals, options_.floors.current);
+      const std::size_t at = Prefer(bench_, *rivals, Misfit(), options_.floors.current);
       const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
       if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
     }

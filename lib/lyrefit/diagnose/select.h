@@ -60,6 +60,7 @@ struct Selection {
   std::vector<ChosenCause> causes;  // in the order of extended.law.effects
   std::vector<LawFit> without;      // the extended law without each cause, filled by FindRivals
   std::vector<int> outliers;        // readings left out as wrong
+  std::vector<int> at_rest;         // left out where the voltage stood still
   double outlier_p = 1;
   std::vector<Rival> trials;  // each effect on the base model
   double unknown_p = 1;       // corrected, of unknown structure in what `extended` leaves

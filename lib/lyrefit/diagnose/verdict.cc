@@ -139,9 +139,13 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   const Sized left = LeftBy(selection.bench, selection.extended);
   const bool material = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
   // A shape that is not understood bends n, which then says nothing.
-  const bool understood = verdict.causes.empty() || !material;
+  const bool understood =
+      options.floor_current > 0 ? left.value <= options.floor_current : verdict.causes.empty();
   if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {
-    for (Cause& cause : CheckTemperatureAndCells(selection)) verdict.causes.push_back(cause);
+    const bool shorted = IsWanted(*FindEffect("bypass_short"), options);
+    for (Cause& cause : CheckTemperatureAndCells(selection, shorted)) {
+      verdict.causes.push_back(cause);
+    }
   }
   constexpr double kNeverNoise = 1e-6;
   const bool unknown = material && (selection.unknown || whiteness_after < kNeverNoise);

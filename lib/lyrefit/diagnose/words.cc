@@ -45,12 +45,16 @@ std::vector<std::string> OfSubstrings(const Readings& readings, const double* p)
   return words;
 }
 
+// Of the parameters of a weak cell: its own light where one of several chains has it.
+double LightOfWeakCell(const double* p) { return 1 - p[0] * p[8]; }
+
 std::vector<std::string> OfWeakCell(const Workbench& bench, const LawFit& fit, int index,
                                     const double* p) {
   const std::string cells =
       p[1] > 1.5 ? fmt::format("{:.0f} cells have", p[1]) : std::string("one cell has");
   std::vector<std::string> words = {
-      fmt::format("{} {:.0f} % of the others' light", cells, Percent(1 - p[0]))};
+      fmt::format("{} {:.0f} % of the others' light", cells, Percent(LightOfWeakCell(p)))};
+  if (p[8] > 1) words.push_back("the module's halves stand side by side: the other half goes on");
   const HotCell hot = FindHotCell(bench, fit, index);
   if (hot.heat_W > 0) {
     words.push_back(fmt::format("at short circuit it stands at {:.1f} V and turns {:.3g} W to heat",
@@ -98,7 +102,7 @@ class HealthyCell {
 
 // Voltage of the weak cell that carries `current` beyond its light, below 0.
 double ReverseVoltage(const double* p, double photocurrent, double conductance, double current) {
-  const double beyond = current - (1 - p[0]) * photocurrent;
+  const double beyond = current - LightOfWeakCell(p) * photocurrent;
   if (beyond <= 0) return 0;
   const double leak = conductance + p[2];
   const auto carried = [&](double v) {  // at -v
@@ -134,7 +138,7 @@ HotCell FindHotCell(const Workbench& bench, const LawFit& fit, int index) {
     return bypassed ? own + mates * healthy.Voltage(current) + p[3]
                     : own + (cells - 1) * healthy.Voltage(current);
   };
-  double low = (1 - p[0]) * photocurrent, high = healthy.ShortCircuit();
+  double low = LightOfWeakCell(p) * photocurrent, high = healthy.ShortCircuit();
   if (!(high > low)) return {};
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
@@ -142,7 +146,7 @@ HotCell FindHotCell(const Workbench& bench, const LawFit& fit, int index) {
   }
   HotCell hot;
   hot.voltage_V = ReverseVoltage(p, photocurrent, conductance, low);
-  hot.heat_W = -hot.voltage_V * low * readings.scale.current_A;
+  hot.heat_W = -hot.voltage_V * low * readings.scale.current_A / p[8];
   return hot;
 }
 

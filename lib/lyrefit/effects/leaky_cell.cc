@@ -20,10 +20,13 @@ Effect LeakyCell() {
   e.parameters = {{"g", "leak", "S", "conductance of the cell beside that of the others", 0, 50, 0,
                    false, 1, 1},
                   {"cells", "leaky_cells", "", "how many they are, all in one substring", 1, 24, 1},
-                  {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
-  e.parameters[1].held = e.parameters[2].held = true;
+                  {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
+                  kChains};
+  for (int k = 1; k < e.size(); ++k) e.parameters[k].held = true;
+  e.parameters.back().absent_at = 1;
+  e.parameters[1].below_upper = true;
   e.cell = [](const auto* p, auto* cell) {
-    SetOddCells(p[1], 1.0 - p[0] * 0.0, p[0], cell);
+    SetOddCells(p[1], p[0] * 0.0, p[0], p[3], cell);
     cell->bypass = p[2];
   };
   e.groups = true;
@@ -31,14 +34,15 @@ Effect LeakyCell() {
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
-    for (const double leak : {0.1, 0.3, 1.0, 3.0}) probes.push_back({leak, 1, 0.5});
+    for (const double leak : {0.1, 0.3, 1.0, 3.0}) probes.push_back({leak, 1, 0.5, 1});
     return probes;
   };
   e.starts = [](const CurveShape&, const DataTraits&) {
     std::vector<ShapeStart> starts;
     for (const double leak : {0.2, 1.0}) {
-      starts.push_back({{leak, 1, 0.5}, {}});
-      starts.push_back({{leak, 2, 0.5}, {1}});
+      starts.push_back({{leak, 1, 0.5, 1}, {}});
+      starts.push_back({{leak, 2, 0.5, 1}, {1}});
+      starts.push_back({{leak, 1, 0.5, 2}, {}});
     }
     return starts;
   };

@@ -1,14 +1,66 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lyrefit/base/distributions.h"
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
 namespace {
 
-// A normal distribution in seven kinds of cells: where they lie, in widths, and their part of all.
-// The dim ones, which the others drive into reverse, are told apart more finely.
-constexpr int kKinds = 7;
-constexpr double kAt[kKinds] = {-2.27, -1.54, -0.99, -0.37, 0.31, 1.04, 2.02};
-constexpr double kShare[kKinds] = {0.02, 0.06, 0.14, 0.26, 0.26, 0.18, 0.08};
+enum { kWidth, kSoft, kExponent, kLopsided, kDimmest, kBypass };
+
+// The dimmest cells one by one, where so many draws of a distribution lie on average (Blom 1958),
+// in widths beside the mean; the others alike. The distribution: normal, or lopsided: most cells a
+// little above the mean and few far below it, as an exponential has them.
+struct Dimmest {
+  int count = 0;
+  std::array<double, kMostKinds> normal{}, lopsided{};
+  double normal_rest = 0, lopsided_rest = 0;
+};
+Dimmest DimmestOf(int cells, int most) {
+  Dimmest dimmest;
+  dimmest.count = std::clamp(cells / 2, 0, most);
+  for (int k = 0; k < dimmest.count; ++k) {
+    const double below = (k + 0.625) / (cells + 0.25);
+    dimmest.normal[k] = -NormalAbove(below);
+    dimmest.lopsided[k] = 1 + std::log(below);
+    dimmest.normal_rest -= dimmest.normal[k] / (cells - dimmest.count);
+    dimmest.lopsided_rest -= dimmest.lopsided[k] / (cells - dimmest.count);
+  }
+  return dimmest;
+}
+
+// Dealt out to the substrings in turn, of which the last is never in reverse.
+template <class S>
+void SetScatter(const S* p, Cell<S>* cell) {
+  const int cells = static_cast<int>(std::lround(cell->cells));
+  const int parts =
+      std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1, kMostKinds / 2);
+  const Dimmest dimmest = DimmestOf(cells, kMostKinds - parts);
+  const auto light = [&](double normal, double lopsided, const S& beyond) {
+    return 1.0 + p[kWidth] * (normal + p[kLopsided] * (lopsided - normal) + beyond);
+  };
+  cell->parts = parts;
+  cell->kinds = 0;
+  for (int g = 0; g < parts; ++g) {
+    double others = 1.0 / parts;
+    for (int k = g; k < dimmest.count; k += parts) {
+      const S beyond = k == 0 ? S(-p[kDimmest]) : S(0.0);
+      cell->kind[cell->kinds++] = {
+          S(1.0 / cells), light(dimmest.normal[k], dimmest.lopsided[k], beyond), S(0.0), g};
+      others -= 1.0 / cells;
+    }
+    cell->kind[cell->kinds++] = {
+        S(others), light(dimmest.normal_rest, dimmest.lopsided_rest, S(0.0)), S(0.0), g};
+    cell->part[g] = {g + 1 < parts, cell->substring_cells, 0};
+  }
+  cell->bypass = p[kBypass];
+  cell->reverse = ReverseLaw::kSoft;
+  cell->reverse_voltage = p[kSoft];
+  cell->reverse_exponent = p[kExponent];
+}
 
 }  // namespace
 
@@ -18,7 +70,9 @@ Effect Scatter() {
   e.title = "cells that are all a little unequal";
   e.where = Where::kDevice;
   e.equation =
-      "lights of the cells are normal with width s, in seven kinds; in reverse "
+      "lights of the cells have width s, normal or lopsided towards an exponential by q; the "
+      "dimmest, "
+      "t widths beyond its place, and others lie in the substrings in turn; in reverse "
       "I = ... + Iph (-Vj / A)^m";
   e.reference = "Bucciarelli 1979, doi:10.1016/0038-092X(79)90117-9";
   e.sentence = "no two cells deliver the same current, and the weaker ones limit the others";
@@ -27,29 +81,34 @@ Effect Scatter() {
   e.confused_with = {"mismatch", "weak_cell", "distributed_rs"};
   e.separate_by = "an electroluminescence image";
   e.parameters = {
-      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.3, 0},
+      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.1, 0},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 30, 3.2},
-      {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4}};
-  e.parameters[1].held = e.parameters[2].held = true;
-  e.cell = [](const auto* p, auto* cell) {
-    cell->kinds = kKinds;
-    for (int k = 0; k < kKinds; ++k) {
-      cell->kind[k] = {p[0] * 0.0 + kShare[k], 1.0 + kAt[k] * p[0], 0.0, 0};
-    }
-    cell->reverse = ReverseLaw::kSoft;
-    cell->reverse_voltage = p[1];
-    cell->reverse_exponent = p[2];
-  };
+      {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4},
+      {"q", "lopsidedness", "", "0: normal; 1: few cells far below the others", 0, 1, 0},
+      {"t", "dimmest_beyond", "", "widths that the dimmest cell lies below its usual place", -2.5,
+       2.5, 0},
+      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
+  for (int k = kSoft; k < e.size(); ++k) e.parameters[k].held = true;
+  e.parameters[kLopsided].absent_at = e.parameters[kDimmest].absent_at = 0;
+  e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;
   e.why_not = NeedsModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
-    for (const double width : {0.01, 0.03}) probes.push_back({width, 3.2, 3.4});
+    for (const double width : {0.01, 0.03}) probes.push_back({width, 3.2, 3.4, 0, 0, 0.5});
     return probes;
   };
-  e.starts = [](const CurveShape&, const DataTraits&) {
+  e.starts = [](const CurveShape& shape, const DataTraits&) {
     std::vector<ShapeStart> starts;
-    for (const double width : {0.015, 0.05}) starts.push_back({{width, 3.2, 3.4}, {1}});
+    constexpr double kLeastHalfway = 0.7;
+    if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
+    for (const double lopsided : {0.0, 1.0}) {
+      for (const double width : {0.015, 0.04}) {
+        starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kSoft}});
+        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kSoft}});
+        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kSoft, kDimmest}});
+      }
+    }
     return starts;
   };
   return e;

@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-enum { kDeficit, kCells, kLeak, kBypass, kFactor, kBreakdown, kExponent, kSoft };
+enum { kDeficit, kCells, kLeak, kBypass, kFactor, kBreakdown, kExponent, kSoft, kSideBySide };
 
 }  // namespace
 
@@ -27,20 +27,27 @@ Effect WeakCell() {
   e.confused_with = {"mismatch", "shading", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or a thermal image under load";
   e.parameters = {
-      {"d", "light_deficit", "", "part of the light that the weak cells miss", 0, 0.999, 0},
+      {"d", "light_deficit", "",
+       "part of the substring's light that is missing because of them: in half-cut modules half of "
+       "what the cells themselves miss",
+       0, 0.999, 0},
       {"cells", "weak_cells", "", "how many they are, all in one substring", 1, 24, 1},
       {"g", "leak", "S", "conductance of each beside that of the others", 0, 5, 0, false, 1, 1},
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
       {"a", "breakdown_factor", "", "of reverse breakdown", 0, 10, 0.1},
       {"Vbr", "breakdown_voltage", "V", "of a cell, its size", 3, 60, 15},
-      {"m", "breakdown_exponent", "", "of reverse breakdown", 1, 8, 3.4},
+      {"m", "breakdown_exponent", "", "of reverse breakdown", 1.5, 8, 3.4},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph; 0: Bishop's law", 0, 30,
-       0}};
-  for (int k = kCells; k <= kSoft; ++k) e.parameters[k].held = true;
+       0},
+      kChains};
+  for (int k = kCells; k < e.size(); ++k) e.parameters[k].held = true;
   e.parameters[kDeficit].scatter = kCellScatter;
+  // Towards 1, and towards no breakdown at all, it is a leak.
+  e.parameters[kExponent].above_lower = e.parameters[kBreakdown].below_upper = true;
   e.parameters[kSoft].absent_at = 0;
+  e.parameters[kSideBySide].absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {
-    SetOddCells(p[kCells], 1.0 - p[kDeficit], p[kLeak], cell);
+    SetOddCells(p[kCells], p[kDeficit], p[kLeak], p[kSideBySide], cell);
     cell->bypass = p[3];
     const bool soft = ValueOf(p[kSoft])[0] > 0;  // all lanes have the same parameters
     cell->reverse = soft ? ReverseLaw::kSoft : ReverseLaw::kBishop;
@@ -54,7 +61,7 @@ Effect WeakCell() {
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
     for (const double deficit : {0.05, 0.15, 0.4, 0.8}) {
-      probes.push_back({deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2});
+      probes.push_back({deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1});
     }
     return probes;
   };
@@ -65,8 +72,13 @@ Effect WeakCell() {
     std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
     deficits.push_back(std::clamp(1 - shape.At(0.75) / full, 0.01, 0.97));
     for (const double deficit : deficits) {
-      starts.push_back({{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2}, {kBypass, kExponent, kSoft}});
-      starts.push_back({{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0}, {kBypass, kFactor, kBreakdown}});
+      for (const double chains : {1.0, 2.0}) {
+        if (deficit * chains > 0.97) continue;
+        starts.push_back(
+            {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, chains}, {kBypass, kExponent, kSoft}});
+        starts.push_back(
+            {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0, chains}, {kBypass, kFactor, kBreakdown}});
+      }
     }
     return starts;
   };

@@ -37,17 +37,23 @@ Values MeanErrors(const std::vector<int>& first, const Values& errors) {
   return means;
 }
 
+// Along the path, of groups whose means lie there: to the nearer of the next ones.
+Values WidthsOf(const Values& position) {
+  Values widths(position.size(), kWidest);
+  for (std::size_t g = 0; g < position.size(); ++g) {
+    if (g > 0) widths[g] = std::min(widths[g], position[g] - position[g - 1]);
+    if (g + 1 < position.size()) widths[g] = std::min(widths[g], position[g + 1] - position[g]);
+  }
+  return widths;
+}
+
 // Readings at even distances d about x: the variance of their mean part in a path is the mean of
 // exp(-|x - x'|) over all pairs, 1 - d (m^2 - 1) / (3 m).
 Values AveragedAway(const std::vector<int>& first, const Values& position) {
-  Values parts;
-  const int groups = GroupCount(first);
-  for (int g = 0; g < groups; ++g) {
-    double width = kWidest;  // of the group: to the nearer of the next ones
-    if (g > 0) width = std::min(width, position[g] - position[g - 1]);
-    if (g + 1 < groups) width = std::min(width, position[g + 1] - position[g]);
+  Values parts = WidthsOf(position);
+  for (std::size_t g = 0; g < parts.size(); ++g) {
     const double m = first[g + 1] - first[g];
-    parts.push_back(width * (m * m - 1) / (3 * m * m));
+    parts[g] *= (m * m - 1) / (3 * m * m);
   }
   return parts;
 }
@@ -93,6 +99,33 @@ ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape) 
   }
   for (int g = 0; g < GroupCount(first); ++g) means.chain.push_back(shape.chain[first[g]]);
   return means;
+}
+
+Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& shape,
+                              const Eigen::VectorXd& residual) {
+  Differences differences;
+  const Values widths = WidthsOf(Means(first, shape.position));
+  // Of a difference the root of two of the typical reading's.
+  const auto append = [](const Values& errors, int begin, int end, Values* to) {
+    double squares = 0;
+    for (int k = begin; k < end && !errors.empty(); ++k) squares += errors[k] * errors[k];
+    if (!errors.empty()) to->push_back(std::sqrt(2 * squares / (end - begin)));
+  };
+  for (int g = 0; g < GroupCount(first); ++g) {
+    const int begin = first[g], count = first[g + 1] - begin, pairs = count / 2;
+    if (pairs == 0) continue;
+    const int end = begin + 2 * pairs;
+    double squares = 0;
+    for (int k = begin; k < end; k += 2) squares += std::pow(residual[k + 1] - residual[k], 2);
+    append(shape.current, begin, end, &differences.shape.current);
+    append(shape.voltage, begin, end, &differences.shape.voltage);
+    append(shape.stated, begin, end, &differences.shape.stated);
+    append(shape.path, begin, end, &differences.shape.path);
+    differences.shape.path.back() *= std::sqrt(widths[g] / count);  // exp(-d) is near 1 - d
+    differences.count.push_back(pairs);
+    differences.mean_square.push_back(squares / pairs);
+  }
+  return differences;
 }
 
 RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem& problem,

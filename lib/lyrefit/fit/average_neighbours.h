@@ -28,6 +28,10 @@ RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows);
 // averages away within a group.
 ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape);
 
+// Differences of neighbours within the groups, every reading in one at most.
+Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& shape,
+                              const Eigen::VectorXd& residual);
+
 // The same problem, of equal weights, on mean voltages. A current is that of the model at `p` plus
 // the mean distance of its readings from the model, so that bends are not averaged away. For solved
 // currents of devices without effects.

@@ -90,10 +90,11 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   if (spare < kSpare || !(rms > smallest)) return {};
   const double open_circuit_V = OpenCircuit(problem, curve);
   const std::vector<int> groups = GroupNeighbours(problem.voltage_V, open_circuit_V);
-  FoundErrors found = FindErrorSizes(AverageShape(groups, ShapeOfErrors(problem, curve, end.p)),
-                                     UsualErrors(problem.current_scale_A, open_circuit_V),
-                                     AverageRows(groups, RowMatrix(now.residual)),
-                                     AverageRows(groups, now.jacobian));
+  const ErrorShape shape = ShapeOfErrors(problem, curve, end.p);
+  FoundErrors found = FindErrorSizes(
+      AverageShape(groups, shape), UsualErrors(problem.current_scale_A, open_circuit_V),
+      AverageRows(groups, RowMatrix(now.residual)), AverageRows(groups, now.jacobian),
+      DifferencesWithin(groups, shape, now.residual));
   if (!curve.sigma_A.empty()) {
     double squares = 0;
     for (const double sigma : curve.sigma_A) squares += sigma * sigma;

@@ -67,7 +67,8 @@ enum class ReverseLaw {
 };
 
 // Cells in series that are alike. A part of a string is what shares a bypass diode (or has none);
-// kinds of one part carry one current.
+// kinds of one part carry one current. In half-cut modules a part is two such chains side by side,
+// each of half the current: its kinds are one, and one kind that stands `beside` them the other.
 constexpr int kMostKinds = 8;
 template <class S>
 struct Kind {
@@ -75,11 +76,13 @@ struct Kind {
   S light;  // part of the photocurrent
   S leak;   // conductance beside that of the others
   int part = 0;
+  bool beside = false;
 };
 struct Part {
   bool bypassed = false;
-  double cells = 1;  // that one bypass diode spans
-  int string = 0;    // strings of different number stand in parallel
+  double cells = 1;     // that one bypass diode spans
+  int string = 0;       // strings of different number stand in parallel
+  bool paired = false;  // one of its kinds stands beside the others
 };
 
 template <class S>

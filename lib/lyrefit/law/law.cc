@@ -209,6 +209,12 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   for (int g = 0; g < plain.kinds; ++g) {
     AddKind(at, state, root.kind[g], g, slopes.by_current[g], &current);
     if (plain.kinds > 1) Add(slopes.by_share[g], at.cell.kind[g].share, &current);
+    if (plain.kinds == 1 || !plain.part[plain.kind[g].part].paired) continue;
+    const Pack& carried = root.kind[g].current.a;
+    Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
+    if (HasMoreDrop(at.bench)) {
+      Add(slopes.by_chain_drop[g], MoreDrop(at.bench, at.cell, S(carried)), &current);
+    }
   }
   for (int s = 0; s < plain.strings; ++s) {
     Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);

@@ -317,7 +317,9 @@ void SetRangeCurrents(Readings* readings) {
   const std::vector<Reading>& points = readings->points;
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k].segment != points[k - 1].segment || points[k].dark) continue;
-    places.push_back(0.5 * (points[k - 1].current + points[k].current));
+    for (const double part : {0.25, 0.5, 0.75}) {  // the jump moves one of the two
+      places.push_back(points[k].current + part * (points[k - 1].current - points[k].current));
+    }
   }
   std::sort(places.begin(), places.end());
   std::size_t kept = 0;

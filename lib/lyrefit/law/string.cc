@@ -11,9 +11,17 @@ using every_processor::Any;
 // All that the equations are made of, at a state.
 struct Terms {
   KindPoint kind[kMostKinds];
-  Dual<1, Pack> bypass[kMostKinds];  // of each part, with its slope by the part's voltage
-  Dual<1, Pack> drop[kMostKinds];    // of each string
+  Dual<1, Pack> bypass[kMostKinds];         // of each part, with its slope by the part's voltage
+  Dual<1, Pack> drop[kMostKinds];           // of each string
+  Dual<1, Pack> chain_drop[kMostKinds][2];  // of a paired part's chains
 };
+
+// The kind whose current is that of a chain of a paired part.
+int KindOfChain(const Cell<Pack>& cell, int part, int chain) {
+  int g = 0;
+  while (cell.kind[g].part != part || cell.kind[g].beside != (chain == 1)) ++g;
+  return g;
+}
 
 void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState& state,
              Terms* terms) {
@@ -26,7 +34,21 @@ void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState
     terms->bypass[p] =
         BypassCurrent(cell, cell.part[p].cells, -Dual<1, Pack>(state.part_voltage[p], 0));
   }
+  for (int p = 0; p < cell.parts; ++p) {
+    for (int c = 0; cell.part[p].paired && c < 2; ++c) {
+      const Pack& current = terms->kind[KindOfChain(cell, p, c)].current.a;
+      terms->chain_drop[p][c] = SeriesDrop(bench, cell, Dual<1, Pack>(current, 0));
+    }
+  }
 }
+
+// A chain of a paired part carries present + (U - level) x inverse.
+struct Chain {
+  Pack present;
+  Pack level;
+  Pack inverse;
+  Pack At(const Pack& voltage) const { return present + (voltage - level) * inverse; }
+};
 
 // The linear system at a state, solved. Cells that are all alike are one kind in one part.
 struct Linear {
@@ -41,6 +63,8 @@ struct Linear {
   Pack current[kMostKinds];       // of each string, new
   Pack part_current[kMostKinds];  // of each part's cells, new
   Pack part_voltage[kMostKinds];
+  Chain chain[kMostKinds][2];
+  Pack beside_current[kMostKinds];  // of the second chain, new
 };
 
 // Means over the kinds of each part, and the current that its cells carry at present.
@@ -51,6 +75,7 @@ void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& ter
     linear->weight[p] = linear->mean_voltage[p] = linear->stiffness[p] = mismatch[p] = 0.0;
   }
   for (int g = 0; g < cell.kinds; ++g) {
+    if (IsBeside(cell, g)) continue;
     const KindPoint& point = terms.kind[g];
     const int p = PartOf(cell, g);
     const Pack share = ShareOf(cell, g);
@@ -68,6 +93,26 @@ void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& ter
     linear->stiffness[p] = linear->stiffness[p] * inverse;
     mismatch[p] = mismatch[p] * inverse;
   }
+}
+
+// Level and slope of a part of two chains, by the current of both.
+void SolvePair(const Cell<Pack>& cell, int p, const StringState& state, const Terms& terms,
+               const Pack& present, const Pack& mismatch, Linear* linear) {
+  const int g = KindOfChain(cell, p, 1);
+  const Dual<1, Pack>& beside = terms.kind[g].current;
+  const Dual<1, Pack>*drop = terms.chain_drop[p], &bypass = terms.bypass[p];
+  Chain* chain = linear->chain[p];
+  chain[0] = {present, linear->mean_voltage[p] - mismatch - drop[0].a,
+              1.0 / (linear->stiffness[p] - drop[0].v[0])};
+  chain[1] = {beside.a, state.u[g] - drop[1].a, 1.0 / (1.0 / beside.v[0] - drop[1].v[0])};
+  Pack slope = 0.5 * (chain[0].inverse + chain[1].inverse);
+  Pack rest = state.current[cell.part[p].string] - 0.5 * (chain[0].At(0.0) + chain[1].At(0.0));
+  if (cell.part[p].bypassed) {
+    slope = slope + bypass.v[0];
+    rest = rest - bypass.a + bypass.v[0] * state.part_voltage[p];
+  }
+  linear->slope[p] = 1.0 / slope;
+  linear->level[p] = rest * linear->slope[p];
 }
 
 // Currents of the strings, given every part's level and slope.
@@ -117,6 +162,10 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     Pack into_cells = state.current[s] - present[p];
     clamped[p] = Pack(1.0) < 0.0;
     linear->divider[p] = 1.0;
+    if (cell.part[p].paired) {
+      SolvePair(cell, p, state, terms, present[p], mismatch[p], linear);
+      continue;
+    }
     if (cell.part[p].bypassed) {
       const Dual<1, Pack>& bypass = terms.bypass[p];
       into_cells = into_cells - bypass.a + bypass.v[0] * state.part_voltage[p];
@@ -136,6 +185,11 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     const int s = cell.part[p].string;
     linear->part_voltage[p] = linear->level[p] + shift[s] * linear->slope[p];
     linear->part_current[p] = linear->current[s];
+    if (cell.part[p].paired) {
+      linear->part_current[p] = linear->chain[p][0].At(linear->part_voltage[p]);
+      linear->beside_current[p] = linear->chain[p][1].At(linear->part_voltage[p]);
+      continue;
+    }
     if (!cell.part[p].bypassed) continue;
     const Dual<1, Pack>& bypass = terms.bypass[p];
     const Pack beside = bypass.a + (linear->part_voltage[p] - state.part_voltage[p]) * bypass.v[0];
@@ -153,7 +207,8 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
   Mask done = Pack(0.0) < 1.0;
   for (int g = 0; g < cell.kinds; ++g) {
     const KindPoint& point = terms.kind[g];
-    const Pack& current = linear.part_current[PartOf(cell, g)];
+    const Pack& current =
+        (IsBeside(cell, g) ? linear.beside_current : linear.part_current)[PartOf(cell, g)];
     const Pack missing = current - point.current.a;
     const Pack size = 1.0 + abs(current);
     const Pack u = state->u[g], newton = missing / point.current.v[0];
@@ -202,6 +257,10 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& 
   }
   for (int p = 0; p < cell.parts; ++p) {
     const int s = cell.part[p].string;
+    if (cell.part[p].paired) {
+      slopes->by_bypass[p] = scale[s] * linear.weight[p] * linear.slope[p];
+      continue;
+    }
     const Pack weight = scale[s] * linear.weight[p] * linear.divider[p];
     slopes->by_bypass[p] = weight * linear.stiffness[p];
     slopes->by_drop[s] = slopes->by_drop[s] + weight;
@@ -210,6 +269,21 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& 
     const KindPoint& point = terms.kind[g];
     const int p = PartOf(cell, g);
     const int s = cell.part[p].string;
+    slopes->by_chain_drop[g] = 0.0;
+    if (cell.part[p].paired) {
+      // What moves a chain's level by one moves the current of all by so much.
+      const Chain& chain = linear.chain[p][IsBeside(cell, g) ? 1 : 0];
+      const Pack moves = 0.5 * slopes->by_bypass[p] * chain.inverse;
+      const Pack part = IsBeside(cell, g) ? Pack(1.0) : ShareOf(cell, g) / linear.weight[p];
+      slopes->by_current[g] = moves * part / point.current.v[0];
+      slopes->by_share[g] = 0.0;
+      if (!IsBeside(cell, g)) {
+        slopes->by_share[g] = linear.current[s] + scale[s] * (voltage - linear.part_voltage[p]) -
+                              moves / linear.weight[p] * (state.u[g] - linear.mean_voltage[p]);
+      }
+      if (g == KindOfChain(cell, p, IsBeside(cell, g) ? 1 : 0)) slopes->by_chain_drop[g] = moves;
+      continue;
+    }
     const Pack share = scale[s] * ShareOf(cell, g) * linear.divider[p];
     slopes->by_current[g] = share / point.current.v[0];
     slopes->by_share[g] =

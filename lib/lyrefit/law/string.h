@@ -10,6 +10,11 @@
 //
 //   F_g(u_g) = J_p,   U_p = mean of u_g - D(I),   J_p + B(-U_p) = I,   sum of w_p U_p = W V
 //
+// and where two chains stand side by side, each with its own drop,
+//
+//   F_g(u_g) = J_p,   F_b(u_b) = K_p,   U_p = mean of u_g - D(J_p) = u_b - D(K_p),
+//   (J_p + K_p) / 2 + B(-U_p) = I
+//
 // (w, W: shares of the part and of the string in all cells). Newton on all of it at once: the
 // system is a tree, so a step costs one evaluation of each kind and a few sums. Exponentials are
 // kept from overshooting as circuit simulators do (Nagel 1975, SPICE2): beyond the voltage where
@@ -48,9 +53,10 @@ struct KindPoint {
 struct StringSlopes {
   Pack by_current[kMostKinds];  // F of each kind
   Pack by_share[kMostKinds];
-  Pack by_bypass[kMostKinds];    // B of each part
-  Pack by_drop[kMostKinds];      // D of each string
-  Pack by_terminal[kMostKinds];  // V, as each string sees it
+  Pack by_bypass[kMostKinds];      // B of each part
+  Pack by_drop[kMostKinds];        // D of each string
+  Pack by_chain_drop[kMostKinds];  // D of the chain that a kind of a paired part stands for, or 0
+  Pack by_terminal[kMostKinds];    // V, as each string sees it
 };
 
 struct StringRoot {

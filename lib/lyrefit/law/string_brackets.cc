@@ -57,6 +57,7 @@ class Bracketed {
   Pack WeightOf(int string) const {
     Pack weight = 0.0;
     for (int g = 0; g < cell_.kinds; ++g) {
+      if (IsBeside(cell_, g)) continue;
       if (cell_.part[PartOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
     }
     return weight;
@@ -69,6 +70,11 @@ class Bracketed {
     for (int p = 0; p < cell_.parts; ++p) {
       if (cell_.part[p].string != string) continue;
       Pack carried = current, weight = 0.0;
+      if (cell_.part[p].paired) {
+        state->part_voltage[p] = VoltageOfPair(p, current, &weight, state);
+        sum = sum + weight * state->part_voltage[p];
+        continue;
+      }
       if (cell_.part[p].bypassed) {
         carried = RisingRoot(
             [&](const Pack& own) {
@@ -84,12 +90,37 @@ class Bracketed {
     return sum;
   }
 
+  Pack DropAt(const Pack& current) const {
+    return SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
+  }
+
+  // Of two chains side by side. What the kind beside carries falls as its voltage rises, so that
+  // the others carry more, which lowers theirs.
+  Pack VoltageOfPair(int part, const Pack& current, Pack* weight, StringState* state) const {
+    int beside = 0;
+    while (cell_.kind[beside].part != part || !cell_.kind[beside].beside) ++beside;
+    Pack voltage = 0.0;
+    const auto excess = [&](const Pack& junction) {  // rises
+      state->u[beside] = junction;
+      const Pack own = PointOf(bench_, cell_, beside, *state).current.a;
+      voltage = junction - DropAt(own);
+      Pack others = 2.0 * current - own;
+      if (cell_.part[part].bypassed) {
+        const Dual<1, Pack> reverse(-voltage, 0);
+        others = others - 2.0 * BypassCurrent(cell_, cell_.part[part].cells, reverse).a;
+      }
+      return voltage - MeanVoltage(part, others, weight, state) + DropAt(others);
+    };
+    excess(RisingRoot(excess, state->u[beside], 0.1));
+    return voltage;
+  }
+
   // Of a part's cells at the current they carry.
   Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
     Pack sum = 0.0;
     *weight = 0.0;
     for (int g = 0; g < cell_.kinds; ++g) {
-      if (PartOf(cell_, g) != part) continue;
+      if (PartOf(cell_, g) != part || IsBeside(cell_, g)) continue;
       MoveKind(g, carried, state);
       *weight = *weight + ShareOf(cell_, g);
       sum = sum + ShareOf(cell_, g) * state->u[g];
@@ -100,11 +131,19 @@ class Bracketed {
   // To the junction voltage at which a kind carries a current.
   void MoveKind(int kind, const Pack& carried, StringState* state) const {
     const Pack size = 1.0 + abs(carried);
+    constexpr double kFar = 1e6;
+    Pack low = -kFar, high = kFar;  // the current falls as the voltage rises
     for (int k = 0; k < kSteps; ++k) {
       const KindPoint point = PointOf(bench_, cell_, kind, *state);
       const Pack missing = carried - point.current.a, u = state->u[kind];
-      state->u[kind] =
+      const Mask too_high = 0.0 < missing;
+      high = Choose(too_high, Smaller(high, u), high);
+      low = Choose(too_high, low, Larger(low, u));
+      const Pack next =
           NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
+      // Between a flat stretch and a steep one steps may go to and fro.
+      const Mask outside = (next < low) | (high < next);
+      state->u[kind] = Choose(outside, 0.5 * (low + high), next);
       const Pack step = state->u[kind] - u;
       Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
       if (cell_.halved) {

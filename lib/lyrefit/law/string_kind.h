@@ -14,6 +14,9 @@ inline int PartOf(const Cell<Pack>& cell, int kind) {
 inline Pack ShareOf(const Cell<Pack>& cell, int kind) {
   return cell.kinds == 1 ? Pack(1.0) : cell.kind[kind].share;
 }
+inline bool IsBeside(const Cell<Pack>& cell, int kind) {
+  return cell.kinds > 1 && cell.kind[kind].beside;
+}
 inline Mask IsShort(const Pack& step, const Pack& of) {
   return abs(step) < kShort * (1.0 + abs(of));
 }

@@ -19,6 +19,7 @@ ErrorSizes SizesAt(const Logs& at) { return {std::exp(at[0]), std::exp(at[1]), s
 struct Rows {
   const ErrorShape& shape;
   RowMatrix columns;  // orthonormal ones for what was fitted, then the residual
+  const Differences& differences;
 };
 
 // From products with each other of whitened columns, which are nearly independent, the residual
@@ -44,10 +45,24 @@ double LogLikelihood(const ErrorModel& errors, const RowMatrix& columns) {
   return RestrictedFromProducts(TransposedTimes(white, white), logs);
 }
 
+double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
+  const ErrorModel errors = MakeErrorModel(differences.shape, sizes);
+  double sum = 0;
+  for (int g = 0; g < errors.size(); ++g) {
+    const double path = errors.path.empty() ? 0 : errors.path[g];
+    const double variance = errors.white[g] * errors.white[g] + path * path;
+    const double terms = std::log(variance) + differences.mean_square[g] / variance;
+    sum -= 0.5 * differences.count[g] * terms;
+  }
+  return sum;
+}
+
 double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   const Logs center = LogsOf(prior.center);
   const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path};
-  double sum = LogLikelihood(MakeErrorModel(rows.shape, SizesAt(at)), rows.columns);
+  const ErrorSizes sizes = SizesAt(at);
+  double sum = LogLikelihood(MakeErrorModel(rows.shape, sizes), rows.columns) +
+               LogLikelihood(rows.differences, sizes);
   for (int i = 0; i < 3; ++i) sum -= 0.5 * std::pow((at[i] - center[i]) / width[i], 2);
   return std::isnan(sum) ? -HUGE_VAL : sum;
 }
@@ -133,9 +148,10 @@ ErrorPrior UsualErrors(double isc_A, double voc_V) {
 }
 
 FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
-                           const Eigen::VectorXd& residual, const RowMatrix& jacobian) {
+                           const Eigen::VectorXd& residual, const RowMatrix& jacobian,
+                           const Differences& differences) {
   const Eigen::MatrixXd basis = RankedBasis(Eigen::MatrixXd(jacobian));
-  Rows all{shape, RowMatrix(residual.size(), basis.cols() + 1)};
+  Rows all{shape, RowMatrix(residual.size(), basis.cols() + 1), differences};
   all.columns.leftCols(basis.cols()) = basis;
   all.columns.rightCols(1) = residual;
   constexpr int kMostSteps = 30;

@@ -46,9 +46,19 @@ struct FoundErrors {
   double gain = 0;
 };
 
+// Where rows are means of groups of readings: the differences of neighbours within each group,
+// which are independent of each other, and nearly so of the means. What each reading has by itself
+// shows there.
+struct Differences {
+  ErrorShape shape;  // one for each group, typical of its differences; positions and chains unused
+  std::vector<double> count;
+  std::vector<double> mean_square;
+};
+
 // `residual` and `jacobian`, its derivatives by what was fitted, as in RestrictedLogLikelihood;
 // more rows than columns. In proportion to the rows.
 FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
-                           const Eigen::VectorXd& residual, const RowMatrix& jacobian);
+                           const Eigen::VectorXd& residual, const RowMatrix& jacobian,
+                           const Differences& differences = {});
 
 }  // namespace lyrefit

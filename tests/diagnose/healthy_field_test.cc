@@ -227,7 +227,9 @@ TEST_P(HealthyFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
   auto rates = MeasureRates(GetParam());
   EXPECT_LE(rates["nothing"].found, 0.05);
   for (const char* fault : kFaults) {
-    if (std::string(fault) != "nothing") EXPECT_GE(rates[fault].found, 0.85) << fault;
+    if (std::string(fault) != "nothing") {
+      EXPECT_GE(rates[fault].found, 0.85) << fault;
+    }
   }
   EXPECT_GE(rates["Rs +10 %"].first, 0.8);
   EXPECT_GE(rates["leak 1 %"].among, 0.8);

@@ -9,7 +9,14 @@
 namespace lyrefit {
 namespace {
 
-enum { kWidth, kSoft, kExponent, kLopsided, kDimmest, kBypass };
+enum {
+  kScatterWidth,
+  kScatterSoft,
+  kScatterExponent,
+  kScatterLopsided,
+  kScatterDimmest,
+  kScatterBypass
+};
 
 // The dimmest cells one by one, where so many draws of a distribution lie on average (Blom 1958),
 // in widths beside the mean; the others alike. The distribution: normal, or lopsided: most cells a
@@ -40,14 +47,14 @@ void SetScatter(const S* p, Cell<S>* cell) {
       std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1, kMostKinds / 2);
   const Dimmest dimmest = DimmestOf(cells, kMostKinds - parts);
   const auto light = [&](double normal, double lopsided, const S& beyond) {
-    return 1.0 + p[kWidth] * (normal + p[kLopsided] * (lopsided - normal) + beyond);
+    return 1.0 + p[kScatterWidth] * (normal + p[kScatterLopsided] * (lopsided - normal) + beyond);
   };
   cell->parts = parts;
   cell->kinds = 0;
   for (int g = 0; g < parts; ++g) {
     double others = 1.0 / parts;
     for (int k = g; k < dimmest.count; k += parts) {
-      const S beyond = k == 0 ? S(-p[kDimmest]) : S(0.0);
+      const S beyond = k == 0 ? S(-p[kScatterDimmest]) : S(0.0);
       cell->kind[cell->kinds++] = {
           S(1.0 / cells), light(dimmest.normal[k], dimmest.lopsided[k], beyond), S(0.0), g};
       others -= 1.0 / cells;
@@ -56,10 +63,10 @@ void SetScatter(const S* p, Cell<S>* cell) {
         S(others), light(dimmest.normal_rest, dimmest.lopsided_rest, S(0.0)), S(0.0), g};
     cell->part[g] = {g + 1 < parts, cell->substring_cells, 0};
   }
-  cell->bypass = p[kBypass];
+  cell->bypass = p[kScatterBypass];
   cell->reverse = ReverseLaw::kSoft;
-  cell->reverse_voltage = p[kSoft];
-  cell->reverse_exponent = p[kExponent];
+  cell->reverse_voltage = p[kScatterSoft];
+  cell->reverse_exponent = p[kScatterExponent];
 }
 
 }  // namespace
@@ -88,8 +95,8 @@ Effect Scatter() {
       {"t", "dimmest_beyond", "", "widths that the dimmest cell lies below its usual place", -2.5,
        2.5, 0},
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
-  for (int k = kSoft; k < e.size(); ++k) e.parameters[k].held = true;
-  e.parameters[kLopsided].absent_at = e.parameters[kDimmest].absent_at = 0;
+  for (int k = kScatterSoft; k < e.size(); ++k) e.parameters[k].held = true;
+  e.parameters[kScatterLopsided].absent_at = e.parameters[kScatterDimmest].absent_at = 0;
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;
   e.why_not = NeedsModule;
@@ -104,9 +111,9 @@ Effect Scatter() {
     if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
     for (const double lopsided : {0.0, 1.0}) {
       for (const double width : {0.015, 0.04}) {
-        starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kSoft}});
-        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kSoft}});
-        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kSoft, kDimmest}});
+        starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
+        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
+        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft, kScatterDimmest}});
       }
     }
     return starts;

@@ -11,7 +11,7 @@ namespace lyrefit {
 namespace {
 
 constexpr int kGroups = 4;
-enum { kBypass = 2 * kGroups, kCovered, kParameters };
+enum { kDrop = 2 * kGroups, kCovered, kParameters };
 
 // A light for each substring but the brightest, from the middles of the plateaus that as many equal
 // substrings have.
@@ -26,7 +26,7 @@ void AddStart(const CurveShape& shape, int substrings, std::vector<ShapeStart>* 
     start.p[2 * k + 1] = 1.0 / substrings;
     start.freed.push_back(2 * k);
   }
-  start.p[kBypass] = 0.5;
+  start.p[kDrop] = 0.5;
   start.p[kCovered] = 1;
   if (!(full > 0)) return;
   starts->push_back(start);
@@ -95,7 +95,7 @@ Effect Substrings() {
     cell->part[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
     cell->kinds = kinds;
     cell->parts = parts;
-    cell->bypass = p[kBypass];
+    cell->bypass = p[kDrop];
   };
   e.groups = true;
   e.covered = [](double* p, int which, int groups) {

@@ -21,13 +21,13 @@ double Bisect(const F& f, double a, double b) {
 
 // Of a fine sweep from short circuit to a little beyond open circuit.
 KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
-  constexpr int kSteps = 2000;
+  constexpr int kPoints = 2000;
   Device base = device;
   base.extension = nullptr;
   const double voc = ModelKeyPoints(base, p).open_circuit_voltage_V;
   if (!(voc > 0)) return FindKeyPoints({}, {});
   std::vector<double> voltage_V;
-  for (int k = 0; k <= kSteps; ++k) voltage_V.push_back(1.05 * voc * k / kSteps);
+  for (int k = 0; k <= kPoints; ++k) voltage_V.push_back(1.05 * voc * k / kPoints);
   return FindKeyPoints(voltage_V, ExtendedCurrents(device, p, voltage_V));
 }
 

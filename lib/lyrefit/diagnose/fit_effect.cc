@@ -89,6 +89,7 @@ std::vector<ShapeStart> NearestStarts(const Effect& effect, const std::vector<Sh
     }
   }
   std::vector<ShapeStart> kept;
+  kept.reserve(nearest.size());
   for (const auto& [setting, start] : nearest) kept.push_back(*start);
   return kept;
 }

@@ -1,0 +1,126 @@
+#include "lyrefit/fit/fit_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/fit/fit_echo.h"
+#include "lyrefit/fit/fixed_values.h"
+#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/quote.h"
+#include "lyrefit/refine/thin.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<void> AddEffects(FitJob* job, FitReport* report) {
+  const FitOptions& options = job->options;
+  if (options.with.empty()) return {};
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "a model with effects is fitted to the solved current: it has no explicit "
+        "right-hand side for the measured one");
+  }
+  if (options.floor) return Fail("a floor is that of diodes alone: leave out the effects or it");
+  auto device = Extend(report->device, options.model, options.constants, job->curve, options.with,
+                       options.force_effects);
+  if (!device) return tl::unexpected(device.error());
+  if (auto fine = CheckFitRanges(*device->extension); !fine) return fine;
+  report->device = std::move(*device);
+  for (const ParameterBounds& bounds : report->device.extension->bounds) {
+    job->bounds.push_back(bounds);
+    job->fixed.push_back(kUnknown);
+  }
+  for (const EffectUse& use : options.with) report->causes.push_back(use.effect->id);
+  return {};
+}
+
+// Bounds of parameter i in the units of reports, where the others are as at `p`.
+ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
+                               std::vector<double> p, int i) {
+  if (device.extension == nullptr || i < device.extension->law.base_size()) return own;
+  const auto reported = [&](double value) {
+    p[i] = value;
+    return Reported(device, p)[i];
+  };
+  const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
+  const auto& [lower, upper] = ends;
+  return {lower, upper, lower, upper, own.scale};
+}
+
+}  // namespace
+
+Expected<void> PrepareFit(FitJob* job, FitReport* report) {
+  const IvCurve& curve = job->curve;
+  const FitOptions& options = job->options;
+  if (auto valid = Validate(curve); !valid) return valid;
+  auto doubts = JudgeReadings(curve);
+  if (!doubts) return tl::unexpected(doubts.error());
+  report->doubts = std::move(*doubts);
+  if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
+  if (auto valid = ValidateThreads(options.threads); !valid) return valid;
+  if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
+  if (auto fine = CheckErrorSpec(options); !fine) return fine;
+  report->device = MakeDevice(options.model, curve.conditions, options.constants);
+  auto bounds = MakeBounds(options.bounds, report->device, curve);
+  if (!bounds) return tl::unexpected(bounds.error());
+  auto fixed = FixedValues(options.fixed, report->device);
+  if (!fixed) return tl::unexpected(fixed.error());
+  job->bounds = std::move(*bounds);
+  job->fixed = std::move(*fixed);
+  if (auto extended = AddEffects(job, report); !extended) return extended;
+  std::vector<double> lower, upper;
+  for (int i = 0; i < report->device.size(); ++i) {
+    ParameterBounds& b = job->bounds[i];
+    if (b.lower == b.upper && std::isnan(job->fixed[i])) job->fixed[i] = b.lower;
+    const bool is_fixed = !std::isnan(job->fixed[i]);
+    if (is_fixed) b = {job->fixed[i], job->fixed[i], job->fixed[i], job->fixed[i], {}};
+    job->free_parameters += !is_fixed;
+    lower.push_back(b.lower);
+    upper.push_back(b.upper);
+  }
+  const int points = static_cast<int>(curve.size());
+  if (points < job->free_parameters) {
+    return Fail(
+        fmt::format("{} points cannot determine {} parameters: measure more points or fix some",
+                    points, job->free_parameters),
+        curve.source);
+  }
+  if (job->free_parameters == 0) return Fail("every parameter is fixed: nothing is left to fit");
+  std::vector<double> weights;
+  for (const double sigma : curve.sigma_A) weights.push_back(1 / (sigma * sigma));
+  job->problem =
+      MakeRefineProblem(report->device, options.objective, curve.voltage_V, curve.current_A,
+                        std::move(weights), std::move(lower), std::move(upper));
+  if (options.kernel != nullptr) job->problem.kernel = options.kernel;
+  job->few = Thin(job->problem);
+  return {};
+}
+
+RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {
+  return {Rmse(device, Objective::kMeasuredCurrent, p.data(), curve.voltage_V, curve.current_A),
+          Rmse(device, Objective::kSolvedCurrent, p.data(), curve.voltage_V, curve.current_A)};
+}
+
+std::vector<Estimate> EstimatesOf(const FitJob& job, const FitReport& report) {
+  const Device& device = report.device;
+  const std::vector<double> searched = Reported(device, report.searched);
+  const std::vector<double> refined = Reported(device, report.refined);
+  std::vector<Estimate> estimates;
+  for (int i = 0; i < device.size(); ++i) {
+    Estimate e;
+    e.info = device.parameters[i];
+    e.bounds = ReportedBounds(device, job.bounds[i], report.refined, i);
+    e.fixed = !std::isnan(job.fixed[i]);
+    e.searched = searched[i];
+    if (report.polished) e.refined = refined[i];
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_watch.h"
+#include "lyrefit/refine/refine.h"
+
+namespace lyrefit {
+
+// What the stages of one fit hand to each other.
+struct FitJob {
+  const IvCurve& curve;
+  const FitOptions& options;
+  const Observer& observer;
+  std::vector<ParameterBounds> bounds;
+  std::vector<double> fixed;
+  int free_parameters = 0;
+  RefineProblem problem;
+  RefineProblem few;  // the same problem or, of many points, what stands for it in the search
+  FitWatch watch;
+};
+
+// Checks the curve and the options; the device, bounds and the problem to solve.
+Expected<void> PrepareFit(FitJob* job, FitReport* report);
+
+RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve);
+
+// One for each parameter, in the units of reports, as searched and as refined; no intervals.
+std::vector<Estimate> EstimatesOf(const FitJob& job, const FitReport& report);
+
+}  // namespace lyrefit

@@ -25,7 +25,7 @@ TEST(IsMaterial, WhereTheWholeIntervalIsAboveAFloor) {
   EXPECT_FALSE(IsMaterial(size, floors));
   size.power = -0.02;
   EXPECT_TRUE(IsMaterial(size, floors));
-  size.power_error = 0.012;
+  size.power_error = 0.016;
   EXPECT_FALSE(IsMaterial(size, floors));
   EXPECT_TRUE(IsMaterial({}, {}));  // without floors everything is
 }

@@ -197,13 +197,9 @@ void DescribeSize(const Workbench& bench, const LawFit& with, int index, const L
   cause->in_words = InWords(bench, with, index);
   if (!without.usable) return;
   const EffectSize size = SizeOf(bench, with, index, without);
-  const auto around = [&](double value, double error) {
-    const double half = std::fabs(value) * size.reach + error;
-    return Sized{value, value - half, value + half};
-  };
-  cause->current_effect = around(size.current, 0);
-  cause->current_effect.low_95 = std::max(cause->current_effect.low_95, 0.0);
-  cause->power_effect = around(size.power, size.power_error);
+  const double half = size.current * size.reach;
+  cause->current_effect = {size.current, std::max(size.current - half, 0.0), size.current + half};
+  cause->power_effect = {size.power, size.power - size.power_error, size.power + size.power_error};
   if (size.recoverable > 0) {
     cause->recoverable_power_W = size.recoverable * DevicePower(bench, with);
     cause->in_words.push_back(fmt::format("without it Pmax would be {:.4g} W, {:+.1f} %",
@@ -330,7 +326,8 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
       errors[kBaseConductance] * sd * cells / (g * g * scale));
   if (!readings.traits.only_dark) {
     add(
-        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); }, kUnknown);
+        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); },
+        DevicePowerError(bench, after) * DevicePower(bench, after));
   }
   return shifts;
 }

@@ -6,44 +6,109 @@
 #include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
-double DevicePower(const Workbench& bench, const LawFit& fit) {
-  const Readings& measured = *bench.readings;
-  Readings grid = measured;
-  grid.points.clear();
-  Reading at = measured.points.front();
-  for (const Reading& r : measured.points) {
-    if (r.irradiance > at.irradiance) at = r;
+namespace {
+
+// The device's terms of a fit, and which parameters of the fit theirs are.
+struct DeviceTerms {
+  Law law;
+  std::vector<double> p;
+  std::vector<int> of;
+};
+
+DeviceTerms DeviceTermsOf(const LawFit& fit) {
+  DeviceTerms terms;
+  terms.law = fit.law;
+  terms.law.effects.clear();
+  const auto take = [&](int first, int size) {
+    for (int k = first; k < first + size; ++k) {
+      terms.p.push_back(fit.p[k]);
+      terms.of.push_back(k);
+    }
+  };
+  take(0, fit.law.base_size());
+  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
+    if (fit.law.effects[e]->where != Where::kDevice) continue;
+    terms.law.effects.push_back(fit.law.effects[e]);
+    take(fit.law.Offset(static_cast<int>(e)), fit.law.effects[e]->size());
   }
-  at.x = at.rate = 0;
-  const double top = 1.1 * measured.pivot_voltage;
+  return terms;
+}
+
+// No readings yet, and one as the sweep's under the brightest light.
+struct Bare {
+  Readings grid;
+  Reading at;
+};
+
+Bare BareReadings(const Readings& measured) {
+  Bare bare{measured, measured.points.front()};
+  bare.grid.points.clear();
+  for (const Reading& r : measured.points) {
+    if (r.irradiance > bare.at.irradiance) bare.at = r;
+  }
+  bare.at.x = bare.at.rate = 0;
+  bare.at.current = bare.at.irradiance > 0 ? 1 : 0;
+  return bare;
+}
+
+// In scales.
+struct PowerPoint {
+  double voltage = kUnknown;
+  double power = kUnknown;
+};
+
+PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
+  Readings grid = bare.grid;
+  Reading at = bare.at;
+  const double top = 1.1 * grid.pivot_voltage;
   constexpr int kPoints = 400;
   for (int k = 0; k <= kPoints; ++k) {
     at.voltage = top * k / kPoints;
-    at.current = at.irradiance > 0 ? 1 : 0;
     grid.points.push_back(at);
-  }
-  Law law = fit.law;
-  law.effects.clear();
-  std::vector<double> p(fit.p.begin(), fit.p.begin() + fit.law.base_size());
-  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
-    if (fit.law.effects[e]->where != Where::kDevice) continue;
-    law.effects.push_back(fit.law.effects[e]);
-    const int first = fit.law.Offset(static_cast<int>(e));
-    p.insert(p.end(), fit.p.begin() + first, fit.p.begin() + first + fit.law.effects[e]->size());
   }
   LawWorkspace workspace;
   std::vector<double> current(grid.points.size());
-  if (!EvaluateLaw(law, grid, p.data(), &workspace, current.data(), nullptr)) return kUnknown;
+  if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, current.data(), nullptr)) return {};
   int best = 0;
   const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
   for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
-  double peak = power(best);
+  PowerPoint peak = {grid.points[best].voltage, power(best)};
   if (best > 0 && best < kPoints) {  // the parabola's top
     const double a = power(best - 1), b = power(best), c = power(best + 1);
     const double bend = a - 2 * b + c;
-    if (bend < 0) peak = b - (a - c) * (a - c) / (8 * bend);
+    if (bend < 0) {
+      peak.power = b - (a - c) * (a - c) / (8 * bend);
+      peak.voltage += top / kPoints * (a - c) / (2 * bend);
+    }
   }
-  return peak * measured.scale.cells * measured.scale.current_A;
+  return peak;
+}
+
+}  // namespace
+
+double DevicePower(const Workbench& bench, const LawFit& fit) {
+  const Readings& measured = *bench.readings;
+  const PowerPoint peak = FindPowerPoint(BareReadings(measured), DeviceTermsOf(fit));
+  return peak.power * measured.scale.cells * measured.scale.current_A;
+}
+
+double DevicePowerError(const Workbench& bench, const LawFit& fit) {
+  const DeviceTerms terms = DeviceTermsOf(fit);
+  Bare bare = BareReadings(*bench.readings);
+  const PowerPoint peak = FindPowerPoint(bare, terms);
+  if (!(peak.power > 0)) return kUnknown;
+  // At its peak the power changes as the current there does.
+  bare.at.voltage = peak.voltage;
+  bare.grid.points = {bare.at};
+  LawWorkspace workspace;
+  double current = 0;
+  std::vector<double> derivative(terms.p.size());
+  if (!EvaluateLaw(terms.law, bare.grid, terms.p.data(), &workspace, &current, derivative.data())) {
+    return kUnknown;
+  }
+  std::vector<double> by(fit.p.size(), 0.0);
+  for (std::size_t k = 0; k < terms.of.size(); ++k) by[terms.of[k]] = derivative[k] / current;
+  return StandardError(Linearize(bench, fit), by) * std::sqrt(NoiseVariance(bench, fit));
 }
 
 LawFit TakenOut(const LawFit& fit, int index) {
@@ -70,17 +135,23 @@ EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const L
   if (with.law.effects[index]->where == Where::kDevice) {
     size.recoverable = DevicePower(bench, TakenOut(with, index)) / power - 1;
   }
-  size.power_error = kReach * bench.path;
   const double statistic = (without.sum - with.sum) / NoiseVariance(bench, with);
   size.reach = statistic > kReach * kReach ? kReach / std::sqrt(statistic) : 1;
+  size.power_error =
+      std::max(kReach * DevicePowerError(bench, with), std::fabs(size.power) * size.reach) +
+      kReach * bench.path;
   return size;
 }
 
 bool IsMaterial(const EffectSize& size, const Floors& floors) {
-  const double certain = 1 - size.reach;
-  return size.current * certain >= floors.current ||
-         // False where there is no power.
-         std::fabs(size.power) * certain - size.power_error >= floors.power;
+  // Less than this part of the floor is what healthy modules depart from the model: of it a power
+  // would be said that no reading shows.
+  constexpr double kShown = 0.4;
+  const double current = size.current * (1 - size.reach);
+  if (current >= floors.current) return true;
+  // False where there is no power.
+  const bool power = std::fabs(size.power) - size.power_error >= floors.power;
+  return power && current >= kShown * floors.current;
 }
 
 }  // namespace lyrefit

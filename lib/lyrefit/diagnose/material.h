@@ -15,6 +15,9 @@ struct Floors {
 // conditions, without what the sweep and the instruments did. NaN where there is none.
 double DevicePower(const Workbench& bench, const LawFit& fit);
 
+// Its standard error, in parts: what the readings leave open of the parameters.
+double DevicePowerError(const Workbench& bench, const LawFit& fit);
+
 // The fit with effect number `index` taken out of its law, or all of them; all else, the currents
 // among them, as it is.
 LawFit TakenOut(const LawFit& fit, int index);
@@ -25,8 +28,10 @@ struct EffectSize {
   double current = 0;      // in parts of Isc: what the law without it would miss at its best
   double power = 0;        // in parts: what the law without it gets wrong of Pmax
   double recoverable = 0;  // in parts of Pmax: what the device would give more without it
-  double reach = 1;        // half of the 95 % interval, in parts of the values; 1: down to 0
-  double power_error = 0;  // what a rough path adds to it, in parts of Pmax
+  double reach = 1;        // half of the current's 95 % interval, in parts of it; 1: down to 0
+  // Half of the power's 95 % interval, in parts of Pmax: a moment of the sweep and the device may
+  // share the power in any way, and a rough path goes over its peak as well.
+  double power_error = 0;
 };
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without);
 

@@ -180,20 +180,40 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit) {
   return linear;
 }
 
+namespace {
+
+// Of a value with this derivative by the free parameters, whose columns are of this length.
+double ErrorAlong(const RightSingular& svd, const Eigen::VectorXd& derivative) {
+  double variance = 0;
+  for (int j = 0; j < svd.values.size(); ++j) {
+    variance += std::pow(derivative.dot(svd.vectors.col(j)) / std::max(svd.values[j], 1e-12), 2);
+  }
+  return std::sqrt(variance);
+}
+
+RightSingular SingularOf(const Linearized& linear, const Eigen::VectorXd& lengths) {
+  return FindRightSingular(linear.jacobian * lengths.cwiseInverse().asDiagonal());
+}
+
+}  // namespace
+
 std::vector<double> StandardErrors(const Linearized& linear, int parameters) {
   std::vector<double> errors(parameters, 0.0);
   if (linear.free.empty()) return errors;
-  const RightSingular svd = FindRightSingular(
-      linear.jacobian * linear.jacobian.colwise().norm().cwiseInverse().asDiagonal());
-  for (std::size_t k = 0; k < linear.free.size(); ++k) {
-    double variance = 0;
-    for (int j = 0; j < svd.values.size(); ++j) {
-      const double s = std::max(svd.values[j], 1e-12);
-      variance += std::pow(svd.vectors(static_cast<int>(k), j) / s, 2);
-    }
-    errors[linear.free[k]] = std::sqrt(variance) / linear.jacobian.col(k).norm();
+  const Eigen::VectorXd lengths = linear.jacobian.colwise().norm();
+  const RightSingular svd = SingularOf(linear, lengths);
+  for (int k = 0; k < lengths.size(); ++k) {
+    errors[linear.free[k]] = ErrorAlong(svd, Eigen::VectorXd::Unit(lengths.size(), k)) / lengths[k];
   }
   return errors;
+}
+
+double StandardError(const Linearized& linear, const std::vector<double>& derivative) {
+  if (linear.free.empty()) return 0;
+  const Eigen::VectorXd lengths = linear.jacobian.colwise().norm();
+  Eigen::VectorXd scaled(lengths.size());
+  for (int k = 0; k < lengths.size(); ++k) scaled[k] = derivative[linear.free[k]] / lengths[k];
+  return ErrorAlong(SingularOf(linear, lengths), scaled);
 }
 
 int FreeCount(const Workbench& bench, const Law& law) {

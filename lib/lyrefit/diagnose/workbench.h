@@ -78,6 +78,9 @@ Linearized Linearize(const Workbench& bench, const LawFit& fit);
 // Standard errors of all parameters (0 where not free), for unit noise.
 std::vector<double> StandardErrors(const Linearized& linear, int parameters);
 
+// Of a value with this derivative by all parameters, for unit noise.
+double StandardError(const Linearized& linear, const std::vector<double>& derivative);
+
 // Root mean square over the readings used, in scales, of what a fit's law at its best would still
 // miss of `currents`: noise, weights and what lies along its parameters do not count.
 double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents);

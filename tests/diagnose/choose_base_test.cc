@@ -180,7 +180,7 @@ TEST(ChooseBaseTest, AShuntThatMerelyGrowsWithLightIsFound) {
   CurveSet set = Measured(family);
   for (IvCurve& curve : set.curves) {
     for (std::size_t k = 0; k < curve.size(); ++k) {
-      curve.current_A[k] -= curve.conditions.irradiance_W_m2 / 1000 / 200 * curve.voltage_V[k];
+      curve.current_A[k] -= curve.conditions.irradiance_W_m2 / 1000 / 120 * curve.voltage_V[k];
     }
   }
   DiagnoseOptions options;

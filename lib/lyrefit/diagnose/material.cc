@@ -129,6 +129,7 @@ LawFit WithoutEffects(const LawFit& fit) {
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without) {
   constexpr double kReach = 1.96;
   EffectSize size;
+  size.one_sweep = bench.readings->traits.single;
   size.current = Departure(bench, without, with.current);
   const double power = DevicePower(bench, with);
   size.power = power / DevicePower(bench, without) - 1;
@@ -144,14 +145,14 @@ EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const L
 }
 
 bool IsMaterial(const EffectSize& size, const Floors& floors) {
-  // Less than this part of the floor is what healthy modules depart from the model: of it a power
-  // would be said that no reading shows.
+  // Less than this part of the floor is what healthy modules depart from the model: of one sweep
+  // a power would be said that no reading shows.
   constexpr double kShown = 0.4;
   const double current = size.current * (1 - size.reach);
   if (current >= floors.current) return true;
+  if (size.one_sweep && current < kShown * floors.current) return false;
   // False where there is no power.
-  const bool power = std::fabs(size.power) - size.power_error >= floors.power;
-  return power && current >= kShown * floors.current;
+  return std::fabs(size.power) - size.power_error >= floors.power;
 }
 
 }  // namespace lyrefit

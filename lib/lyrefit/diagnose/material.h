@@ -32,6 +32,7 @@ struct EffectSize {
   // Half of the power's 95 % interval, in parts of Pmax: a moment of the sweep and the device may
   // share the power in any way, and a rough path goes over its peak as well.
   double power_error = 0;
+  bool one_sweep = false;  // or one up and down
 };
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without);
 

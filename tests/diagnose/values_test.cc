@@ -163,6 +163,24 @@ TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
   }
 }
 
+TEST(FindBinsTest, FindsReadingsThatDriftThroughTheirBins) {
+  for (const double bin : {0.0101, 0.0127}) {  // one value in ten is skipped, or comes twice
+    IvCurve curve = MadeCurve({});
+    curve.voltage_V = Rounded(curve.voltage_V, bin);
+    const ValueFindings findings = Look(curve);
+    EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
+    EXPECT_NEAR(findings.bins_shared, 0.0113 / std::fabs(0.0113 - bin), 2) << bin;
+  }
+  // Set voltages of which some are missing are no bins.
+  IvCurve curve = MadeCurve({});
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.voltage_V[k] = 0.0113 * k;
+  for (const int k : {11, 15, 31, 32, 44}) {
+    curve.voltage_V.erase(curve.voltage_V.begin() + k);
+    curve.current_A.erase(curve.current_A.begin() + k);
+  }
+  EXPECT_EQ(Look(curve).voltage_bin, 0);
+}
+
 // A source goes from voltage to voltage as it is told, coarsely at first, finely at the knee.
 TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
   EXPECT_EQ(Look(MadeCurve({})).voltage_bin, 0);

@@ -6,35 +6,51 @@
 namespace lyrefit {
 namespace {
 
-// A grid much coarser than the noise leaves errors that neighbours share.
-void WidenByRounding(const Measurement& measurement, const Noise& noise, Workbench* bench) {
+// A grid much coarser than the noise leaves errors that neighbours share. Their standard deviation,
+// of each reading; empty: there is none.
+std::vector<double> CoarseRounding(const Measurement& measurement, const Noise& noise) {
   const ValueFindings& values = measurement.values;
-  const auto widen = [&](const std::vector<double>& by) {
-    bench->least_variance = 1;
-    for (std::size_t k = 0; k < by.size(); ++k)
-      bench->sigma[k] = std::hypot(bench->sigma[k], by[k]);
+  std::vector<double> rounding;
+  const auto add = [&](const std::vector<double>& by, double shared) {
+    rounding.resize(by.size(), 0.0);
+    for (std::size_t k = 0; k < by.size(); ++k) {
+      rounding[k] = std::hypot(rounding[k], std::sqrt(shared) * by[k]);
+    }
   };
-  if (IsCoarse(measurement, noise)) widen(values.rounding);
-  if (HasCoarseBins(measurement, noise)) widen(values.bin_rounding);
+  if (IsCoarse(measurement, noise)) add(values.rounding, 1);
+  if (HasCoarseBins(measurement, noise)) add(values.bin_rounding, values.bins_shared);
+  return rounding;
 }
 
-// Root mean square of a fit's residuals.
-double Misfit(const Workbench& bench, const std::vector<double>& residual) {
+// Root mean square of a fit's residuals beyond what rounding does to them.
+double Misfit(const Workbench& bench, const std::vector<double>& residual,
+              const std::vector<double>& rounding) {
+  constexpr double kReach = 2;
   double sum = 0;
   for (std::size_t k = 0; k < residual.size(); ++k) {
-    if (bench.used[k] != 0) sum += residual[k] * residual[k];
+    const double by_rounding = rounding.empty() ? 0 : kReach * rounding[k];
+    const double beyond = residual[k] * residual[k] - by_rounding * by_rounding;
+    if (bench.used[k] != 0) sum += std::max(beyond, 0.0);
   }
   return std::sqrt(sum / std::max(bench.count(), 1));
 }
 
 // Steps that a fit does not follow would pass for noise wherever there are few readings.
-void LevelNoise(Workbench* bench, const std::vector<double>& residual) {
+void LevelNoise(Workbench* bench, double misfit) {
   constexpr double kRuined = 0.01, kByFar = 3, kUsual = 1.5e-3;
   std::vector<double> sorted = bench->sigma;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double middle = sorted[sorted.size() / 2], misfit = Misfit(*bench, residual);
+  const double middle = sorted[sorted.size() / 2];
   if (misfit < kRuined || misfit < kByFar * middle) return;
   bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
+}
+
+void Widen(const std::vector<double>& rounding, Workbench* bench) {
+  if (rounding.empty()) return;
+  bench->least_variance = 1;
+  for (std::size_t k = 0; k < rounding.size(); ++k) {
+    bench->sigma[k] = std::hypot(bench->sigma[k], rounding[k]);
+  }
 }
 
 // What the file says of each current is believed.
@@ -73,23 +89,23 @@ Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit)
     }
     noise = EstimateNoise(measurement, residual, bench->used);
     bench->sigma = noise.sigma;
-    WidenByRounding(measurement, noise, bench);
+    const std::vector<double> rounding = CoarseRounding(measurement, noise);
     const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
                        10 * kSmallestNoise;  // computed readings: what is left is arithmetic
     if (exact) bench->least_variance = 1;
+    const bool stated = measurement.errors.kind == ErrorKind::kStated;
     if (measurement.has_path()) {
       bench->least_variance = 1;
-      if (measurement.errors.kind == ErrorKind::kStated) {
+      if (stated) {
         TakeStated(measurement, *fit, bench);
+      } else if (measurement.stated_sigma.empty()) {
+        LevelNoise(bench, Misfit(*bench, residual, rounding));
       } else {
-        if (measurement.stated_sigma.empty()) {
-          LevelNoise(bench, residual);
-        } else {
-          TakeStatedSigma(measurement, bench);
-        }
-        bench->path = FindPath(*bench, *fit);
+        TakeStatedSigma(measurement, bench);
       }
     }
+    if (!stated) Widen(rounding, bench);
+    if (measurement.has_path() && !stated) bench->path = FindPath(*bench, *fit);
     LawFit again = FitLaw(*bench, fit->law, fit->p);
     if (again.usable) *fit = std::move(again);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 namespace lyrefit {
 namespace {
@@ -167,22 +168,50 @@ double FindGrid(const std::vector<double>& values) {
   return 0;
 }
 
-double FindBins(const Readings& readings) {
+namespace {
+
+// Whether places come at equal distances, as near as whole numbers can, and are not side by side.
+bool ComeRegularly(const std::vector<int>& places) {
+  if (places.size() < 4) return false;
+  int least = places[1] - places[0], most = least;
+  for (std::size_t k = 2; k < places.size(); ++k) {
+    least = std::min(least, places[k] - places[k - 1]);
+    most = std::max(most, places[k] - places[k - 1]);
+  }
+  return least > 2 && most <= least + 1;
+}
+
+}  // namespace
+
+VoltageBins FindBins(const Readings& readings) {
   constexpr double kUneven = 0.25, kRepeated = 0.1;  // parts of the steps
   std::vector<double> voltages;
   for (const Reading& r : readings.points) voltages.push_back(r.voltage);
   const double step = FindGrid(voltages);
-  if (step == 0) return 0;
+  if (step == 0) return {};
   const std::vector<Reading>& points = readings.points;
-  int uneven = 0, repeated = 0, all = 0;
-  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-    if (points[k - 1].segment != points[k + 1].segment) continue;
-    const double bend = points[k + 1].voltage - 2 * points[k].voltage + points[k - 1].voltage;
-    uneven += std::fabs(bend) > 0.5 * step;
-    repeated += std::fabs(points[k + 1].voltage - points[k].voltage) < 0.5 * step;
+  const auto steps_to = [&](std::size_t k) {
+    return std::lround(std::fabs(points[k].voltage - points[k - 1].voltage) / step);
+  };
+  int uneven = 0, all = 0;
+  std::vector<int> repeated, twice;  // readings that lie 0 and 2 steps from the one before
+  std::map<long, int> steps;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k - 1].segment != points[k].segment) continue;
     ++all;
+    ++steps[steps_to(k)];
+    if (steps_to(k) == 0) repeated.push_back(static_cast<int>(k));
+    if (steps_to(k) == 2) twice.push_back(static_cast<int>(k));
+    const bool within = k + 1 < points.size() && points[k + 1].segment == points[k].segment;
+    uneven += within && steps_to(k) != steps_to(k + 1);
   }
-  return uneven > kUneven * all || repeated > kRepeated * all ? step : 0;
+  const bool beats = ComeRegularly(repeated.empty() ? twice : repeated);
+  const bool often =
+      uneven > kUneven * all || static_cast<double>(repeated.size()) > kRepeated * all;
+  if (!often && !beats) return {};
+  int commonest = 0;
+  for (const auto& [size, count] : steps) commonest = std::max(commonest, count);
+  return {step, static_cast<double>(all) / std::max(all - commonest, 1)};
 }
 
 ValueFindings LookAtValues(const Readings& readings) {
@@ -215,7 +244,9 @@ ValueFindings LookAtValues(const Readings& readings) {
   for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
   LowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark)).Find(&findings);
   FindVoltageLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
-  findings.voltage_bin = FindBins(readings);
+  const VoltageBins bins = FindBins(readings);
+  findings.voltage_bin = bins.step;
+  findings.bins_shared = bins.shared;
   findings.bin_rounding.assign(currents.size(), 0.0);
   for (std::size_t k = 0; k < currents.size() && findings.voltage_bin > 0; ++k) {
     const double slope = SlopeOver(readings.points, static_cast<int>(k), findings.voltage_bin);

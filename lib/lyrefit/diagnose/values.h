@@ -26,6 +26,7 @@ struct ValueFindings {
   std::vector<double> rounding;  // of each reading: standard deviation of what a coarse grid adds
   double voltage_bin = 0;        // that the voltages were rounded to, per cell, V; 0: none
   std::vector<double> bin_rounding;  // of each reading: the same, in scales of the current
+  double bins_shared = 1;            // by so many neighbours the error of a bin is shared
 
   bool HasLimits() const { return clip_level > 0 || limited || !at_voltage_limit.empty(); }
 };
@@ -34,9 +35,16 @@ struct ValueFindings {
 // thousandth of their range. Values may be rounded to some digits beyond it.
 double FindGrid(const std::vector<double>& values);
 
-// The step to which voltages were rounded when they were read, 0 if they lie on no grid or were
-// set: a source goes on in even steps, rounding makes them uneven or repeats a voltage.
-double FindBins(const Readings& readings);
+// Bins to which voltages were rounded when they were read. Readings that are evenly apart drift
+// through their bins: neighbours err alike until a value is skipped or repeated.
+struct VoltageBins {
+  double step = 0;    // 0: the voltages lie on no grid or were set
+  double shared = 1;  // so many readings
+};
+
+// A source that is told its voltages goes on in even steps, rounding makes them uneven or repeats a
+// voltage.
+VoltageBins FindBins(const Readings& readings);
 
 // Clipping and grids, as the values themselves show them.
 ValueFindings LookAtValues(const Readings& readings);

@@ -30,6 +30,46 @@ TEST(IsMaterial, WhereTheWholeIntervalIsAboveAFloor) {
   EXPECT_TRUE(IsMaterial({}, {}));  // without floors everything is
 }
 
+TEST(IsMaterial, OfOneSweepOnlyWhereItShows) {
+  const Floors floors = {0.0025, 0.005};
+  EffectSize size;
+  size.reach = 0.1;
+  size.power = -0.1;
+  size.current = 0.0005;
+  EXPECT_TRUE(IsMaterial(size, floors));  // other light has shown it
+  size.one_sweep = true;
+  EXPECT_FALSE(IsMaterial(size, floors));
+  size.current = 0.0012;
+  EXPECT_TRUE(IsMaterial(size, floors));
+}
+
+// Over seeds, of a diode alone and beside a dip of the light at the knee.
+TEST(DevicePowerErrorTest, IsTheSpreadOfRepeatedFits) {
+  constexpr int kSeeds = 100;
+  for (const bool dip : {false, true}) {
+    double sum = 0, square = 0, stated = 0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      Recipe recipe;
+      recipe.seed = seed;
+      recipe.points = 120;
+      const MadeBench made = OnTheBench(MadeCurve(recipe));
+      LawFit fit = FitBase(made.bench, Law());
+      if (dip) {
+        Law law = fit.law;
+        law.effects = {FindEffect("transient")};
+        std::vector<double> start = fit.p;
+        for (const double value : {0.01, 0.3, 0.05, 0.0, 2.0}) start.push_back(value);
+        fit = FitLaw(made.bench, law, start);
+      }
+      const double power = std::log(DevicePower(made.bench, fit));
+      sum += power / kSeeds;
+      square += power * power / kSeeds;
+      stated += DevicePowerError(made.bench, fit) / kSeeds;
+    }
+    EXPECT_NEAR(stated / std::sqrt(square - sum * sum), 1, 0.25) << dip;
+  }
+}
+
 // A 60-cell module, one effect done to it exactly, and noise.
 struct Done {
   IvCurve curve;

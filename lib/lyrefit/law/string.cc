@@ -1,5 +1,7 @@
 #include "lyrefit/law/string.h"
 
+#include <limits>
+
 #include "lyrefit/law/string_brackets.h"
 #include "lyrefit/law/string_kind.h"
 
@@ -246,6 +248,17 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
   return done;
 }
 
+// The lanes in which a bypass diode would carry more than any device has. Where Rs drops more than the
+// cells hold, a part's cells drive such currents around through it, and no step leads to an end.
+Mask IsAbsurd(const Cell<Pack>& cell, const Terms& terms) {
+  constexpr double kMost = 1e6;  // scales
+  Mask absurd = Pack(1.0) < 0.0;
+  for (int p = 0; p < cell.parts; ++p) {
+    if (cell.part[p].bypassed) absurd = absurd | (Pack(kMost) < abs(terms.bypass[p].a));
+  }
+  return absurd;
+}
+
 // By implicit differentiation of the equations above, where they hold.
 void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& state,
                 const Terms& terms, const Linear& linear, StringSlopes* slopes) {
@@ -350,6 +363,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   Linear linear;
   constexpr double kLarge = 50;  // scales
   bool near = false, settled_once = false;
+  Mask hopeless = Pack(1.0) < 0.0;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(bench, cell, *state, &terms);
     SolveLinear(cell, limits, voltage, *state, terms, &linear);
@@ -366,6 +380,8 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
     }
     near = All(done);
     if (k != kMostSteps - kPatience) continue;
+    hopeless = IsAbsurd(cell, terms) & (!done);
+    if (Any(hopeless)) break;
     StringState settled;
     StartString(cell, limits, voltage, 0.0, &settled);
     SolveByBrackets(bench, cell, limits, voltage, &settled);
@@ -377,6 +393,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   for (int s = 0; s < cell.strings; ++s) {
     root.current = root.current + linear.string_weight[s] * linear.current[s];
   }
+  root.current = Choose(hopeless, std::numeric_limits<double>::quiet_NaN(), root.current);
   FindSlopes(cell, voltage, *state, terms, linear, &root.slopes);
   return root;
 }

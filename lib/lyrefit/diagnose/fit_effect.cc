@@ -130,6 +130,7 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     start.insert(start.end(), own.p.begin(), own.p.end());
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
+    if (best->usable) briefly.to_beat = Paid(bench, *best);
     LawFit end = FitLaw(bench, freed, start, briefly);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {

@@ -120,6 +120,12 @@ Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
   return rows.col(0);
 }
 
+Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns) {
+  RowMatrix rows = columns;
+  WhitenRows(bench, rows);
+  return rows;
+}
+
 LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options) {
   LawFit fit;

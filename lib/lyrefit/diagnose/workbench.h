@@ -37,6 +37,7 @@ ErrorModel ErrorsOf(const Workbench& bench);
 // Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
 // remains. Left-out readings become 0.
 Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values);
+Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns);
 
 struct LawFit {
   Law law;

@@ -59,6 +59,8 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 // is fitted again with the noise it leaves.
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
+// A hundredth of the noise variance more or less is nothing to an effect that is not there.
+const LeastSquaresOptions kToKnow = UpTo(10, 1e-4);
 constexpr int kFirstLook = 8;  // steps of every start that a shape suggests
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
@@ -233,7 +235,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
-    LeastSquaresOptions briefly = kBriefly;
+    LeastSquaresOptions briefly = effort == Effort::kForTheRecord ? kToKnow : kBriefly;
     if (best.usable) briefly.to_beat = best.sum;
     LawFit end = FitLaw(bench, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);

@@ -154,8 +154,22 @@ bool ClampParts(const Cell<Pack>& cell, const StringLimits& limits, const String
   return any;
 }
 
+// The same for cells that are all alike.
+void SolveAlike(const Pack& voltage, const StringState& state, const Terms& terms, Linear* linear) {
+  const Dual<1, Pack>&current = terms.kind[0].current, &drop = terms.drop[0];
+  linear->weight[0] = linear->divider[0] = linear->string_weight[0] = 1.0;
+  linear->mean_voltage[0] = state.u[0];
+  linear->stiffness[0] = 1.0 / current.v[0];
+  linear->level[0] = state.u[0] + (state.current[0] - current.a) * linear->stiffness[0] - drop.a;
+  linear->slope[0] = linear->string_slope[0] = linear->stiffness[0] - drop.v[0];
+  const Pack shift = (voltage - linear->level[0]) / linear->slope[0];
+  linear->current[0] = linear->part_current[0] = state.current[0] + shift;
+  linear->part_voltage[0] = linear->level[0] + shift * linear->slope[0];
+}
+
 void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const StringState& state, const Terms& terms, Linear* linear) {
+  if (cell.kinds == 1) return SolveAlike(voltage, state, terms, linear);
   Pack present[kMostKinds], mismatch[kMostKinds], shift[kMostKinds];
   Mask clamped[kMostKinds];
   SumKinds(cell, state, terms, linear, present, mismatch);
@@ -179,7 +193,7 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     linear->slope[p] = (linear->stiffness[p] - terms.drop[s].v[0]) * linear->divider[p];
   }
   SolveStrings(cell, voltage, linear, shift);
-  while (cell.kinds > 1 && ClampParts(cell, limits, state, shift, linear, clamped)) {
+  while (ClampParts(cell, limits, state, shift, linear, clamped)) {
     SolveStrings(cell, voltage, linear, shift);
   }
   for (int s = 0; s < cell.strings; ++s) linear->current[s] = state.current[s] + shift[s];

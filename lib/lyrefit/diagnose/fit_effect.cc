@@ -60,7 +60,7 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 // A hundredth of the noise variance more or less is nothing to an effect that is not there.
-const LeastSquaresOptions kToKnow = UpTo(10, 1e-4);
+const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
 constexpr int kFirstLook = 8;  // steps of every start that a shape suggests
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
@@ -257,6 +257,12 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
+  return end;
+}
+
+LawFit FitOnwards(const Workbench& bench, const LawFit& met) {
+  LawFit end = FitLaw(bench, met.law, met.p, kForRanking);
+  if (!end.usable || !IsItself(*met.law.effects.back(), end)) return {};
   return end;
 }
 

@@ -152,7 +152,10 @@ class Selector {
       const Effort effort = briefly               ? Effort::kForTheRecord
                             : options_.in_passing ? Effort::kInPassing
                                                   : Effort::kFull;
-      Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
+      const LawFit* met = FindMet(*score.effect);
+      Rival rival{score, {}, 0};
+      if (met != nullptr) rival.fit = FitOnwards(bench_, *met);
+      if (!rival.fit.usable) rival.fit = FitEffect(bench_, fit_, score, effort);
       FitFromHint(&rival);
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
@@ -232,6 +235,17 @@ class Selector {
       if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
     }
     return worthy;
+  }
+
+  // The fit with one more effect of the selection that this one repeats. What is searched there is
+  // searched here as well.
+  const LawFit* FindMet(const Effect& effect) const {
+    const auto searched = [](const EffectParameter& parameter) { return parameter.searched; };
+    if (options_.met == nullptr || !fit_.law.effects.empty()) return nullptr;
+    if (std::any_of(effect.parameters.begin(), effect.parameters.end(), searched)) return nullptr;
+    const auto at = std::find_if(options_.met->begin(), options_.met->end(),
+                                 [&](const Rival& r) { return r.score.effect == &effect; });
+    return at != options_.met->end() && at->fit.usable ? &at->fit : nullptr;
   }
 
   // Once more from where the effect was found before.

@@ -16,6 +16,8 @@ namespace lyrefit {
 // wrong.
 constexpr double kLaterLevel = 0.2;
 
+struct Rival;
+
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
@@ -32,6 +34,7 @@ struct SelectOptions {
   LawFit hint;                            // where effects were found before; usable or not
   bool in_passing = false;                // each of them from its best probe alone,
                                           // and no cause exchanged for another later
+  const std::vector<Rival>* met = nullptr;  // there, each effect beside `base`
   std::vector<const Effect*> candidates;  // allowed by the kind of data
   Watch* watch = nullptr;
 };

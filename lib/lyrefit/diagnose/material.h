@@ -30,6 +30,15 @@ struct EffectSize {
 };
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without);
 
+// A fit without the effects that are sized, and what of it serves all of them.
+struct Without {
+  const LawFit& fit;
+  Eigen::MatrixXd basis;  // as Departure takes it
+  double power;
+};
+Without MakeWithout(const Workbench& bench, const LawFit& fit);
+EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without);
+
 // Whether the whole interval of one of its sizes lies above the floor.
 bool IsMaterial(const EffectSize& size, const Floors& floors);
 

@@ -176,11 +176,11 @@ class Selector {
 
   // Whether an effect is certainly larger than the floors, and explains its part of what there was
   // to explain in the first place.
-  bool IsWorthAName(const Rival& rival) const {
+  bool IsWorthAName(const Rival& rival, const Without& without) const {
     // What bends to everything bends to what a cause's own model gets wrong.
     constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
     const int last = static_cast<int>(rival.fit.law.effects.size()) - 1;
-    const EffectSize size = SizeOf(bench_, rival.fit, last, fit_);
+    const EffectSize size = SizeOf(bench_, rival.fit, last, without);
     if (!IsMaterial(size, options_.floors)) return false;
     if (causes_.empty()) return true;
     const bool generic = IsGeneric(readings_, *rival.score.effect);
@@ -212,9 +212,10 @@ class Selector {
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
+    const Without without = MakeWithout(bench_, fit_);
     for (const Rival& rival : all) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
-      if (IsWorthAName(rival)) {
+      if (IsWorthAName(rival, without)) {
         worthy.push_back(rival);
       } else if (rival.corrected_p < level_) {
         below->push_back(rival);

@@ -82,6 +82,10 @@ std::vector<double> StandardErrors(const Linearized& linear, int parameters);
 // Root mean square over the readings used, in scales, of what a fit's law at its best would still
 // miss of `currents`: noise, weights and what lies along its parameters do not count.
 double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents);
+// The same with what lies along the fit's parameters given, which is the same for all currents.
+Eigen::MatrixXd PlainBasis(const Workbench& bench, const LawFit& fit);
+double Departure(const Workbench& bench, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
+                 const std::vector<double>& currents);
 
 // Free parameters of a law on this bench.
 int FreeCount(const Workbench& bench, const Law& law);

@@ -262,8 +262,9 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
   return done;
 }
 
-// The lanes in which a bypass diode would carry more than any device has. Where Rs drops more than the
-// cells hold, a part's cells drive such currents around through it, and no step leads to an end.
+// The lanes in which a bypass diode would carry more than any device has. Where Rs drops more than
+// the cells hold, a part's cells drive such currents around through it, and no step leads to an
+// end.
 Mask IsAbsurd(const Cell<Pack>& cell, const Terms& terms) {
   constexpr double kMost = 1e6;  // scales
   Mask absurd = Pack(1.0) < 0.0;

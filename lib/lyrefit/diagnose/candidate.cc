@@ -56,9 +56,11 @@ std::vector<Raw> Signatures(const Workbench& bench, const Effect& effect, const 
     return raw;
   }
   const auto moved = imprint.moved.find(&effect);
-  for (int k = 0; moved != imprint.moved.end() && k < moved->second.cols(); ++k) {
-    Eigen::VectorXd signature = Whiten(bench, moved->second.col(k));
-    if (signature.allFinite() && signature.norm() > 0) raw.push_back({std::move(signature), k});
+  if (moved == imprint.moved.end()) return raw;
+  const Eigen::MatrixXd signatures = WhitenColumns(bench, moved->second);
+  for (int k = 0; k < signatures.cols(); ++k) {
+    const auto signature = signatures.col(k);
+    if (signature.allFinite() && signature.norm() > 0) raw.push_back({signature, k});
   }
   return raw;
 }

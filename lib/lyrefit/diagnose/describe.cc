@@ -196,7 +196,7 @@ void DescribeSize(const Workbench& bench, const LawFit& with, int index, const L
   cause->strength = DescribeParameters(bench, with, index);
   cause->in_words = InWords(bench, with, index);
   if (!without.usable) return;
-  const EffectSize size = SizeOf(bench, with, index, without);
+  const EffectSize size = SizeOf(bench, with, index, MakeWithout(bench, without));
   const double half = size.current * size.reach;
   cause->current_effect = {size.current, std::max(size.current - half, 0.0), size.current + half};
   cause->power_effect = {size.power, size.power - size.power_error, size.power + size.power_error};

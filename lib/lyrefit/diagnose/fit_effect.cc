@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -58,6 +59,9 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 // is fitted again with the noise it leaves.
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
+// A hundredth of the noise variance more or less is nothing to an effect that is not there.
+const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
+constexpr int kFirstLook = 8;  // steps of every start that a shape suggests
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
 double Paid(const Workbench& bench, const LawFit& fit) {
@@ -107,6 +111,31 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
+// A few steps from every start: the two of each setting that came furthest, the best of all first.
+std::vector<LawFit> LookAtStarts(const Workbench& bench, const Effect& effect, const Law& law,
+                                 const std::vector<double>& base,
+                                 const std::vector<ShapeStart>& starts) {
+  constexpr std::size_t kMost = 2;
+  const auto further = [](const LawFit& a, const LawFit& b) { return a.sum < b.sum; };
+  std::map<Setting, std::vector<LawFit>> ends;
+  for (const ShapeStart& own : starts) {
+    Law freed = law;
+    for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
+    std::vector<double> start = base;
+    start.insert(start.end(), own.p.begin(), own.p.end());
+    LawFit end = FitLaw(bench, freed, start, UpTo(kFirstLook, kBriefly.function_tolerance));
+    if (end.usable) ends[SettingOf(effect, own)].push_back(std::move(end));
+  }
+  std::vector<LawFit> kept;
+  for (auto& [setting, own] : ends) {
+    std::stable_sort(own.begin(), own.end(), further);
+    own.resize(std::min(own.size(), kMost));
+    std::move(own.begin(), own.end(), std::back_inserter(kept));
+  }
+  std::stable_sort(kept.begin(), kept.end(), further);
+  return kept;
+}
+
 // The best end of those that the curve's shape suggests. From a healthy module where the law is
 // ruined without the effect, else from where the probes ended.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
@@ -123,14 +152,11 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
               base.begin());
     starts = NearestStarts(effect, starts, best->p[base.size()]);
   }
-  for (const ShapeStart& own : starts) {
-    Law freed = law;
-    for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
-    std::vector<double> start = base;
-    start.insert(start.end(), own.p.begin(), own.p.end());
-    LeastSquaresOptions briefly = kBriefly;
-    briefly.max_iterations = 30;
-    LawFit end = FitLaw(bench, freed, start, briefly);
+  for (const LawFit& seen : LookAtStarts(bench, effect, law, base, starts)) {
+    LeastSquaresOptions on = kBriefly;
+    on.max_iterations = 30 - kFirstLook;
+    if (best->usable) on.to_beat = Paid(bench, *best);
+    LawFit end = FitLaw(bench, seen.law, seen.p, on);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {
       *best = std::move(end);
@@ -209,7 +235,7 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
-    LeastSquaresOptions briefly = kBriefly;
+    LeastSquaresOptions briefly = effort == Effort::kForTheRecord ? kToKnow : kBriefly;
     if (best.usable) briefly.to_beat = best.sum;
     LawFit end = FitLaw(bench, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
@@ -231,6 +257,12 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(bench, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
+  return end;
+}
+
+LawFit FitOnwards(const Workbench& bench, const LawFit& met) {
+  LawFit end = FitLaw(bench, met.law, met.p, kForRanking);
+  if (!end.usable || !IsItself(*met.law.effects.back(), end)) return {};
   return end;
 }
 

@@ -13,6 +13,10 @@ enum class Effort { kFull, kInPassing, kForTheRecord };
 LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score,
                  Effort effort = Effort::kFull);
 
+// The law of `met`, a fit with one more effect to readings of which most are on this bench too,
+// from where that ended.
+LawFit FitOnwards(const Workbench& bench, const LawFit& met);
+
 // Whether a law is so far off, by misfit or ideality, that what is seen or fitted from it misleads.
 bool LeadsAstray(const Workbench& bench, const LawFit& fit);
 

@@ -117,6 +117,7 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
     inner.most_rivals = kRivals;
     inner.in_passing = true;
     inner.hint = selection.extended;
+    inner.met = &selection.trials;
     inner.base = selection.base.law;
     inner.start = selection.base.p;
     inner.worth = selection.worth;

@@ -126,17 +126,21 @@ LawFit WithoutEffects(const LawFit& fit) {
   return rest;
 }
 
-EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without) {
+Without MakeWithout(const Workbench& bench, const LawFit& fit) {
+  return {fit, PlainBasis(bench, fit), DevicePower(bench, fit)};
+}
+
+EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without) {
   constexpr double kReach = 1.96;
   EffectSize size;
   size.one_sweep = bench.readings->traits.single;
-  size.current = Departure(bench, without, with.current);
+  size.current = Departure(bench, without.fit, without.basis, with.current);
   const double power = DevicePower(bench, with);
-  size.power = power / DevicePower(bench, without) - 1;
+  size.power = power / without.power - 1;
   if (with.law.effects[index]->where == Where::kDevice) {
     size.recoverable = DevicePower(bench, TakenOut(with, index)) / power - 1;
   }
-  const double statistic = (without.sum - with.sum) / NoiseVariance(bench, with);
+  const double statistic = (without.fit.sum - with.sum) / NoiseVariance(bench, with);
   size.reach = statistic > kReach * kReach ? kReach / std::sqrt(statistic) : 1;
   size.power_error =
       std::max(kReach * DevicePowerError(bench, with), std::fabs(size.power) * size.reach) +

@@ -23,6 +23,14 @@ double DevicePowerError(const Workbench& bench, const LawFit& fit);
 LawFit TakenOut(const LawFit& fit, int index);
 LawFit WithoutEffects(const LawFit& fit);
 
+// A fit without the effects that are sized, and what of it serves all of them.
+struct Without {
+  const LawFit& fit;
+  Eigen::MatrixXd basis;  // as Departure takes it
+  double power;
+};
+Without MakeWithout(const Workbench& bench, const LawFit& fit);
+
 // How large an effect of a fit is: number `index` of its law, beside the fit without it.
 struct EffectSize {
   double current = 0;      // in parts of Isc: what the law without it would miss at its best
@@ -34,7 +42,7 @@ struct EffectSize {
   double power_error = 0;
   bool one_sweep = false;  // or one up and down
 };
-EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const LawFit& without);
+EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without);
 
 // Whether the whole interval of one of its sizes lies above the floor.
 bool IsMaterial(const EffectSize& size, const Floors& floors);

@@ -152,7 +152,10 @@ class Selector {
       const Effort effort = briefly               ? Effort::kForTheRecord
                             : options_.in_passing ? Effort::kInPassing
                                                   : Effort::kFull;
-      Rival rival{score, FitEffect(bench_, fit_, score, effort), 0};
+      const LawFit* met = FindMet(*score.effect);
+      Rival rival{score, {}, 0};
+      if (met != nullptr) rival.fit = FitOnwards(bench_, *met);
+      if (!rival.fit.usable) rival.fit = FitEffect(bench_, fit_, score, effort);
       FitFromHint(&rival);
       if (rival.fit.usable) rivals.push_back(std::move(rival));
     }
@@ -173,11 +176,11 @@ class Selector {
 
   // Whether an effect is certainly larger than the floors, and explains its part of what there was
   // to explain in the first place.
-  bool IsWorthAName(const Rival& rival) const {
+  bool IsWorthAName(const Rival& rival, const Without& without) const {
     // What bends to everything bends to what a cause's own model gets wrong.
     constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
     const int last = static_cast<int>(rival.fit.law.effects.size()) - 1;
-    const EffectSize size = SizeOf(bench_, rival.fit, last, fit_);
+    const EffectSize size = SizeOf(bench_, rival.fit, last, without);
     if (!IsMaterial(size, options_.floors)) return false;
     if (causes_.empty()) return true;
     const bool generic = IsGeneric(readings_, *rival.score.effect);
@@ -209,9 +212,10 @@ class Selector {
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
+    const Without without = MakeWithout(bench_, fit_);
     for (const Rival& rival : all) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
-      if (IsWorthAName(rival)) {
+      if (IsWorthAName(rival, without)) {
         worthy.push_back(rival);
       } else if (rival.corrected_p < level_) {
         below->push_back(rival);
@@ -232,6 +236,17 @@ class Selector {
       if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
     }
     return worthy;
+  }
+
+  // The fit with one more effect of the selection that this one repeats. What is searched there is
+  // searched here as well.
+  const LawFit* FindMet(const Effect& effect) const {
+    const auto searched = [](const EffectParameter& parameter) { return parameter.searched; };
+    if (options_.met == nullptr || !fit_.law.effects.empty()) return nullptr;
+    if (std::any_of(effect.parameters.begin(), effect.parameters.end(), searched)) return nullptr;
+    const auto at = std::find_if(options_.met->begin(), options_.met->end(),
+                                 [&](const Rival& r) { return r.score.effect == &effect; });
+    return at != options_.met->end() && at->fit.usable ? &at->fit : nullptr;
   }
 
   // Once more from where the effect was found before.

@@ -16,6 +16,8 @@ namespace lyrefit {
 // wrong.
 constexpr double kLaterLevel = 0.2;
 
+struct Rival;
+
 struct SelectOptions {
   double level = 0.05;
   int draws = 2000;
@@ -24,15 +26,16 @@ struct SelectOptions {
   int largest_causes = 4;
   Floors floors;
   std::uint64_t seed = 1;
-  Law base;                               // a variant that the data prefer may take its place
-  std::vector<double> start;              // of `base`, which is then kept; empty: none is known
-  bool trials = true;                     // fit every effect on the base model, wanted or not, and
-                                          // tell the watch of the stages
-  int most_rivals = 0;                    // fitted at a step, the best by score; 0: all
-  LawFit hint;                            // where effects were found before; usable or not
-  bool in_passing = false;                // each of them from its best probe alone,
-                                          // and no cause exchanged for another later
-  std::vector<const Effect*> candidates;  // allowed by the kind of data
+  Law base;                   // a variant that the data prefer may take its place
+  std::vector<double> start;  // of `base`, which is then kept; empty: none is known
+  bool trials = true;         // fit every effect on the base model, wanted or not, and
+                              // tell the watch of the stages
+  int most_rivals = 0;        // fitted at a step, the best by score; 0: all
+  LawFit hint;                // where effects were found before; usable or not
+  bool in_passing = false;    // each of them from its best probe alone,
+                              // and no cause exchanged for another later
+  const std::vector<Rival>* met = nullptr;  // there, each effect beside `base`
+  std::vector<const Effect*> candidates;    // allowed by the kind of data
   Watch* watch = nullptr;
 };
 

@@ -120,6 +120,12 @@ Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
   return rows.col(0);
 }
 
+Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns) {
+  RowMatrix rows = columns;
+  WhitenRows(bench, rows);
+  return rows;
+}
+
 LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options) {
   LawFit fit;
@@ -246,12 +252,21 @@ Workbench Plain(const Workbench& bench) {
 
 }  // namespace
 
+Eigen::MatrixXd PlainBasis(const Workbench& bench, const LawFit& fit) {
+  return Linearize(Plain(bench), fit).basis;
+}
+
 double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents) {
+  return Departure(bench, fit, PlainBasis(bench, fit), currents);
+}
+
+double Departure(const Workbench& bench, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
+                 const std::vector<double>& currents) {
   const Workbench plain = Plain(bench);
   Eigen::VectorXd off(static_cast<int>(currents.size()));
   for (int k = 0; k < off.size(); ++k) off[k] = currents[k] - fit.current[k];
   off = Whiten(plain, off);
-  TakeOut(Linearize(plain, fit).basis, &off);
+  TakeOut(plain_basis, &off);
   return off.norm() / std::sqrt(std::max(bench.count(), 1));
 }
 

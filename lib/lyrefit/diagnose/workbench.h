@@ -37,6 +37,7 @@ ErrorModel ErrorsOf(const Workbench& bench);
 // Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
 // remains. Left-out readings become 0.
 Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values);
+Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns);
 
 struct LawFit {
   Law law;
@@ -84,6 +85,10 @@ double StandardError(const Linearized& linear, const std::vector<double>& deriva
 // Root mean square over the readings used, in scales, of what a fit's law at its best would still
 // miss of `currents`: noise, weights and what lies along its parameters do not count.
 double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents);
+// The same with what lies along the fit's parameters given, which is the same for all currents.
+Eigen::MatrixXd PlainBasis(const Workbench& bench, const LawFit& fit);
+double Departure(const Workbench& bench, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
+                 const std::vector<double>& currents);
 
 // Free parameters of a law on this bench.
 int FreeCount(const Workbench& bench, const Law& law);

@@ -1,5 +1,7 @@
 #include "lyrefit/law/string.h"
 
+#include <limits>
+
 #include "lyrefit/law/string_brackets.h"
 #include "lyrefit/law/string_kind.h"
 
@@ -152,8 +154,22 @@ bool ClampParts(const Cell<Pack>& cell, const StringLimits& limits, const String
   return any;
 }
 
+// The same for cells that are all alike.
+void SolveAlike(const Pack& voltage, const StringState& state, const Terms& terms, Linear* linear) {
+  const Dual<1, Pack>&current = terms.kind[0].current, &drop = terms.drop[0];
+  linear->weight[0] = linear->divider[0] = linear->string_weight[0] = 1.0;
+  linear->mean_voltage[0] = state.u[0];
+  linear->stiffness[0] = 1.0 / current.v[0];
+  linear->level[0] = state.u[0] + (state.current[0] - current.a) * linear->stiffness[0] - drop.a;
+  linear->slope[0] = linear->string_slope[0] = linear->stiffness[0] - drop.v[0];
+  const Pack shift = (voltage - linear->level[0]) / linear->slope[0];
+  linear->current[0] = linear->part_current[0] = state.current[0] + shift;
+  linear->part_voltage[0] = linear->level[0] + shift * linear->slope[0];
+}
+
 void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const StringState& state, const Terms& terms, Linear* linear) {
+  if (cell.kinds == 1) return SolveAlike(voltage, state, terms, linear);
   Pack present[kMostKinds], mismatch[kMostKinds], shift[kMostKinds];
   Mask clamped[kMostKinds];
   SumKinds(cell, state, terms, linear, present, mismatch);
@@ -177,7 +193,7 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     linear->slope[p] = (linear->stiffness[p] - terms.drop[s].v[0]) * linear->divider[p];
   }
   SolveStrings(cell, voltage, linear, shift);
-  while (cell.kinds > 1 && ClampParts(cell, limits, state, shift, linear, clamped)) {
+  while (ClampParts(cell, limits, state, shift, linear, clamped)) {
     SolveStrings(cell, voltage, linear, shift);
   }
   for (int s = 0; s < cell.strings; ++s) linear->current[s] = state.current[s] + shift[s];
@@ -244,6 +260,18 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
     state->current[s] = state->current[s] + part * (linear.current[s] - state->current[s]);
   }
   return done;
+}
+
+// The lanes in which a bypass diode would carry more than any device has. Where Rs drops more than
+// the cells hold, a part's cells drive such currents around through it, and no step leads to an
+// end.
+Mask IsAbsurd(const Cell<Pack>& cell, const Terms& terms) {
+  constexpr double kMost = 1e6;  // scales
+  Mask absurd = Pack(1.0) < 0.0;
+  for (int p = 0; p < cell.parts; ++p) {
+    if (cell.part[p].bypassed) absurd = absurd | (Pack(kMost) < abs(terms.bypass[p].a));
+  }
+  return absurd;
 }
 
 // By implicit differentiation of the equations above, where they hold.
@@ -350,6 +378,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   Linear linear;
   constexpr double kLarge = 50;  // scales
   bool near = false, settled_once = false;
+  Mask hopeless = Pack(1.0) < 0.0;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(bench, cell, *state, &terms);
     SolveLinear(cell, limits, voltage, *state, terms, &linear);
@@ -366,6 +395,8 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
     }
     near = All(done);
     if (k != kMostSteps - kPatience) continue;
+    hopeless = IsAbsurd(cell, terms) & (!done);
+    if (Any(hopeless)) break;
     StringState settled;
     StartString(cell, limits, voltage, 0.0, &settled);
     SolveByBrackets(bench, cell, limits, voltage, &settled);
@@ -377,6 +408,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   for (int s = 0; s < cell.strings; ++s) {
     root.current = root.current + linear.string_weight[s] * linear.current[s];
   }
+  root.current = Choose(hopeless, std::numeric_limits<double>::quiet_NaN(), root.current);
   FindSlopes(cell, voltage, *state, terms, linear, &root.slopes);
   return root;
 }

@@ -69,7 +69,8 @@ struct StringRoot {
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state);
 
-// The root at `voltage` per cell, from the state that is given, which moves there.
+// The root at `voltage` per cell, from the state that is given, which moves there. The current is
+// NaN where cells would drive more than a million scales through their own bypass diode.
 StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
                        const Pack& voltage, StringState* state);
 

@@ -52,5 +52,23 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   EXPECT_NEAR(without.sum, base.sum, 1e-3 * base.sum);
 }
 
+// Where a tenth of the readings is missing a fit goes on from where it ended, and stays what it
+// was.
+TEST(FitEffectTest, GoesOnFromWhereItEnded) {
+  IvCurve curve = MadeCurve({});
+  for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
+  MadeBench made = OnTheBench(curve);
+  const LawFit base = FitBase(made.bench, Law());
+  const std::vector<Score> scores =
+      ScoreEffects(made.bench, base, {FindEffect("transient")}, 200, 1);
+  const LawFit met = FitEffect(made.bench, base, scores.front());
+  for (std::size_t k = 0; k < made.bench.used.size(); k += 10) made.bench.used[k] = 0;
+  const LawFit fit = FitOnwards(made.bench, met);
+  ASSERT_TRUE(fit.usable);
+  EXPECT_LT(fit.sum, met.sum);
+  EXPECT_EQ(fit.law.effects, met.law.effects);
+  EXPECT_NEAR(fit.p[6], met.p[6], 0.01);
+}
+
 }  // namespace
 }  // namespace lyrefit

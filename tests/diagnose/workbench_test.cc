@@ -42,6 +42,19 @@ TEST(WhitenTest, TakesTheCorrelationOut) {
   EXPECT_NEAR(white.head(1999).dot(white.tail(1999)) / 2000, 0, 0.07);
 }
 
+TEST(WhitenTest, WhitensColumnsAsEachByItself) {
+  MadeBench made = OnTheBench(MadeCurve({}));
+  made.bench.path = 1e-3;
+  const int count = made.bench.count();
+  Eigen::MatrixXd columns(count, 2);
+  for (int k = 0; k < count; ++k) columns.row(k) << std::cos(0.1 * k), k;
+  const Eigen::MatrixXd white = WhitenColumns(made.bench, columns);
+  for (int c = 0; c < 2; ++c) {
+    const Eigen::VectorXd column = columns.col(c);
+    EXPECT_EQ(white.col(c), Whiten(made.bench, column)) << c;
+  }
+}
+
 TEST(FitBaseTest, FindsTheDevice) {
   for (const int cells : {1, 60}) {
     Recipe recipe;

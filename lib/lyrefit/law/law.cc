@@ -316,7 +316,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         state.fresh && b > 0 &&
         StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
     if (!follows) Start(cell, limits, block, voltage, state.fresh, &at);
-    const StringRoot root = SolveString(plain, cell, limits, voltage, &at);
+    const StringRoot root = SolveString(plain, cell, limits, voltage, &at, kept);
     if constexpr (!kDerivatives) {
       const Pack recorded =
           instrument ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;

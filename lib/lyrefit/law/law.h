@@ -66,12 +66,13 @@ struct Law {
 };
 
 // The readings laid out for the law, and where the last evaluation of it ended: from there the next
-// starts. For one law and one set of readings, which must not change in between.
+// starts. For one law and one set of readings, which must not change in between. Laws that no
+// device has are given up sooner (string.h).
 class LawWorkspace {
  public:
   LawWorkspace();
   // On blocks that stand already (reading_blocks.h) and outlive this; every evaluation starts
-  // afresh.
+  // afresh, and none is given up.
   explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
   ~LawWorkspace();
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -64,36 +62,6 @@ double Paid(const Workbench& bench, const LawFit& fit) {
   return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
 }
 
-// What a start decides that no descent changes: the parameters it lets go and the values of those
-// that are searched or stay held.
-using Setting = std::pair<std::vector<int>, std::vector<double>>;
-Setting SettingOf(const Effect& effect, const ShapeStart& start) {
-  Setting setting{start.freed, {}};
-  for (int k = 0; k < effect.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    const auto& freed = start.freed;
-    const bool stays = parameter.held && std::find(freed.begin(), freed.end(), k) == freed.end();
-    if (parameter.searched || stays) setting.second.push_back(start.p[k]);
-  }
-  return setting;
-}
-
-// Of each setting the start that is nearest to a strength.
-std::vector<ShapeStart> NearestStarts(const Effect& effect, const std::vector<ShapeStart>& starts,
-                                      double strength) {
-  std::map<Setting, const ShapeStart*> nearest;
-  for (const ShapeStart& start : starts) {
-    const ShapeStart*& best = nearest[SettingOf(effect, start)];
-    if (best == nullptr || std::fabs(start.p[0] - strength) < std::fabs(best->p[0] - strength)) {
-      best = &start;
-    }
-  }
-  std::vector<ShapeStart> kept;
-  kept.reserve(nearest.size());
-  for (const auto& [setting, start] : nearest) kept.push_back(*start);
-  return kept;
-}
-
 // Whether the last effect of a fit ended as what it is meant to be.
 bool IsItself(const Effect& effect, const LawFit& fit) {
   const std::size_t first = fit.p.size() - effect.parameters.size();
@@ -107,29 +75,23 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
-// The best end of those that the curve's shape suggests. From a healthy module where the law is
-// ruined without the effect, else from where the probes ended.
+// The best end of those that the curve's shape suggests. All of them from a healthy module: a base
+// fit that had to bend to the fault leads to the wrong valley.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
   const Readings& readings = *bench.readings;
   const CurveShape shape = ShapeOf(readings);
-  std::vector<ShapeStart> starts = effect.starts(shape, readings.traits);
   std::vector<double> base = fit.p;
-  if (!best->usable || LeadsAstray(bench, fit)) {
-    const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
-    std::copy(healthy.begin(), healthy.end(), base.begin());
-  } else {
-    std::copy(best->p.begin(), best->p.begin() + static_cast<std::ptrdiff_t>(base.size()),
-              base.begin());
-    starts = NearestStarts(effect, starts, best->p[base.size()]);
-  }
-  for (const ShapeStart& own : starts) {
+  const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
+  std::copy(healthy.begin(), healthy.end(), base.begin());
+  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
     Law freed = law;
     for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
     std::vector<double> start = base;
     start.insert(start.end(), own.p.begin(), own.p.end());
     LeastSquaresOptions briefly = kBriefly;
     briefly.max_iterations = 30;
+    if (best->usable) briefly.to_beat = best->sum;
     LawFit end = FitLaw(bench, freed, start, briefly);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {

@@ -109,11 +109,20 @@ Effect Scatter() {
     std::vector<ShapeStart> starts;
     constexpr double kLeastHalfway = 0.7;
     if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
+    // The dimmest cell decides where the current bends: each side of its place is a valley of its
+    // own, and so are cells that conduct in reverse and cells that do not.
     for (const double lopsided : {0.0, 1.0}) {
       for (const double width : {0.015, 0.04}) {
         starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
         starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft, kScatterDimmest}});
+        starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
+        for (const double beyond : {-1.0, 0.0, 1.0}) {
+          starts.push_back(
+              {{width, 10, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
+        }
+        for (const double beyond : {-1.0, 1.0}) {
+          starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});
+        }
       }
     }
     return starts;

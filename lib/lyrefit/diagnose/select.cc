@@ -221,17 +221,40 @@ class Selector {
     const auto is_beaten = [&](const Rival& rival) {
       if (!IsGeneric(readings_, *rival.score.effect)) return false;
       return std::any_of(below->begin(), below->end(), [&](const Rival& other) {
-        return !IsGeneric(readings_, *other.score.effect) &&
-               other.Charged() > rival.Charged() + kEquivalenceWidth;
+        return other.Charged() > rival.Charged() + kEquivalenceWidth;
       });
     };
     worthy.erase(std::remove_if(worthy.begin(), worthy.end(), is_beaten), worthy.end());
+    PreferBelow(&worthy, below);
     for (std::vector<Rival>* rivals : {&worthy, below}) {
       const std::size_t at = Prefer(bench_, *rivals, Misfit(), options_.floors.current);
       const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
       if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
     }
     return worthy;
+  }
+
+  // A size is not certain where something simpler that explains as much is smaller: that takes the
+  // place of all that is worth a name where it is as large as the floor itself, else nothing does.
+  void PreferBelow(std::vector<Rival>* worthy, std::vector<Rival>* below) const {
+    if (worthy->empty() || below->empty()) return;
+    std::vector<Rival> all = *worthy;
+    all.insert(all.end(), below->begin(), below->end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
+    const Rival& best = all[Prefer(bench_, all, Misfit(), options_.floors.current)];
+    const auto is_best = [&](const Rival& r) { return r.score.effect == best.score.effect; };
+    const auto at = std::find_if(below->begin(), below->end(), is_best);
+    if (at == below->end() || IsGeneric(readings_, *best.score.effect)) return;
+    const int last = static_cast<int>(best.fit.law.effects.size()) - 1;
+    const bool is_large = SizeOf(bench_, best.fit, last, fit_).current >= options_.floors.current;
+    if (is_large) {
+      worthy->insert(worthy->begin(), *at);
+      below->erase(at);
+    } else {
+      below->insert(below->end(), worthy->begin(), worthy->end());
+      worthy->clear();
+    }
   }
 
   // Once more from where the effect was found before.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -76,27 +77,39 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
 }
 
 // The best end of those that the curve's shape suggests. All of them from a healthy module: a base
-// fit that had to bend to the fault leads to the wrong valley.
+// fit that had to bend to the fault leads to the wrong valley. All take some steps; those that are
+// ahead then, each in a valley of its own, go on.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
+  constexpr std::size_t kAhead = 8;
+  constexpr double kSameValley = 1e-3;  // relative, of what is paid
+  const LeastSquaresOptions some_steps = UpTo(15, 1e-5), all_steps = UpTo(30, 1e-5);
   const Readings& readings = *bench.readings;
   const CurveShape shape = ShapeOf(readings);
   std::vector<double> base = fit.p;
-  const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
+  const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
   std::copy(healthy.begin(), healthy.end(), base.begin());
+  std::vector<std::pair<double, LawFit>> ends;
   for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
     Law freed = law;
     for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
     std::vector<double> start = base;
     start.insert(start.end(), own.p.begin(), own.p.end());
-    LeastSquaresOptions briefly = kBriefly;
-    briefly.max_iterations = 30;
-    if (best->usable) briefly.to_beat = best->sum;
-    LawFit end = FitLaw(bench, freed, start, briefly);
+    LawFit end = FitLaw(bench, freed, start, some_steps);
+    if (end.usable) ends.emplace_back(Paid(bench, end), std::move(end));
+  }
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  double last = 0;
+  std::size_t ahead = 0;
+  for (const auto& [paid, way] : ends) {
+    if (ahead == kAhead) return;
+    if (paid < (1 + kSameValley) * last) continue;
+    last = paid;
+    ++ahead;
+    LawFit end = FitLaw(bench, way.law, way.p, all_steps);
     if (!end.usable || !IsItself(effect, end)) continue;
-    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {
-      *best = std::move(end);
-    }
+    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) *best = std::move(end);
   }
 }
 

@@ -139,7 +139,9 @@ class Selector {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
-    const bool astray = LeadsAstray(bench_, fit_);
+    // Nothing is worth a name that is smaller than what the present law misses.
+    const bool may_matter = options_.floors.current > 0 && Misfit() > options_.floors.current;
+    const bool astray = may_matter || LeadsAstray(bench_, fit_);
     for (const Score& score : scores) {
       CountStep();
       // What the shape of the curve suggests does not hang on scores that a fault ruins.

@@ -88,7 +88,7 @@ Effect Scatter() {
   e.confused_with = {"mismatch", "weak_cell", "distributed_rs"};
   e.separate_by = "an electroluminescence image";
   e.parameters = {
-      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.1, 0},
+      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.08, 0},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 30, 3.2},
       {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4},
       {"q", "lopsidedness", "", "0: normal; 1: few cells far below the others", 0, 1, 0},
@@ -118,7 +118,7 @@ Effect Scatter() {
         starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
         for (const double beyond : {-1.0, 0.0, 1.0}) {
           starts.push_back(
-              {{width, 10, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
+              {{width, 15, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
         }
         for (const double beyond : {-1.0, 1.0}) {
           starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});

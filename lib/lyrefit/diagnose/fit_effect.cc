@@ -76,6 +76,17 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
+// Whether a law misses the used readings by more than so many parts of Isc, root mean square.
+bool Misses(const Workbench& bench, const LawFit& fit, double part) {
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double off = fit.current[k] - bench.readings->points[k].current;
+    sum += off * off;
+  }
+  return sum > part * part * std::max(bench.count(), 1);
+}
+
 // The best end of those that the curve's shape suggests. All of them from a healthy module: a base
 // fit that had to bend to the fault leads to the wrong valley. All take some steps; those that are
 // ahead then, each in a valley of its own, go on.
@@ -89,12 +100,24 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
   std::vector<double> base = fit.p;
   const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
   std::copy(healthy.begin(), healthy.end(), base.begin());
+  // Steps of the current are cliffs for weights that foresee none: there all readings count alike
+  // at first.
+  constexpr double kSteps = 0.02;
+  const bool has_steps = Misses(bench, fit, kSteps);
+  Workbench alike = bench;
+  alike.path = alike.correlation = 0;
+  alike.sigma.assign(bench.sigma.size(), 0.01);
   std::vector<std::pair<double, LawFit>> ends;
   for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
     Law freed = law;
     for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
     std::vector<double> start = base;
     start.insert(start.end(), own.p.begin(), own.p.end());
+    if (has_steps) {
+      LawFit rough = FitLaw(alike, freed, start, some_steps);
+      if (!rough.usable) continue;
+      start = std::move(rough.p);
+    }
     LawFit end = FitLaw(bench, freed, start, some_steps);
     if (end.usable) ends.emplace_back(Paid(bench, end), std::move(end));
   }
@@ -151,14 +174,7 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
 bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
   constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
   const double n = fit.p[kBaseIdeality];
-  if (!(n > kLeastIdeality && n < kMostIdeality)) return true;
-  double sum = 0;
-  for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const double off = fit.current[k] - bench.readings->points[k].current;
-    sum += off * off;
-  }
-  return sum > kMisfit * kMisfit * std::max(bench.count(), 1);
+  return !(n > kLeastIdeality && n < kMostIdeality) || Misses(bench, fit, kMisfit);
 }
 
 double FreedomOf(const Workbench& bench, const Law& law) {

@@ -91,7 +91,8 @@ bool LeavesAsLittle(const Workbench& bench, const Rival& rival, const Rival& oth
 
 bool IsGeneric(const Readings& readings, const Effect& effect) {
   if (readings.traits.up_down) return effect.momentary;
-  return effect.where == Where::kSweep || std::string_view(effect.id) == "range_switch";
+  const std::string_view id = effect.id;
+  return effect.where == Where::kSweep || id == "range_switch" || id == "clip";
 }
 
 bool LightMoved(const Readings& readings) {

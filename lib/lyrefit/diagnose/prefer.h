@@ -16,7 +16,8 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 bool LightMoved(const Readings& readings);
 
 // Whether an effect bends to whatever shape there is: anything that happens during a sweep in one
-// direction or a jump of the instrument's range, of one in both a moment.
+// direction, a jump of the instrument's range or a limit that no reading stands at, of one in both
+// a moment.
 bool IsGeneric(const Readings& readings, const Effect& effect);
 
 // Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:

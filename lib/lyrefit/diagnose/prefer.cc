@@ -77,14 +77,10 @@ bool HasPossibleIdeality(const LawFit& fit, double least) {
 }
 
 // Healthy modules depart from any model by more than such a part of the floor.
-bool LeavesAsLittle(const Workbench& bench, const Rival& rival, const Rival& other, double floor,
-                    double least_reached) {
+bool LeavesAsLittle(const Rival& rival, const Rival& other, double floor, double least_reached) {
   constexpr double kPart = 0.1;
-  if (rival.Charged() < least_reached * other.Charged()) return false;
-  std::vector<double> currents;
-  for (const Reading& r : bench.readings->points) currents.push_back(r.current);
-  const auto left = [&](const Rival& one) { return Departure(bench, one.fit, currents); };
-  return left(rival) <= left(other) + kPart * floor;
+  return rival.Charged() >= least_reached * other.Charged() &&
+         rival.left <= other.left + kPart * floor;
 }
 
 }  // namespace
@@ -128,7 +124,7 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
                    double floor) {
   const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
-                   kMuchSimpler = 0.88, kNotClearly = 0.6;
+                   kMuchSimpler = 0.88, kNotClearly = 0.6, kHalf = 0.5, kLeastIdeality = 0.9;
   constexpr int kComplex = 5;
   const auto first = [&](auto is_wanted) {
     return static_cast<std::size_t>(std::find_if(rivals.begin(), rivals.end(), is_wanted) -
@@ -150,14 +146,15 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     if (step < rivals.size()) return step;
   }
   const auto bends = [&](const Rival& rival) {
-    return IsGeneric(readings, *rival.score.effect) || !HasPossibleIdeality(rival.fit, 0.9);
+    return IsGeneric(readings, *rival.score.effect) ||
+           !HasPossibleIdeality(rival.fit, kLeastIdeality);
   };
   if (bends(rivals.front())) {
     const double enough =
         (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * rivals.front().Charged();
     const std::size_t specific = first([&](const Rival& rival) {
       if (bends(rival)) return false;
-      return rival.Charged() > enough || LeavesAsLittle(bench, rival, rivals.front(), floor, 0.5);
+      return rival.Charged() > enough || LeavesAsLittle(rival, rivals.front(), floor, kHalf);
     });
     if (specific < rivals.size()) best = specific;
   }
@@ -171,7 +168,7 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     const double part = most >= kComplex && complexity < kComplex ? kMuchSimpler : kHardlyMore;
     const double reached = rivals[k].Charged() / likeliest.Charged();
     const bool as_much = reached >= part && misfit * std::sqrt(std::max(1 - reached, 0.0)) <= floor;
-    if (!as_much && !LeavesAsLittle(bench, rivals[k], likeliest, floor, 0.9)) continue;
+    if (!as_much && !LeavesAsLittle(rivals[k], likeliest, floor, kAboutAsMuch)) continue;
     if (complexity < Complexity(bench, rivals[best])) best = k;
   }
   return best;

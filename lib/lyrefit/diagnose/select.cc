@@ -201,22 +201,24 @@ class Selector {
     return Misfit() > kMisfit;
   }
 
-  // Of the present law, parts of Isc.
-  double Misfit() const {
+  // Parts of Isc.
+  double MissedBy(const LawFit& fit) const {
     std::vector<double> currents;
     for (const Reading& r : readings_.points) currents.push_back(r.current);
-    return Departure(bench_, fit_, currents);
+    return Departure(bench_, fit, currents);
   }
+  double Misfit() const { return MissedBy(fit_); }
 
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
-    for (const Rival& rival : all) {
+    for (Rival rival : all) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
+      rival.left = MissedBy(rival.fit);
       if (IsWorthAName(rival)) {
-        worthy.push_back(rival);
+        worthy.push_back(std::move(rival));
       } else if (rival.corrected_p < level_) {
-        below->push_back(rival);
+        below->push_back(std::move(rival));
       }
     }
     // What bends to everything is not larger for fitting worse than something small that is there.

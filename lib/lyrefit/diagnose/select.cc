@@ -238,8 +238,9 @@ class Selector {
     return worthy;
   }
 
-  // A size is not certain where something simpler that explains as much is smaller: that takes the
-  // place of all that is worth a name where it is as large as the floor itself, else nothing does.
+  // A size is not certain where unlike cells that explain as much are smaller: their cause takes
+  // the place of all that is worth a name where it is as large as the floor itself, else nothing
+  // does.
   void PreferBelow(std::vector<Rival>* worthy, std::vector<Rival>* below) const {
     if (worthy->empty() || below->empty()) return;
     std::vector<Rival> all = *worthy;
@@ -249,7 +250,7 @@ class Selector {
     const Rival& best = all[Prefer(bench_, all, Misfit(), options_.floors.current)];
     const auto is_best = [&](const Rival& r) { return r.score.effect == best.score.effect; };
     const auto at = std::find_if(below->begin(), below->end(), is_best);
-    if (at == below->end() || IsGeneric(readings_, *best.score.effect)) return;
+    if (at == below->end() || !best.score.effect->groups) return;
     const int last = static_cast<int>(best.fit.law.effects.size()) - 1;
     const bool is_large = SizeOf(bench_, best.fit, last, fit_).current >= options_.floors.current;
     if (is_large) {

@@ -52,6 +52,9 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
   EXPECT_FALSE(possible(RivalOf("nonohmic_shunt", {0.1, 5}, 50)));
   EXPECT_FALSE(possible(RivalOf("mismatch", kUnequal, 50, 0.7)));
   EXPECT_TRUE(possible(RivalOf("mismatch", kUnequal, 50, 0.7), Before(0.6)));
+  // The first of the darker groups may be as bright as the brightest; one of them is not.
+  EXPECT_TRUE(possible(RivalOf("substrings", {0, 0.3, 0.4, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
+  EXPECT_FALSE(possible(RivalOf("substrings", {0, 0.3, 0, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
 }
 
 TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
@@ -62,6 +65,44 @@ TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
   EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)},
                    kMisfit, kFloor),
             0U);
+}
+
+TEST(Prefer, TakesWhatLeavesAsLittleAndSupposesLess) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const auto leaving = [](Rival rival, double left) {
+    rival.left = left;
+    return rival;
+  };
+  const Rival dip = leaving(RivalOf("transient", kDip, 100), 0.001);
+  const auto with = [&](const Rival& other) {
+    return Prefer(made.bench, {dip, other}, kMisfit, kFloor);
+  };
+  EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 70), 0.0012)), 1U);
+  EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 70), 0.0013)), 0U);
+  EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 40), 0.0005)), 0U);  // of half of it
+}
+
+TEST(Prefer, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const Rival mismatch = RivalOf("mismatch", kUnequal, 92);
+  const auto beside = [&](double n) {
+    return Prefer(made.bench, {RivalOf("distributed_rs", {0.05}, 100, n), mismatch}, kMisfit,
+                  kFloor);
+  };
+  EXPECT_EQ(beside(0.5), 1U);
+  EXPECT_EQ(beside(kOrdinary), 0U);
+}
+
+TEST(Prefer, OneDimCellIsAWeakCell) {
+  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const std::vector<double> weak = {0.1, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
+  const auto beside = [&](double cells) {
+    return Prefer(made.bench,
+                  {RivalOf("mismatch", {0.1, cells / 60}, 100), RivalOf("weak_cell", weak, 99)},
+                  kMisfit, kFloor);
+  };
+  EXPECT_EQ(beside(1.2), 1U);
+  EXPECT_EQ(beside(12), 0U);
 }
 
 TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {

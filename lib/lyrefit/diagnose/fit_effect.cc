@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -61,41 +59,10 @@ const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 // A hundredth of the noise variance more or less is nothing to an effect that is not there.
 const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
-constexpr int kFirstLook = 8;  // steps of every start that a shape suggests
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
 double Paid(const Workbench& bench, const LawFit& fit) {
   return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
-}
-
-// What a start decides that no descent changes: the parameters it lets go and the values of those
-// that are searched or stay held.
-using Setting = std::pair<std::vector<int>, std::vector<double>>;
-Setting SettingOf(const Effect& effect, const ShapeStart& start) {
-  Setting setting{start.freed, {}};
-  for (int k = 0; k < effect.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    const auto& freed = start.freed;
-    const bool stays = parameter.held && std::find(freed.begin(), freed.end(), k) == freed.end();
-    if (parameter.searched || stays) setting.second.push_back(start.p[k]);
-  }
-  return setting;
-}
-
-// Of each setting the start that is nearest to a strength.
-std::vector<ShapeStart> NearestStarts(const Effect& effect, const std::vector<ShapeStart>& starts,
-                                      double strength) {
-  std::map<Setting, const ShapeStart*> nearest;
-  for (const ShapeStart& start : starts) {
-    const ShapeStart*& best = nearest[SettingOf(effect, start)];
-    if (best == nullptr || std::fabs(start.p[0] - strength) < std::fabs(best->p[0] - strength)) {
-      best = &start;
-    }
-  }
-  std::vector<ShapeStart> kept;
-  kept.reserve(nearest.size());
-  for (const auto& [setting, start] : nearest) kept.push_back(*start);
-  return kept;
 }
 
 // Whether the last effect of a fit ended as what it is meant to be.
@@ -111,56 +78,65 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
-// A few steps from every start: the two of each setting that came furthest, the best of all first.
-std::vector<LawFit> LookAtStarts(const Workbench& bench, const Effect& effect, const Law& law,
-                                 const std::vector<double>& base,
-                                 const std::vector<ShapeStart>& starts) {
-  constexpr std::size_t kMost = 2;
-  const auto further = [](const LawFit& a, const LawFit& b) { return a.sum < b.sum; };
-  std::map<Setting, std::vector<LawFit>> ends;
-  for (const ShapeStart& own : starts) {
+// Whether a law misses the used readings by more than so many parts of Isc, root mean square.
+bool Misses(const Workbench& bench, const LawFit& fit, double part) {
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const double off = fit.current[k] - bench.readings->points[k].current;
+    sum += off * off;
+  }
+  return sum > part * part * std::max(bench.count(), 1);
+}
+
+// The best end of those that the curve's shape suggests. All of them from a healthy module: a base
+// fit that had to bend to the fault leads to the wrong valley. All take some steps; those that are
+// ahead then, each in a valley of its own, go on.
+void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
+               LawFit* best) {
+  constexpr std::size_t kAhead = 8;
+  constexpr double kSameValley = 1e-3;  // relative, of what is paid
+  const LeastSquaresOptions some_steps = UpTo(15, 1e-5);
+  const Readings& readings = *bench.readings;
+  const CurveShape shape = ShapeOf(readings);
+  std::vector<double> base = fit.p;
+  const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
+  std::copy(healthy.begin(), healthy.end(), base.begin());
+  // Steps of the current are cliffs for weights that foresee none: there all readings count alike
+  // at first.
+  constexpr double kSteps = 0.02;
+  const bool has_steps = Misses(bench, fit, kSteps);
+  Workbench alike = bench;
+  alike.path = alike.correlation = 0;
+  alike.sigma.assign(bench.sigma.size(), 0.01);
+  std::vector<std::pair<double, LawFit>> ends;
+  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
     Law freed = law;
     for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
     std::vector<double> start = base;
     start.insert(start.end(), own.p.begin(), own.p.end());
-    LawFit end = FitLaw(bench, freed, start, UpTo(kFirstLook, kBriefly.function_tolerance));
-    if (end.usable) ends[SettingOf(effect, own)].push_back(std::move(end));
-  }
-  std::vector<LawFit> kept;
-  for (auto& [setting, own] : ends) {
-    std::stable_sort(own.begin(), own.end(), further);
-    own.resize(std::min(own.size(), kMost));
-    std::move(own.begin(), own.end(), std::back_inserter(kept));
-  }
-  std::stable_sort(kept.begin(), kept.end(), further);
-  return kept;
-}
-
-// The best end of those that the curve's shape suggests. From a healthy module where the law is
-// ruined without the effect, else from where the probes ended.
-void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
-               LawFit* best) {
-  const Readings& readings = *bench.readings;
-  const CurveShape shape = ShapeOf(readings);
-  std::vector<ShapeStart> starts = effect.starts(shape, readings.traits);
-  std::vector<double> base = fit.p;
-  if (!best->usable || LeadsAstray(bench, fit)) {
-    const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.05));
-    std::copy(healthy.begin(), healthy.end(), base.begin());
-  } else {
-    std::copy(best->p.begin(), best->p.begin() + static_cast<std::ptrdiff_t>(base.size()),
-              base.begin());
-    starts = NearestStarts(effect, starts, best->p[base.size()]);
-  }
-  for (const LawFit& seen : LookAtStarts(bench, effect, law, base, starts)) {
-    LeastSquaresOptions on = kBriefly;
-    on.max_iterations = 30 - kFirstLook;
-    if (best->usable) on.to_beat = Paid(bench, *best);
-    LawFit end = FitLaw(bench, seen.law, seen.p, on);
-    if (!end.usable || !IsItself(effect, end)) continue;
-    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) {
-      *best = std::move(end);
+    if (has_steps) {
+      LawFit rough = FitLaw(alike, freed, start, some_steps);
+      if (!rough.usable) continue;
+      start = std::move(rough.p);
     }
+    LawFit end = FitLaw(bench, freed, start, some_steps);
+    if (end.usable) ends.emplace_back(Paid(bench, end), std::move(end));
+  }
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  double last = 0;
+  std::size_t ahead = 0;
+  for (const auto& [paid, way] : ends) {
+    if (ahead == kAhead) return;
+    if (paid < (1 + kSameValley) * last) continue;
+    last = paid;
+    ++ahead;
+    LeastSquaresOptions on = UpTo(30, 1e-5);
+    if (best->usable) on.to_beat = Paid(bench, *best);
+    LawFit end = FitLaw(bench, way.law, way.p, on);
+    if (!end.usable || !IsItself(effect, end)) continue;
+    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) *best = std::move(end);
   }
 }
 
@@ -202,14 +178,7 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
 bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
   constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
   const double n = fit.p[kBaseIdeality];
-  if (!(n > kLeastIdeality && n < kMostIdeality)) return true;
-  double sum = 0;
-  for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const double off = fit.current[k] - bench.readings->points[k].current;
-    sum += off * off;
-  }
-  return sum > kMisfit * kMisfit * std::max(bench.count(), 1);
+  return !(n > kLeastIdeality && n < kMostIdeality) || Misses(bench, fit, kMisfit);
 }
 
 double FreedomOf(const Workbench& bench, const Law& law) {

@@ -16,10 +16,21 @@ double Value(const Rival& rival, int parameter) {
 
 bool IsCalled(const Rival& rival, std::string_view id) { return rival.score.effect->id == id; }
 
+bool IsWithoutShade(const Rival& rival) {
+  constexpr double kNothing = 1e-3;
+  double deepest = 0;
+  for (int k = 0; k + 1 < rival.score.effect->size() - 2; k += 2) {
+    if (Value(rival, k + 1) > 0) deepest = std::max(deepest, Value(rival, k));
+  }
+  return deepest < kNothing;
+}
+
 bool StrengthIsAtBound(const Rival& rival) {
   constexpr double kSlack = 1e-3;
   const Effect& effect = *rival.score.effect;
   if (effect.parameters.empty()) return false;
+  // Of several groups any may be as bright as the brightest.
+  if (IsCalled(rival, "substrings")) return IsWithoutShade(rival);
   const EffectParameter& strength = effect.parameters.front();
   const double slack = kSlack * (strength.upper - strength.lower);
   return Value(rival, 0) > strength.upper - slack ||
@@ -34,16 +45,19 @@ double CoveredCells(const Readings& readings, double part) {
 // Causes among unlike cells, by how much they suppose. A shade that covers part of its substrings
 // supposes more than one that covers them, and where it covers about one cell it is a weak cell.
 int Complexity(const Workbench& bench, const Rival& rival) {
-  constexpr double kOneCell = 1.6, kFewCells = 4, kReach = 1.96;
-  constexpr std::array<std::string_view, 8> kInOrder = {"shading",   "mismatch",   "substrings",
-                                                        "scatter",   "leaky_cell", "partly",
-                                                        "weak_cell", "bypass_open"};
+  constexpr double kOneCell = 1.6, kFewCells = 4, kReach = 1.96, kFewMates = 2.5;
+  constexpr std::array<std::string_view, 8> kInOrder = {"shading",    "leaky_cell", "mismatch",
+                                                        "substrings", "scatter",    "partly",
+                                                        "weak_cell",  "bypass_open"};
   const std::string_view id = rival.score.effect->id;
   const auto place = [&](std::string_view one) {
     return static_cast<int>(std::find(kInOrder.begin(), kInOrder.end(), one) - kInOrder.begin());
   };
   // Several leaky cells suppose as much as a weak one.
   if (id == "leaky_cell" && Value(rival, 1) > kOneCell) return place("weak_cell");
+  if (id == "mismatch" && Value(rival, 1) * bench.readings->traits.cells < kFewMates) {
+    return static_cast<int>(kInOrder.size());
+  }
   if (id != "shading" && id != "substrings") return place(id);
   const double covered = Value(rival, rival.score.effect->size() - 1);
   if (covered >= 1) return place(id);
@@ -56,11 +70,25 @@ int Complexity(const Workbench& bench, const Rival& rival) {
   return one ? static_cast<int>(kInOrder.size()) : place("partly");
 }
 
+bool HasPossibleIdeality(const LawFit& fit, double least) {
+  constexpr double kMost = 2.5;
+  const double n = fit.p[kBaseIdeality];
+  return n > least && n < kMost;
+}
+
+// Healthy modules depart from any model by more than such a part of the floor.
+bool LeavesAsLittle(const Rival& rival, const Rival& other, double floor, double least_reached) {
+  constexpr double kPart = 0.1;
+  return rival.Charged() >= least_reached * other.Charged() &&
+         rival.left <= other.left + kPart * floor;
+}
+
 }  // namespace
 
 bool IsGeneric(const Readings& readings, const Effect& effect) {
   if (readings.traits.up_down) return effect.momentary;
-  return effect.where == Where::kSweep || std::string_view(effect.id) == "range_switch";
+  const std::string_view id = effect.id;
+  return effect.where == Where::kSweep || id == "range_switch" || id == "clip";
 }
 
 bool LightMoved(const Readings& readings) {
@@ -76,8 +104,8 @@ bool LightMoved(const Readings& readings) {
 }
 
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival& rival) {
-  constexpr double kMostExponent = 4.99, kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.9,
-                   kMostIdeality = 2.5, kWholeLight = 0.999;
+  constexpr double kMostExponent = 4.99, kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.8,
+                   kWholeLight = 0.999;
   const Effect& effect = *rival.score.effect;
   const std::string_view id = effect.id;
   if (StrengthIsAtBound(rival)) return false;
@@ -88,18 +116,15 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
     return false;
   }
   if (id == "mismatch" && Value(rival, 1) * readings.traits.cells < kLeastCell) return false;
-  const auto possible = [&](const LawFit& fit) {
-    const double n = fit.p[kBaseIdeality];
-    return n > kLeastIdeality && n < kMostIdeality;
-  };
-  return possible(rival.fit) || !possible(before);
+  return HasPossibleIdeality(rival.fit, kLeastIdeality) ||
+         !HasPossibleIdeality(before, kLeastIdeality);
 }
 
 std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double misfit,
                    double floor) {
   const Readings& readings = *bench.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
-                   kMuchSimpler = 0.88, kNotClearly = 0.6;
+                   kMuchSimpler = 0.88, kNotClearly = 0.6, kHalf = 0.5, kLeastIdeality = 0.9;
   constexpr int kComplex = 5;
   const auto first = [&](auto is_wanted) {
     return static_cast<std::size_t>(std::find_if(rivals.begin(), rivals.end(), is_wanted) -
@@ -120,11 +145,16 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     });
     if (step < rivals.size()) return step;
   }
-  if (IsGeneric(readings, *rivals.front().score.effect)) {
+  const auto bends = [&](const Rival& rival) {
+    return IsGeneric(readings, *rival.score.effect) ||
+           !HasPossibleIdeality(rival.fit, kLeastIdeality);
+  };
+  if (bends(rivals.front())) {
     const double enough =
         (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * rivals.front().Charged();
     const std::size_t specific = first([&](const Rival& rival) {
-      return !IsGeneric(readings, *rival.score.effect) && rival.Charged() > enough;
+      if (bends(rival)) return false;
+      return rival.Charged() > enough || LeavesAsLittle(rival, rivals.front(), floor, kHalf);
     });
     if (specific < rivals.size()) best = specific;
   }
@@ -137,7 +167,8 @@ std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, dou
     const int complexity = Complexity(bench, rivals[k]);
     const double part = most >= kComplex && complexity < kComplex ? kMuchSimpler : kHardlyMore;
     const double reached = rivals[k].Charged() / likeliest.Charged();
-    if (reached < part || misfit * std::sqrt(std::max(1 - reached, 0.0)) > floor) continue;
+    const bool as_much = reached >= part && misfit * std::sqrt(std::max(1 - reached, 0.0)) <= floor;
+    if (!as_much && !LeavesAsLittle(rivals[k], likeliest, floor, kAboutAsMuch)) continue;
     if (complexity < Complexity(bench, rivals[best])) best = k;
   }
   return best;

@@ -16,15 +16,18 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Rival
 bool LightMoved(const Readings& readings);
 
 // Whether an effect bends to whatever shape there is: anything that happens during a sweep in one
-// direction or a jump of the instrument's range, of one in both a moment.
+// direction, a jump of the instrument's range or a limit that no reading stands at, of one in both
+// a moment.
 bool IsGeneric(const Readings& readings, const Effect& effect);
 
 // Which of the rivals is the cause, where more than noise and known causes bend the curve (rivals:
-// the best first, none of an impossible size). A cause in the device is preferred to a moment of
-// the sweep that explains about as much, a simple one to a complex one that explains no more than
-// `floor` beyond it of the `misfit` there was (root mean squares, parts of Isc); where the current
-// rises with the voltage, which no module does by itself, the light moved. A cloud is likelier
-// than a range that is wrong by so much, where no second sweep tells them apart.
+// the best first, none of an impossible size). A cause in the device is preferred to what bends to
+// anything (a moment of the sweep, or a fit that leaves no junction's ideality) and explains about
+// as much, a simple one to a complex one. About as much: nearly the same statistic, with no more
+// than `floor` left beyond it of the `misfit` there was (root mean squares, parts of Isc); or as
+// little left to within a part of the floor. Where the current rises with the voltage, which no
+// module does by itself, the light moved. A cloud is likelier than a range that is wrong by so
+// much, where no second sweep tells them apart.
 std::size_t Prefer(const Workbench& bench, const std::vector<Rival>& rivals, double misfit,
                    double floor);
 

@@ -139,7 +139,9 @@ class Selector {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
     const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
-    const bool astray = LeadsAstray(bench_, fit_);
+    // Nothing is worth a name that is smaller than what the present law misses.
+    const bool may_matter = options_.floors.current > 0 && Misfit() > options_.floors.current;
+    const bool astray = may_matter || LeadsAstray(bench_, fit_);
     for (const Score& score : scores) {
       CountStep();
       // What the shape of the curve suggests does not hang on scores that a fault ruins.
@@ -202,34 +204,36 @@ class Selector {
     return Misfit() > kMisfit;
   }
 
-  // Of the present law, parts of Isc.
-  double Misfit() const {
+  // Parts of Isc.
+  double MissedBy(const LawFit& fit) const {
     std::vector<double> currents;
     for (const Reading& r : readings_.points) currents.push_back(r.current);
-    return Departure(bench_, fit_, currents);
+    return Departure(bench_, fit, currents);
   }
+  double Misfit() const { return MissedBy(fit_); }
 
   // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
     std::vector<Rival> worthy;
     const Without without = MakeWithout(bench_, fit_);
-    for (const Rival& rival : all) {
+    for (Rival rival : all) {
       if (!HasPossibleSize(readings_, fit_, rival)) continue;
+      rival.left = MissedBy(rival.fit);
       if (IsWorthAName(rival, without)) {
-        worthy.push_back(rival);
+        worthy.push_back(std::move(rival));
       } else if (rival.corrected_p < level_) {
-        below->push_back(rival);
+        below->push_back(std::move(rival));
       }
     }
     // What bends to everything is not larger for fitting worse than something small that is there.
     const auto is_beaten = [&](const Rival& rival) {
       if (!IsGeneric(readings_, *rival.score.effect)) return false;
       return std::any_of(below->begin(), below->end(), [&](const Rival& other) {
-        return !IsGeneric(readings_, *other.score.effect) &&
-               other.Charged() > rival.Charged() + kEquivalenceWidth;
+        return other.Charged() > rival.Charged() + kEquivalenceWidth;
       });
     };
     worthy.erase(std::remove_if(worthy.begin(), worthy.end(), is_beaten), worthy.end());
+    PreferBelow(&worthy, below);
     for (std::vector<Rival>* rivals : {&worthy, below}) {
       const std::size_t at = Prefer(bench_, *rivals, Misfit(), options_.floors.current);
       const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
@@ -247,6 +251,22 @@ class Selector {
     const auto at = std::find_if(options_.met->begin(), options_.met->end(),
                                  [&](const Rival& r) { return r.score.effect == &effect; });
     return at != options_.met->end() && at->fit.usable ? &at->fit : nullptr;
+  }
+
+  // A size is not certain where unlike cells that explain as much are smaller: then nothing is
+  // worth a name.
+  void PreferBelow(std::vector<Rival>* worthy, std::vector<Rival>* below) const {
+    if (worthy->empty() || below->empty()) return;
+    std::vector<Rival> all = *worthy;
+    all.insert(all.end(), below->begin(), below->end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
+    const Effect* best = all[Prefer(bench_, all, Misfit(), options_.floors.current)].score.effect;
+    const bool is_below = std::any_of(below->begin(), below->end(),
+                                      [&](const Rival& r) { return r.score.effect == best; });
+    if (!is_below || !best->groups) return;
+    *below = std::move(all);
+    worthy->clear();
   }
 
   // Once more from where the effect was found before.

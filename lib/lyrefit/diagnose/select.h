@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct Rival {
   double statistic = 0;    // what it takes off the sum of squares, in units of the noise variance
   double freedom = 0;      // what it pays for parameters beyond those of its probes
   double corrected_p = 1;  // of the statistic, the whole catalogue counted
+  // What it leaves beyond what its law could still take up, root mean square in parts of Isc. NaN:
+  // not asked.
+  double left = std::numeric_limits<double>::quiet_NaN();
   double Charged() const { return statistic - score.charge - freedom; }
 };
 

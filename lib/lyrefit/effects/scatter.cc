@@ -88,7 +88,7 @@ Effect Scatter() {
   e.confused_with = {"mismatch", "weak_cell", "distributed_rs"};
   e.separate_by = "an electroluminescence image";
   e.parameters = {
-      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.1, 0},
+      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.08, 0},
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 30, 3.2},
       {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4},
       {"q", "lopsidedness", "", "0: normal; 1: few cells far below the others", 0, 1, 0},
@@ -96,6 +96,7 @@ Effect Scatter() {
        2.5, 0},
       {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
   for (int k = kScatterSoft; k < e.size(); ++k) e.parameters[k].held = true;
+  e.parameters[kScatterDimmest].below_upper = true;  // farther below it is a weak cell
   e.parameters[kScatterLopsided].absent_at = e.parameters[kScatterDimmest].absent_at = 0;
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;
@@ -109,11 +110,20 @@ Effect Scatter() {
     std::vector<ShapeStart> starts;
     constexpr double kLeastHalfway = 0.7;
     if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
+    // The dimmest cell decides where the current bends: each side of its place is a valley of its
+    // own, and so are cells that conduct in reverse and cells that do not.
     for (const double lopsided : {0.0, 1.0}) {
       for (const double width : {0.015, 0.04}) {
         starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
         starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft, kScatterDimmest}});
+        starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
+        for (const double beyond : {-1.0, 0.0, 1.0}) {
+          starts.push_back(
+              {{width, 15, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
+        }
+        for (const double beyond : {-1.0, 1.0}) {
+          starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});
+        }
       }
     }
     return starts;

@@ -17,8 +17,9 @@ enum { kDrop = 2 * kGroups, kCovered, kParameters };
 // substrings have.
 void AddStart(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
   constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
+  constexpr double kBright = 0.02;  // of the voltage: tracers hurry through the first plateau
   const int groups = std::min(substrings - 1, kGroups);
-  const double full = shape.At(kMiddle / substrings);
+  const double full = shape.At(kBright);
   ShapeStart start{Probe(kParameters, 0.0), {}};
   for (int k = 0; k < groups; ++k) {
     const double light = shape.At((k + 1 + kMiddle) / substrings) / full;

@@ -70,7 +70,10 @@ Effect WeakCell() {
     const double full = shape.At(0.05);
     if (!(full > 0)) return starts;
     std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
-    deficits.push_back(std::clamp(1 - shape.At(0.75) / full, 0.01, 0.97));
+    // A plateau before the knee, or a tail towards open circuit where the cell conducts in reverse.
+    for (const double place : {0.75, 0.95}) {
+      deficits.push_back(std::clamp(1 - shape.At(place) / full, 0.01, 0.97));
+    }
     for (const double deficit : deficits) {
       for (const double chains : {1.0, 2.0}) {
         if (deficit * chains > 0.97) continue;
@@ -78,6 +81,7 @@ Effect WeakCell() {
             {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, chains}, {kBypass, kExponent, kSoft}});
         starts.push_back(
             {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0, chains}, {kBypass, kFactor, kBreakdown}});
+        starts.push_back({{deficit, 1, 0, 0.5, 0, 15, 3.4, 0, chains}, {kBypass}});
       }
     }
     return starts;

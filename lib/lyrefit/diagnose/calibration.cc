@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "lyrefit/diagnose/null_law.h"
 #include "lyrefit/diagnose/score.h"
@@ -39,6 +40,17 @@ double HopelessStatistic(const std::vector<Score>& scores) {
     if (score.testable) best = std::max(best, score.statistic);
   }
   return kPart * best;
+}
+
+double LeastOfTheBest(const std::vector<Score>& scores, int most) {
+  std::vector<double> statistics;
+  for (const Score& score : scores) {
+    if (score.testable && score.effect->probes != nullptr) statistics.push_back(score.statistic);
+  }
+  const auto count = static_cast<std::size_t>(most);
+  if (most == 0 || statistics.size() <= count) return 0;
+  std::sort(statistics.begin(), statistics.end(), std::greater<double>());
+  return statistics[count - 1];
 }
 
 }  // namespace lyrefit

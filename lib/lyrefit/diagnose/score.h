@@ -46,4 +46,8 @@ double CorrectedP(const Score& score, double statistic, int degrees,
 // An effect whose linear score is below this will not come near the best when fitted.
 double HopelessStatistic(const std::vector<Score>& scores);
 
+// Statistic of the last of so many effects that can be fitted, the best first; 0 where `most` is 0
+// or there are no more.
+double LeastOfTheBest(const std::vector<Score>& scores, int most);
+
 }  // namespace lyrefit

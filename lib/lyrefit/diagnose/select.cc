@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/prefer.h"
+#include "lyrefit/diagnose/weigh_rivals.h"
 #include "lyrefit/diagnose/wrong_readings.h"
 #include "lyrefit/effects/catalogue.h"
 
@@ -120,27 +119,17 @@ class Selector {
 
   double Variance(const LawFit& fit) const { return NoiseVariance(bench_, fit); }
 
-  // Statistic of the last effect that is fitted where not all are.
-  double LeastOfTheBest(const std::vector<Score>& scores) const {
-    std::vector<double> statistics;
-    for (const Score& score : scores) {
-      if (score.testable && score.effect->probes != nullptr) statistics.push_back(score.statistic);
-    }
-    const std::size_t most = options_.most_rivals;
-    if (most == 0 || statistics.size() <= most) return 0;
-    std::sort(statistics.begin(), statistics.end(), std::greater<double>());
-    return statistics[most - 1];
-  }
-
   // Fits the effects that stand a chance; with `all` the others as well, for the record. Where
   // nothing `is_there` all are.
   std::vector<Rival> FitAll(const std::vector<Score>& scores, bool all = false,
                             bool is_there = true) const {
     std::vector<Rival> rivals;
     Stage("selection", scores.size());
-    const double hopeless = std::max(HopelessStatistic(scores), LeastOfTheBest(scores));
+    const double hopeless =
+        std::max(HopelessStatistic(scores), LeastOfTheBest(scores, options_.most_rivals));
     // Nothing is worth a name that is smaller than what the present law misses.
-    const bool may_matter = options_.floors.current > 0 && Misfit() > options_.floors.current;
+    const bool may_matter =
+        options_.floors.current > 0 && MissedBy(bench_, fit_) > options_.floors.current;
     const bool astray = may_matter || LeadsAstray(bench_, fit_);
     for (const Score& score : scores) {
       CountStep();
@@ -176,21 +165,8 @@ class Selector {
 
   bool HasFloors() const { return options_.floors.current > 0 || options_.floors.power > 0; }
 
-  // Whether an effect is certainly larger than the floors, and explains its part of what there was
-  // to explain in the first place.
-  bool IsWorthAName(const Rival& rival, const Without& without) const {
-    // What bends to everything bends to what a cause's own model gets wrong.
-    constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
-    const int last = static_cast<int>(rival.fit.law.effects.size()) - 1;
-    const EffectSize size = SizeOf(bench_, rival.fit, last, without);
-    if (!IsMaterial(size, options_.floors)) return false;
-    if (causes_.empty()) return true;
-    const bool generic = IsGeneric(readings_, *rival.score.effect);
-    return size.current * size.current > (generic ? kGenericPart : kLaterPart) * first_misfit_;
-  }
-
-  // The same without floors, in units of the noise: what remains of a first cause whose own model
-  // is a little wrong is no second cause.
+  // Without floors a later cause explains its part in units of the noise: what remains of a first
+  // cause whose own model is a little wrong is no second cause.
   bool ExplainsEnough(const Rival& rival) const {
     constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
     const bool generic = IsGeneric(readings_, *rival.score.effect);
@@ -201,45 +177,11 @@ class Selector {
   bool IsRuined() const {
     constexpr double kMisfit = 0.01;
     if (!measurement_.has_path()) return false;
-    return Misfit() > kMisfit;
+    return MissedBy(bench_, fit_) > kMisfit;
   }
 
-  // Parts of Isc.
-  double MissedBy(const LawFit& fit) const {
-    std::vector<double> currents;
-    for (const Reading& r : readings_.points) currents.push_back(r.current);
-    return Departure(bench_, fit, currents);
-  }
-  double Misfit() const { return MissedBy(fit_); }
-
-  // Those that are worth a name, the likeliest first; what is there all the same is remembered.
   std::vector<Rival> Weigh(const std::vector<Rival>& all, std::vector<Rival>* below) const {
-    std::vector<Rival> worthy;
-    const Without without = MakeWithout(bench_, fit_);
-    for (Rival rival : all) {
-      if (!HasPossibleSize(readings_, fit_, rival)) continue;
-      rival.left = MissedBy(rival.fit);
-      if (IsWorthAName(rival, without)) {
-        worthy.push_back(std::move(rival));
-      } else if (rival.corrected_p < level_) {
-        below->push_back(std::move(rival));
-      }
-    }
-    // What bends to everything is not larger for fitting worse than something small that is there.
-    const auto is_beaten = [&](const Rival& rival) {
-      if (!IsGeneric(readings_, *rival.score.effect)) return false;
-      return std::any_of(below->begin(), below->end(), [&](const Rival& other) {
-        return other.Charged() > rival.Charged() + kEquivalenceWidth;
-      });
-    };
-    worthy.erase(std::remove_if(worthy.begin(), worthy.end(), is_beaten), worthy.end());
-    PreferBelow(&worthy, below);
-    for (std::vector<Rival>* rivals : {&worthy, below}) {
-      const std::size_t at = Prefer(bench_, *rivals, Misfit(), options_.floors.current);
-      const auto preferred = rivals->begin() + static_cast<std::ptrdiff_t>(at);
-      if (!rivals->empty()) std::rotate(rivals->begin(), preferred, preferred + 1);
-    }
-    return worthy;
+    return WeighRivals(bench_, fit_, all, {options_.floors, level_, first_misfit_}, below);
   }
 
   // The fit with one more effect of the selection that this one repeats. What is searched there is
@@ -251,22 +193,6 @@ class Selector {
     const auto at = std::find_if(options_.met->begin(), options_.met->end(),
                                  [&](const Rival& r) { return r.score.effect == &effect; });
     return at != options_.met->end() && at->fit.usable ? &at->fit : nullptr;
-  }
-
-  // A size is not certain where unlike cells that explain as much are smaller: then nothing is
-  // worth a name.
-  void PreferBelow(std::vector<Rival>* worthy, std::vector<Rival>* below) const {
-    if (worthy->empty() || below->empty()) return;
-    std::vector<Rival> all = *worthy;
-    all.insert(all.end(), below->begin(), below->end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
-    const Effect* best = all[Prefer(bench_, all, Misfit(), options_.floors.current)].score.effect;
-    const bool is_below = std::any_of(below->begin(), below->end(),
-                                      [&](const Rival& r) { return r.score.effect == best; });
-    if (!is_below || !best->groups) return;
-    *below = std::move(all);
-    worthy->clear();
   }
 
   // Once more from where the effect was found before.

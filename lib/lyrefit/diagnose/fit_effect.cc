@@ -89,52 +89,68 @@ bool Misses(const Workbench& bench, const LawFit& fit, double part) {
   return sum > part * part * std::max(bench.count(), 1);
 }
 
+// A fit on its way and what it pays.
+struct Way {
+  double paid = 0;
+  LawFit fit;
+};
+
+// All go on by so many steps; the `most` best of what is then usable, the best first.
+std::vector<Way> GoOn(const Workbench& bench, std::vector<Way> ways, int steps, std::size_t most) {
+  std::vector<Way> on;
+  for (const Way& way : ways) {
+    LawFit end = FitLaw(bench, way.fit.law, way.fit.p, UpTo(steps, 1e-5));
+    if (end.usable) on.push_back({Paid(bench, end), std::move(end)});
+  }
+  std::stable_sort(on.begin(), on.end(),
+                   [](const Way& a, const Way& b) { return a.paid < b.paid; });
+  if (on.size() > most) on.resize(most);
+  return on;
+}
+
 // The best end of those that the curve's shape suggests. All of them from a healthy module: a base
-// fit that had to bend to the fault leads to the wrong valley. All take some steps; those that are
-// ahead then, each in a valley of its own, go on.
+// fit that had to bend to the fault leads to the wrong valley. All take some steps, the better ones
+// some more; those that are ahead then, each in a valley of its own, go on to their end.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
-  constexpr std::size_t kAhead = 8;
+  constexpr std::size_t kBetter = 16, kAhead = 8;
+  constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
   constexpr double kSameValley = 1e-3;  // relative, of what is paid
-  const LeastSquaresOptions some_steps = UpTo(15, 1e-5);
   const Readings& readings = *bench.readings;
   const CurveShape shape = ShapeOf(readings);
-  std::vector<double> base = fit.p;
   const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
-  std::copy(healthy.begin(), healthy.end(), base.begin());
+  std::vector<Way> ways;
+  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
+    LawFit start;
+    start.law = law;
+    for (const int k : own.freed) start.law.freed.emplace_back(&effect, k);
+    start.p = fit.p;
+    std::copy(healthy.begin(), healthy.end(), start.p.begin());
+    start.p.insert(start.p.end(), own.p.begin(), own.p.end());
+    ways.push_back({0, std::move(start)});
+  }
   // Steps of the current are cliffs for weights that foresee none: there all readings count alike
   // at first.
   constexpr double kSteps = 0.02;
-  const bool has_steps = Misses(bench, fit, kSteps);
-  Workbench alike = bench;
-  alike.path = alike.correlation = 0;
-  alike.sigma.assign(bench.sigma.size(), 0.01);
-  std::vector<std::pair<double, LawFit>> ends;
-  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
-    Law freed = law;
-    for (const int k : own.freed) freed.freed.emplace_back(&effect, k);
-    std::vector<double> start = base;
-    start.insert(start.end(), own.p.begin(), own.p.end());
-    if (has_steps) {
-      LawFit rough = FitLaw(alike, freed, start, some_steps);
-      if (!rough.usable) continue;
-      start = std::move(rough.p);
-    }
-    LawFit end = FitLaw(bench, freed, start, some_steps);
-    if (end.usable) ends.emplace_back(Paid(bench, end), std::move(end));
+  if (Misses(bench, fit, kSteps)) {
+    Workbench alike = bench;
+    alike.path = alike.correlation = 0;
+    alike.sigma.assign(bench.sigma.size(), 0.01);
+    ways = GoOn(alike, std::move(ways), kFirst, kBetter);
+    ways = GoOn(alike, std::move(ways), kMore, kBetter);
   }
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  ways = GoOn(bench, std::move(ways), kFirst, kBetter);
+  ways = GoOn(bench, std::move(ways), kMore, kBetter);
   double last = 0;
   std::size_t ahead = 0;
-  for (const auto& [paid, way] : ends) {
+  for (const Way& way : ways) {
     if (ahead == kAhead) return;
-    if (paid < (1 + kSameValley) * last) continue;
-    last = paid;
+    if (way.paid < (1 + kSameValley) * last) continue;
+    last = way.paid;
     ++ahead;
-    LeastSquaresOptions on = UpTo(30, 1e-5);
+    LeastSquaresOptions on = UpTo(kToTheEnd, 1e-5);
     if (best->usable) on.to_beat = Paid(bench, *best);
-    LawFit end = FitLaw(bench, way.law, way.p, on);
+    LawFit end = FitLaw(bench, way.fit.law, way.fit.p, on);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best->usable || Paid(bench, end) < Paid(bench, *best)) *best = std::move(end);
   }

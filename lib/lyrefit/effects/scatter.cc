@@ -108,7 +108,7 @@ Effect Scatter() {
   };
   e.starts = [](const CurveShape& shape, const DataTraits&) {
     std::vector<ShapeStart> starts;
-    constexpr double kLeastHalfway = 0.7;
+    constexpr double kLeastHalfway = 0.85;
     if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
     // The dimmest cell decides where the current bends: each side of its place is a valley of its
     // own, and so are cells that conduct in reverse and cells that do not.

@@ -96,7 +96,8 @@ struct Way {
 };
 
 // All go on by so many steps; the `most` best of what is then usable, the best first.
-std::vector<Way> GoOn(const Workbench& bench, std::vector<Way> ways, int steps, std::size_t most) {
+std::vector<Way> GoOn(const Workbench& bench, const std::vector<Way>& ways, int steps,
+                      std::size_t most) {
   std::vector<Way> on;
   for (const Way& way : ways) {
     LawFit end = FitLaw(bench, way.fit.law, way.fit.p, UpTo(steps, 1e-5));
@@ -136,11 +137,11 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     Workbench alike = bench;
     alike.path = alike.correlation = 0;
     alike.sigma.assign(bench.sigma.size(), 0.01);
-    ways = GoOn(alike, std::move(ways), kFirst, kBetter);
-    ways = GoOn(alike, std::move(ways), kMore, kBetter);
+    ways = GoOn(alike, ways, kFirst, kBetter);
+    ways = GoOn(alike, ways, kMore, kBetter);
   }
-  ways = GoOn(bench, std::move(ways), kFirst, kBetter);
-  ways = GoOn(bench, std::move(ways), kMore, kBetter);
+  ways = GoOn(bench, ways, kFirst, kBetter);
+  ways = GoOn(bench, ways, kMore, kBetter);
   double last = 0;
   std::size_t ahead = 0;
   for (const Way& way : ways) {

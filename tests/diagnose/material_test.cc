@@ -44,7 +44,7 @@ TEST(IsMaterial, OfOneSweepOnlyWhereItShows) {
 }
 
 // Over seeds, of a diode alone and beside a step of the light at the knee.
-TEST(DevicePowerErrorTest, IsTheSpreadOfRepeatedFits) {
+TEST(DevicePowerAndErrorTest, IsTheSpreadOfRepeatedFits) {
   constexpr int kSeeds = 100;
   for (const bool step : {false, true}) {
     double sum = 0, square = 0, stated = 0;
@@ -61,10 +61,11 @@ TEST(DevicePowerErrorTest, IsTheSpreadOfRepeatedFits) {
         for (const double value : {0.0, 0.2}) start.push_back(value);
         fit = FitLaw(made.bench, law, start);
       }
-      const double power = std::log(DevicePower(made.bench, fit));
+      const auto [power_W, error] = DevicePowerAndError(made.bench, fit);
+      const double power = std::log(power_W);
       sum += power / kSeeds;
       square += power * power / kSeeds;
-      stated += DevicePowerError(made.bench, fit) / kSeeds;
+      stated += error / kSeeds;
     }
     EXPECT_NEAR(stated / std::sqrt(square - sum * sum), 1, 0.25) << step;
   }

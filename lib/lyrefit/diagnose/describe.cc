@@ -325,9 +325,10 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
       [&](const LawFit& f) { return cells / (f.p[kBaseConductance] * scale); },
       errors[kBaseConductance] * sd * cells / (g * g * scale));
   if (!readings.traits.only_dark) {
+    const PowerAndError now = DevicePowerAndError(bench, after);
     add(
         "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); },
-        DevicePowerError(bench, after) * DevicePower(bench, after));
+        now.error * now.power_W);
   }
   return shifts;
 }

@@ -84,18 +84,14 @@ PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
   return peak;
 }
 
-}  // namespace
-
-double DevicePower(const Workbench& bench, const LawFit& fit) {
-  const Readings& measured = *bench.readings;
-  const PowerPoint peak = FindPowerPoint(BareReadings(measured), DeviceTermsOf(fit));
-  return peak.power * measured.scale.cells * measured.scale.current_A;
+double InWatts(const Workbench& bench, const PowerPoint& peak) {
+  const ReadingScale& scale = bench.readings->scale;
+  return peak.power * scale.cells * scale.current_A;
 }
 
-double DevicePowerError(const Workbench& bench, const LawFit& fit) {
-  const DeviceTerms terms = DeviceTermsOf(fit);
-  Bare bare = BareReadings(*bench.readings);
-  const PowerPoint peak = FindPowerPoint(bare, terms);
+// Standard error of the power, in parts.
+double ErrorOf(const Workbench& bench, const LawFit& fit, Bare bare, const DeviceTerms& terms,
+               const PowerPoint& peak) {
   if (!(peak.power > 0)) return kUnknown;
   // At its peak the power changes as the current there does.
   bare.at.voltage = peak.voltage;
@@ -109,6 +105,19 @@ double DevicePowerError(const Workbench& bench, const LawFit& fit) {
   std::vector<double> by(fit.p.size(), 0.0);
   for (std::size_t k = 0; k < terms.of.size(); ++k) by[terms.of[k]] = derivative[k] / current;
   return StandardError(Linearize(bench, fit), by) * std::sqrt(NoiseVariance(bench, fit));
+}
+
+}  // namespace
+
+double DevicePower(const Workbench& bench, const LawFit& fit) {
+  return InWatts(bench, FindPowerPoint(BareReadings(*bench.readings), DeviceTermsOf(fit)));
+}
+
+PowerAndError DevicePowerAndError(const Workbench& bench, const LawFit& fit) {
+  const DeviceTerms terms = DeviceTermsOf(fit);
+  const Bare bare = BareReadings(*bench.readings);
+  const PowerPoint peak = FindPowerPoint(bare, terms);
+  return {InWatts(bench, peak), ErrorOf(bench, fit, bare, terms, peak)};
 }
 
 LawFit TakenOut(const LawFit& fit, int index) {
@@ -135,7 +144,7 @@ EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const W
   EffectSize size;
   size.one_sweep = bench.readings->traits.single;
   size.current = Departure(bench, without.fit, without.basis, with.current);
-  const double power = DevicePower(bench, with);
+  const auto [power, error] = DevicePowerAndError(bench, with);
   size.power = power / without.power - 1;
   if (with.law.effects[index]->where == Where::kDevice) {
     size.recoverable = DevicePower(bench, TakenOut(with, index)) / power - 1;
@@ -143,8 +152,7 @@ EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const W
   const double statistic = (without.fit.sum - with.sum) / NoiseVariance(bench, with);
   size.reach = statistic > kReach * kReach ? kReach / std::sqrt(statistic) : 1;
   size.power_error =
-      std::max(kReach * DevicePowerError(bench, with), std::fabs(size.power) * size.reach) +
-      kReach * bench.path;
+      std::max(kReach * error, std::fabs(size.power) * size.reach) + kReach * bench.path;
   return size;
 }
 

@@ -15,8 +15,12 @@ struct Floors {
 // conditions, without what the sweep and the instruments did. NaN where there is none.
 double DevicePower(const Workbench& bench, const LawFit& fit);
 
-// Its standard error, in parts: what the readings leave open of the parameters.
-double DevicePowerError(const Workbench& bench, const LawFit& fit);
+// The same beside its standard error in parts: what the readings leave open of the parameters.
+struct PowerAndError {
+  double power_W;
+  double error;
+};
+PowerAndError DevicePowerAndError(const Workbench& bench, const LawFit& fit);
 
 // The fit with effect number `index` taken out of its law, or all of them; all else, the currents
 // among them, as it is.

@@ -15,19 +15,6 @@ namespace {
 constexpr double kNear_V = 2;       // a former root farther from a plain guess is no start
 constexpr double kBeside_V = 0.25;  // between readings that follow each other
 
-struct Bound {
-  double lower;
-  double upper;
-};
-constexpr Bound kBaseBounds[] = {{0, 20}, {-60, 40}, {0.2, 8}, {0, 3}, {0, 50}, {0, 20}};
-constexpr Bound kTempcoBound = {-0.01, 0.01}, kBandgapBound = {0.3, 2.5};
-
-Bound BaseBound(const Law& law, int parameter) {
-  if (law.free_bandgap && parameter == law.BandgapAt()) return kBandgapBound;
-  if (law.free_tempco && parameter == law.TempcoAt()) return kTempcoBound;
-  return kBaseBounds[parameter];
-}
-
 bool IsSame(const Pack& a, const Pack& b) { return All((!(a < b)) & (!(b < a))); }
 template <int N>
 bool IsSame(const Dual<N, Pack>& a, const Dual<N, Pack>& b) {
@@ -339,45 +326,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   return true;
 }
 
-const EffectParameter* ParameterAt(const Law& law, int parameter) {
-  int at = parameter - law.base_size();
-  for (const Effect* effect : law.effects) {
-    if (at < effect->size()) return &effect->parameters[at];
-    at -= effect->size();
-  }
-  return nullptr;
-}
-
 }  // namespace
-
-int Law::size() const {
-  int size = base_size();
-  for (const Effect* effect : effects) size += effect->size();
-  return size;
-}
-
-int Law::Offset(int effect) const {
-  int offset = base_size();
-  for (int e = 0; e < effect; ++e) offset += effects[e]->size();
-  return offset;
-}
-
-double Law::Lower(int parameter) const {
-  if (parameter < base_size()) return BaseBound(*this, parameter).lower;
-  return ParameterAt(*this, parameter)->lower;
-}
-
-double Law::Upper(int parameter) const {
-  if (parameter < base_size()) return BaseBound(*this, parameter).upper;
-  return ParameterAt(*this, parameter)->upper;
-}
-
-bool Law::Searched(int parameter) const {
-  if (parameter < base_size()) return false;
-  const EffectParameter* info = ParameterAt(*this, parameter);
-  const auto is_it = [&](const auto& one) { return &one.first->parameters[one.second] == info; };
-  return (info->searched || info->held) && std::none_of(freed.begin(), freed.end(), is_it);
-}
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
                  double* current, double* jacobian, const std::vector<char>* held) {
@@ -394,15 +343,6 @@ bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawW
                         : free.size() <= 10 ? Evaluate<Middle>
                                             : Evaluate<Wide>;
   return evaluate(law, readings, p, free, workspace, current, jacobian);
-}
-
-double SaturationCurrent(const Law&, const Readings& readings, const double* p) {
-  const double vt = ThermalVoltage(readings.reference_temperature_K);
-  return std::exp(p[kBasePivot]) / std::expm1(readings.pivot_voltage / (p[kBaseIdeality] * vt));
-}
-
-double Saturation2Unit(const Readings& readings) {
-  return std::exp(-readings.pivot_voltage / (2 * ThermalVoltage(readings.reference_temperature_K)));
 }
 
 }  // namespace lyrefit

@@ -31,6 +31,13 @@ struct EnumTable<Loss> {
       {Loss::kSquared, "squared"}, {Loss::kHuber, "huber"}, {Loss::kCauchy, "cauchy"}};
 };
 
+// Where the polish of a model with effects begins.
+enum class StartsFrom {
+  kAll,
+  kSearch,  // the birds of the search alone
+  kShape,   // places that the shape of the curve suggests (plateaus, shoulders), without the search
+};
+
 enum class Intervals { kNone, kSymmetric, kProfile };
 
 template <>
@@ -55,8 +62,9 @@ struct FitOptions {
   bool random_baseline =
       true;  // print the best of as many random points beside the search's figure
   bool polish = true;
-  bool plain_polish =
-      false;  // also try one bounded least-squares solve from the best bird, and nothing more
+  bool plain_polish = false;  // also try one bounded least-squares solve from the best bird, and
+                              // nothing more, and polish that bird by itself to its end
+  StartsFrom starts = StartsFrom::kAll;
   bool floor = false;  // also prove how low the measured-current RMSE can go within the bounds
   // What the polish and the intervals take the errors of the readings for. kWhite: the estimates
   // are those of least squares, and where the residuals ask for it intervals under the error model

@@ -94,6 +94,17 @@ struct StartReport {
   bool agrees = false;  // shares the best end, or its own is within 1e-9 relative of it
 };
 
+// Of the starts of one polish: in how many basins they ended, and how many there may be besides.
+struct BasinCount {
+  int starts = 0;
+  int basins = 0;
+  int best_visits = 0;       // starts that ended in the best one
+  int once = 0;              // basins that one start ended in
+  int twice = 0;             // basins that two ended in
+  double unseen = kUnknown;  // Chao's lower estimate, bias-corrected: once (once - 1) / (2 (twice +
+                             // 1)) doi:10.2307/2531532
+};
+
 struct RefineReport {
   std::string termination = "not run";  // "converged", "no convergence", "interrupted", "not run"
   std::string message;
@@ -105,6 +116,8 @@ struct RefineReport {
   double projected_gradient = kUnknown;
   double condition = kUnknown;  // of the scaled Jacobian in the free parameters
   double seconds = 0;
+  double best_bird_seconds = kUnknown;  // of the best bird's own polish, where it was asked for
+  std::optional<BasinCount> basins;     // of a model with effects
 };
 
 struct Correlation {

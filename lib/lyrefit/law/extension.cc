@@ -337,9 +337,11 @@ std::string DescribeUse(const EffectUse& use) {
 namespace {
 
 bool InAmpere(const Law& law, const Readings& readings, const std::vector<ReadingBlock>& blocks,
-              const double* p, double* current_A, double* jacobian) {
-  LawWorkspace workspace(blocks);
-  if (!EvaluateLaw(law, readings, p, &workspace, current_A, jacobian)) return false;
+              const double* p, double* current_A, double* jacobian, const std::vector<char>* held,
+              LawWorkspace* kept) {
+  LawWorkspace fresh(blocks);
+  if (kept == nullptr) kept = &fresh;
+  if (!EvaluateLaw(law, readings, p, kept, current_A, jacobian, held)) return false;
   const std::size_t count = readings.points.size();
   for (std::size_t k = 0; k < count; ++k) current_A[k] *= readings.scale.current_A;
   for (std::size_t k = 0; jacobian != nullptr && k < count * law.size(); ++k) {
@@ -371,9 +373,11 @@ Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage
 
 }  // namespace
 
-bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian) {
+bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
+                      const std::vector<char>* held, LawWorkspace* kept) {
   const Extension& extension = *device.extension;
-  return InAmpere(extension.law, extension.readings, extension.blocks, p, current_A, jacobian);
+  return InAmpere(extension.law, extension.readings, extension.blocks, p, current_A, jacobian, held,
+                  kept);
 }
 
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,
@@ -381,7 +385,8 @@ std::vector<double> ExtendedCurrents(const Device& device, const double* p,
   const Extension& extension = *device.extension;
   const Readings readings = AtVoltages(extension.readings, voltage_V);
   std::vector<double> current_A(voltage_V.size());
-  if (!InAmpere(extension.law, readings, BlocksOf(readings), p, current_A.data(), nullptr)) {
+  if (!InAmpere(extension.law, readings, BlocksOf(readings), p, current_A.data(), nullptr, nullptr,
+                nullptr)) {
     std::fill(current_A.begin(), current_A.end(), std::numeric_limits<double>::quiet_NaN());
   }
   return current_A;

@@ -72,9 +72,11 @@ std::string DescribeUse(const EffectUse& use);
 // device.
 void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* infos);
 
-// Currents at the measured readings, and their derivatives by all parameters where asked for. False
-// where the law cannot be evaluated.
-bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian);
+// Currents at the measured readings, and their derivatives by all parameters where asked for, by
+// those that are `held` (1) 0. False where the law cannot be evaluated. A workspace that is kept
+// from one call to the next, of this device alone, makes them faster (law.h).
+bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
+                      const std::vector<char>* held = nullptr, LawWorkspace* kept = nullptr);
 
 // At other voltages, read one after the other at the measurement's mean pace.
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,

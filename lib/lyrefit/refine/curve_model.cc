@@ -20,20 +20,22 @@ ModelShape ShapeOf(const RefineProblem& problem) {
 
 }  // namespace
 
-CurveModel::CurveModel(const RefineProblem& problem)
-    : FitModel(ShapeOf(problem)), problem_(problem) {}
+CurveModel::CurveModel(const RefineProblem& problem, bool keep)
+    : FitModel(ShapeOf(problem)), problem_(problem) {
+  if (keep && problem.device.extension != nullptr) kept_ = std::make_unique<LawWorkspace>();
+}
 
 CurveModel::CurveModel(std::unique_ptr<RefineProblem> own)
     : FitModel(ShapeOf(*own)), own_(std::move(own)), problem_(*own_) {}
 
 bool CurveModel::Evaluate(int /*block*/, const double* p, const double* /*local*/,
                           double* residuals, double* slopes, double* /*local_slopes*/) const {
-  Residuals(problem_, p, residuals, slopes);
+  Residuals(problem_, p, residuals, slopes, kept_.get());
   return true;
 }
 
 double CurveModel::MeanSquare(const FitPoint& point) const {
-  return lyrefit::MeanSquare(problem_, point.p);
+  return lyrefit::MeanSquare(problem_, point.p, kept_.get());
 }
 
 std::unique_ptr<FitModel> CurveModel::Few() const {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "lyrefit/law/law.h"
 #include "lyrefit/refine/model.h"
 #include "lyrefit/refine/problem.h"
 
@@ -11,8 +12,9 @@ namespace lyrefit {
 // kernel.
 class CurveModel : public FitModel {
  public:
-  // Keeps a reference.
-  explicit CurveModel(const RefineProblem& problem);
+  // Keeps a reference. In one descent each evaluation may start where the last one ended (`keep`):
+  // faster for extended devices, and then not for several threads at once.
+  explicit CurveModel(const RefineProblem& problem, bool keep = false);
 
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
                 double* local_slopes) const override;
@@ -24,6 +26,7 @@ class CurveModel : public FitModel {
 
   std::unique_ptr<RefineProblem> own_;  // null: somebody else's
   const RefineProblem& problem_;
+  std::unique_ptr<LawWorkspace> kept_;  // null: evaluations know nothing of each other
 };
 
 }  // namespace lyrefit

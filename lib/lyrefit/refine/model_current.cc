@@ -42,11 +42,11 @@ std::vector<Sloped> PrepareTerms(const Device& device, const double* p) {
 }  // namespace
 
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurvePoints& points, const Kernel& kernel, double* current,
-                   double* slopes) {
+                   const CurvePoints& points, const Kernel& kernel, double* current, double* slopes,
+                   const std::vector<char>* held, LawWorkspace* kept) {
   const bool measured = objective == Objective::kMeasuredCurrent;
   if (device.extension != nullptr) {
-    if (measured || !ExtendedCurrents(device, p, current, slopes)) {
+    if (measured || !ExtendedCurrents(device, p, current, slopes, held, kept)) {
       current[0] = std::numeric_limits<double>::quiet_NaN();
     }
     return;

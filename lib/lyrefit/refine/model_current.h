@@ -4,6 +4,7 @@
 
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/law/law.h"
 
 namespace lyrefit {
 
@@ -18,9 +19,11 @@ struct CurvePoints {
 // right-hand side at the measured current, or the solved current. Where `slopes` is given, its
 // derivatives by the device's parameters, row by row: those of the explicit right-hand side, at the
 // root divided by 1 - Rs F' (the implicit function theorem; differentiating the Newton iteration
-// would cost more and be less exact). NaN where an extended law cannot be evaluated.
+// would cost more and be less exact). NaN where an extended law cannot be evaluated. Such a law
+// leaves out the derivatives by what is `held` (1), which are 0 then, and may have a workspace that
+// is kept from one call to the next.
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurvePoints& points, const Kernel& kernel, double* current,
-                   double* slopes);
+                   const CurvePoints& points, const Kernel& kernel, double* current, double* slopes,
+                   const std::vector<char>* held = nullptr, LawWorkspace* kept = nullptr);
 
 }  // namespace lyrefit

@@ -46,11 +46,14 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
   return problem;
 }
 
-void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes) {
+void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes,
+               LawWorkspace* kept) {
+  const int points = static_cast<int>(problem.voltage_V.size()), count = problem.device.size();
+  std::vector<char> held;
+  for (int i = 0; slopes != nullptr && i < count; ++i) held.push_back(problem.fixed(i) ? 1 : 0);
   ModelCurrents(problem.device, problem.objective, p,
                 {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel, residuals,
-                slopes);
-  const int points = static_cast<int>(problem.voltage_V.size()), count = problem.device.size();
+                slopes, &held, kept);
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(problem.weights[k]);
     residuals[k] = (residuals[k] - problem.current_A[k]) * root;
@@ -61,10 +64,10 @@ void Residuals(const RefineProblem& problem, const double* p, double* residuals,
   if (slopes != nullptr) Whiten(*problem.errors, {}, Eigen::Map<RowMatrix>(slopes, points, count));
 }
 
-double MeanSquare(const RefineProblem& problem, const std::vector<double>& p) {
-  if (problem.errors != nullptr) {
+double MeanSquare(const RefineProblem& problem, const std::vector<double>& p, LawWorkspace* kept) {
+  if (problem.errors != nullptr || kept != nullptr) {
     Eigen::VectorXd residuals(problem.voltage_V.size());
-    Residuals(problem, p.data(), residuals.data(), nullptr);
+    Residuals(problem, p.data(), residuals.data(), nullptr, kept);
     return residuals.squaredNorm() / static_cast<double>(residuals.size());
   }
   return MeanSquare(problem.device, problem.objective, p.data(), problem.points, *problem.kernel);

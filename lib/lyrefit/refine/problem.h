@@ -9,6 +9,7 @@
 namespace lyrefit {
 
 struct ErrorModel;
+class LawWorkspace;
 
 // A bounded least-squares problem on one curve: minimise the mean of weight x residual^2.
 struct RefineProblem {
@@ -40,10 +41,13 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
                                 std::vector<double> lower, std::vector<double> upper);
 
 // Residuals of the problem's own objective in ampere, weighted and whitened; where `slopes` is
-// given, their derivatives by the device's parameters, row by row.
-void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes);
+// given, their derivatives by the device's parameters, row by row; by those that are fixed they may
+// be 0. Of an extended device a workspace may be kept from one call to the next.
+void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes,
+               LawWorkspace* kept = nullptr);
 
 // Mean square of them, in A^2.
-double MeanSquare(const RefineProblem& problem, const std::vector<double>& p);
+double MeanSquare(const RefineProblem& problem, const std::vector<double>& p,
+                  LawWorkspace* kept = nullptr);
 
 }  // namespace lyrefit

@@ -10,7 +10,7 @@ namespace lyrefit {
 
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
-  return RefineModel(CurveModel(problem), {std::move(start), {}}, options);
+  return RefineModel(CurveModel(problem, true), {std::move(start), {}}, options);
 }
 
 RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,

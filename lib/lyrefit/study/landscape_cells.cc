@@ -30,6 +30,33 @@ std::vector<int> DrawGroups(int substrings, int lights, RandomStream* random) {
 
 double DrawBypass(RandomStream* random) { return Between(0.35, 0.75, random); }
 
+// A module whose substrings stand under a light each group, the first of them under the brightest;
+// whose shares are `known` to the fit or somewhere among the whole substrings.
+Expected<LandscapeCase> UnderLights(const std::vector<int>& groups, bool known, bool covered,
+                                    RandomStream* random) {
+  const int substrings = std::accumulate(groups.begin(), groups.end(), 0);
+  DrawnDevice device = DrawModule(substrings, random);
+  const double least = 1.0 / substrings;
+  Values values = {{"Vb", DrawBypass(random)}};
+  Ranges ranges;
+  for (std::size_t k = 1; k < groups.size(); ++k) {
+    const std::string number = std::to_string(k);
+    const double share = groups[k] * least;
+    values["d" + number] = Between(0.02, 0.95, random);
+    values["w" + number] = share;
+    ranges["d" + number] = {0, 0.999};
+    ranges["w" + number] =
+        known ? std::pair(share, share) : std::pair(least, (substrings - 1) * least);
+  }
+  if (covered) {
+    values["c"] = Between(0.05, 0.95, random);
+    ranges["c"] = {0.03, 1};
+  }
+  device.made.with = {Held("substrings", values)};
+  device.with = {Freed("substrings", ranges)};
+  return Measure(device);
+}
+
 // A module of three substrings, one of them in the shade, as it is and as it is fitted: which
 // part is shaded is known.
 DrawnDevice DrawShadedModule(RandomStream* random) {
@@ -44,44 +71,13 @@ DrawnDevice DrawShadedModule(RandomStream* random) {
 }  // namespace
 
 Expected<LandscapeCase> DrawLights(int lights, RandomStream* random) {
-  DrawnDevice device = DrawModule(lights, random);
-  const double share = 1.0 / lights;
-  Values values = {{"Vb", DrawBypass(random)}};
-  Ranges ranges;
-  for (int k = 1; k < lights; ++k) {
-    const std::string number = std::to_string(k);
-    values["d" + number] = Between(0.02, 0.95, random);
-    values["w" + number] = share;
-    ranges["d" + number] = {0, 0.999};
-    ranges["w" + number] = {share, share};
-  }
-  device.made.with = {Held("substrings", values)};
-  device.with = {Freed("substrings", ranges)};
-  return Measure(device);
+  return UnderLights(std::vector<int>(lights, 1), /*known=*/true, /*covered=*/false, random);
 }
 
 Expected<LandscapeCase> DrawUnlikeLights(bool covered, RandomStream* random) {
   const int substrings = WholeBetween(3, 6, random);
   const int lights = WholeBetween(2, std::min(4, substrings - 1), random);
-  DrawnDevice device = DrawModule(substrings, random);
-  const std::vector<int> groups = DrawGroups(substrings, lights, random);
-  const double share = 1.0 / substrings;
-  Values values = {{"Vb", DrawBypass(random)}};
-  Ranges ranges;
-  for (int k = 1; k < lights; ++k) {
-    const std::string number = std::to_string(k);
-    values["d" + number] = Between(0.02, 0.95, random);
-    values["w" + number] = groups[k] * share;
-    ranges["d" + number] = {0, 0.999};
-    ranges["w" + number] = {share, (substrings - 1) * share};
-  }
-  if (covered) {
-    values["c"] = Between(0.05, 0.95, random);
-    ranges["c"] = {0.03, 1};
-  }
-  device.made.with = {Held("substrings", values)};
-  device.with = {Freed("substrings", ranges)};
-  return Measure(device);
+  return UnderLights(DrawGroups(substrings, lights, random), /*known=*/false, covered, random);
 }
 
 Expected<LandscapeCase> DrawWeakCell(ReverseLaw law, RandomStream* random) {

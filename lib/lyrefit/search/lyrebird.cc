@@ -48,7 +48,7 @@ Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* r
 }
 
 void Lyrebird::Settle() {
-  ranking_.emplace(*run_);
+  order_.emplace(*run_);
   if (keeps_distances_) crowding_.emplace(n_, d_, UnitPopulation());
 }
 
@@ -92,9 +92,9 @@ bool Lyrebird::Propose(int i, double t, double planned) {
 
 // Eq. 18, 19: x' = x + r (s - J x), s a random better bird, J in {1, 2}.
 bool Lyrebird::Escape(int i) {
-  const int better = ranking_->Better(i);
+  const int better = order_->Better(i);
   if (better == 0) return false;
-  const double* safe = run_->x(ranking_->At(random_->Index(better)));
+  const double* safe = run_->x(order_->At(random_->Index(better)));
   const double* x = run_->x(i);
   std::uint64_t coins = random_->Bits();
   for (int j = 0; j < d_; ++j, coins >>= 1) {
@@ -140,7 +140,7 @@ void Lyrebird::Accept(int i) {
     (escaped_ ? learned_->rate : learned_->gamma).Gained(drawn_, run_->f(i) - value);
   }
   run_->Replace(i, candidate_.data(), value);
-  ranking_->Improved(i);
+  order_->Improved(i);
   if (!crowding_) return;
   for (int j = 0; j < d_; ++j) unit_[j] = Unit(candidate_[j], j);
   crowding_->Move(i, unit_.data());

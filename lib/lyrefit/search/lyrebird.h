@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/search/bird_order.h"
 #include "lyrefit/search/crowding.h"
 #include "lyrefit/search/learned_setting.h"
-#include "lyrefit/search/ranking.h"
 #include "lyrefit/search/run.h"
 
 namespace lyrefit {
@@ -48,7 +48,7 @@ class Lyrebird {
   const bool keeps_distances_;
   std::vector<double> candidate_;
   std::vector<double> unit_;
-  std::optional<Ranking> ranking_;
+  std::optional<BirdOrder> order_;
   std::optional<Crowding> crowding_;
   std::optional<Learned> learned_;
   bool escaped_ = false;  // the move at hand

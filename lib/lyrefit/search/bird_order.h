@@ -9,9 +9,9 @@
 namespace lyrefit {
 
 // Birds by rising objective value, so that "a random bird better than i" needs no scan.
-class Ranking {
+class BirdOrder {
  public:
-  explicit Ranking(const SearchRun& run)
+  explicit BirdOrder(const SearchRun& run)
       : run_(run), order_(run.population()), rank_(order_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(),

@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// Half the birds with twice the moves each find better ends than all of them with half the moves.
+// Half the birds with twice the moves each: the polish of their ends takes less time.
 constexpr int kSmallest = 4;  // birds
 constexpr int kShortest = 5;  // rounds: a draw and four moves of every bird
 

@@ -167,6 +167,109 @@ TEST(Lyrebird, AblationsAreMloWithOneStrategyOff) {
   ExpectSame(Search(Sphere, kBox, options), dmlss);
 }
 
+// Two basins of one width; the lower one, at the second corner, 0.1 below.
+double TwoBowls(const double* x) {
+  double first = 0, second = -0.1;
+  for (int j = 0; j < 3; ++j) {
+    first += (x[j] + 1) * (x[j] + 1);
+    second += (x[j] - 2) * (x[j] - 2);
+  }
+  return std::min(first, second);
+}
+
+TEST(Knees, WithoutASuggestionIsMloToTheBit) {
+  SearchOptions options;
+  const SearchSummary mlo = Search(Sphere, kBox, options);
+  options.algorithm = Algorithm::kMloKnees;
+  ExpectSame(Search(Sphere, kBox, options), mlo);
+}
+
+TEST(Knees, SitInAtMostAQuarterOfTheFirstFlockAndTheRestIsThatOfMlo) {
+  const auto first_flock = [](Algorithm algorithm, const Box& box) {
+    std::vector<std::vector<double>> birds;
+    SearchOptions options;
+    options.algorithm = algorithm;
+    options.max_evaluations = options.population;
+    Search(
+        [&](const double* x) {
+          birds.emplace_back(x, x + 3);
+          return Sphere(x);
+        },
+        box, options);
+    return birds;
+  };
+  Box box = kBox;
+  box.suggested.assign(9, {1, 9, -9});  // out of the box: at its walls
+  const auto mlo = first_flock(Algorithm::kMlo, box);
+  const auto knees = first_flock(Algorithm::kMloKnees, box);
+  ASSERT_EQ(knees.size(), 20U);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(knees[i], i < 5 ? (std::vector<double>{1, 3, -2}) : mlo[i]) << i;
+  }
+  box.suggested.resize(2);
+  const auto two = first_flock(Algorithm::kMloKnees, box);
+  EXPECT_EQ(two[1], knees[1]);
+  EXPECT_EQ(two[2], mlo[2]);
+}
+
+TEST(Knees, FindTheBasinThatIsSuggested) {
+  Box box = kBox;
+  box.suggested = {{2.1, 1.9, 2}};
+  SearchOptions options;
+  options.algorithm = Algorithm::kMloKnees;
+  for (options.seed = 0; options.seed < 20; ++options.seed) {
+    EXPECT_LT(Search(TwoBowls, box, options).best.objective, -0.07) << options.seed;
+  }
+}
+
+// Eight equal wells.
+double EightWells(const double* x) {
+  double sum = 0;
+  for (int j = 0; j < 3; ++j) {
+    const double at = std::fabs(x[j] - 0.5) - 1.5;
+    sum += at * at;
+  }
+  return std::sqrt(sum);
+}
+
+// As many flocks as elites: each ends in a well of its own choice, so that four of them lie in as
+// many as chance says, 8 (1 - (7/8)^4) = 3.31, whereas one long search drags its birds together.
+TEST(Flocks, HaveElitesInAsManyWellsAsIndependentSearches) {
+  const auto wells_a_run = [](Algorithm algorithm) {
+    SearchOptions options;
+    options.algorithm = algorithm;
+    options.iterations = 200;
+    double wells = 0;
+    for (options.seed = 0; options.seed < 100; ++options.seed) {
+      std::set<int> found;
+      for (const Bird& elite : Search(EightWells, kBox, options).elites) {
+        if (elite.objective > 0.1) continue;
+        found.insert((elite.x[0] > 0.5) + 2 * (elite.x[1] > 0.5) + 4 * (elite.x[2] > 0.5));
+      }
+      wells += static_cast<double>(found.size()) / 100;
+    }
+    return wells;
+  };
+  EXPECT_NEAR(wells_a_run(Algorithm::kFlocks), 3.31, 0.3);
+  EXPECT_LT(wells_a_run(Algorithm::kMlo), 3);
+}
+
+TEST(Flocks, KeepWhatAnEarlierOneFound) {
+  SearchOptions options;
+  options.algorithm = Algorithm::kFlocks;
+  for (options.seed = 0; options.seed < 20; ++options.seed) {
+    double best = kInfinity;
+    const SearchSummary summary = Search(
+        [&](const double* x) {
+          best = std::min(best, TwoBowls(x));
+          return TwoBowls(x);
+        },
+        kBox, options);
+    EXPECT_EQ(summary.best.objective, best);
+    EXPECT_EQ(summary.trace.back().best, best);
+  }
+}
+
 TEST(Lyrebird, BeatsRandomSearchOnASmoothBowl) {
   SearchOptions options;
   options.algorithm = Algorithm::kRandom;

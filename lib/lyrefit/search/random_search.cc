@@ -9,13 +9,10 @@ namespace lyrefit {
 void RunRandom(SearchRun* run, const SearchOptions& options) {
   RandomStream random(options.seed, options.run);
   DrawPopulation(run, &random, options.iterations);
-  const Box& box = run->box();
   std::vector<double> x(run->dimensions());
   for (std::int64_t t = 1; !run->stopped(); ++t) {
     for (int i = 0; i < run->population() && !run->stopped(); ++i) {
-      for (int j = 0; j < run->dimensions(); ++j) {
-        x[j] = box.lower[j] + random.Uniform() * (box.upper[j] - box.lower[j]);
-      }
+      DrawPoint(run->box(), &random, x.data());
       const double value = run->Evaluate(x.data());
       if (value < run->f(i)) run->Replace(i, x.data(), value);
     }

@@ -14,7 +14,7 @@ class SearchRun {
             const Observer& observer);
 
   int dimensions() const { return dimensions_; }
-  int population() const { return options_.population; }
+  int population() const { return static_cast<int>(f_.size()); }
   const Box& box() const { return box_; }
   double* x(int bird) { return &x_[static_cast<std::size_t>(bird) * dimensions_]; }
   double f(int bird) const { return f_[bird]; }
@@ -31,6 +31,12 @@ class SearchRun {
 
   void Replace(int bird, const double* x, double f);
 
+  // As if a population of so many had been asked for; before the first bird is drawn.
+  void UseBirds(int birds);
+
+  // The best bird is kept as an end, and the birds count no more: they are drawn anew.
+  void EndFlock();
+
   // Ends iteration `t` of `planned`: writes the trace, asks the observer, looks at the clock.
   void EndIteration(std::int64_t t, std::int64_t planned);
 
@@ -41,6 +47,7 @@ class SearchRun {
     if (!stopped()) summary_.termination = why;
   }
   double Seconds() const;
+  void AddElite(const double* candidate, double f);
   void CollectElites();
 
   const ObjectiveFunction& objective_;
@@ -52,6 +59,8 @@ class SearchRun {
   std::vector<double> x_;
   std::vector<double> f_;
   int best_ = 0;
+  std::vector<Bird> ends_;  // the best bird of each flock that ended
+  double best_end_ = kInfinity;
   double best_at_last_gain_ = kInfinity;
   std::int64_t last_gain_ = 0;
   SearchSummary summary_;
@@ -59,11 +68,17 @@ class SearchRun {
 
 // The algorithms, one file each.
 void RunLyrebird(SearchRun* run, const SearchOptions& options);
+void RunFlocks(SearchRun* run, const SearchOptions& options);
 void RunRandom(SearchRun* run, const SearchOptions& options);
 void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options);
 
-// Draws the first population uniformly in the box (Eq. 14) and ends iteration 0.
+// Draws the first population uniformly in the box (Eq. 14), up to a quarter of it at the places
+// that the box suggests where `suggested`, and ends iteration 0.
 class RandomStream;
-void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned);
+void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned,
+                    bool suggested = false);
+
+// A point of the box, uniformly.
+void DrawPoint(const Box& box, RandomStream* random, double* x);
 
 }  // namespace lyrefit

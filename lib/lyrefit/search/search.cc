@@ -57,8 +57,20 @@ void SearchRun::Replace(int bird, const double* x, double f) {
   if (f < f_[best_]) best_ = bird;
 }
 
+void SearchRun::UseBirds(int birds) {
+  x_.resize(static_cast<std::size_t>(birds) * dimensions_);
+  f_.resize(birds);
+}
+
+void SearchRun::EndFlock() {
+  ends_.push_back({{x(best_), x(best_) + dimensions_}, f_[best_]});
+  best_end_ = std::min(best_end_, f_[best_]);
+  std::fill(f_.begin(), f_.end(), kInfinity);
+  best_ = 0;
+}
+
 void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
-  const double best = f_[best_];
+  const double best = std::min(f_[best_], best_end_);
   summary_.iterations = t;
   summary_.trace.push_back({t, summary_.evaluations, best});
   if (best < best_at_last_gain_) {
@@ -79,23 +91,31 @@ void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
   }
 }
 
+// Unless there are enough or one is close by.
+void SearchRun::AddElite(const double* candidate, double f) {
+  if (static_cast<int>(summary_.elites.size()) == options_.elites) return;
+  const bool distinct =
+      std::all_of(summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
+        for (int j = 0; j < dimensions_; ++j) {
+          const double side = box_.upper[j] - box_.lower[j];
+          if (std::fabs(candidate[j] - taken.x[j]) > kDistinct * side) return true;
+        }
+        return false;
+      });
+  if (distinct) summary_.elites.push_back({{candidate, candidate + dimensions_}, f});
+}
+
+// Ends of flocks get ahead of other birds, however good.
 void SearchRun::CollectElites() {
-  std::vector<int> order(options_.population);
+  const auto better = [](const Bird& a, const Bird& b) { return a.objective < b.objective; };
+  std::vector<int> order(population());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return f_[a] < f_[b]; });
-  for (const int bird : order) {
-    if (static_cast<int>(summary_.elites.size()) == options_.elites) break;
-    const double* candidate = x(bird);
-    const bool distinct =
-        std::all_of(summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
-          for (int j = 0; j < dimensions_; ++j) {
-            const double side = box_.upper[j] - box_.lower[j];
-            if (std::fabs(candidate[j] - taken.x[j]) > kDistinct * side) return true;
-          }
-          return false;
-        });
-    if (distinct) summary_.elites.push_back({{candidate, candidate + dimensions_}, f_[bird]});
-  }
+  if (!ends_.empty()) ends_.push_back({{x(best_), x(best_) + dimensions_}, f_[best_]});
+  std::stable_sort(ends_.begin(), ends_.end(), better);
+  for (const Bird& end : ends_) AddElite(end.x.data(), end.objective);
+  for (const int bird : order) AddElite(x(bird), f_[bird]);
+  std::stable_sort(summary_.elites.begin(), summary_.elites.end(), better);
   summary_.best = summary_.elites.front();
 }
 
@@ -106,12 +126,22 @@ SearchSummary SearchRun::Finish() {
   return std::move(summary_);
 }
 
-void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned) {
+void DrawPoint(const Box& box, RandomStream* random, double* x) {
+  for (std::size_t j = 0; j < box.lower.size(); ++j) {
+    x[j] = box.lower[j] + random->Uniform() * (box.upper[j] - box.lower[j]);
+  }
+}
+
+void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned, bool suggested) {
   const Box& box = run->box();
+  const int seats = std::min(run->population() / 4, static_cast<int>(box.suggested.size()));
   std::vector<double> x(run->dimensions());
   for (int i = 0; i < run->population() && !run->stopped(); ++i) {
-    for (int j = 0; j < run->dimensions(); ++j) {
-      x[j] = box.lower[j] + random->Uniform() * (box.upper[j] - box.lower[j]);
+    DrawPoint(box, random, x.data());
+    if (suggested && i < seats) {
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        x[j] = std::clamp(box.suggested[i][j], box.lower[j], box.upper[j]);
+      }
     }
     run->Replace(i, x.data(), run->Evaluate(x.data()));
   }
@@ -125,13 +155,19 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
   CHECK_EQ(box.lower.size(), box.upper.size());
   CHECK_LE(box.lower.size(), 64U);
   for (std::size_t j = 0; j < box.lower.size(); ++j) CHECK_LE(box.lower[j], box.upper[j]);
+  for (const std::vector<double>& place : box.suggested) CHECK_EQ(place.size(), box.lower.size());
   SearchRun run(objective, box, options, observer);
   switch (options.algorithm) {
     case Algorithm::kMlo:
     case Algorithm::kLo:
     case Algorithm::kLoMblss:
     case Algorithm::kLoDmlss:
+    case Algorithm::kMloTuned:
+    case Algorithm::kMloKnees:
       RunLyrebird(&run, options);
+      break;
+    case Algorithm::kFlocks:
+      RunFlocks(&run, options);
       break;
     case Algorithm::kRandom:
       RunRandom(&run, options);

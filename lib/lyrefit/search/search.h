@@ -13,22 +13,31 @@
 
 namespace lyrefit {
 
-// The four settings of the lyrebird optimizer and two plain baselines.
+// The four settings of the lyrebird optimizer, what is built on it, and two plain baselines.
 enum class Algorithm {
-  kMlo,      // modified lyrebird: both strategies
-  kLo,       // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
-  kLoMblss,  // with the memory-based learn search strategy only
-  kLoDmlss,  // with the diversity-maintenance learn search strategy only
-  kRandom,   // uniform random points: the baseline every figure is printed beside
-  kDe,       // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
+  kMlo,       // modified lyrebird: both strategies
+  kLo,        // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
+  kLoMblss,   // with the memory-based learn search strategy only
+  kLoDmlss,   // with the diversity-maintenance learn search strategy only
+  kMloTuned,  // mlo that learns Pm and gamma from the moves that gained
+  kMloKnees,  // mlo whose first flock sits partly where the problem suggests
+  kFlocks,    // mlo+tuned in small flocks one after another, whose ends are the elites
+  kRandom,    // uniform random points: the baseline every figure is printed beside
+  kDe,        // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
 };
 
 template <>
 struct EnumTable<Algorithm> {
   static constexpr EnumText<Algorithm> kRows[] = {
-      {Algorithm::kMlo, "mlo"},          {Algorithm::kLo, "lo"},
-      {Algorithm::kLoMblss, "lo+mblss"}, {Algorithm::kLoDmlss, "lo+dmlss"},
-      {Algorithm::kRandom, "random"},    {Algorithm::kDe, "de"},
+      {Algorithm::kMlo, "mlo"},
+      {Algorithm::kLo, "lo"},
+      {Algorithm::kLoMblss, "lo+mblss"},
+      {Algorithm::kLoDmlss, "lo+dmlss"},
+      {Algorithm::kMloTuned, "mlo+tuned"},
+      {Algorithm::kMloKnees, "mlo+knees"},
+      {Algorithm::kFlocks, "flocks"},
+      {Algorithm::kRandom, "random"},
+      {Algorithm::kDe, "de"},
   };
 };
 
@@ -122,6 +131,8 @@ struct SearchSummary {
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;
+  // Places where a minimum may lie, best guess first; only kMloKnees looks at them. May be empty.
+  std::vector<std::vector<double>> suggested = {};
 };
 
 // The function to minimise: takes as many numbers as the box has sides. Must return the same value

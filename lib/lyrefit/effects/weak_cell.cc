@@ -66,8 +66,11 @@ Effect WeakCell() {
     }
     return probes;
   };
-  e.starts = [](const CurveShape& shape, const DataTraits&, const auto&) {
+  e.starts = [](const CurveShape& shape, const DataTraits&, const auto& asked) {
     std::vector<ShapeStart> starts;
+    // Cells that hardly conduct in reverse are far from those that do.
+    std::vector<double> soft = {3.2};
+    if (!asked.empty()) soft.push_back(10);
     const double full = shape.At(0.05);
     if (!(full > 0)) return starts;
     std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
@@ -78,8 +81,10 @@ Effect WeakCell() {
     for (const double deficit : deficits) {
       for (const double chains : {1.0, 2.0}) {
         if (deficit * chains > 0.97) continue;
-        starts.push_back(
-            {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, chains}, {kBypass, kExponent, kSoft}});
+        for (const double voltage : soft) {
+          starts.push_back(
+              {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, voltage, chains}, {kBypass, kExponent, kSoft}});
+        }
         starts.push_back(
             {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0, chains}, {kBypass, kFactor, kBreakdown}});
         starts.push_back({{deficit, 1, 0, 0.5, 0, 15, 3.4, 0, chains}, {kBypass}});

@@ -8,8 +8,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFirst = 5, kMore = 9;  // steps
-constexpr std::size_t kOnwards = 16, kAhead = 8;
+constexpr int kFirst = 5, kMore = 9, kMost = 20;  // steps
+constexpr std::size_t kOnwards = 12, kAhead = 6;
+constexpr int kOfEachForm = 2;       // go on whatever the others do
 constexpr double kNear = 2;          // of the lowest RMSE: what may still become the best
 constexpr int kEnough = 3;           // ends in the best basin
 constexpr double kSameBasin = 1e-6;  // relative, of the paid mean square
@@ -34,6 +35,7 @@ void Basins::Descend(std::vector<PolishStart> starts) {
   }
   GoOn(&ways, kFirst, kOnwards);
   GoOn(&ways, kMore, kAhead);
+  GoOn(&ways, kMost, kAhead);
   Finish(ways);
 }
 
@@ -54,7 +56,18 @@ void Basins::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   }
   std::stable_sort(ways->begin(), ways->end(),
                    [this](int a, int b) { return ends_[a].paid < ends_[b].paid; });
-  if (ways->size() > most) ways->resize(most);
+  std::vector<int> left, of_form(forms_.size(), 0);
+  for (const int way : *ways) {
+    const BasinEnd& at = ends_[way];
+    const bool among_first = ++of_form[at.start.form] <= kOfEachForm;
+    if ((left.size() < most || among_first) && !IsHopeless(at)) left.push_back(way);
+  }
+  *ways = std::move(left);
+}
+
+// Far above what has been reached already.
+bool Basins::IsHopeless(const BasinEnd& end) const {
+  return end.paid > kNear * kNear * ends_[best_].paid;
 }
 
 void Basins::Finish(const std::vector<int>& ways) {
@@ -62,9 +75,10 @@ void Basins::Finish(const std::vector<int>& ways) {
   whole.stop = watch_->stop();
   for (const int way : ways) {
     BasinEnd& at = ends_[way];
-    const bool hopeless = at.paid > kNear * kNear * ends_[best_].paid;
-    const bool known = ends_[best_].finished && visits() >= kEnough;
-    if (hopeless || known || watch_->stopped()) break;
+    const BasinEnd& best = ends_[best_];
+    const bool known = best.finished && best.start.form == at.start.form && visits() >= kEnough;
+    if (watch_->stopped()) break;
+    if (known || IsHopeless(at)) continue;
     const RefineProblem own = InForm(problem_, forms_[at.start.form], at.end.p);
     Take(way, Refine(own, at.end.p, whole));
     at.finished = true;

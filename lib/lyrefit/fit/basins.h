@@ -39,6 +39,7 @@ class Basins {
   void GoOn(std::vector<int>* ways, int steps, std::size_t most);
   void Finish(const std::vector<int>& ways);
   void Take(int way, RefineEnd end);
+  bool IsHopeless(const BasinEnd& end) const;
   int VisitsOf(const BasinEnd& end) const;
 
   const RefineProblem& problem_;

@@ -1,14 +1,12 @@
 #include "lyrefit/fit/polish_extended.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
-#include "lyrefit/base/random.h"
-#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/probe_starts.h"
 
 namespace lyrefit {
@@ -16,32 +14,9 @@ namespace {
 
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kBirds = 3;
-constexpr int kRounds = 3;  // of random places
-constexpr int kDrawn = 40;  // in a round
-constexpr std::size_t kKept = 4;
-constexpr int kAgain = 2;  // ends in the best basin that make further rounds needless
-constexpr int kSteps = 6;  // of whole numbers
-
-std::vector<PolishStart> ShapeStarts(const FitJob& job) {
-  std::vector<PolishStart> starts;
-  for (std::size_t f = 0; f < job.forms.size(); ++f) {
-    for (const std::vector<double>& place :
-         ShapePlaces(*job.problem.device.extension, job.forms[f])) {
-      starts.push_back({fmt::format("shape {}", starts.size() + 1),
-                        TypicalDevice(job.problem, place), static_cast<int>(f)});
-    }
-  }
-  return starts;
-}
-
-std::vector<PolishStart> Named(const std::string& origin, int form,
-                               std::vector<std::vector<double>> places) {
-  std::vector<PolishStart> starts;
-  for (std::vector<double>& place : places) {
-    starts.push_back({fmt::format("{} {}", origin, starts.size() + 1), std::move(place), form});
-  }
-  return starts;
-}
+constexpr int kRounds = 3;  // of random places, and of probes beside the best
+constexpr int kAgain = 2;   // ends in the best basin that make further rounds needless
+constexpr int kSteps = 6;   // of whole numbers and settings
 
 // Of each effect whether no shape of the curve shows where it is.
 std::vector<bool> Shapeless(const FitJob& job) {
@@ -52,77 +27,8 @@ std::vector<bool> Shapeless(const FitJob& job) {
   return shapeless;
 }
 
-// The best of many random places, none of them beside another.
-std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
-                                      RandomStream* random) {
-  constexpr double kBeside = 0.1;  // of a side, in all of them
-  const Box& box = space.box();
-  std::vector<std::pair<double, std::vector<double>>> drawn;
-  std::vector<double> p(job.problem.device.size());
-  for (int k = 0; k < kDrawn; ++k) {
-    std::vector<double> x(space.dimensions());
-    for (std::size_t j = 0; j < x.size(); ++j) {
-      x[j] = box.lower[j] + random->Uniform() * (box.upper[j] - box.lower[j]);
-    }
-    space.ToParameters(x.data(), p.data());
-    const double mean_square = MeanSquare(job.few, p);
-    if (std::isfinite(mean_square)) drawn.emplace_back(mean_square, std::move(x));
-  }
-  std::stable_sort(drawn.begin(), drawn.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<PolishStart> starts;
-  std::vector<std::vector<double>> kept;
-  for (auto& [mean_square, x] : drawn) {
-    if (starts.size() == kKept) break;
-    const bool crowded = std::any_of(kept.begin(), kept.end(), [&](const auto& other) {
-      for (std::size_t j = 0; j < other.size(); ++j) {
-        if (std::fabs(x[j] - other[j]) > kBeside * (box.upper[j] - box.lower[j])) return false;
-      }
-      return true;
-    });
-    if (crowded) continue;
-    space.ToParameters(x.data(), p.data());
-    starts.push_back({"random", p, space.FormAt(x.data())});
-    kept.push_back(std::move(x));
-  }
-  return starts;
-}
-
-// One more or less of each whole number, and one less of one for one more of another.
-std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
-  const Form& form = job.forms[at.start.form];
-  const int first = job.base_size();
-  std::vector<std::pair<int, double>> steps;
-  for (int k = 0; k < job.effects(); ++k) {
-    if (form.bounds[k].whole == 0) continue;
-    steps.emplace_back(first + k, form.bounds[k].whole);
-    steps.emplace_back(first + k, -form.bounds[k].whole);
-  }
-  std::vector<PolishStart> starts;
-  const auto add = [&](std::vector<double> p) {
-    const std::vector<double> wanted = p;
-    for (int k = 0; k < job.effects(); ++k) {
-      p[first + k] = WithinBounds(form.bounds[k], p[first + k]);
-    }
-    LeaveARest(*job.problem.device.extension, form.bounds, p.data() + first);
-    if (p == wanted) starts.push_back({"one more or less", std::move(p), at.start.form});
-  };
-  for (const auto& [i, step] : steps) {
-    std::vector<double> p = at.end.p;
-    p[i] += step;
-    add(p);
-    for (const auto& [other, back] : steps) {
-      if (other == i || !(step > 0) || !(back < 0)) continue;
-      std::vector<double> both = p;
-      both[other] += back;
-      add(both);
-    }
-  }
-  return starts;
-}
-
-void ClimbWholeNumbers(const FitJob& job, Basins* basins) {
-  for (int step = 0; step < kSteps; ++step) {
+void ClimbSettings(const FitJob& job, Basins* basins) {
+  for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
     const int before = basins->best();
     std::vector<PolishStart> neighbours = Neighbours(job, basins->ends()[before]);
     if (neighbours.empty()) return;
@@ -151,40 +57,44 @@ std::vector<FormReport> ReportForms(const FitJob& job, const Basins& basins) {
   return reports;
 }
 
+// Effects that no shape shows, beside the best fit so far, again and again as that gets better.
+void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* basins) {
+  for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
+    const int before = basins->best();
+    const BasinEnd best = basins->ends()[before];
+    const int form = best.start.form;
+    basins->Descend(
+        Named("probe beside", form,
+              ProbesBeside(job.problem, job.forms[form], best.end, shapeless, kProbes)));
+    if (basins->best() == before) return;
+  }
+}
+
 void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, const FitJob& job,
                Basins* basins) {
   const StartsFrom from = job.options.starts;
   const std::vector<bool> shapeless = Shapeless(job);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
-  const bool none = std::find(shapeless.begin(), shapeless.end(), false) == shapeless.end();
+  const bool all = std::find(shapeless.begin(), shapeless.end(), false) == shapeless.end();
   std::vector<PolishStart> starts;
-  const auto add = [&](std::vector<PolishStart> more) {
-    starts.insert(starts.end(), std::make_move_iterator(more.begin()),
-                  std::make_move_iterator(more.end()));
-  };
   if (from != StartsFrom::kShape) {
-    add({birds.begin(),
-         birds.begin() + static_cast<std::ptrdiff_t>(std::min(kBirds, birds.size()))});
+    const std::size_t count = std::min(kBirds, birds.size());
+    starts.assign(birds.begin(), birds.begin() + static_cast<std::ptrdiff_t>(count));
   }
   if (from != StartsFrom::kSearch) {
-    add(ShapeStarts(job));
-    if (none || starts.empty()) {
-      add(Named("probe", 0, ProbeStarts(job.problem, job.forms[0], kProbes)));
+    std::vector<PolishStart> more = ShapeStarts(job);
+    if (more.empty()) {
+      more = Named("probe", 0, ProbeStarts(job.problem, job.forms[0], kProbes));
     }
+    std::move(more.begin(), more.end(), std::back_inserter(starts));
   }
   basins->Descend(std::move(starts));
-  if (from != StartsFrom::kSearch && some && !none && !job.watch.stopped()) {
-    const BasinEnd& best = basins->ends()[basins->best()];
-    const int form = best.start.form;
-    basins->Descend(
-        Named("probe beside", form,
-              ProbesBeside(job.problem, job.forms[form], best.end.p, shapeless, kProbes)));
-  }
+  if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, basins);
   if (from == StartsFrom::kShape) return;
   RandomStream random(job.options.search.seed, ~job.options.search.run);
   for (int round = 0; round < kRounds && basins->visits() < kAgain; ++round) {
     if (job.watch.stopped()) return;
-    basins->Descend(RandomStarts(job, space, &random));
+    basins->Descend(RandomStarts(job, space, basins->ends()[basins->best()].end.p, &random));
   }
 }
 
@@ -196,7 +106,7 @@ PolishResult PolishExtended(const std::vector<PolishStart>& birds, const SearchS
   job->watch.Begin("polish", 0);
   Basins basins(job->problem, job->forms, &job->watch);
   TryStarts(birds, space, *job, &basins);
-  ClimbWholeNumbers(*job, &basins);
+  ClimbSettings(*job, &basins);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
   for (const BasinEnd& end : basins.ends()) {

@@ -39,12 +39,13 @@ RefineProblem BaseAlone(const RefineProblem& problem) {
 // What of the residuals the polished base device cannot take over.
 class Unexplained {
  public:
-  // What `end` of `fitted` explains; its parameters in `problem` are `p`.
-  Unexplained(const RefineProblem& problem, const RefineProblem& fitted, const RefineEnd& end,
-              const std::vector<double>& p)
+  // The residuals of `problem` at `without`, of which `fitted` explains what lies along its
+  // parameters that are not held.
+  Unexplained(const RefineProblem& problem, const RefineProblem& fitted, const FitPoint& end,
+              const std::vector<bool>& held, const std::vector<double>& without)
       : problem_(problem),
-        explained_(RankedBasis(Linearize(CurveModel(fitted), end, end.held).jacobian)) {
-    residual_ = Of(p);
+        explained_(RankedBasis(Linearize(CurveModel(fitted), end, held).jacobian)) {
+    residual_ = Of(without);
   }
 
   const Eigen::VectorXd& residual() const { return residual_; }
@@ -183,7 +184,7 @@ std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const
   const RefineEnd base = RefineFrom(alone, SeparableStarts(alone, 0, 1).at(0).p);
   std::vector<double> usual = base.p;
   usual.insert(usual.end(), form.usual.begin(), form.usual.end());
-  const Unexplained unexplained(problem, alone, base, usual);
+  const Unexplained unexplained(problem, alone, base, base.held, usual);
   std::vector<Trial> trials = TryAllProbes(problem, form, &unexplained, usual);
   KeepBest(count, &trials);
   const bool unlike = std::any_of(extension.uses.begin(), extension.uses.end(),
@@ -198,21 +199,23 @@ std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const
 }
 
 std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Form& form,
-                                              const std::vector<double>& fitted,
+                                              const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count) {
   const Extension& extension = *problem.device.extension;
-  RefineProblem without = InForm(problem, form, fitted);
+  const RefineProblem own = InForm(problem, form, fitted.p);
+  std::vector<double> without = fitted.p;
+  std::vector<bool> held = fitted.held;
   for (std::size_t use = 0; use < others.size(); ++use) {
+    const Effect& effect = *extension.uses[use].effect;
     const int first = extension.law.Offset(static_cast<int>(use));
-    for (int i = first; others[use] && i < first + extension.uses[use].effect->size(); ++i) {
-      without.lower[i] = without.upper[i] = fitted[i];
-    }
+    if (!others[use]) continue;
+    for (int k = 0; k < effect.size(); ++k) held[first + k] = true;
+    without[first] = effect.parameters.front().neutral;
   }
-  const RefineEnd end = Refine(without, fitted);
-  const Unexplained unexplained(problem, without, end, end.p);
+  const Unexplained unexplained(problem, own, fitted, held, without);
   std::vector<Trial> trials;
   for (std::size_t use = 0; use < others.size(); ++use) {
-    if (others[use]) TryProbes(problem, form, &unexplained, end.p, use, &trials);
+    if (others[use]) TryProbes(problem, form, &unexplained, without, use, &trials);
   }
   BestFirst(&trials);
   KeepBest(count, &trials);

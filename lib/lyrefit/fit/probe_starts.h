@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lyrefit/law/forms.h"
+#include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/problem.h"
 
 namespace lyrefit {
@@ -16,10 +17,10 @@ namespace lyrefit {
 std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Form& form,
                                              std::size_t count);
 
-// The same beside `fitted`, a fit that has some of the effects already: probes of the others, the
-// `count` that tell most of what it leaves.
+// The same beside a fit that has some of the effects already: probes of the others in the place of
+// what the fit has of them, the `count` that tell most of what the fit would leave without them.
 std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Form& form,
-                                              const std::vector<double>& fitted,
+                                              const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count);
 
 // A crystalline device with the largest current and the open-circuit voltage of the readings, and

@@ -1,0 +1,151 @@
+#include "lyrefit/fit/basin_starts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "lyrefit/fit/probe_starts.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kDrawn = 40;
+constexpr std::size_t kKept = 4;
+constexpr double kBeside = 0.1;  // of a side, in all of them
+constexpr int kSettings = 3;     // on either side
+
+struct Draw {
+  double mean_square = 0;
+  std::vector<double> x, p;
+};
+
+bool Beside(const Draw& a, const Draw& b, const Box& box) {
+  for (std::size_t j = 0; j < a.x.size(); ++j) {
+    if (std::fabs(a.x[j] - b.x[j]) > kBeside * (box.upper[j] - box.lower[j])) return false;
+  }
+  return true;
+}
+
+void AddWholeNumbers(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+  const Form& form = job.forms[at.start.form];
+  const int first = job.base_size();
+  std::vector<std::pair<int, double>> steps;
+  for (int k = 0; k < job.effects(); ++k) {
+    if (form.bounds[k].whole == 0) continue;
+    steps.emplace_back(first + k, form.bounds[k].whole);
+    steps.emplace_back(first + k, -form.bounds[k].whole);
+  }
+  const auto add = [&](std::vector<double> p) {
+    const std::vector<double> wanted = p;
+    for (int k = 0; k < job.effects(); ++k) {
+      p[first + k] = WithinBounds(form.bounds[k], p[first + k]);
+    }
+    LeaveARest(*job.problem.device.extension, form.bounds, p.data() + first);
+    for (const auto& [i, step] : steps) {
+      if (std::fabs(p[i] - wanted[i]) > 0.5 * std::fabs(step)) return;
+    }
+    starts->push_back({"one more or less", std::move(p), at.start.form});
+  };
+  for (const auto& [i, step] : steps) {
+    std::vector<double> p = at.end.p;
+    p[i] += step;
+    add(p);
+    for (const auto& [other, back] : steps) {
+      if (other == i || !(step > 0) || !(back < 0)) continue;
+      std::vector<double> both = p;
+      both[other] += back;
+      add(both);
+    }
+  }
+}
+
+void AddSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+  const Extension& extension = *job.problem.device.extension;
+  const Form& form = job.forms[at.start.form];
+  int first = 0;
+  for (const EffectUse& use : extension.uses) {
+    const Effect& effect = *use.effect;
+    for (int k = 0; k < effect.size() && effect.probes != nullptr; ++k) {
+      const ParameterBounds& bounds = form.bounds[first + k];
+      if (!effect.parameters[k].searched || bounds.whole > 0) continue;
+      std::set<double> tried;
+      for (const Probe& probe : effect.probes(extension.readings.traits)) {
+        if (WithinBounds(bounds, probe[k]) == probe[k]) tried.insert(probe[k]);
+      }
+      const int i = job.base_size() + first + k;
+      const auto add = [&](double value) {
+        starts->push_back({"next setting", at.end.p, at.start.form});
+        starts->back().p[i] = value;
+      };
+      auto above = tried.upper_bound(at.end.p[i]), below = tried.lower_bound(at.end.p[i]);
+      for (int step = 0; step < kSettings && above != tried.end(); ++step) add(*above++);
+      for (int step = 0; step < kSettings && below != tried.begin(); ++step) add(*--below);
+    }
+    first += effect.size();
+  }
+}
+
+}  // namespace
+
+std::vector<PolishStart> ShapeStarts(const FitJob& job) {
+  std::vector<PolishStart> starts;
+  for (std::size_t f = 0; f < job.forms.size(); ++f) {
+    for (const std::vector<double>& place :
+         ShapePlaces(*job.problem.device.extension, job.forms[f])) {
+      starts.push_back({fmt::format("shape {}", starts.size() + 1),
+                        TypicalDevice(job.problem, place), static_cast<int>(f)});
+    }
+  }
+  return starts;
+}
+
+std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
+                                      const std::vector<double>& best, RandomStream* random) {
+  const Box& box = space.box();
+  std::vector<Draw> drawn;
+  for (int k = 0; k < kDrawn; ++k) {
+    Draw draw;
+    for (int j = 0; j < space.dimensions(); ++j) {
+      draw.x.push_back(box.lower[j] + random->Uniform() * (box.upper[j] - box.lower[j]));
+    }
+    draw.p.resize(best.size());
+    space.ToParameters(draw.x.data(), draw.p.data());
+    if (k % 2 == 1) std::copy(best.begin(), best.begin() + job.base_size(), draw.p.begin());
+    draw.mean_square = MeanSquare(job.few, draw.p);
+    if (std::isfinite(draw.mean_square)) drawn.push_back(std::move(draw));
+  }
+  std::stable_sort(drawn.begin(), drawn.end(),
+                   [](const Draw& a, const Draw& b) { return a.mean_square < b.mean_square; });
+  std::vector<const Draw*> kept;
+  std::vector<PolishStart> starts;
+  for (const Draw& draw : drawn) {
+    if (kept.size() == kKept) break;
+    const bool crowded = std::any_of(kept.begin(), kept.end(),
+                                     [&](const Draw* other) { return Beside(draw, *other, box); });
+    if (crowded) continue;
+    kept.push_back(&draw);
+    starts.push_back({"random", draw.p, space.FormAt(draw.x.data())});
+  }
+  return starts;
+}
+
+std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
+  std::vector<PolishStart> starts;
+  AddWholeNumbers(job, at, &starts);
+  AddSettings(job, at, &starts);
+  return starts;
+}
+
+std::vector<PolishStart> Named(const std::string& origin, int form,
+                               std::vector<std::vector<double>> places) {
+  std::vector<PolishStart> starts;
+  for (std::vector<double>& place : places) {
+    starts.push_back({fmt::format("{} {}", origin, starts.size() + 1), std::move(place), form});
+  }
+  return starts;
+}
+
+}  // namespace lyrefit

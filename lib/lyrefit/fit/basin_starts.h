@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/fit/basins.h"
+#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/search_space.h"
+
+namespace lyrefit {
+
+// Places for descents over the basins of a device with effects.
+
+// Where the shape of the curve suggests, in every form, on a typical device.
+std::vector<PolishStart> ShapeStarts(const FitJob& job);
+
+// The best of many random places, none of them beside another; every second one has the diodes of
+// `best`, so that the effects alone are drawn.
+std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
+                                      const std::vector<double>& best, RandomStream* random);
+
+// One more or less of each whole number of an end, one less of one for one more of another, and the
+// next settings of what is settled by trying as well.
+std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at);
+
+// "probe 1", ... in one of the forms.
+std::vector<PolishStart> Named(const std::string& origin, int form,
+                               std::vector<std::vector<double>> places);
+
+}  // namespace lyrefit

@@ -63,7 +63,7 @@ Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& fla
                    std::vector<CompareCurve>* curves) {
   Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
   if (!bounds) return tl::unexpected(bounds.error());
-  curves->push_back({std::move(curve), std::move(*bounds)});
+  curves->push_back(MakeSubject(std::move(curve), std::move(*bounds)));
   return {};
 }
 

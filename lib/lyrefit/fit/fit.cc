@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
@@ -189,7 +190,9 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.searched = report.refined = elites[0];
   OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
   if (options.plain_polish) {
+    const auto begin = std::chrono::steady_clock::now();
     const RefineEnd plain = RefinePlainly(job.problem, elites[0]);
+    report.plain_seconds = SecondsSince(begin);
     report.rmse.plain_polished = BothRmse(report.device, plain.p, curve);
   }
   if (options.polish) {

@@ -202,6 +202,7 @@ struct FitReport {
   SearchSummary search;
   RefineReport refine;
   double interval_seconds = 0;
+  double plain_seconds = kUnknown;    // of the best bird's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for
   std::optional<ModelChoice> choice;  // of `auto`
   // Of an extended model: ids of the effects beside the diodes, and how many curves under

@@ -1,17 +1,33 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/search/search.h"
 #include "lyrefit/study/rank_tests.h"
 
 namespace lyrefit {
+
+// What of the hybrid a contender is about.
+enum class ContenderKind {
+  kSearch,   // a search; what becomes of its birds is looked at by how far they are polished
+  kShape,    // the places that the curve's shape suggests; its search is a token
+  kDefault,  // the fit with its default settings, as it is
+};
+
+template <>
+struct EnumTable<ContenderKind> {
+  static constexpr EnumText<ContenderKind> kRows[] = {{ContenderKind::kSearch, "search"},
+                                                      {ContenderKind::kShape, "shape"},
+                                                      {ContenderKind::kDefault, "default"}};
+};
 
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
 // run r all of ours start from the same first birds.
@@ -20,11 +36,25 @@ struct Contender {
   std::string algorithm;  // without its setting, "mlo"; empty: the name
   SearchOptions search;
   SearchFunction searcher;  // empty: Search()
+  ContenderKind kind = ContenderKind::kSearch;
+  StartsFrom starts = StartsFrom::kAll;  // see FitOptions
+  std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
 };
 
+// A curve, or a set of curves, that searches are compared on.
 struct CompareCurve {
   IvCurve curve;
   BoundsSpec bounds;
+  // Subjects with the same name here are devices of one problem, and summed up as one; see pool.h.
+  std::string problem;
+  // What is its own instead of the comparison's, empty: as there. Effects are fitted to the solved
+  // current, whatever is said here.
+  std::optional<Model> model;
+  std::optional<Objective> objective;
+  std::vector<EffectUse> with;
+  // A family instead of a curve, with its own law, model, effects and bounds.
+  std::optional<CurveSet> set;
+  FamilyOptions family;
 };
 
 struct CompareOptions {
@@ -39,6 +69,9 @@ struct CompareOptions {
   bool polish = true;
   bool plain_polish = false;  // see FitOptions
   bool rankings = true;       // rank tests of the contenders against each other
+  // Random points that are polished to their end, beside long searches, to find the best known
+  // optimum of a problem that no certificate is at hand for; 0: the runs alone. See best_known.h.
+  int multistart = 0;
   int threads = 0;            // 0: all cores; never changes a result but the seconds
   const Kernel* kernel = nullptr;
   // A file that every finished run is written to, and that a study is taken up from; empty: none.
@@ -59,7 +92,13 @@ struct RunRecord {
   // Of the search alone, counted in whole iterations; -1: never reached.
   std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;
-  double polish_seconds = 0;
+  double polish_seconds = 0;                // from all starts
+  double plain_seconds = kUnknown;          // of the best bird's plain solve
+  double own_seconds = kUnknown;            // of the best bird's own polish
+  // Of problems that are pooled: where the best bird's own polish and the hybrid ended, in the
+  // order of Reference::parameters. Empty: not kept.
+  std::vector<double> own_parameters;
+  std::vector<double> parameters;
 };
 
 struct Spread {
@@ -82,6 +121,8 @@ struct ContenderResult {
   std::string name;
   std::string algorithm;
   SearchOptions search;
+  ContenderKind kind = ContenderKind::kSearch;
+  std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   Spread searched;
   Spread plain_polished;
@@ -120,11 +161,19 @@ struct Ranking {
   std::vector<SignedRank> signed_ranks;  // every pair
 };
 
-// One curve with one model.
+// One curve, or set of curves, with one model.
 struct ProblemResult {
   std::string curve_name;
   Model model = Model::kSingleDiode;
   std::string bounds_name;
+  // What it is pooled under (pool.h): the subject's own, else, of a curve with effects, the
+  // curve's name. Empty: a plain problem on its own.
+  std::string problem;
+  Objective objective = Objective::kMeasuredCurrent;
+  std::vector<EffectUse> with;
+  bool family = false;
+  std::vector<std::string> parameters;  // names, in the order of Reference::parameters
+  int first_effect = -1;                // where those of the effects begin; -1: none
   Reference reference;
   std::vector<ContenderResult> contenders;
   // Of the runs that every contender has done.
@@ -146,6 +195,9 @@ struct Comparison {
   std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
+// A curve on its own.
+CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
+
 // Runs every contender `runs` times on every curve with every model. Everything is checked before
 // the first run. Run r of all contenders comes before run r + 1 of any. The observer hears of stage
 // "compare" at the beginning, after every run (iteration: runs done of those planned) and now and
@@ -163,6 +215,8 @@ std::vector<Contender> PlainContenders(const std::vector<Algorithm>& algorithms,
 std::vector<Contender> SensitivityContenders(const std::vector<double>& memory_rates,
                                              const std::vector<double>& distance_coefficients,
                                              const SearchOptions& search);
+// "shape" and "default", by their kind; what they search with is set by themselves.
+Contender OwnContender(ContenderKind kind);
 // Every algorithm with every budget of evaluations, the algorithm the outer loop. The population is
 // about the root of the budget, 4 to 100. Names read "mlo@420".
 std::vector<Contender> BudgetContenders(const std::vector<Algorithm>& algorithms,

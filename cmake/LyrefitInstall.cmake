@@ -94,6 +94,7 @@ set(LYREFIT_PUBLIC_HEADERS
   study/audit.h
   study/compare.h
   study/coverage.h
+  study/landscape.h
   study/rank_tests.h
   study/read_audit_rows.h
   study/truth.h)

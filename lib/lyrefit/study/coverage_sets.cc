@@ -9,6 +9,7 @@
 #include "lyrefit/law/held_values.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
+#include "lyrefit/study/draw.h"
 
 namespace lyrefit {
 namespace {
@@ -22,19 +23,6 @@ constexpr int kGridSize = static_cast<int>(std::size(kGrid));
 constexpr int kSpanning = 5;
 constexpr int kFewestCurves = 5;
 constexpr int kMostSetCurves = 30;
-
-double Between(double low, double high, RandomStream* random) {
-  return low + (high - low) * random->Uniform();
-}
-
-double LogBetween(double low, double high, RandomStream* random) {
-  return low * std::pow(high / low, random->Uniform());
-}
-
-// Saturation current of a diode that takes `current_A` at `voltage_V`.
-double SaturationCurrent(double current_A, double voltage_V, double nNsVth) {
-  return current_A / std::expm1(voltage_V / nNsVth);
-}
 
 // With `known_bandgap` that of silicon, which a fit of the temperatures' error takes for granted.
 std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomStream* random) {
@@ -114,8 +102,7 @@ Expected<KeyPoints> PointsAt(const SimulatedSet& made, double irradiance_W_m2,
 }
 
 Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions& options,
-                                const std::pair<double, double>& at, double noise_A,
-                                RandomStream* random) {
+                                const std::pair<double, double>& at, RandomStream* random) {
   const auto& [irradiance, temperature_C] = at;
   const Expected<KeyPoints> points = PointsAt(made, irradiance, temperature_C);
   if (!points) return tl::unexpected(points.error());
@@ -131,7 +118,7 @@ Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions&
     curve.voltage_V.push_back(points->open_circuit_voltage_V * i / (options.points - 1));
   }
   curve.current_A = SolveCurrents(module.device, module.parameters.data(), curve.voltage_V);
-  for (double& current : curve.current_A) current += noise_A * random->Normal();
+  for (double& current : curve.current_A) current += made.noise_A * random->Normal();
   return curve;
 }
 
@@ -169,14 +156,14 @@ Expected<SimulatedSet> SimulateSet(const CoverageOptions& options, int index) {
   }
   const Expected<KeyPoints> reference = PointsAt(made, kReferenceIrradiance_W_m2, 25);
   if (!reference) return tl::unexpected(reference.error());
-  const double noise_A = options.noise_relative * reference->short_circuit_current_A;
+  made.noise_A = options.noise_relative * reference->short_circuit_current_A;
   const int count =
       options.curves > 0
           ? options.curves
           : kFewestCurves + static_cast<int>(random.Index(kMostSetCurves - kFewestCurves + 1));
   made.set.name = fmt::format("set {}", index);
   for (const auto& at : DrawConditions(count, &random)) {
-    Expected<IvCurve> curve = SimulateCurve(made, options, at, noise_A, &random);
+    Expected<IvCurve> curve = SimulateCurve(made, options, at, &random);
     if (!curve) return tl::unexpected(curve.error());
     curve->name = std::to_string(made.set.curves.size());
     made.set.curves.push_back(std::move(*curve));

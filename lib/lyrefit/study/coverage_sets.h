@@ -14,6 +14,7 @@ struct SimulatedSet {
   Translation translation;
   std::vector<double> truth;  // shared parameters in the translation's order
   CurveSet set;               // conditions as the sensors read them
+  double noise_A = 0;         // standard deviation of every current's error
 };
 
 // Law, model and shunt law of the fits; a module of `cells_in_series` cells.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@
 
 namespace lyrefit {
 
-// Made measurements of a kind that has many basins: problems for searches.
+// Made measurements of a kind that has many basins: problems for searches. Everything is drawn from
+// ranges that modules, cells and tracers have, none of it with an eye on any search.
 
 // One device of such a problem. All devices of a problem are fitted with the same laws.
 struct LandscapeCase {
@@ -25,6 +27,11 @@ struct LandscapeCase {
   std::vector<EffectUse> with;
   std::optional<CurveSet> set;  // of a family: fitted as `family` says, `model` and `with` in it
   FamilyOptions family;
+  // What it was made with, in the units of reports: "Iph", "substrings.d1"; of a set the shared
+  // parameters and, where no effect says it, "irradiance_offset_W_m2" and "temperature_offset_K",
+  // true less shown.
+  std::map<std::string, double> truth;
+  double noise_A = 0;  // standard deviation of every current's error
 };
 
 struct LandscapeProblem {

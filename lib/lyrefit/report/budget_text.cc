@@ -188,10 +188,16 @@ std::string BudgetText(const Comparison& comparison) {
   text += Field("budget",
                 "columns are evaluations of one search; its population is about their root, 4 to "
                 "100; the polish comes on top");
-  text += Field("hit", "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference");
+  const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
+                                  [](const auto& problem) { return !problem.problem.empty(); });
+  text += Field("hit", pooled ? "a run within 1e-6 of the best known optimum of its device"
+                              : "a run within 1e-6 (search alone) or 1e-9 (polished) of the "
+                                "reference");
   text += Field("time", Duration(comparison.seconds));
-  for (const ProblemResult& problem : comparison.problems) text += BudgetOf(comparison, problem);
-  return text;
+  for (const ProblemResult& problem : comparison.problems) {
+    if (problem.problem.empty()) text += BudgetOf(comparison, problem);
+  }
+  return text + PoolSections(comparison);
 }
 
 }  // namespace lyrefit

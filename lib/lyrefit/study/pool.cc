@@ -100,7 +100,9 @@ std::optional<PooledLevel> PoolLevel(const std::vector<PooledRun>& runs, PolishL
                          &pooled.excess.max}) {
     *figure -= 1;
   }
-  pooled.seconds = MedianOf(std::move(seconds));
+  const bool timed = std::none_of(seconds.begin(), seconds.end(),
+                                  [](double value) { return std::isnan(value); });
+  if (timed) pooled.seconds = MedianOf(std::move(seconds));
   pooled.failures = SumUpFailures(missed, level);
   return pooled;
 }

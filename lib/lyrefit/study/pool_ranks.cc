@@ -10,27 +10,27 @@
 namespace lyrefit {
 namespace {
 
-// Names of the searches of a budget, in the order they came.
+// The searches of a budget, in the order they came.
 std::vector<std::string> SearchesOf(const std::vector<const PooledProblem*>& pools,
                                     std::int64_t budget) {
   std::vector<std::string> names;
   for (const PooledProblem* pool : pools) {
     for (const PooledContender& contender : pool->contenders) {
       if (contender.kind != ContenderKind::kSearch || contender.budget != budget) continue;
-      if (std::find(names.begin(), names.end(), contender.name) != names.end()) continue;
-      names.push_back(contender.name);
+      if (std::find(names.begin(), names.end(), contender.algorithm) != names.end()) continue;
+      names.push_back(contender.algorithm);
     }
   }
   return names;
 }
 
 // The figures of one device, run by run, of the runs that all have done.
-void AddBlocks(const ProblemResult& device, const std::vector<std::string>& names,
-               PolishLevel level, std::vector<std::vector<double>>* values) {
+void AddBlocks(const ProblemResult& device, const PooledRanking& ranking, PolishLevel level,
+               std::vector<std::vector<double>>* values) {
   std::map<int, std::vector<double>> blocks;  // by run
-  for (const std::string& name : names) {
+  for (const std::string& name : ranking.names) {
     for (const ContenderResult& contender : device.contenders) {
-      if (contender.name != name) continue;
+      if (contender.algorithm != name || contender.budget != ranking.budget) continue;
       for (const RunRecord& run : contender.runs) {
         const double rmse = RmseAt(run, level);
         if (!std::isnan(rmse)) {
@@ -40,17 +40,17 @@ void AddBlocks(const ProblemResult& device, const std::vector<std::string>& name
     }
   }
   for (auto& [run, block] : blocks) {
-    if (block.size() != names.size()) continue;
+    if (block.size() != ranking.names.size()) continue;
     block = JoinEqual(std::move(block), kPoolHit);
-    for (std::size_t c = 0; c < names.size(); ++c) (*values)[c].push_back(block[c]);
+    for (std::size_t c = 0; c < block.size(); ++c) (*values)[c].push_back(block[c]);
   }
 }
 
 Ranking RankLevel(const std::vector<const PooledProblem*>& pools,
-                  const std::vector<std::string>& names, PolishLevel level) {
-  std::vector<std::vector<double>> values(names.size());
+                  const PooledRanking& ranking, PolishLevel level) {
+  std::vector<std::vector<double>> values(ranking.names.size());
   for (const PooledProblem* pool : pools) {
-    for (const ProblemResult* device : pool->devices) AddBlocks(*device, names, level, &values);
+    for (const ProblemResult* device : pool->devices) AddBlocks(*device, ranking, level, &values);
   }
   return RankAll(std::move(values));
 }
@@ -65,8 +65,8 @@ void AddRankings(const std::vector<const PooledProblem*>& pools, const std::stri
   }
   for (const std::int64_t budget : budgets) {
     PooledRanking ranking{problem, budget, SearchesOf(pools, budget), {}, {}};
-    ranking.searched = RankLevel(pools, ranking.names, PolishLevel::kSearch);
-    ranking.own = RankLevel(pools, ranking.names, PolishLevel::kOwn);
+    ranking.searched = RankLevel(pools, ranking, PolishLevel::kSearch);
+    ranking.own = RankLevel(pools, ranking, PolishLevel::kOwn);
     if (ranking.searched.friedman.contenders > 0) rankings->push_back(std::move(ranking));
   }
 }

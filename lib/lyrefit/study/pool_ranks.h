@@ -13,7 +13,7 @@ namespace lyrefit {
 struct PooledRanking {
   std::string problem;  // empty: all of them
   std::int64_t budget = 0;
-  std::vector<std::string> names;  // of the contenders, as the ranks count them
+  std::vector<std::string> names;  // of the algorithms, as the ranks count them
   Ranking searched;                // of the search alone
   Ranking own;                     // of the best bird's own polish
 };

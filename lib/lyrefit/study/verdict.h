@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "lyrefit/study/pool.h"
 
@@ -18,6 +17,7 @@ struct Way {
   const PooledContender* contender = nullptr;
   PolishLevel level = PolishLevel::kSearch;
   const PooledLevel& figures() const { return *contender->At(level); }
+  bool IsEnough() const { return figures().hits >= EnoughHits(figures().runs); }
 };
 
 // What the figures of one problem say, by rule. A search is enough at a level from a budget on if
@@ -30,13 +30,10 @@ struct Verdict {
   std::optional<Way> best;    // where none is enough: the most hits, then the least time
   std::optional<Way> random;  // that of random points, where they are not the winner
   int needed = 0;             // hits that are enough
-  bool has_searches = false;
   bool shape_is_enough = false;
+  bool shape_wins = false;  // it is enough, and no search that is enough is faster
 };
 Verdict JudgePool(const PooledProblem& pool);
-
-// "strings_4: no search is needed: starts from the curve's shape alone hit 50 of 50 (8 ms); ..."
-std::string VerdictText(const PooledProblem& pool);
 
 // The fit with its default settings against pagmo2's algorithms with the best bird's own polish.
 struct PeerRatio {
@@ -47,9 +44,5 @@ struct PeerRatio {
 };
 // Nothing where the default fit was no contender.
 std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool);
-
-// "default (50 of 50, 10 ms) is 12 times faster than pagmo:cmaes@1000 (50 of 50, 120 ms)"; empty
-// where the default fit or any peer was no contender.
-std::string PeerText(const PooledProblem& pool);
 
 }  // namespace lyrefit

@@ -11,16 +11,6 @@ namespace {
 
 constexpr int kMultistart = 100;
 
-CompareCurve SubjectOf(LandscapeCase made) {
-  CompareCurve subject = MakeSubject(std::move(made.curve), std::move(made.bounds));
-  subject.problem = std::move(made.problem);
-  subject.model = made.model;
-  subject.with = std::move(made.with);
-  subject.set = std::move(made.set);
-  subject.family = std::move(made.family);
-  return subject;
-}
-
 }  // namespace
 
 void AddLandscapeFlags(Verb* verb, StudyFlags* flags) {

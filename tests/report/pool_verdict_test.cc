@@ -59,9 +59,14 @@ TEST(VerdictText, NamesTheSearchThatWillDo) {
 
 TEST(VerdictText, SaysThatNothingIsEnough) {
   EXPECT_EQ(Sentence({{"mlo", 100, 40, 47, 5}, {"random", 100, 30, 44, 5}}),
-            "x: nothing is enough: no search reaches 48 of 50 at any level; the best, mlo, hits 47 "
-            "with all starts at 100 evaluations (35 ms); random points do not: at most 44 of 50, "
+            "x: nothing is enough: no search reaches 48 of 50 from any budget on; the best, mlo, "
+            "hits 47 with all starts at 100 evaluations (35 ms); random points do not: at most 44 of 50, "
             "with all starts at 100 evaluations (35 ms)");
+}
+
+TEST(VerdictText, SaysThatNobodyEverHits) {
+  EXPECT_EQ(Sentence({{"mlo", 100, 0, 0, 5}, {"random", 100, 0, 0, 8}}),
+            "x: nothing is enough: no search hits in any run; random points hit in none");
 }
 
 TEST(PeerText, SaysHowManyTimesFasterOrThatNoneHitsAsOften) {

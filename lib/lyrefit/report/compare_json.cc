@@ -112,6 +112,11 @@ Json ProblemJson(const ProblemResult& problem) {
             {"refined", RankingJson(ContenderNames(problem), problem.polished)}}}};
   if (problem.problem.empty()) return json;
   json["problem"] = problem.problem;
+  if (const Reference& reference = problem.reference; reference.points > 0) {
+    json["reference"]["multistart"] = {{"found_by_it_alone", reference.by_multistart},
+                                       {"random_points", reference.points},
+                                       {"visits", reference.visits}};
+  }
   json["objective"] = ToText(problem.objective);
   for (const EffectUse& use : problem.with) json["with"].push_back(DescribeUse(use));
   return json;

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <set>
 
 #include "lyrefit/report/compare_script.h"
 #include "lyrefit/report/panels.h"
@@ -9,6 +9,8 @@
 
 namespace lyrefit {
 namespace {
+
+constexpr std::size_t kFewRows = 4;  // more of them are lower each
 
 constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best bird's polish",
                                      "all starts"};
@@ -31,19 +33,27 @@ std::vector<std::string> LegendOf(const std::vector<PooledProblem>& pools) {
 struct BudgetRange {
   double least = 1e300;
   double most = 0;
+  std::string ticks;  // for gnuplot, one at every budget
 };
 
 BudgetRange RangeOf(const std::vector<PooledProblem>& pools) {
   BudgetRange range;
+  std::set<std::int64_t> budgets;
   for (const PooledProblem& pool : pools) {
     for (const PooledContender& contender : pool.contenders) {
       if (contender.budget == 0) continue;
+      budgets.insert(contender.budget);
       range.least = std::min(range.least, static_cast<double>(contender.budget));
       range.most = std::max(range.most, static_cast<double>(contender.budget));
     }
   }
-  if (range.most == 0) range = {1, 10};
-  return {range.least / 1.6, range.most * 1.6};
+  if (budgets.empty()) return {1, 10, "1, 10"};
+  for (const std::int64_t budget : budgets) {
+    range.ticks += fmt::format("{}{}", range.ticks.empty() ? "" : ", ", budget);
+  }
+  range.least /= 1.6;
+  range.most *= 1.6;
+  return range;
 }
 
 // A contender without a budget is a line all across.
@@ -77,9 +87,9 @@ std::string PoolPanel(const PooledProblem& pool, const std::vector<std::string>&
   if (plot.empty()) plot = "plot NaN notitle";
   return data +
          fmt::format(
-             "set logscale x\nset xrange [{:g}:{:g}]\nset format x '10^{{%T}}'\n"
+             "set logscale x\nset xrange [{:g}:{:g}]\nset format x '%g'\nset xtics ({})\n"
              "set yrange [-4:104]\nset ytics 0,20\n",
-             range.least, range.most) +
+             range.least, range.most, range.ticks) +
          plot + "\n";
 }
 
@@ -94,7 +104,7 @@ std::string PoolScript(const Comparison& comparison, const std::string& terminal
                        "Share of runs that hit: within 1e-6 of the best known optimum of the "
                        "device; of equal lines the first is the widest; lines all across have no "
                        "budget",
-                       LegendMark::kLineAndPoint, names, 0);
+                       LegendMark::kLineAndPoint, names, 0, pools.size() > kFewRows ? 180 : 300);
   std::string script = page.Begin(terminal);
   int panel = 0;
   for (const PooledProblem& pool : pools) {

@@ -123,12 +123,19 @@ std::string EffectsOfPool(const PooledProblem& pool) {
 std::string ReferenceText(const PooledProblem& pool) {
   if (pool.devices.size() == 1) return pool.devices[0]->reference.origin;
   int multistart = 0;
+  std::int64_t points = 0, visits = 0;
   for (const ProblemResult* device : pool.devices) {
-    multistart += device->reference.origin.find("found by its") != std::string::npos;
+    multistart += device->reference.by_multistart;
+    points += device->reference.points;
+    visits += device->reference.visits;
   }
-  return fmt::format(
-      "of each device its best known optimum: {} certified, {} found by the multistart alone",
-      pool.certified, multistart);
+  std::string text = fmt::format("of each device its best known optimum, {} certified", pool.certified);
+  if (points == 0) return text;
+  return text + fmt::format(
+                    "; {} that only a multistart found, of whose {} random points {} % end in the "
+                    "best known optimum of their device",
+                    multistart, points,
+                    Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
 }
 
 std::string PoolText(const PooledProblem& pool) {

@@ -45,7 +45,8 @@ std::string SearchText(const Verdict& verdict) {
                        HitsText(*verdict.search), HowText(*verdict.search, "from"));
   }
   const int runs = verdict.best->figures().runs;
-  return fmt::format("no search reaches {} of {} at any level; the best, {}, hits {} {}",
+  if (verdict.best->figures().hits == 0) return "no search hits in any run";
+  return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
                      verdict.needed, runs,
                      verdict.best->contender->algorithm, verdict.best->figures().hits,
                      HowText(*verdict.best, "at"));
@@ -55,6 +56,7 @@ std::string RandomText(const Way& random) {
   if (random.IsEnough()) {
     return fmt::format("random points reach {} {}", HitsText(random), HowText(random, "from"));
   }
+  if (random.figures().hits == 0) return "random points hit in none";
   return fmt::format("random points do not: at most {}, {}", HitsText(random),
                      HowText(random, "at"));
 }

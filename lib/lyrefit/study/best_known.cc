@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::int64_t kLongSearch = 20000;  // evaluations
+constexpr std::int64_t kLongSearch = 200;  // evaluations for each random point
 constexpr int kFirstRun = 1000000000;        // far from the numbers of any contender's runs
 
 // One point, wherever it falls.
@@ -58,7 +58,7 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
     known.interrupted = !run(point, k);
   }
   const std::vector<Algorithm> algorithms = {Algorithm::kDe, Algorithm::kMlo, Algorithm::kRandom};
-  for (const Contender& long_search : BudgetContenders(algorithms, {kLongSearch})) {
+  for (const Contender& long_search : BudgetContenders(algorithms, {kLongSearch * options.multistart})) {
     if (known.interrupted) break;
     known.interrupted = !run(long_search, options.multistart);
   }
@@ -73,13 +73,16 @@ Reference BestKnownReference(const BestFound& runs, const BestKnown& known) {
   reference.rmse_A = better ? known.best.rmse_A : runs.rmse_A;
   reference.parameters = better ? known.best.parameters : runs.parameters;
   reference.interrupted = known.interrupted;
-  if (known.points == 0) {
-    reference.origin = "best of all runs";
-  } else {
-    reference.origin = fmt::format(
-        "best of all runs and of a multistart; {}, where {} of {} random points ended as well",
+  reference.origin = "best of all runs";
+  if (known.points > 0) {
+    const bool level = known.best.rmse_A <= reference.rmse_A * (1 + kPoolHit);
+    reference.by_multistart = better;
+    reference.points = known.points;
+    reference.visits = level ? known.visits : 0;
+    reference.origin += fmt::format(
+        " and of a multistart; {}, where {} of {} random points ended as well",
         better ? "found by its " + known.found_by : std::string("found by a run"),
-        known.best.rmse_A <= reference.rmse_A * (1 + kPoolHit) ? known.visits : 0, known.points);
+        reference.visits, reference.points);
   }
   if (known.interrupted) reference.origin += " so far";
   return reference;

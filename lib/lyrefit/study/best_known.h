@@ -9,7 +9,7 @@ namespace lyrefit {
 
 // The lowest end of a long multistart of its own, which no contender's runs are part of:
 // CompareOptions::multistart random points, each polished by itself to its end, and the hybrid
-// after searches of 20000 evaluations each by DE, MLO and random points.
+// after searches by DE, MLO and random points of 200 evaluations for each of these points.
 struct BestKnown {
   BestFound best;
   std::string found_by;  // "random point 17"

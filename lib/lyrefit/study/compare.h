@@ -11,6 +11,7 @@
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/search/search.h"
+#include "lyrefit/study/landscape.h"
 #include "lyrefit/study/rank_tests.h"
 
 namespace lyrefit {
@@ -146,6 +147,9 @@ struct Reference {
   std::string origin;               // in plain words
   std::vector<double> parameters;   // in the device's order, effects in the units of reports
   bool interrupted = false;         // before there was a proof
+  bool by_multistart = false;       // no run came as low as the multistart (best_known.h)
+  int points = 0;                   // random points that it polished
+  int visits = 0;                   // those that ended within 1e-6 (relative) of the reference
 };
 
 // Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
@@ -197,6 +201,9 @@ struct Comparison {
 
 // A curve on its own.
 CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
+
+// One of the made devices of a problem.
+CompareCurve SubjectOf(LandscapeCase made);
 
 // Runs every contender `runs` times on every curve with every model. Everything is checked before
 // the first run. Run r of all contenders comes before run r + 1 of any. The observer hears of stage

@@ -123,6 +123,16 @@ CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds) {
   return subject;
 }
 
+CompareCurve SubjectOf(LandscapeCase made) {
+  CompareCurve subject = MakeSubject(std::move(made.curve), std::move(made.bounds));
+  subject.problem = std::move(made.problem);
+  subject.model = made.model;
+  subject.with = std::move(made.with);
+  subject.set = std::move(made.set);
+  subject.family = std::move(made.family);
+  return subject;
+}
+
 ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
                               const CompareOptions& options) {
   ProblemResult problem;

@@ -121,7 +121,7 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
   const CurveShape shape = ShapeOf(readings);
   const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
   std::vector<Way> ways;
-  for (const ShapeStart& own : effect.starts(shape, readings.traits)) {
+  for (const ShapeStart& own : effect.starts(shape, readings.traits, {})) {
     LawFit start;
     start.law = law;
     for (const int k : own.freed) start.law.freed.emplace_back(&effect, k);

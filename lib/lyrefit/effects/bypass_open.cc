@@ -28,6 +28,7 @@ Effect BypassOpen() {
       {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 60, 3.2},
       {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4}};
   e.parameters[0].scatter = kSubstringScatter;
+  e.parameters[1].whole = Whole::kSubstrings;
   e.parameters[2].held = e.parameters[3].held = true;
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = 2;
@@ -46,7 +47,7 @@ Effect BypassOpen() {
     for (const double deficit : {0.03, 0.1, 0.4}) probes.push_back({deficit, share, 3.2, 3.4});
     return probes;
   };
-  e.starts = [](const CurveShape&, const DataTraits& traits) {
+  e.starts = [](const CurveShape&, const DataTraits& traits, const auto&) {
     std::vector<ShapeStart> starts;
     const double share = 1.0 / std::max(SubstringsOf(traits), 2);
     for (const double deficit : {0.1, 0.4}) {

@@ -24,6 +24,7 @@ Effect LeakyCell() {
                   kChains};
   for (int k = 1; k < e.size(); ++k) e.parameters[k].held = true;
   e.parameters.back().absent_at = 1;
+  e.parameters[1].whole = e.parameters[3].whole = Whole::kCount;
   e.parameters[1].below_upper = true;
   e.cell = [](const auto* p, auto* cell) {
     SetOddCells(p[1], p[0] * 0.0, p[0], p[3], cell);
@@ -37,7 +38,7 @@ Effect LeakyCell() {
     for (const double leak : {0.1, 0.3, 1.0, 3.0}) probes.push_back({leak, 1, 0.5, 1});
     return probes;
   };
-  e.starts = [](const CurveShape&, const DataTraits&) {
+  e.starts = [](const CurveShape&, const DataTraits&, const auto&) {
     std::vector<ShapeStart> starts;
     for (const double leak : {0.2, 1.0}) {
       starts.push_back({{leak, 1, 0.5, 1}, {}});

@@ -106,7 +106,7 @@ Effect Scatter() {
     for (const double width : {0.01, 0.03}) probes.push_back({width, 3.2, 3.4, 0, 0, 0.5});
     return probes;
   };
-  e.starts = [](const CurveShape& shape, const DataTraits&) {
+  e.starts = [](const CurveShape& shape, const DataTraits&, const auto&) {
     std::vector<ShapeStart> starts;
     constexpr double kLeastHalfway = 0.85;
     if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small

@@ -42,6 +42,7 @@ Effect Shading() {
       {"c", "covered_part", "", "part of the cells of a shaded substring that the shade covers",
        0.03, 1, 1}};
   e.parameters[0].scatter = kSubstringScatter;
+  e.parameters[1].whole = Whole::kSubstrings;
   e.parameters[3].held = true;
   e.parameters[3].absent_at = 1;
   e.cell = [](const auto* p, auto* cell) {
@@ -67,7 +68,7 @@ Effect Shading() {
     }
     return probes;
   };
-  e.starts = [](const CurveShape& shape, const DataTraits& traits) {
+  e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
     constexpr double kMiddle = 0.36, kEnd = 0.3;  // of a substring's part of the voltage
     std::vector<ShapeStart> starts;
     for (const double share : Shares(traits)) {

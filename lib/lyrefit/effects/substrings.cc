@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -13,27 +14,91 @@ namespace {
 constexpr int kGroups = 4;
 enum { kDrop = 2 * kGroups, kCovered, kParameters };
 
-// A light for each substring but the brightest, from the middles of the plateaus that as many equal
-// substrings have.
-void AddStart(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
+using Shares = std::vector<double>;
+
+// Lights from the middles of the plateaus that groups of such shares have, the brightest (the rest)
+// first and then in the order given; `shares` by their place among the parameters.
+void AddStart(const CurveShape& shape, const Shares& shares, const std::vector<int>& order,
+              std::vector<ShapeStart>* starts) {
   constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
   constexpr double kBright = 0.02;  // of the voltage: tracers hurry through the first plateau
-  const int groups = std::min(substrings - 1, kGroups);
   const double full = shape.At(kBright);
+  if (!(full > 0)) return;
   ShapeStart start{Probe(kParameters, 0.0), {}};
-  for (int k = 0; k < groups; ++k) {
-    const double light = shape.At((k + 1 + kMiddle) / substrings) / full;
-    start.p[2 * k] = std::clamp(1 - light, 0.01 * (k + 1), 0.98);
-    start.p[2 * k + 1] = 1.0 / substrings;
-    start.freed.push_back(2 * k);
+  double begin = 1 - std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const int group = order[k];
+    const double share = shares[group];
+    const double light = shape.At(begin + kMiddle * share) / full;
+    start.p[2 * group] = std::clamp(1 - light, 0.01 * static_cast<double>(k + 1), 0.98);
+    start.p[2 * group + 1] = share;
+    start.freed.push_back(2 * group);
+    begin += share;
   }
   start.p[kDrop] = 0.5;
   start.p[kCovered] = 1;
-  if (!(full > 0)) return;
   starts->push_back(start);
   start.p[kCovered] = 0.3;
   start.freed.push_back(kCovered);
   starts->push_back(std::move(start));
+}
+
+std::vector<int> InOrder(std::size_t count) {
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+// A light for each of so many equal substrings, or for the brightest of them and four more.
+void AddEqual(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
+  const int groups = std::min(substrings - 1, kGroups);
+  AddStart(shape, Shares(groups, 1.0 / substrings), InOrder(groups), starts);
+}
+
+// All ways to give `groups` groups at least one of the substrings and the brightest at least one.
+void AddShares(const CurveShape& shape, int substrings, std::size_t groups, Shares* shares,
+               std::vector<ShapeStart>* starts) {
+  if (shares->size() == groups) {
+    AddStart(shape, *shares, InOrder(groups), starts);
+    return;
+  }
+  const double one = 1.0 / substrings;
+  const double taken = std::accumulate(shares->begin(), shares->end(), 0.0);
+  const double others = static_cast<double>(groups - shares->size()) * one;
+  for (int k = 1; taken + k * one + others < 1 + 1e-9; ++k) {
+    shares->push_back(k * one);
+    AddShares(shape, substrings, groups, shares, starts);
+    shares->pop_back();
+  }
+}
+
+// As was asked for: so many groups, with shares that are told or to be found.
+std::vector<ShapeStart> AskedStarts(const CurveShape& shape, const DataTraits& traits,
+                                    const std::vector<ParameterBounds>& asked) {
+  std::vector<ShapeStart> starts;
+  Shares shares;
+  bool told = true;
+  for (int k = 0; k < kGroups; ++k) {
+    const ParameterBounds& share = asked[2 * k + 1];
+    if (!(share.upper > 0)) break;
+    told = told && share.lower == share.upper;
+    shares.push_back(share.lower);
+  }
+  if (shares.empty()) {
+    AddEqual(shape, std::max(SubstringsOf(traits), 2), &starts);
+  } else if (told) {
+    std::vector<int> order = InOrder(shares.size());
+    do {
+      AddStart(shape, shares, order, &starts);
+    } while (std::adjacent_find(shares.begin(), shares.end(), std::not_equal_to<>()) !=
+                 shares.end() &&
+             std::next_permutation(order.begin(), order.end()));
+  } else {
+    Shares some;
+    const int substrings = std::max(SubstringsOf(traits), static_cast<int>(shares.size()) + 1);
+    AddShares(shape, substrings, shares.size(), &some, &starts);
+  }
+  return starts;
 }
 
 }  // namespace
@@ -64,6 +129,7 @@ Effect Substrings() {
     share.absent_at = 0;
     deficit.scatter = kSubstringScatter;
     deficit.held = share.held = true;
+    share.whole = Whole::kSubstrings;
     e.parameters.push_back(deficit);
     e.parameters.push_back(share);
   }
@@ -117,11 +183,12 @@ Effect Substrings() {
     for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
     return left > 0;
   };
-  e.starts = [](const CurveShape& shape, const DataTraits& traits) {
+  e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto& asked) {
+    if (!asked.empty()) return AskedStarts(shape, traits, asked);
     std::vector<ShapeStart> starts;
     const int known = traits.substrings;
     for (int k = 3; k <= 4; ++k) {  // with two substrings it is the shade of one
-      if (known == k || (known == 0 && k == 3)) AddStart(shape, k, &starts);
+      if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
     }
     return starts;
   };

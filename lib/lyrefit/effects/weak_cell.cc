@@ -42,6 +42,7 @@ Effect WeakCell() {
       kChains};
   for (int k = kCells; k < e.size(); ++k) e.parameters[k].held = true;
   e.parameters[kDeficit].scatter = kCellScatter;
+  e.parameters[kCells].whole = e.parameters[kSideBySide].whole = Whole::kCount;
   // Towards 1, and towards no breakdown at all, it is a leak.
   e.parameters[kExponent].above_lower = e.parameters[kBreakdown].below_upper = true;
   e.parameters[kSoft].absent_at = 0;
@@ -65,7 +66,7 @@ Effect WeakCell() {
     }
     return probes;
   };
-  e.starts = [](const CurveShape& shape, const DataTraits&) {
+  e.starts = [](const CurveShape& shape, const DataTraits&, const auto&) {
     std::vector<ShapeStart> starts;
     const double full = shape.At(0.05);
     if (!(full > 0)) return starts;

@@ -1,7 +1,10 @@
 #include "lyrefit/fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
+#include <type_traits>
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
@@ -10,6 +13,7 @@
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
+#include "lyrefit/fit/form_problem.h"
 #include "lyrefit/fit/judge_fit.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
@@ -42,9 +46,17 @@ void RunRandomBaseline(FitJob* job, const SearchSpace& space, const ObjectiveFun
   report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
 }
 
-// Runs the search; returns the elites as parameter vectors.
-Expected<std::vector<std::vector<double>>> RunSearch(FitJob* job, FitReport* report) {
-  const SearchSpace space(job->bounds, job->fixed);
+SearchSpace SpaceOf(const FitJob& job) {
+  if (job.forms.empty()) return {job.bounds, job.fixed};
+  const auto base = [&](const auto& all) {
+    return std::decay_t<decltype(all)>(all.begin(), all.begin() + job.base_size());
+  };
+  return {base(job.bounds), base(job.fixed), *job.problem.device.extension, job.forms};
+}
+
+// Runs the search; returns the elites.
+Expected<std::vector<PolishStart>> RunSearch(const SearchSpace& space, FitJob* job,
+                                             FitReport* report) {
   std::vector<double> p(report->device.size());
   const auto rmse_of = [&](const RefineProblem& problem) -> ObjectiveFunction {
     return [&](const double* x) {
@@ -65,10 +77,11 @@ Expected<std::vector<std::vector<double>>> RunSearch(FitJob* job, FitReport* rep
   if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
     RunRandomBaseline(job, space, objective, report);
   }
-  std::vector<std::vector<double>> elites;
+  std::vector<PolishStart> elites;
   for (const Bird& bird : report->search.elites) {
     space.ToParameters(bird.x.data(), p.data());
-    elites.push_back(p);
+    elites.push_back({elites.empty() ? "best bird" : fmt::format("elite {}", elites.size() + 1), p,
+                      space.FormAt(bird.x.data())});
   }
   return elites;
 }
@@ -124,18 +137,38 @@ void FindFloor(FitJob* job, FitReport* report) {
   if (certificate->interrupted) job->watch.MarkStopped();
 }
 
+// What one bounded solve makes of the best bird, and what its own polish does.
+void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
+  const bool extended = !job->forms.empty();
+  const RefineProblem problem =
+      extended ? InForm(job->problem, job->forms[bird.form], bird.p) : job->problem;
+  auto begin = std::chrono::steady_clock::now();
+  const RefineEnd plain = RefinePlainly(problem, bird.p);
+  report->plain_seconds = SecondsSince(begin);
+  report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
+  begin = std::chrono::steady_clock::now();
+  RefineOptions how;
+  how.stop = job->watch.stop();
+  report->best_bird_polished = extended
+                                   ? Refine(problem, bird.p, how).p
+                                   : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;
+  report->refine.best_bird_seconds = SecondsSince(begin);
+}
+
 // Polishes, finds intervals around what is usable, and says where the polish ended.
-void PolishAndJudge(FitJob* job, const std::vector<std::vector<double>>& elites,
+void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const SearchSpace& space,
                     FitReport* report) {
   const FitOptions& options = job->options;
-  const bool extended = report->device.extension != nullptr;
-  const auto starts = extended ? CollectExtendedStarts(job->problem, elites)
-                               : CollectStarts(job->few, elites, kGridStarts);
-  PolishResult polish = extended ? PolishExtended(job->problem, starts, &job->watch)
-                                 : PolishStarts(job->problem, job->few, starts, &job->watch);
+  const bool extended = !job->forms.empty();
+  PolishResult polish =
+      extended ? PolishExtended(elites, space, job, report)
+               : PolishStarts(job->problem, job->few, CollectStarts(job->few, elites, kGridStarts),
+                              &job->watch);
   report->polished = true;
+  const double best_bird_seconds = report->refine.best_bird_seconds;
   report->refine = polish.report;
-  report->best_bird_polished = polish.first.p;
+  report->refine.best_bird_seconds = best_bird_seconds;
+  if (report->best_bird_polished.empty()) report->best_bird_polished = polish.first.p;
   OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
@@ -173,7 +206,7 @@ void PolishAndJudge(FitJob* job, const std::vector<std::vector<double>>& elites,
 
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
-  FitJob job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer)};
+  FitJob job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
   if (auto ready = PrepareFit(&job, &report); !ready) return tl::unexpected(ready.error());
   report.version = Version();
   report.curve = curve;
@@ -184,20 +217,18 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   EchoOptions(options, &report);
 
-  auto searched = RunSearch(&job, &report);
-  if (!searched) return tl::unexpected(searched.error());
-  const std::vector<std::vector<double>>& elites = *searched;
-  report.searched = report.refined = elites[0];
+  const SearchSpace space = SpaceOf(job);
+  const auto birds = RunSearch(space, &job, &report);
+  if (!birds) return tl::unexpected(birds.error());
+  const PolishStart& best = birds->front();
+  report.searched = report.refined = best.p;
   OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
-  if (options.plain_polish) {
-    const auto begin = std::chrono::steady_clock::now();
-    const RefineEnd plain = RefinePlainly(job.problem, elites[0]);
-    report.plain_seconds = SecondsSince(begin);
-    report.rmse.plain_polished = BothRmse(report.device, plain.p, curve);
-  }
+  const bool extended = !job.forms.empty();
+  if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, elites, &report);
+    PolishAndJudge(&job, *birds, space, &report);
   } else {
+    if (extended) SettleForm(best.form, best.p, &job, &report);
     report.refined = report.searched;
     report.estimates = EstimatesOf(job, report);
     FillResults(job, &report);

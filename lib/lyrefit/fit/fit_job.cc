@@ -9,6 +9,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fixed_values.h"
+#include "lyrefit/fit/form_problem.h"
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
@@ -31,7 +32,12 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
   if (!device) return tl::unexpected(device.error());
   if (auto fine = CheckFitRanges(*device->extension); !fine) return fine;
   report->device = std::move(*device);
-  for (const ParameterBounds& bounds : report->device.extension->bounds) {
+  job->forms = FormsOf(*report->device.extension);
+  // The freest form asks for the most points.
+  const Form& freest =
+      *std::max_element(job->forms.begin(), job->forms.end(),
+                        [](const Form& a, const Form& b) { return a.free < b.free; });
+  for (const ParameterBounds& bounds : freest.bounds) {
     job->bounds.push_back(bounds);
     job->fixed.push_back(kUnknown);
   }
@@ -49,7 +55,7 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
   };
   const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
   const auto& [lower, upper] = ends;
-  return {lower, upper, lower, upper, own.scale};
+  return {lower, upper, lower, upper, own.scale, own.whole};
 }
 
 }  // namespace
@@ -99,6 +105,28 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   if (options.kernel != nullptr) job->problem.kernel = options.kernel;
   job->few = Thin(job->problem);
   return {};
+}
+
+void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report) {
+  const Form& own = job->forms[form];
+  const int first = job->base_size();
+  job->problem = InForm(job->problem, own, p);
+  auto extension = std::make_shared<Extension>(*report->device.extension);
+  for (int k = 0; k < job->effects(); ++k) {
+    const ParameterBounds& bounds = own.bounds[k];
+    const bool held = bounds.lower == bounds.upper;
+    job->bounds[first + k] = bounds;
+    job->fixed[first + k] = held ? bounds.lower : kUnknown;
+    // Where a whole number was settled the fit goes on as if it were held there.
+    const double at = p[first + k];
+    extension->bounds[k] = bounds.whole > 0 ? ParameterBounds{at, at, at, at, {}, 0} : bounds;
+  }
+  extension->usual = own.usual;
+  job->free_parameters = own.free;
+  for (int i = 0; i < first; ++i) job->free_parameters += std::isnan(job->fixed[i]) ? 1 : 0;
+  report->device.extension = std::move(extension);
+  job->problem.device = report->device;
+  job->few = Thin(job->problem);
 }
 
 RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {

@@ -5,6 +5,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/fit_watch.h"
+#include "lyrefit/law/forms.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -20,10 +21,19 @@ struct FitJob {
   RefineProblem problem;
   RefineProblem few;  // the same problem or, of many points, what stands for it in the search
   FitWatch watch;
+  std::vector<Form> forms;  // of a device with effects
+
+  // Of its base, which come first.
+  int base_size() const { return problem.device.size() - effects(); }
+  int effects() const { return forms.empty() ? 0 : static_cast<int>(forms[0].bounds.size()); }
 };
 
 // Checks the curve and the options; the device, bounds and the problem to solve.
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
+
+// Settles for one of the forms, what is a whole number at what `p` says: bounds, problem and the
+// effects of the device that is reported.
+void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report);
 
 RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve);
 

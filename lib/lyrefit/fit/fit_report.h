@@ -47,6 +47,7 @@ struct Estimate {
   ParameterInfo info;
   ParameterBounds bounds;
   bool fixed = false;
+  bool free() const { return !fixed && bounds.whole == 0; }  // a whole number is settled by trying
   double searched = kUnknown;
   double refined = kUnknown;
   double standard_error = kUnknown;
@@ -103,6 +104,16 @@ struct BasinCount {
   int twice = 0;             // basins that two ended in
   double unseen = kUnknown;  // Chao's lower estimate, bias-corrected: once (once - 1) / (2 (twice +
                              // 1)) doi:10.2307/2531532
+};
+
+// The best fit in one of several forms that effects can have (law/forms.h).
+struct FormReport {
+  std::string what;          // "d, Vb, m, A free; chains = 2"
+  int free = 0;              // parameters of the effects
+  double rmse_A = kUnknown;  // solved-current
+  double bic_above = 0;      // Bayesian information criterion, above the chosen one's
+  bool finished = false;     // false: given up as out of reach; its figures are upper limits
+  bool chosen = false;
 };
 
 struct RefineReport {
@@ -201,6 +212,7 @@ struct FitReport {
   SearchOptions search_options;
   SearchSummary search;
   RefineReport refine;
+  std::vector<FormReport> forms;  // of effects that have several; one is chosen
   double interval_seconds = 0;
   double plain_seconds = kUnknown;    // of the best bird's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for

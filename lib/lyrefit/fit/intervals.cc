@@ -59,7 +59,7 @@ class IntervalFinder {
     *condition = spread.condition;
     for (int i = 0; i < size_; ++i) {
       estimates_[i].standard_error = spread.standard_error[i];
-      if (!estimates_[i].fixed) Symmetric(i);
+      if (estimates_[i].free()) Symmetric(i);
     }
     FindStretch();
     FindCorrelations(spread, correlations);
@@ -109,7 +109,7 @@ class IntervalFinder {
     stretch_.assign(size_, 1);
     if (input_.errors == nullptr) return;
     std::vector<bool> fixed(size_);
-    for (int i = 0; i < size_; ++i) fixed[i] = estimates_[i].fixed;
+    for (int i = 0; i < size_; ++i) fixed[i] = !estimates_[i].free();
     IntervalInput plain = input_;
     plain.errors = nullptr;
     const Spread own = IntervalFinder(plain, &estimates_).SpreadOfQuoted(fixed);
@@ -138,7 +138,7 @@ class IntervalFinder {
   void MarkBounds() {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
-      if (e.fixed) continue;
+      if (!e.free()) continue;
       if (quoted_[i] <= e.bounds.lower) e.at_bound = BoundSide::kLower;
       if (quoted_[i] >= e.bounds.upper) e.at_bound = BoundSide::kUpper;
     }
@@ -156,7 +156,7 @@ class IntervalFinder {
 
   bool NeedsProfile(int i) const {
     const Estimate& e = estimates_[i];
-    if (e.fixed) return false;
+    if (!e.free()) return false;
     const bool any_at_bound =
         std::any_of(estimates_.begin(), estimates_.end(),
                     [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
@@ -296,7 +296,7 @@ class IntervalFinder {
   void MarkUnidentifiable() {
     for (int i = 0; i < size_; ++i) {
       Estimate& e = estimates_[i];
-      if (e.fixed || !e.identifiable) continue;
+      if (!e.free() || !e.identifiable) continue;
       const bool profiled =
           e.interval == IntervalMethod::kProfile || e.interval == IntervalMethod::kUnsettled;
       if (profiled && e.low_95 <= e.bounds.lower && e.high_95 >= e.bounds.upper) {

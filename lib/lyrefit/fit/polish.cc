@@ -151,7 +151,7 @@ void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& 
 }  // namespace
 
 PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                        std::vector<RefineEnd> ends, bool stopped,
+                        std::vector<RefineEnd> ends, int winner, bool stopped,
                         std::chrono::steady_clock::time_point begin) {
   PolishResult result;
   RefineReport& report = result.report;
@@ -159,7 +159,10 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
     const double end_rmse = std::sqrt(ends[s].mean_square);
     report.starts.push_back(
         {starts[s].origin, std::sqrt(MeanSquare(problem, starts[s].p)), end_rmse, false});
-    if (report.winner < 0 || end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
+    if (winner >= 0) {
+      report.winner = winner;
+    } else if (report.winner < 0 ||
+               end_rmse < report.starts[report.winner].end_rmse_A * (1 - kBetter)) {
       report.winner = static_cast<int>(s);
     }
   }
@@ -167,7 +170,7 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
   result.best = std::move(ends[report.winner]);
   const double best_rmse = report.starts[report.winner].end_rmse_A;
   for (StartReport& start : report.starts) {
-    start.agrees = start.end_rmse_A <= best_rmse * (1 + kAgree);
+    start.agrees = std::fabs(start.end_rmse_A - best_rmse) <= best_rmse * kAgree;
     report.agreeing += start.agrees;
   }
   report.projected_gradient = result.best.projected_gradient;
@@ -181,10 +184,10 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
 }
 
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
-                                       const std::vector<std::vector<double>>& elites, int grid) {
-  std::vector<PolishStart> starts = {{"best bird", elites.at(0)}};
-  std::vector<SeparableStart> separable = SeparableStarts(problem, elites[0][kRs], grid);
-  const std::size_t rounds = std::max(separable.size(), elites.size());
+                                       const std::vector<PolishStart>& birds, int grid) {
+  std::vector<PolishStart> starts = {birds.at(0)};
+  std::vector<SeparableStart> separable = SeparableStarts(problem, birds[0].p[kRs], grid);
+  const std::size_t rounds = std::max(separable.size(), birds.size());
   for (std::size_t k = 0; k < rounds; ++k) {
     if (k < separable.size()) {
       starts.push_back({std::move(separable[k].origin), std::move(separable[k].p)});
@@ -192,7 +195,7 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
     if (k == 0 && DiodeCount(problem.device) > 1) {
       starts.push_back({"single diode", SingleDiodeStart(problem)});
     }
-    if (k + 1 < elites.size()) starts.push_back({"elite " + std::to_string(k + 2), elites[k + 1]});
+    if (k + 1 < birds.size()) starts.push_back(birds[k + 1]);
   }
   return starts;
 }
@@ -229,7 +232,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few
   std::vector<RefineEnd> end_of;
   end_of.reserve(count);
   for (int s = 0; s < count; ++s) end_of.push_back(ends[groups.Leader(s)]);
-  return ReportEnds(problem, starts, std::move(end_of), stopped || watch->stopped(), begin);
+  return ReportEnds(problem, starts, std::move(end_of), -1, stopped || watch->stopped(), begin);
 }
 
 }  // namespace lyrefit

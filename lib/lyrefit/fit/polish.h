@@ -10,9 +10,11 @@
 
 namespace lyrefit {
 
+// A place to begin.
 struct PolishStart {
   std::string origin;
   std::vector<double> p;
+  int form = 0;  // which of the forms its effects have
 };
 
 // All starts polished: the first start is the best bird, whose own end is kept apart.
@@ -26,9 +28,10 @@ struct PolishResult {
 constexpr double kAgree = 1e-9;    // relative, of RMSE: two ends are the same
 constexpr double kBetter = 1e-12;  // relative, of RMSE: one end is better than another
 
-// What came of the first so many starts, each with its end.
+// What came of the first so many starts, each with its end. `winner`: index of the best end; below
+// 0: the lowest.
 PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                        std::vector<RefineEnd> ends, bool stopped,
+                        std::vector<RefineEnd> ends, int winner, bool stopped,
                         std::chrono::steady_clock::time_point begin);
 
 // Separable descent from one start after the other, until three (of a single diode: two) have come
@@ -42,6 +45,6 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few
 // The best bird first, then by turns the separable grid and further elites; for more than one diode
 // also the best single-diode curve, so that a richer model never ends above a poorer one.
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
-                                       const std::vector<std::vector<double>>& elites, int grid);
+                                       const std::vector<PolishStart>& birds, int grid);
 
 }  // namespace lyrefit

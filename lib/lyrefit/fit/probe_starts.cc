@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/fit/form_problem.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/refine/curve_model.h"
@@ -38,13 +39,12 @@ RefineProblem BaseAlone(const RefineProblem& problem) {
 // What of the residuals the polished base device cannot take over.
 class Unexplained {
  public:
-  Unexplained(const RefineProblem& problem, const RefineProblem& alone, const RefineEnd& base)
+  // What `end` of `fitted` explains; its parameters in `problem` are `p`.
+  Unexplained(const RefineProblem& problem, const RefineProblem& fitted, const RefineEnd& end,
+              const std::vector<double>& p)
       : problem_(problem),
-        explained_(RankedBasis(Linearize(CurveModel(alone), base, base.held).jacobian)) {
-    std::vector<double> usual = base.p;
-    const std::vector<double>& own = problem.device.extension->usual;
-    usual.insert(usual.end(), own.begin(), own.end());
-    residual_ = Of(usual);
+        explained_(RankedBasis(Linearize(CurveModel(fitted), end, end.held).jacobian)) {
+    residual_ = Of(p);
   }
 
   const Eigen::VectorXd& residual() const { return residual_; }
@@ -90,59 +90,46 @@ void AskStrength(const Unexplained& unexplained, const Effect& effect,
   trial->left = left;
 }
 
-// All probes of all effects at a base device, one effect at a time, the others at what is usual.
-// What they leave is counted as it stands where nothing is said to be explained.
-std::vector<Trial> TryProbes(const RefineProblem& problem, const Unexplained* unexplained,
-                             const std::vector<double>& base) {
+// All probes of one effect, the others as at `p`. What they leave is counted as it stands where
+// nothing is said to be explained.
+void TryProbes(const RefineProblem& problem, const Form& form, const Unexplained* unexplained,
+               const std::vector<double>& p, std::size_t use, std::vector<Trial>* trials) {
   const Extension& extension = *problem.device.extension;
-  std::vector<Trial> trials;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
-    const int first = extension.law.Offset(static_cast<int>(e));
-    const ParameterBounds* const bounds = &extension.bounds[first - extension.law.base_size()];
-    std::vector<Probe> probes = {{}};  // as usual
-    if (effect.probes != nullptr) probes = effect.probes(extension.readings.traits);
-    for (const Probe& probe : probes) {
-      Trial trial{base, {static_cast<double>(e)}, HUGE_VAL};
-      trial.p.insert(trial.p.end(), extension.usual.begin(), extension.usual.end());
-      for (std::size_t k = 0; k < probe.size(); ++k) {
-        double& own = trial.p[first + k];
-        own = std::min(std::max(probe[k], bounds[k].lower), bounds[k].upper);
-        if (effect.parameters[k].searched) trial.setting.push_back(own);
-      }
-      if (unexplained != nullptr) {
-        AskStrength(*unexplained, effect, *bounds, first, &trial);
-      } else {
-        trial.left = MeanSquare(problem, trial.p);
-      }
-      if (std::isfinite(trial.left)) trials.push_back(std::move(trial));
+  const Effect& effect = *extension.uses[use].effect;
+  const int first = extension.law.Offset(static_cast<int>(use));
+  const ParameterBounds* const bounds = &form.bounds[first - extension.law.base_size()];
+  std::vector<Probe> probes = {{}};  // as usual
+  if (effect.probes != nullptr) probes = effect.probes(extension.readings.traits);
+  for (const Probe& probe : probes) {
+    Trial trial{p, {static_cast<double>(use)}, HUGE_VAL};
+    for (std::size_t k = 0; k < probe.size(); ++k) {
+      double& own = trial.p[first + k];
+      own = WithinBounds(bounds[k], probe[k]);
+      if (effect.parameters[k].searched) trial.setting.push_back(own);
     }
+    if (unexplained != nullptr) {
+      AskStrength(*unexplained, effect, *bounds, first, &trial);
+    } else {
+      trial.left = MeanSquare(problem, trial.p);
+    }
+    if (std::isfinite(trial.left)) trials->push_back(std::move(trial));
   }
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.left < b.left; });
-  return trials;
 }
 
-// A crystalline device with the largest current and the open-circuit voltage of the readings: where
-// cells stand under unlike light, no base device by itself is like the one behind the curve.
-std::vector<double> TypicalBase(const RefineProblem& problem) {
-  const Extension& extension = *problem.device.extension;
-  const DataTraits& traits = extension.readings.traits;
-  const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
-  const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
-  const double voltage = per_cell * extension.readings.scale.cells;
-  constexpr double kIdeality = 1.2;
-  std::vector<double> p(extension.law.base_size(), 0);
-  p[kIph] = current;
-  p[kRs] = 0.02 * voltage / current;
-  p[kRsh] = 100 * voltage / current;
-  p[SaturationCurrentIndex(0)] =
-      current / std::expm1(voltage / (kIdeality * problem.device.module_thermal_voltage_V));
-  for (int d = 0; d < DiodeCount(problem.device); ++d) p[IdealityIndex(d)] = kIdeality;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
+void BestFirst(std::vector<Trial>* trials) {
+  std::stable_sort(trials->begin(), trials->end(),
+                   [](const Trial& a, const Trial& b) { return a.left < b.left; });
+}
+
+// All probes of all effects at a base device, one effect at a time, the others at what is usual.
+std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Form& form,
+                                const Unexplained* unexplained, const std::vector<double>& p) {
+  std::vector<Trial> trials;
+  for (std::size_t use = 0; use < problem.device.extension->uses.size(); ++use) {
+    TryProbes(problem, form, unexplained, p, use, &trials);
   }
-  return p;
+  BestFirst(&trials);
+  return trials;
 }
 
 // The first of each setting where these are few, then the others, so many in all.
@@ -159,26 +146,77 @@ void KeepBest(std::size_t count, std::vector<Trial>* trials) {
   trials->resize(std::min(count, trials->size()));
 }
 
+std::vector<std::vector<double>> PlacesOf(std::vector<Trial> trials) {
+  std::vector<std::vector<double>> places;
+  places.reserve(trials.size());
+  for (Trial& trial : trials) places.push_back(std::move(trial.p));
+  return places;
+}
+
 }  // namespace
 
-std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, std::size_t count) {
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place) {
+  const Extension& extension = *problem.device.extension;
+  const DataTraits& traits = extension.readings.traits;
+  const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
+  const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
+  const double voltage = per_cell * extension.readings.scale.cells;
+  constexpr double kIdeality = 1.2;
+  std::vector<double> p(extension.law.base_size(), 0);
+  p[kIph] = current;
+  p[kRs] = 0.02 * voltage / current;
+  p[kRsh] = 100 * voltage / current;
+  p[SaturationCurrentIndex(0)] =
+      current / std::expm1(voltage / (kIdeality * problem.device.module_thermal_voltage_V));
+  for (int d = 0; d < DiodeCount(problem.device); ++d) p[IdealityIndex(d)] = kIdeality;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
+  }
+  p.insert(p.end(), place.begin(), place.end());
+  return p;
+}
+
+std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Form& form,
+                                             std::size_t count) {
   const Extension& extension = *problem.device.extension;
   const RefineProblem alone = BaseAlone(problem);
   const RefineEnd base = RefineFrom(alone, SeparableStarts(alone, 0, 1).at(0).p);
-  const Unexplained unexplained(problem, alone, base);
-  std::vector<Trial> trials = TryProbes(problem, &unexplained, base.p);
+  std::vector<double> usual = base.p;
+  usual.insert(usual.end(), form.usual.begin(), form.usual.end());
+  const Unexplained unexplained(problem, alone, base, usual);
+  std::vector<Trial> trials = TryAllProbes(problem, form, &unexplained, usual);
   KeepBest(count, &trials);
   const bool unlike = std::any_of(extension.uses.begin(), extension.uses.end(),
                                   [](const EffectUse& use) { return use.effect->groups; });
   if (unlike) {
-    std::vector<Trial> typical = TryProbes(problem, nullptr, TypicalBase(problem));
+    std::vector<Trial> typical =
+        TryAllProbes(problem, form, nullptr, TypicalDevice(problem, form.usual));
     KeepBest(count / 2, &typical);
     trials.insert(trials.end(), typical.begin(), typical.end());
   }
-  std::vector<std::vector<double>> starts;
-  starts.reserve(trials.size());
-  for (Trial& trial : trials) starts.push_back(std::move(trial.p));
-  return starts;
+  return PlacesOf(std::move(trials));
+}
+
+std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Form& form,
+                                              const std::vector<double>& fitted,
+                                              const std::vector<bool>& others, std::size_t count) {
+  const Extension& extension = *problem.device.extension;
+  RefineProblem without = InForm(problem, form, fitted);
+  for (std::size_t use = 0; use < others.size(); ++use) {
+    const int first = extension.law.Offset(static_cast<int>(use));
+    for (int i = first; others[use] && i < first + extension.uses[use].effect->size(); ++i) {
+      without.lower[i] = without.upper[i] = fitted[i];
+    }
+  }
+  const RefineEnd end = Refine(without, fitted);
+  const Unexplained unexplained(problem, without, end, end.p);
+  std::vector<Trial> trials;
+  for (std::size_t use = 0; use < others.size(); ++use) {
+    if (others[use]) TryProbes(problem, form, &unexplained, end.p, use, &trials);
+  }
+  BestFirst(&trials);
+  KeepBest(count, &trials);
+  return PlacesOf(std::move(trials));
 }
 
 }  // namespace lyrefit

@@ -2,14 +2,29 @@
 
 #include <vector>
 
+#include "lyrefit/law/forms.h"
 #include "lyrefit/refine/problem.h"
 
 namespace lyrefit {
 
-// Where fits of a device with effects begin besides the birds of a search: the base device polished
-// by itself, with the effects' probes that tell most of what it leaves. Of an effect with few
-// settings of what does not descend, one start each. Best first, `count` at most or as many as
-// there are settings.
-std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, std::size_t count);
+// Where fits of a device with effects begin besides the birds of a search, in one of its forms.
+
+// The base device polished by itself, with the effects' probes that tell most of what it leaves. Of
+// an effect with few settings of what does not descend, one start each. Best first, `count` at most
+// or as many as there are settings. Of effects that divide the cells also their probes at a typical
+// base.
+std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Form& form,
+                                             std::size_t count);
+
+// The same beside `fitted`, a fit that has some of the effects already: probes of the others, the
+// `count` that tell most of what it leaves.
+std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Form& form,
+                                              const std::vector<double>& fitted,
+                                              const std::vector<bool>& others, std::size_t count);
+
+// A crystalline device with the largest current and the open-circuit voltage of the readings, and
+// its effects at `place`: where cells stand under unlike light, no base device by itself is like
+// the one behind the curve.
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place);
 
 }  // namespace lyrefit

@@ -1,30 +1,83 @@
 #include "lyrefit/fit/search_space.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/portable_exp.h"
 
 namespace lyrefit {
+namespace {
+
+int Stretch(double x, int count) { return std::clamp(static_cast<int>(x), 0, count - 1); }
+
+}  // namespace
 
 SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
                          const std::vector<double>& fixed)
     : fixed_(fixed) {
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (!std::isnan(fixed[i])) continue;
-    const ParameterBounds& b = bounds[i];
-    const bool log_scale = b.scale == SearchScale::kLog && b.search_lower > 0;
-    parameter_.push_back(static_cast<int>(i));
-    log_base_.push_back(log_scale ? b.search_lower : 0);
-    box_.lower.push_back(log_scale ? 0 : b.search_lower);
-    box_.upper.push_back(log_scale ? std::log(b.search_upper / b.search_lower) : b.search_upper);
+    if (std::isnan(fixed[i])) AddSide(static_cast<int>(i), bounds[i]);
   }
+}
+
+SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
+                         const std::vector<double>& fixed, const Extension& extension,
+                         std::vector<Form> forms)
+    : SearchSpace(bounds, fixed) {
+  extension_ = &extension;
+  forms_ = std::move(forms);
+  const std::size_t first = bounds.size();
+  for (std::size_t k = 0; k < extension.bounds.size(); ++k) {
+    const auto free = std::find_if(forms_.begin(), forms_.end(), [&](const Form& form) {
+      return form.bounds[k].lower < form.bounds[k].upper;
+    });
+    if (free != forms_.end()) AddSide(static_cast<int>(first + k), free->bounds[k]);
+  }
+  if (forms_.size() < 2) return;
+  box_.lower.push_back(0);
+  box_.upper.push_back(static_cast<double>(forms_.size()));
+}
+
+void SearchSpace::AddSide(int parameter, const ParameterBounds& b) {
+  Side side;
+  side.parameter = parameter;
+  double lower = b.search_lower, upper = b.search_upper;
+  if (b.whole > 0) {
+    side.first = b.search_lower;
+    side.whole = b.whole;
+    side.values = 1 + static_cast<int>(std::lround((b.search_upper - b.search_lower) / b.whole));
+    lower = 0;
+    upper = side.values;
+  } else if (b.scale == SearchScale::kLog && b.search_lower > 0) {
+    side.log_base = b.search_lower;
+    lower = 0;
+    upper = std::log(b.search_upper / b.search_lower);
+  }
+  sides_.push_back(side);
+  box_.lower.push_back(lower);
+  box_.upper.push_back(upper);
 }
 
 void SearchSpace::ToParameters(const double* x, double* p) const {
   for (std::size_t i = 0; i < fixed_.size(); ++i) p[i] = fixed_[i];
-  for (std::size_t k = 0; k < parameter_.size(); ++k) {
-    p[parameter_[k]] = log_base_[k] > 0 ? log_base_[k] * PortableExp(x[k]) : x[k];
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Side& side = sides_[k];
+    double& value = p[side.parameter];
+    value = side.log_base > 0 ? side.log_base * PortableExp(x[k]) : x[k];
+    if (side.whole > 0) value = side.first + side.whole * Stretch(x[k], side.values);
   }
+  if (extension_ == nullptr) return;
+  double* const own = p + fixed_.size();
+  const std::vector<ParameterBounds>& bounds = forms_[FormAt(x)].bounds;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    own[k] = bounds[k].lower < bounds[k].upper ? WithinBounds(bounds[k], own[k]) : bounds[k].lower;
+  }
+  LeaveARest(*extension_, bounds, own);
+}
+
+int SearchSpace::FormAt(const double* x) const {
+  const int forms = static_cast<int>(forms_.size());
+  return forms < 2 ? 0 : Stretch(x[sides_.size()], forms);
 }
 
 }  // namespace lyrefit

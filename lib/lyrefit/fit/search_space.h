@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/law/forms.h"
 #include "lyrefit/law/parameter.h"
 #include "lyrefit/search/search.h"
 
@@ -9,21 +10,38 @@ namespace lyrefit {
 
 // The box a search sees: one side for each parameter that is not fixed. A linear parameter is
 // searched as it is, so that published boxes mean what they mean in the literature; a logarithmic
-// one by ln(value / lower end), from 0.
+// one by ln(value / lower end), from 0; of one that is a whole number each value has a stretch of
+// 1; and where effects have several forms these have a side, a stretch of 1 each.
 class SearchSpace {
  public:
   // `fixed[i]` is the value of a fixed parameter, NaN for the others.
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed);
+  // Of an extended device: `bounds` and `fixed` are of its base, the effects are as in `forms`. The
+  // extension must outlive the space.
+  SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed,
+              const Extension& extension, std::vector<Form> forms);
 
   const Box& box() const { return box_; }
-  int dimensions() const { return static_cast<int>(parameter_.size()); }
-  // Device parameters of a point of the box, into `p` (as many as there are bounds).
+  int dimensions() const { return static_cast<int>(box_.lower.size()); }
+  // Device parameters of a point of the box, into `p` (as many as the device has).
   void ToParameters(const double* x, double* p) const;
+  // Which of the forms a point is of.
+  int FormAt(const double* x) const;
 
  private:
+  struct Side {
+    int parameter = 0;
+    double log_base = 0;  // lower end of a logarithmic one, else 0
+    double first = 0;     // of whole numbers
+    double whole = 0;
+    int values = 0;
+  };
+  void AddSide(int parameter, const ParameterBounds& bounds);
+
   std::vector<double> fixed_;
-  std::vector<int> parameter_;    // of each side
-  std::vector<double> log_base_;  // lower end of a logarithmic side, 0 for a linear one
+  std::vector<Side> sides_;
+  const Extension* extension_ = nullptr;
+  std::vector<Form> forms_;
   Box box_;
 };
 

@@ -10,6 +10,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/law/curve_shape.h"
 #include "lyrefit/law/pack.h"
+#include "lyrefit/law/parameter.h"
 #include "lyrefit/law/reading.h"
 
 namespace lyrefit {
@@ -176,6 +177,13 @@ struct Hook {
   }
 };
 
+// What a parameter that is not any number can only be.
+enum class Whole {
+  kNo,
+  kCount,       // 1, 2, ...
+  kSubstrings,  // a share of the cells: of whole substrings, where their number was stated
+};
+
 // A parameter of an effect, in the units of Reading. What a person reads is the value times
 // factor x current_A^current x cells^cells x rate^rate of the measurement's scale, or `convert` of
 // it, in `unit`.
@@ -204,6 +212,7 @@ struct EffectParameter {
   bool above_lower = false;
   // Where a parameter that can be absent is: there it is not reported.
   double absent_at = std::numeric_limits<double>::quiet_NaN();
+  Whole whole = Whole::kNo;  // where a fit of it by name searches among these
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 };
@@ -258,8 +267,10 @@ struct Effect {
   // Why data of this kind cannot show the effect; nothing where they can, none where all can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
   std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
-  // Where one lit condition was measured.
-  std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&) = nullptr;
+  // Where one lit condition was measured. `asked`: bounds of the parameters in a fit that was asked
+  // for by name; empty in a diagnosis.
+  std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&,
+                                    const std::vector<ParameterBounds>& asked) = nullptr;
   // What becomes of the effect, which begins in the first of `groups` bypass groups, while group
   // `which` stands covered and the others work alone: its parameters, changed to theirs; false
   // where it is gone. None where all cells have it alike.

@@ -72,9 +72,36 @@ std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale)
   return InnerValues(*use.effect, reported, scale);
 }
 
+// Of a parameter that is a whole number of something: bounds that are, and how far apart such
+// numbers lie. One that is held stays as it was asked for.
+Expected<void> KeepWhole(const EffectUse& use, int k, const DataTraits& traits,
+                         ParameterBounds* bounds) {
+  const EffectParameter& info = use.effect->parameters[k];
+  double step = 0;
+  if (info.whole == Whole::kCount) step = 1;
+  if (info.whole == Whole::kSubstrings && traits.substrings > 1) step = 1.0 / traits.substrings;
+  if (step == 0 || bounds->lower == bounds->upper) return {};
+  constexpr double kSlack = 1e-4;  // of a step: shares are typed with few digits
+  const double first = std::ceil(bounds->lower / step - kSlack);
+  const double last = std::floor(bounds->upper / step + kSlack);
+  if (first > last) {
+    return tl::unexpected(Unfit(
+        *use.effect,
+        fmt::format("{} = {:g}:{:g} holds no whole number of {}: expected a range around {:g}",
+                    info.symbol, bounds->lower, bounds->upper,
+                    info.whole == Whole::kCount ? std::string("them")
+                                                : fmt::format("{} substrings", traits.substrings),
+                    first * step)));
+  }
+  bounds->lower = bounds->search_lower = first * step;
+  bounds->upper = bounds->search_upper = last * step;
+  if (first < last) bounds->whole = step;
+  return {};
+}
+
 // Bounds of parameter k: the effect's own, narrower where that was asked for.
 Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vector<double>& usual,
-                                   const ReadingScale& scale) {
+                                   const ReadingScale& scale, const DataTraits& traits) {
   const Effect& effect = *use.effect;
   const EffectParameter& info = effect.parameters[k];
   double lower = info.lower, upper = info.upper;
@@ -95,7 +122,9 @@ Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vecto
   } else if (info.held) {
     lower = upper = usual[k];
   }
-  return ParameterBounds{lower, upper, lower, upper, SearchScale::kLinear};
+  ParameterBounds bounds{lower, upper, lower, upper, SearchScale::kLinear};
+  if (auto fine = KeepWhole(use, k, traits, &bounds); !fine) return tl::unexpected(fine.error());
+  return bounds;
 }
 
 // One effect's bounds, and where a fit begins.
@@ -109,10 +138,10 @@ Expected<void> AddUse(const EffectUse& use, Extension* extension) {
   const ReadingScale& scale = extension->readings.scale;
   const std::vector<double> usual = UsualValues(use, scale);
   for (int k = 0; k < use.effect->size(); ++k) {
-    const auto bounds = BoundsOf(use, k, usual, scale);
+    const auto bounds = BoundsOf(use, k, usual, scale, extension->readings.traits);
     if (!bounds) return tl::unexpected(bounds.error());
     extension->bounds.push_back(*bounds);
-    extension->usual.push_back(std::min(std::max(usual[k], bounds->lower), bounds->upper));
+    extension->usual.push_back(WithinBounds(*bounds, usual[k]));
   }
   return {};
 }

@@ -82,6 +82,14 @@ struct ParameterBounds {
   double search_lower = 0;
   double search_upper = std::numeric_limits<double>::quiet_NaN();
   SearchScale scale = SearchScale::kLinear;
+  double whole = 0;  // the values it may have lie so far apart, from `lower` on; 0: all between
 };
+
+// The value nearest to `value` that it may have.
+inline double WithinBounds(const ParameterBounds& bounds, double value) {
+  const double inside = std::fmin(std::fmax(value, bounds.lower), bounds.upper);
+  if (bounds.whole == 0) return inside;
+  return bounds.lower + bounds.whole * std::round((inside - bounds.lower) / bounds.whole);
+}
 
 }  // namespace lyrefit

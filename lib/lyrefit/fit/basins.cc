@@ -1,0 +1,111 @@
+#include "lyrefit/fit/basins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/fit/form_problem.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kFirst = 5, kMore = 9;  // steps
+constexpr std::size_t kOnwards = 16, kAhead = 8;
+constexpr double kNear = 2;          // of the lowest RMSE: what may still become the best
+constexpr int kEnough = 3;           // ends in the best basin
+constexpr double kSameBasin = 1e-6;  // relative, of the paid mean square
+
+bool SameBasin(const BasinEnd& a, const BasinEnd& b) {
+  return a.start.form == b.start.form && std::fabs(a.paid - b.paid) <= kSameBasin * b.paid;
+}
+
+}  // namespace
+
+void Basins::Descend(std::vector<PolishStart> starts) {
+  std::vector<int> ways;
+  for (PolishStart& start : starts) {
+    RefineEnd here;
+    here.p = start.p;
+    here.mean_square = MeanSquare(problem_, start.p);
+    here.held.assign(start.p.size(), false);
+    ways.push_back(static_cast<int>(ends_.size()));
+    ends_.emplace_back();
+    ends_.back().start = std::move(start);
+    Take(ways.back(), std::move(here));
+  }
+  GoOn(&ways, kFirst, kOnwards);
+  GoOn(&ways, kMore, kAhead);
+  Finish(ways);
+}
+
+// All go on by so many steps; the `most` best of them are left, the best first.
+void Basins::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
+  RefineOptions briefly;
+  briefly.small = true;
+  briefly.let_in = false;
+  briefly.max_rounds = 1;
+  briefly.max_iterations = briefly.first_iterations = steps;
+  briefly.trust_radius = 1e4;
+  briefly.stop = watch_->stop();
+  for (const int way : *ways) {
+    const BasinEnd& at = ends_[way];
+    const RefineProblem own = InForm(problem_, forms_[at.start.form], at.end.p);
+    Take(way, Refine(own, at.end.p, briefly));
+    if (watch_->Next()) break;
+  }
+  std::stable_sort(ways->begin(), ways->end(),
+                   [this](int a, int b) { return ends_[a].paid < ends_[b].paid; });
+  if (ways->size() > most) ways->resize(most);
+}
+
+void Basins::Finish(const std::vector<int>& ways) {
+  RefineOptions whole;
+  whole.stop = watch_->stop();
+  for (const int way : ways) {
+    BasinEnd& at = ends_[way];
+    const bool hopeless = at.paid > kNear * kNear * ends_[best_].paid;
+    const bool known = ends_[best_].finished && visits() >= kEnough;
+    if (hopeless || known || watch_->stopped()) break;
+    const RefineProblem own = InForm(problem_, forms_[at.start.form], at.end.p);
+    Take(way, Refine(own, at.end.p, whole));
+    at.finished = true;
+  }
+}
+
+// Where a way has come to, unless it was lower before; and whether it is the best.
+void Basins::Take(int way, RefineEnd end) {
+  BasinEnd& at = ends_[way];
+  const double factor = FormFactor(problem_, forms_[at.start.form]);
+  const double paid = end.mean_square * factor * factor;
+  if (!at.end.p.empty() && !(paid <= at.paid)) return;
+  at.end = std::move(end);
+  at.paid = std::isfinite(paid) ? paid : HUGE_VAL;
+  if (best_ < 0 || at.paid < ends_[best_].paid) best_ = way;
+}
+
+int Basins::VisitsOf(const BasinEnd& end) const {
+  return static_cast<int>(std::count_if(ends_.begin(), ends_.end(), [&](const BasinEnd& other) {
+    return other.finished && SameBasin(other, end);
+  }));
+}
+
+BasinCount Basins::Count() const {
+  BasinCount count;
+  std::vector<const BasinEnd*> met;
+  for (const BasinEnd& end : ends_) {
+    if (!end.finished) continue;
+    ++count.starts;
+    const bool known = std::any_of(met.begin(), met.end(),
+                                   [&](const BasinEnd* other) { return SameBasin(end, *other); });
+    if (known) continue;
+    met.push_back(&end);
+    const int visits = VisitsOf(end);
+    count.once += visits == 1 ? 1 : 0;
+    count.twice += visits == 2 ? 1 : 0;
+  }
+  count.basins = static_cast<int>(met.size());
+  count.best_visits = visits();
+  count.unseen = count.once * (count.once - 1) / (2.0 * (count.twice + 1));
+  return count;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,207 @@
+#include "lyrefit/law/forms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/law/quote.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kSame = 1e-9;
+
+bool HasShape(const Extension& extension, const Effect& effect) {
+  const DataTraits& traits = extension.readings.traits;
+  return effect.starts != nullptr && traits.single && !traits.only_dark;
+}
+
+std::vector<ParameterBounds> OwnBounds(const Extension& extension, std::size_t use) {
+  const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
+  const auto begin = extension.bounds.begin() + first;
+  return {begin, begin + extension.uses[use].effect->size()};
+}
+
+bool SameBounds(const Form& a, const Form& b) {
+  for (std::size_t k = 0; k < a.bounds.size(); ++k) {
+    if (std::fabs(a.bounds[k].lower - b.bounds[k].lower) > kSame) return false;
+    if (std::fabs(a.bounds[k].upper - b.bounds[k].upper) > kSame) return false;
+  }
+  return true;
+}
+
+// As it was asked for, of one effect.
+Form AsAsked(const Extension& extension, std::size_t use) {
+  Form form;
+  form.bounds = OwnBounds(extension, use);
+  const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
+  const auto begin = extension.usual.begin() + first;
+  form.usual.assign(begin, begin + static_cast<std::ptrdiff_t>(form.bounds.size()));
+  return form;
+}
+
+// What a place leaves free: everything that fits do not usually keep, and what it says.
+Form FormOf(const Effect& effect, const ShapeStart& start) {
+  Form form;
+  form.usual = start.p;
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    const bool freed = std::find(start.freed.begin(), start.freed.end(), k) != start.freed.end();
+    const double lower = info.held && !freed ? start.p[k] : info.lower;
+    const double upper = info.held && !freed ? start.p[k] : info.upper;
+    form.bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
+  }
+  return form;
+}
+
+std::vector<Form> OfOneEffect(const Extension& extension, const CurveShape& shape,
+                              std::size_t use) {
+  const EffectUse& asked = extension.uses[use];
+  const Form as_asked = AsAsked(extension, use);
+  std::vector<Form> forms;
+  if (asked.ranges.empty() && HasShape(extension, *asked.effect)) {
+    for (const ShapeStart& start :
+         asked.effect->starts(shape, extension.readings.traits, as_asked.bounds)) {
+      Form form = FormOf(*asked.effect, start);
+      for (std::size_t k = 0; k < form.bounds.size(); ++k) {  // whole numbers are known already
+        ParameterBounds& own = form.bounds[k];
+        if (own.lower < own.upper && as_asked.bounds[k].whole > 0) own = as_asked.bounds[k];
+      }
+      const bool known = std::any_of(forms.begin(), forms.end(),
+                                     [&](const Form& other) { return SameBounds(form, other); });
+      if (!known) forms.push_back(std::move(form));
+    }
+  }
+  if (forms.empty()) forms.push_back(as_asked);
+  return forms;
+}
+
+// Moves a place inside bounds; false where it is another one then: one more substring, and in a
+// form that follows from the shape whatever that form holds.
+bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds, bool as_asked,
+                std::vector<double>* p) {
+  constexpr double kTyped = 1e-4;  // shares are typed with few digits
+  bool same = true;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    const ParameterBounds& own = bounds[k];
+    const EffectParameter& info = effect.parameters[k];
+    const double inside = WithinBounds(own, (*p)[k]);
+    const bool counts = info.searched || info.whole != Whole::kNo || !as_asked;
+    const bool settled = own.lower == own.upper || own.whole > 0;
+    if (settled && counts && std::fabs(inside - (*p)[k]) > kTyped) same = false;
+    (*p)[k] = inside;
+  }
+  return same;
+}
+
+// Places of one effect; where none is one of this form, all of them as near as it comes.
+std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const CurveShape& shape,
+                                           std::size_t use,
+                                           const std::vector<ParameterBounds>& bounds) {
+  const EffectUse& asked = extension.uses[use];
+  std::vector<std::vector<double>> places, others;
+  for (const ShapeStart& start :
+       asked.effect->starts(shape, extension.readings.traits, OwnBounds(extension, use))) {
+    std::vector<double> own = start.p;
+    const bool same = MoveInside(*asked.effect, bounds, !asked.ranges.empty(), &own);
+    std::vector<std::vector<double>>& list = same ? places : others;
+    if (std::find(list.begin(), list.end(), own) == list.end()) list.push_back(std::move(own));
+  }
+  return places.empty() ? others : places;
+}
+
+}  // namespace
+
+std::vector<Form> FormsOf(const Extension& extension) {
+  const CurveShape shape = ShapeOf(extension.readings);
+  std::vector<Form> forms = {{}};
+  for (std::size_t use = 0; use < extension.uses.size(); ++use) {
+    std::vector<Form> longer;
+    for (const Form& own : OfOneEffect(extension, shape, use)) {
+      for (Form form : forms) {
+        form.bounds.insert(form.bounds.end(), own.bounds.begin(), own.bounds.end());
+        form.usual.insert(form.usual.end(), own.usual.begin(), own.usual.end());
+        longer.push_back(std::move(form));
+      }
+    }
+    forms = std::move(longer);
+  }
+  for (Form& form : forms) {
+    for (const ParameterBounds& own : form.bounds) form.free += own.lower < own.upper ? 1 : 0;
+  }
+  return forms;
+}
+
+std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const Form& form) {
+  const CurveShape shape = ShapeOf(extension.readings);
+  std::vector<std::vector<double>> places;
+  for (std::size_t use = 0; use < extension.uses.size(); ++use) {
+    const Effect& effect = *extension.uses[use].effect;
+    if (!HasShape(extension, effect)) continue;
+    const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
+    const auto begin = form.bounds.begin() + first;
+    for (const std::vector<double>& own :
+         OwnPlaces(extension, shape, use, {begin, begin + effect.size()})) {
+      std::vector<double> place = form.usual;
+      std::copy(own.begin(), own.end(), place.begin() + first);
+      places.push_back(std::move(place));
+    }
+  }
+  return places;
+}
+
+void LeaveARest(const Extension& extension, const std::vector<ParameterBounds>& bounds, double* p) {
+  int first = 0;
+  for (const EffectUse& use : extension.uses) {
+    const Effect& effect = *use.effect;
+    std::vector<int> shares;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].whole == Whole::kSubstrings) shares.push_back(first + k);
+    }
+    const auto too_much = [&] {
+      double sum = 0;
+      for (const int k : shares) sum += p[k];
+      return sum > 1 - kSame;
+    };
+    while (too_much()) {
+      int largest = -1;
+      for (const int k : shares) {
+        const bool falls = p[k] > bounds[k].lower + kSame;
+        if (falls && (largest < 0 || p[k] > p[largest])) largest = k;
+      }
+      if (largest < 0) break;
+      const ParameterBounds& own = bounds[largest];
+      const double less = own.whole > 0 ? p[largest] - own.whole : 0.5 * p[largest];
+      p[largest] = std::max(less, own.lower);
+    }
+    first += effect.size();
+  }
+}
+
+std::string DescribeForm(const Extension& extension, const Form& form) {
+  std::string free, held;
+  const auto add = [](std::string* list, const std::string& text) {
+    *list += (list->empty() ? "" : ", ") + text;
+  };
+  int at = 0;
+  for (const EffectUse& use : extension.uses) {
+    const Effect& effect = *use.effect;
+    const std::string prefix = extension.uses.size() > 1 ? std::string(effect.id) + "." : "";
+    const std::vector<double> reported =
+        ReportedValues(effect, form.usual.data() + at, extension.readings.scale);
+    for (int k = 0; k < effect.size(); ++k, ++at) {
+      const EffectParameter& info = effect.parameters[k];
+      const ParameterBounds& own = form.bounds[at];
+      const std::string symbol = prefix + info.symbol;
+      if (own.lower < own.upper) {
+        add(&free, symbol);
+      } else if (own.lower != info.neutral && own.lower != info.absent_at) {
+        add(&held, fmt::format("{} = {:.4g}", symbol, reported[k]));
+      }
+    }
+  }
+  return free + " free" + (held.empty() ? "" : "; " + held);
+}
+
+}  // namespace lyrefit

@@ -50,10 +50,9 @@ BudgetCommand::BudgetCommand(CommandLine* line)
   AddLandscapeFlags(verb_, &flags_);
   AddAlgorithmsFlag(verb_, &flags_);
   verb_
-      ->AddOption(
-          "--budgets", &budgets_,
-          "list of evaluations; the population is about their root (default " + budgets_ +
-              ", with --landscape " + kLandscapeBudgets + ")")
+      ->AddOption("--budgets", &budgets_,
+                  "list of evaluations; the population is about their root (default " + budgets_ +
+                      ", with --landscape " + kLandscapeBudgets + ")")
       .Type("LIST")
       .Group("Search");
   AddSearchRows(verb_,

@@ -10,8 +10,7 @@
 namespace lyrefit {
 
 Flag AddStudyFlags(Verb* verb, StudyFlags* flags) {
-  Flag curves =
-      verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders");
+  Flag curves = verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders");
   curves.ReadsCurves();
   AddConditionFlags(verb, &flags->conditions);
   verb->AddOption("--at", &flags->at,
@@ -56,11 +55,11 @@ void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {
   const std::string peers = PagmoNames();
   const std::string pagmo = peers.empty() ? "; pagmo:NAME in a build with pagmo2"
                                           : "; pagmo:NAME with NAME one of " + peers;
-  verb->AddOption(
-          "--algorithms", &flags->algorithms,
-          "list of " + AllTexts<Algorithm>() + ", shape (starts from the curve's shape alone), "
-              "default (the fit with its default settings)" + pagmo + " (default " +
-              flags->algorithms + ")")
+  verb->AddOption("--algorithms", &flags->algorithms,
+                  "list of " + AllTexts<Algorithm>() +
+                      ", shape (starts from the curve's shape alone), "
+                      "default (the fit with its default settings)" +
+                      pagmo + " (default " + flags->algorithms + ")")
       .Type("LIST")
       .Group("Search");
 }

@@ -31,8 +31,8 @@ struct StudyFlags {
   std::string csv_file;
 };
 
-// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves comes
-// back: whether it is required is the verb's to say.
+// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves
+// comes back: whether it is required is the verb's to say.
 Flag AddStudyFlags(Verb* verb, StudyFlags* flags);
 // --landscape, --devices and --multistart. What goes without them is refused by CheckLandscape().
 void AddLandscapeFlags(Verb* verb, StudyFlags* flags);
@@ -58,7 +58,8 @@ struct StudyCondition {
 // "1000x25,200x25" given to --at.
 Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text);
 
-// The made problems of --landscape, or the curves of all files, with their bounds; of sets those that --curves and --at name.
+// The made problems of --landscape, or the curves of all files, with their bounds; of sets those
+// that --curves and --at name.
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 
 // The devices of --landscape.

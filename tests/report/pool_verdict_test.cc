@@ -58,10 +58,11 @@ TEST(VerdictText, NamesTheSearchThatWillDo) {
 }
 
 TEST(VerdictText, SaysThatNothingIsEnough) {
-  EXPECT_EQ(Sentence({{"mlo", 100, 40, 47, 5}, {"random", 100, 30, 44, 5}}),
-            "x: nothing is enough: no search reaches 48 of 50 from any budget on; the best, mlo, "
-            "hits 47 with all starts at 100 evaluations (35 ms); random points do not: at most 44 of 50, "
-            "with all starts at 100 evaluations (35 ms)");
+  EXPECT_EQ(
+      Sentence({{"mlo", 100, 40, 47, 5}, {"random", 100, 30, 44, 5}}),
+      "x: nothing is enough: no search reaches 48 of 50 from any budget on; the best, mlo, "
+      "hits 47 with all starts at 100 evaluations (35 ms); random points do not: at most 44 of 50, "
+      "with all starts at 100 evaluations (35 ms)");
 }
 
 TEST(VerdictText, SaysThatNobodyEverHits) {

@@ -15,14 +15,13 @@ using ::testing::ElementsAre;
 // three blocks, and beside it after the polish but in one.
 Comparison ThreeBlocks() {
   const auto device = [](const char* name, const char* problem, double de_own) {
-    return MadeDevice(name, problem,
-                      {MadeContender("shape", 0, {{9, 9, 1}}),
-                       MadeContender("mlo", 10, {{2, 1, 1}}),
-                       MadeContender("de", 10, {{3, de_own, 1}}),
-                       MadeContender("mlo", 100, {{2, 1, 1}})});
+    return MadeDevice(
+        name, problem,
+        {MadeContender("shape", 0, {{9, 9, 1}}), MadeContender("mlo", 10, {{2, 1, 1}}),
+         MadeContender("de", 10, {{3, de_own, 1}}), MadeContender("mlo", 100, {{2, 1, 1}})});
   };
-  return MadeComparison({device("x 0", "x", 1 + 0.9e-6), device("x 1", "x", 1.5),
-                         device("y 0", "y", 1)});
+  return MadeComparison(
+      {device("x 0", "x", 1 + 0.9e-6), device("x 1", "x", 1.5), device("y 0", "y", 1)});
 }
 
 TEST(RankPools, RanksAllProblemsTogetherThenEach) {

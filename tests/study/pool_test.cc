@@ -38,9 +38,9 @@ TEST(PoolProblems, CountsRunsOfAllDevices) {
 }
 
 TEST(PoolProblems, LooksAtWhatIsNoSearchAsAWhole) {
-  const auto pools = PoolProblems(MadeComparison(
-      {MadeDevice("x 0", "x", {MadeContender("shape", 0, {{3, 2, 1}}),
-                               MadeContender("default", 0, {{3, 1, 1}})})}));
+  const auto pools = PoolProblems(MadeComparison({MadeDevice(
+      "x 0", "x",
+      {MadeContender("shape", 0, {{3, 2, 1}}), MadeContender("default", 0, {{3, 1, 1}})})}));
   for (const PooledContender& contender : pools[0].contenders) {
     EXPECT_FALSE(contender.At(PolishLevel::kSearch));
     EXPECT_FALSE(contender.At(PolishLevel::kOwn));
@@ -64,8 +64,8 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const double near = 1.5 * (1 + 1e-7);
   Comparison comparison = MadeComparison(
       {MadeDevice("x 0", "x",
-                  {MadeContender("mlo", 10, {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1},
-                                             {9, 1, 1}})}),
+                  {MadeContender("mlo", 10,
+                                 {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1}, {9, 1, 1}})}),
        MadeDevice("x 1", "x", {MadeContender("mlo", 10, {{9, 1.5, 1}, {9, 1, 1}})})});
   comparison.problems[0].parameters = comparison.problems[1].parameters = {"Rs", "d1", "d2"};
   for (ProblemResult& device : comparison.problems) {
@@ -87,8 +87,8 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   EXPECT_NEAR(failures.worst_deviation, 2, 1e-12);
   EXPECT_EQ(failures.worst_parameter, "d1");
   EXPECT_EQ(pools[0].contenders[0].At(PolishLevel::kHybrid)->failures.runs, 0);
-  EXPECT_TRUE(std::isnan(
-      pools[0].contenders[0].At(PolishLevel::kSearch)->failures.worst_deviation));
+  EXPECT_TRUE(
+      std::isnan(pools[0].contenders[0].At(PolishLevel::kSearch)->failures.worst_deviation));
 }
 
 TEST(LargestDeviation, IsRelativeToTheReferenceAndOfTheEffectsAlone) {

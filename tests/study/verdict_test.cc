@@ -31,9 +31,8 @@ TEST(EnoughHits, AreNinetySixOfAHundred) {
 }
 
 TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
-  const Comparison comparison =
-      OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100), Hits("de", 10, 9, 9),
-             Hits("de", 100, 10, 10, 20)});
+  const Comparison comparison = OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100),
+                                       Hits("de", 10, 9, 9), Hits("de", 100, 10, 10, 20)});
   const auto pools = PoolProblems(comparison);
   const Verdict verdict = JudgePool(pools[0]);
   ASSERT_TRUE(verdict.search);
@@ -46,8 +45,8 @@ TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
 }
 
 TEST(JudgePool, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
-  const Comparison comparison = OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100),
-                                       Hits("mlo", 1000, 10, 0, 1000)});
+  const Comparison comparison =
+      OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100), Hits("mlo", 1000, 10, 0, 1000)});
   const auto pools = PoolProblems(comparison);
   EXPECT_EQ(JudgePool(pools[0]).search->contender->name, "mlo@1000");
 }

@@ -164,7 +164,7 @@ struct FamilyReport {
   std::vector<double> searched;
   std::vector<double> refined;
   std::vector<double> best_bird_polished;  // in the units of reports; empty: not asked for
-  std::vector<Estimate> estimates;  // shared parameters, same order
+  std::vector<Estimate> estimates;         // shared parameters, same order
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN where not asked for
   Interval temperature_offset_K;
   std::vector<Coefficient> coefficients;

@@ -131,8 +131,8 @@ void FollowBird(Job* job, const JointProblem& problem, FamilyReport* report) {
   report->rmse.plain_polished = FamilyRmse(problem, ends.plain.point);
   report->rmse.best_bird_polished = FamilyRmse(problem, ends.own.point);
   const Translation& at = job->family.translation;
-  report->best_bird_polished = at.extended ? ReportedShared(at, ends.own.point.shared)
-                                           : ends.own.point.shared;
+  report->best_bird_polished =
+      at.extended ? ReportedShared(at, ends.own.point.shared) : ends.own.point.shared;
   report->best_bird_polished.resize(at.size());
   report->plain_seconds = ends.plain_seconds;
   report->best_bird_seconds = ends.own_seconds;

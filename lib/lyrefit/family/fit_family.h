@@ -53,9 +53,9 @@ struct FamilyOptions {
   // Where the joint fit begins: kShape leaves out the search's birds, kSearch all but these.
   StartsFrom starts = StartsFrom::kAll;
   bool plain_polish = false;  // what becomes of the best bird by itself, as in FitOptions
-  int search_curves = 6;  // the search sees so many well-spread curves
-  int fit_curves = 0;     // the joint fit sees so many well-spread curves, the others are held out
-                          // and tested; 0: all
+  int search_curves = 6;      // the search sees so many well-spread curves
+  int fit_curves = 0;  // the joint fit sees so many well-spread curves, the others are held out
+                       // and tested; 0: all
   // One common error of each sensor, as shared unknowns: true = reading + offset.
   bool irradiance_offset = false;
   bool temperature_offset = false;

@@ -224,6 +224,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.searched = report.refined = best.p;
   OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
+  if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
     PolishAndJudge(&job, *birds, space, &report);

@@ -100,16 +100,17 @@ std::vector<std::string> ContenderNames(const ProblemResult& problem) {
 
 Json ProblemJson(const ProblemResult& problem) {
   Json contenders = Json::array();
-  for (const ContenderResult& c : problem.contenders) contenders.push_back(ContenderJson(c, problem));
+  for (const ContenderResult& c : problem.contenders)
+    contenders.push_back(ContenderJson(c, problem));
   Json json = {{"curve", problem.curve_name},
-          {"model", ToText(problem.model)},
-          {"bounds", problem.bounds_name},
-          {"complete", problem.complete},
-          {"reference", ReferenceJson(problem)},
-          {"contenders", std::move(contenders)},
-          {"ranking",
-           {{"searched", RankingJson(ContenderNames(problem), problem.searched)},
-            {"refined", RankingJson(ContenderNames(problem), problem.polished)}}}};
+               {"model", ToText(problem.model)},
+               {"bounds", problem.bounds_name},
+               {"complete", problem.complete},
+               {"reference", ReferenceJson(problem)},
+               {"contenders", std::move(contenders)},
+               {"ranking",
+                {{"searched", RankingJson(ContenderNames(problem), problem.searched)},
+                 {"refined", RankingJson(ContenderNames(problem), problem.polished)}}}};
   if (problem.problem.empty()) return json;
   json["problem"] = problem.problem;
   if (const Reference& reference = problem.reference; reference.points > 0) {

@@ -36,8 +36,7 @@ std::string MeanRanks(const std::vector<std::string>& names, const Friedman& fri
                    [&](int a, int b) { return friedman.mean_rank[a] < friedman.mean_rank[b]; });
   std::string text;
   for (const int c : order) {
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", names[c],
-                        friedman.mean_rank[c]);
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", names[c], friedman.mean_rank[c]);
   }
   const bool level = friedman.mean_rank[order.front()] == friedman.mean_rank[order.back()];
   if (level) text = fmt::format("all {:.2f}", friedman.mean_rank[0]);
@@ -136,8 +135,8 @@ std::string WinnersText(const std::vector<std::string>& names, const Ranking& ra
       largest_p = std::max(largest_p, pair.p_holm);
     }
     if (losers.empty()) continue;
-    text += Wrap("    ", fmt::format("{} below {} (p at most {})", names[c],
-                                     losers, PText(largest_p)));
+    text +=
+        Wrap("    ", fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
   }
   return text;
 }

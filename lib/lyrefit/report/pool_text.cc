@@ -15,9 +15,7 @@ namespace {
 
 constexpr std::size_t kColumns = 6;  // budgets beside each other
 
-std::string Percent(double share) {
-  return std::isnan(share) ? "-" : Significant(100 * share, 3);
-}
+std::string Percent(double share) { return std::isnan(share) ? "-" : Significant(100 * share, 3); }
 
 // Every budget, 0 first where there are contenders without one.
 std::vector<std::int64_t> BudgetsOf(const PooledProblem& pool) {
@@ -129,22 +127,23 @@ std::string ReferenceText(const PooledProblem& pool) {
     points += device->reference.points;
     visits += device->reference.visits;
   }
-  std::string text = fmt::format("of each device its best known optimum, {} certified", pool.certified);
+  std::string text =
+      fmt::format("of each device its best known optimum, {} certified", pool.certified);
   if (points == 0) return text;
-  return text + fmt::format(
-                    "; {} that only a multistart found, of whose {} random points {} % end in the "
-                    "best known optimum of their device",
-                    multistart, points,
-                    Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
+  return text +
+         fmt::format(
+             "; {} that only a multistart found, of whose {} random points {} % end in the "
+             "best known optimum of their device",
+             multistart, points,
+             Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
 }
 
 std::string PoolText(const PooledProblem& pool) {
   const ProblemResult& first = *pool.devices[0];
-  std::string text = "\n" + Wrap("", fmt::format("{}, {} model{}, {}{}", pool.name,
-                                                 ModelTitle(first.model),
-                                                 first.family ? " of a family" : "",
-                                                 Plural(pool.devices.size(), "device"),
-                                                 EffectsOfPool(pool)));
+  std::string text =
+      "\n" + Wrap("", fmt::format("{}, {} model{}, {}{}", pool.name, ModelTitle(first.model),
+                                  first.family ? " of a family" : "",
+                                  Plural(pool.devices.size(), "device"), EffectsOfPool(pool)));
   text += Field("objective", ToText(first.objective));
   if (first.family) {
     text += Field("search", "sees some of the curves; its figures are of its best bird on all");
@@ -166,7 +165,8 @@ std::string PoolText(const PooledProblem& pool) {
 
 // "1.83", "-" where nothing was ranked.
 std::string MeanRank(const Ranking& ranking, std::size_t c) {
-  return ranking.friedman.contenders == 0 ? "-" : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
+  return ranking.friedman.contenders == 0 ? "-"
+                                          : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
 }
 
 std::string FriedmanP(const Ranking& ranking) {
@@ -217,9 +217,10 @@ std::string RanksText(const std::vector<PooledProblem>& pools) {
   const std::vector<PooledRanking> rankings = RankPools(pools);
   if (rankings.empty()) return "";
   std::string text =
-      "\n" + Wrap("", "Mean ranks of RMSE / reference, search alone / best bird's polish, and p of "
-                      "Friedman's test; blocks are device and run, figures within 1e-6 of each "
-                      "other equal; pairs by Wilcoxon's test, Holm-corrected");
+      "\n" + Wrap("",
+                  "Mean ranks of RMSE / reference, search alone / best bird's polish, and p of "
+                  "Friedman's test; blocks are device and run, figures within 1e-6 of each "
+                  "other equal; pairs by Wilcoxon's test, Holm-corrected");
   for (auto first = rankings.begin(); first != rankings.end();) {
     const auto next = std::find_if(first, rankings.end(), [&](const PooledRanking& other) {
       return other.problem != first->problem;
@@ -252,7 +253,8 @@ std::string PoolSections(const Comparison& comparison) {
     const std::string peer = PeerText(pool);
     if (!peer.empty()) peers += Wrap("  ", pool.name + ": " + peer + ".");
   }
-  if (!peers.empty()) text += "\nThe default fit against the fastest peer of equal success\n" + peers;
+  if (!peers.empty())
+    text += "\nThe default fit against the fastest peer of equal success\n" + peers;
   for (const PooledProblem& pool : pools) text += PoolText(pool);
   return text + RanksText(pools);
 }

@@ -47,9 +47,8 @@ std::string SearchText(const Verdict& verdict) {
   const int runs = verdict.best->figures().runs;
   if (verdict.best->figures().hits == 0) return "no search hits in any run";
   return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
-                     verdict.needed, runs,
-                     verdict.best->contender->algorithm, verdict.best->figures().hits,
-                     HowText(*verdict.best, "at"));
+                     verdict.needed, runs, verdict.best->contender->algorithm,
+                     verdict.best->figures().hits, HowText(*verdict.best, "at"));
 }
 
 std::string RandomText(const Way& random) {

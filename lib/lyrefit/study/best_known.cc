@@ -10,7 +10,7 @@ namespace lyrefit {
 namespace {
 
 constexpr std::int64_t kLongSearch = 200;  // evaluations for each random point
-constexpr int kFirstRun = 1000000000;        // far from the numbers of any contender's runs
+constexpr int kFirstRun = 1000000000;      // far from the numbers of any contender's runs
 
 // One point, wherever it falls.
 SearchSummary OnePoint(const ObjectiveFunction& objective, const Box& box,
@@ -34,16 +34,17 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
   known.best.rmse_A = kInfinity;
   if (options.multistart == 0) return known;
   CompareOptions how = options;
-  how.polish = true;
-  how.plain_polish = false;
+  how.plain_polish = true;
   // What one fit ends at; false where it was stopped. A fit that fails has nothing to add.
   std::vector<double> ends;
   const auto run = [&](const Contender& contender, int number) {
+    const bool point = contender.starts == StartsFrom::kSearch;
+    how.polish = !point;
     const auto outcome = RunOnce(subject, problem, how, contender, kFirstRun + number, observer);
     if (!outcome) return true;
     if (!*outcome) return false;
     const BestFound found = BestOf({{**outcome}});
-    if (contender.starts == StartsFrom::kSearch) ends.push_back((*outcome)->record.polished_A);
+    if (point) ends.push_back((*outcome)->record.own_polished_A);
     if (!(found.rmse_A < known.best.rmse_A)) return true;
     known.best = found;
     known.found_by = contender.name;
@@ -58,7 +59,8 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
     known.interrupted = !run(point, k);
   }
   const std::vector<Algorithm> algorithms = {Algorithm::kDe, Algorithm::kMlo, Algorithm::kRandom};
-  for (const Contender& long_search : BudgetContenders(algorithms, {kLongSearch * options.multistart})) {
+  for (const Contender& long_search :
+       BudgetContenders(algorithms, {kLongSearch * options.multistart})) {
     if (known.interrupted) break;
     known.interrupted = !run(long_search, options.multistart);
   }
@@ -79,10 +81,10 @@ Reference BestKnownReference(const BestFound& runs, const BestKnown& known) {
     reference.by_multistart = better;
     reference.points = known.points;
     reference.visits = level ? known.visits : 0;
-    reference.origin += fmt::format(
-        " and of a multistart; {}, where {} of {} random points ended as well",
-        better ? "found by its " + known.found_by : std::string("found by a run"),
-        reference.visits, reference.points);
+    reference.origin +=
+        fmt::format(" and of a multistart; {}, where {} of {} random points ended as well",
+                    better ? "found by its " + known.found_by : std::string("found by a run"),
+                    reference.visits, reference.points);
   }
   if (known.interrupted) reference.origin += " so far";
   return reference;

@@ -183,8 +183,8 @@ class Study {
   // Nothing where it was stopped.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
     const Contender& contender = contenders_[at.contender];
-    auto done = RunOnce(problem.subject, problem.result, options_, contender, at.run,
-                        watch_.Inside());
+    auto done =
+        RunOnce(problem.subject, problem.result, options_, contender, at.run, watch_.Inside());
     CHECK(done.has_value()) << done.error().ToString();  // Try() would have seen it
     if (!*done) return {};
     RunOutcome outcome = std::move(**done);

@@ -73,7 +73,7 @@ struct CompareOptions {
   // Random points that are polished to their end, beside long searches, to find the best known
   // optimum of a problem that no certificate is at hand for; 0: the runs alone. See best_known.h.
   int multistart = 0;
-  int threads = 0;            // 0: all cores; never changes a result but the seconds
+  int threads = 0;  // 0: all cores; never changes a result but the seconds
   const Kernel* kernel = nullptr;
   // A file that every finished run is written to, and that a study is taken up from; empty: none.
   // Taken up, it ends with the bits of one that was never interrupted. `runs`, `target_gap`,
@@ -82,7 +82,8 @@ struct CompareOptions {
   std::string journal_section = "comparison";  // of a file that several studies share
 };
 
-// RMSE in ampere, all of the objective compared. NaN: not asked for.
+// RMSE in ampere, all of the objective compared. NaN: not asked for. Where effects have several
+// forms (law/forms.h) it is times FitReport::form_price, so that the best form has the lowest.
 struct RunRecord {
   int run = 0;  // number of the run, which with the seed names its random stream
   double searched_A = kUnknown;
@@ -93,9 +94,9 @@ struct RunRecord {
   // Of the search alone, counted in whole iterations; -1: never reached.
   std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;
-  double polish_seconds = 0;                // from all starts
-  double plain_seconds = kUnknown;          // of the best bird's plain solve
-  double own_seconds = kUnknown;            // of the best bird's own polish
+  double polish_seconds = 0;        // from all starts
+  double plain_seconds = kUnknown;  // of the best bird's plain solve
+  double own_seconds = kUnknown;    // of the best bird's own polish
   // Of problems that are pooled: where the best bird's own polish and the hybrid ended, in the
   // order of Reference::parameters. Empty: not kept.
   std::vector<double> own_parameters;

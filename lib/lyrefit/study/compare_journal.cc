@@ -118,21 +118,21 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
     gains.push_back({point.iteration, point.evaluations, ExactNumber(point.best)});
   }
   JournalLine line = {{"problem", place.problem},
-          {"curve", problem.curve_name},
-          {"model", ToText(problem.model)},
-          {"contender", place.contender},
-          {"algorithm", contender.name},
-          {"run", place.run},
-          {"seed", options.seed},
-          {"searched_A", ExactNumber(record.searched_A)},
-          {"plain_polished_A", ExactNumber(record.plain_polished_A)},
-          {"best_bird_polished_A", ExactNumber(record.own_polished_A)},
-          {"refined_A", ExactNumber(record.polished_A)},
-          {"evaluations", record.evaluations},
-          {"search_seconds", ExactNumber(record.search_seconds)},
-          {"refine_seconds", ExactNumber(record.polish_seconds)},
-          {"parameters", ExactNumbers(outcome.parameters)},
-          {"trace", std::move(gains)}};
+                      {"curve", problem.curve_name},
+                      {"model", ToText(problem.model)},
+                      {"contender", place.contender},
+                      {"algorithm", contender.name},
+                      {"run", place.run},
+                      {"seed", options.seed},
+                      {"searched_A", ExactNumber(record.searched_A)},
+                      {"plain_polished_A", ExactNumber(record.plain_polished_A)},
+                      {"best_bird_polished_A", ExactNumber(record.own_polished_A)},
+                      {"refined_A", ExactNumber(record.polished_A)},
+                      {"evaluations", record.evaluations},
+                      {"search_seconds", ExactNumber(record.search_seconds)},
+                      {"refine_seconds", ExactNumber(record.polish_seconds)},
+                      {"parameters", ExactNumbers(outcome.parameters)},
+                      {"trace", std::move(gains)}};
   if (problem.problem.empty()) return line;
   line["plain_seconds"] = ExactNumber(record.plain_seconds);
   line["best_bird_seconds"] = ExactNumber(record.own_seconds);
@@ -177,12 +177,9 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
 }
 
 JournalLine WriteBestKnown(int problem, const BestKnown& known) {
-  return {{"problem", problem},
-          {"best_known_A", ExactNumber(known.best.rmse_A)},
-          {"found_by", known.found_by},
-          {"points", known.points},
-          {"visits", known.visits},
-          {"parameters", ExactNumbers(known.best.parameters)}};
+  return {{"problem", problem},         {"best_known_A", ExactNumber(known.best.rmse_A)},
+          {"found_by", known.found_by}, {"points", known.points},
+          {"visits", known.visits},     {"parameters", ExactNumbers(known.best.parameters)}};
 }
 
 bool IsBestKnown(const Journal::Record& record) { return record.json.contains("best_known_A"); }

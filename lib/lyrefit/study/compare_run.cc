@@ -1,5 +1,6 @@
 #include "lyrefit/study/compare_run.h"
 
+#include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
 
 namespace lyrefit {
@@ -53,15 +54,26 @@ void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
   outcome->record.search_seconds = search.seconds;
 }
 
+// The best bird's own polish, also where nothing else was polished.
+double OwnPolish(const FitReport& report, const ProblemResult& problem) {
+  const std::vector<double>& p = report.best_bird_polished;
+  if (report.polished || problem.problem.empty() || p.empty()) {
+    return report.rmse.best_bird_polished.Of(problem.objective);
+  }
+  return Rmse(report.device, problem.objective, p.data(), report.curve.voltage_V,
+              report.curve.current_A);
+}
+
 RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int run) {
   const Objective objective = problem.objective;
   RunOutcome outcome;
   FillSearch(report.search, run, &outcome);
   RunRecord& record = outcome.record;
-  record.searched_A = report.rmse.searched.Of(objective);
-  record.plain_polished_A = report.rmse.plain_polished.Of(objective);
-  record.own_polished_A = report.rmse.best_bird_polished.Of(objective);
-  record.polished_A = report.rmse.refined.Of(objective);
+  const double bird = report.best_bird_price;
+  record.searched_A = report.rmse.searched.Of(objective) * bird;
+  record.plain_polished_A = report.rmse.plain_polished.Of(objective) * bird;
+  record.own_polished_A = OwnPolish(report, problem) * bird;
+  record.polished_A = report.rmse.refined.Of(objective) * report.form_price;
   record.polish_seconds = report.refine.seconds;
   record.plain_seconds = report.plain_seconds;
   record.own_seconds = report.refine.best_bird_seconds;
@@ -72,7 +84,7 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   for (const Estimate& e : report.estimates) {
     outcome.parameters.push_back(report.polished ? e.refined : e.searched);
   }
-  if (!problem.problem.empty() && report.polished) {
+  if (!problem.problem.empty() && !report.best_bird_polished.empty()) {
     outcome.own_parameters = Reported(report.device, report.best_bird_polished);
   }
   return outcome;
@@ -140,8 +152,9 @@ ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
   problem.curve_name = problem.family ? subject.set->name : subject.curve.name;
   problem.model = problem.family ? subject.family.model : subject.model.value_or(model);
   problem.bounds_name = subject.bounds.name;
-  problem.with = problem.family ? subject.family.with
-                                : subject.with.empty() ? options.with : subject.with;
+  problem.with = problem.family         ? subject.family.with
+                 : subject.with.empty() ? options.with
+                                        : subject.with;
   problem.objective = subject.objective.value_or(options.objective);
   if (problem.family) problem.objective = subject.family.objective;
   if (!problem.with.empty()) problem.objective = Objective::kSolvedCurrent;

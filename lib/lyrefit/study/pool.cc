@@ -41,8 +41,8 @@ std::vector<WrongBasin> GroupByEnd(std::vector<PooledRun> runs, PolishLevel leve
   double last = 0;
   for (const PooledRun& run : runs) {
     const double ratio = run.Ratio(level);
-    const bool same = !basins.empty() && basins.back().device == run.device &&
-                      ratio <= last * (1 + kPoolHit);
+    const bool same =
+        !basins.empty() && basins.back().device == run.device && ratio <= last * (1 + kPoolHit);
     if (same) {
       ++basins.back().runs;
     } else {
@@ -96,12 +96,12 @@ std::optional<PooledLevel> PoolLevel(const std::vector<PooledRun>& runs, PolishL
   pooled.runs = static_cast<int>(runs.size());
   pooled.hits = pooled.runs - static_cast<int>(missed.size());
   pooled.excess = SpreadOf(std::move(ratios), 1);
-  for (double* figure : {&pooled.excess.min, &pooled.excess.mean, &pooled.excess.median,
-                         &pooled.excess.max}) {
+  for (double* figure :
+       {&pooled.excess.min, &pooled.excess.mean, &pooled.excess.median, &pooled.excess.max}) {
     *figure -= 1;
   }
-  const bool timed = std::none_of(seconds.begin(), seconds.end(),
-                                  [](double value) { return std::isnan(value); });
+  const bool timed =
+      std::none_of(seconds.begin(), seconds.end(), [](double value) { return std::isnan(value); });
   if (timed) pooled.seconds = MedianOf(std::move(seconds));
   pooled.failures = SumUpFailures(missed, level);
   return pooled;

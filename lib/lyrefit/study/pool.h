@@ -38,7 +38,7 @@ constexpr double kPoolHit = 1e-6;
 // its value at the reference, relative to that; 1 where that is 0 and the run's is not.
 struct Failures {
   int runs = 0;
-  int basins = 0;    // ends of one device within kPoolHit of each other are one
+  int basins = 0;     // ends of one device within kPoolHit of each other are one
   int commonest = 0;  // runs in the one that most ended in; of several the lowest
   std::string commonest_device;
   double commonest_excess = kUnknown;
@@ -50,9 +50,9 @@ struct Failures {
 };
 
 struct PooledLevel {
-  int runs = 0;     // every run of every device
-  int hits = 0;     // within kPoolHit of the device's reference
-  Spread excess;    // over the runs; its counts are those of the hits
+  int runs = 0;               // every run of every device
+  int hits = 0;               // within kPoolHit of the device's reference
+  Spread excess;              // over the runs; its counts are those of the hits
   double seconds = kUnknown;  // median of a run: the search and this level's polish
   Failures failures;
 };
@@ -61,7 +61,7 @@ struct PooledContender {
   std::string name;
   std::string algorithm;
   ContenderKind kind = ContenderKind::kSearch;
-  std::int64_t budget = 0;  // 0: none
+  std::int64_t budget = 0;        // 0: none
   double evaluations = kUnknown;  // median of a run
   // By PolishLevel; only the last one of contenders that are no searches. Empty: not known.
   std::array<std::optional<PooledLevel>, 4> levels;

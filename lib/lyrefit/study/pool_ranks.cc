@@ -46,8 +46,8 @@ void AddBlocks(const ProblemResult& device, const PooledRanking& ranking, Polish
   }
 }
 
-Ranking RankLevel(const std::vector<const PooledProblem*>& pools,
-                  const PooledRanking& ranking, PolishLevel level) {
+Ranking RankLevel(const std::vector<const PooledProblem*>& pools, const PooledRanking& ranking,
+                  PolishLevel level) {
   std::vector<std::vector<double>> values(ranking.names.size());
   for (const PooledProblem* pool : pools) {
     for (const ProblemResult* device : pool->devices) AddBlocks(*device, ranking, level, &values);

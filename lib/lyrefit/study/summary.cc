@@ -195,9 +195,8 @@ void SumUpContenders(const std::vector<Contender>& contenders, const CompareOpti
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     if (outcomes[c].empty()) continue;
     for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];
-    result->contenders.push_back(
-        Summarise(contenders[c], &outcomes[c], result->reference.rmse_A, options.target_gap,
-                  !result->problem.empty()));
+    result->contenders.push_back(Summarise(contenders[c], &outcomes[c], result->reference.rmse_A,
+                                           options.target_gap, !result->problem.empty()));
   }
   if (!options.rankings) return;
   std::vector<std::vector<double>> searched, polished;

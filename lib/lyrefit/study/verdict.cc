@@ -56,7 +56,8 @@ Verdict JudgePool(const PooledProblem& pool) {
   verdict.shape_is_enough = verdict.shape && verdict.shape->IsEnough();
   std::map<std::string, std::vector<const PooledContender*>> searches;
   for (const PooledContender& contender : pool.contenders) {
-    if (contender.kind == ContenderKind::kSearch) searches[contender.algorithm].push_back(&contender);
+    if (contender.kind == ContenderKind::kSearch)
+      searches[contender.algorithm].push_back(&contender);
   }
   std::optional<Way> random_enough, random_best;
   for (const auto& [name, contenders] : searches) {
@@ -75,8 +76,8 @@ Verdict JudgePool(const PooledProblem& pool) {
       }
     }
   }
-  verdict.shape_wins = verdict.shape_is_enough &&
-                       (!verdict.search || !Faster(*verdict.search, *verdict.shape));
+  verdict.shape_wins =
+      verdict.shape_is_enough && (!verdict.search || !Faster(*verdict.search, *verdict.shape));
   if (verdict.search) verdict.best.reset();
   const std::optional<Way>& winner = verdict.search ? verdict.search : verdict.best;
   verdict.random = random_enough ? random_enough : random_best;

@@ -71,6 +71,9 @@ TEST(BestKnownReference, SaysWhatFoundIt) {
   EXPECT_FALSE(level.by_multistart);
   EXPECT_EQ(level.parameters[0], 3);
   EXPECT_THAT(level.origin, HasSubstr("found by a run, where 12 of 100"));
+  const Reference rounded = BestKnownReference({1e-3 * (1 + 1e-9), {3, 4}}, known);
+  EXPECT_EQ(rounded.rmse_A, 1e-3);
+  EXPECT_FALSE(rounded.by_multistart) << "a run was there as well";
   const Reference higher = BestKnownReference({5e-4, {3, 4}}, known);
   EXPECT_EQ(higher.visits, 0) << "its points ended elsewhere";
   EXPECT_EQ(BestKnownReference({5e-4, {3, 4}}, {}).origin, "best of all runs");

@@ -34,7 +34,7 @@ TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
   const Comparison comparison = OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100),
                                        Hits("de", 10, 9, 9), Hits("de", 100, 10, 10, 20)});
   const auto pools = PoolProblems(comparison);
-  const Verdict verdict = JudgePool(pools[0]);
+  const SearchVerdict verdict = JudgePool(pools[0]);
   ASSERT_TRUE(verdict.search);
   EXPECT_EQ(verdict.search->contender->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
   EXPECT_EQ(verdict.search->level, PolishLevel::kOwn);
@@ -54,7 +54,7 @@ TEST(JudgePool, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
 TEST(JudgePool, LeavesAllStartsOutWhereTheShapeIsEnough) {
   const Comparison with = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 3, 10)});
   const auto pools = PoolProblems(with);
-  const Verdict verdict = JudgePool(pools[0]);
+  const SearchVerdict verdict = JudgePool(pools[0]);
   EXPECT_TRUE(verdict.shape_is_enough);
   EXPECT_TRUE(verdict.shape_wins);
   EXPECT_FALSE(verdict.search) << "it gets there by the shape's starts alone";
@@ -75,7 +75,7 @@ TEST(JudgePool, SetsRandomPointsBesideTheWinner) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 10), Hits("random", 10, 5, 10), Hits("random", 100, 7, 7)});
   const auto pools = PoolProblems(comparison);
-  const Verdict verdict = JudgePool(pools[0]);
+  const SearchVerdict verdict = JudgePool(pools[0]);
   EXPECT_EQ(verdict.search->contender->name, "mlo@10");
   ASSERT_TRUE(verdict.random);
   EXPECT_EQ(verdict.random->contender->name, "random@10") << "most hits, though not enough on";

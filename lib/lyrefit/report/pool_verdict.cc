@@ -39,7 +39,7 @@ std::string ShapeText(const Way& shape) {
                      Duration(shape.figures().seconds));
 }
 
-std::string SearchText(const Verdict& verdict) {
+std::string SearchText(const SearchVerdict& verdict) {
   if (verdict.search) {
     return fmt::format("of the searches {} reaches {} {}", verdict.search->contender->algorithm,
                        HitsText(*verdict.search), HowText(*verdict.search, "from"));
@@ -60,7 +60,7 @@ std::string RandomText(const Way& random) {
                      HowText(random, "at"));
 }
 
-std::string Headline(const Verdict& verdict) {
+std::string Headline(const SearchVerdict& verdict) {
   if (verdict.shape_wins) return "no search is needed";
   if (!verdict.search) return "nothing is enough";
   const std::string& name = verdict.search->contender->algorithm;
@@ -70,7 +70,7 @@ std::string Headline(const Verdict& verdict) {
 }  // namespace
 
 std::string VerdictText(const PooledProblem& pool) {
-  const Verdict verdict = JudgePool(pool);
+  const SearchVerdict verdict = JudgePool(pool);
   std::string text = fmt::format("{}: {}", pool.name, Headline(verdict));
   const char* separator = ": ";
   const auto add = [&](const std::string& part) {

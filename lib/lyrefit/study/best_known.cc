@@ -78,7 +78,7 @@ Reference BestKnownReference(const BestFound& runs, const BestKnown& known) {
   reference.origin = "best of all runs";
   if (known.points > 0) {
     const bool level = known.best.rmse_A <= reference.rmse_A * (1 + kPoolHit);
-    reference.by_multistart = better;
+    reference.by_multistart = known.best.rmse_A * (1 + kPoolHit) < runs.rmse_A;
     reference.points = known.points;
     reference.visits = level ? known.visits : 0;
     reference.origin +=

@@ -148,7 +148,7 @@ struct Reference {
   std::string origin;               // in plain words
   std::vector<double> parameters;   // in the device's order, effects in the units of reports
   bool interrupted = false;         // before there was a proof
-  bool by_multistart = false;       // no run came as low as the multistart (best_known.h)
+  bool by_multistart = false;       // no run came within 1e-6 of the multistart's (best_known.h)
   int points = 0;                   // random points that it polished
   int visits = 0;                   // those that ended within 1e-6 (relative) of the reference
 };

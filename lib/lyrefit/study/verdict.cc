@@ -50,8 +50,8 @@ std::optional<Way> OfKind(const PooledProblem& pool, ContenderKind kind) {
 
 int EnoughHits(int runs) { return static_cast<int>(std::ceil(kEnoughShare * runs - 1e-9)); }
 
-Verdict JudgePool(const PooledProblem& pool) {
-  Verdict verdict;
+SearchVerdict JudgePool(const PooledProblem& pool) {
+  SearchVerdict verdict;
   verdict.shape = OfKind(pool, ContenderKind::kShape);
   verdict.shape_is_enough = verdict.shape && verdict.shape->IsEnough();
   std::map<std::string, std::vector<const PooledContender*>> searches;

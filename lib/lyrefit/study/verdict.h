@@ -24,7 +24,7 @@ struct Way {
 // its hits are enough there and at every larger budget; of the ways that are, the least median time
 // of a run wins. Where starts from the shape alone are enough, "all starts", which has them, says
 // nothing of a search and does not count.
-struct Verdict {
+struct SearchVerdict {
   std::optional<Way> shape;   // where it was a contender, enough or not
   std::optional<Way> search;  // the winner, random points among the searches
   std::optional<Way> best;    // where none is enough: the most hits, then the least time
@@ -33,7 +33,7 @@ struct Verdict {
   bool shape_is_enough = false;
   bool shape_wins = false;  // it is enough, and no search that is enough is faster
 };
-Verdict JudgePool(const PooledProblem& pool);
+SearchVerdict JudgePool(const PooledProblem& pool);
 
 // The fit with its default settings against pagmo2's algorithms with the best bird's own polish.
 struct PeerRatio {

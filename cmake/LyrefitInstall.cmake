@@ -95,9 +95,12 @@ set(LYREFIT_PUBLIC_HEADERS
   study/compare.h
   study/coverage.h
   study/landscape.h
+  study/pool.h
+  study/pool_ranks.h
   study/rank_tests.h
   study/read_audit_rows.h
-  study/truth.h)
+  study/truth.h
+  study/verdict.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})

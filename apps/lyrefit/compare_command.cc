@@ -25,7 +25,7 @@ CompareCommand::CompareCommand(CommandLine* line)
                           "Compare search algorithms, pure and polished, over many runs")) {
   flags_.search.population = 100;
   flags_.search.iterations = 1000;
-  AddStudyFlags(verb_, &flags_);
+  AddStudyFlags(verb_, &flags_).Required();
   AddAlgorithmsFlag(verb_, &flags_);
   AddSearchRows(verb_,
                 {"population", "iterations", "memory-rate", "distance-coefficient", "de-scale",

@@ -22,7 +22,7 @@ SensitivityCommand::SensitivityCommand(CommandLine* line)
   flags_.search.population = 100;
   flags_.search.iterations = 1000;
   flags_.options.rankings = false;
-  AddStudyFlags(verb_, &flags_);
+  AddStudyFlags(verb_, &flags_).Required();
   const auto list = [this](const char* flag, const char* doc, std::string* target) {
     verb_->AddOption(flag, target, std::string(doc) + " (default " + *target + ")")
         .Type("LIST")

@@ -63,7 +63,7 @@ Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& fla
                    std::vector<CompareCurve>* curves) {
   Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
   if (!bounds) return tl::unexpected(bounds.error());
-  curves->push_back({std::move(curve), std::move(*bounds)});
+  curves->push_back(MakeSubject(std::move(curve), std::move(*bounds)));
   return {};
 }
 
@@ -109,6 +109,7 @@ Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& te
 }
 
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags) {
+  if (!flags.landscape.empty()) return LandscapeSubjects(flags);
   const bool choosing = !flags.at.empty() || !flags.curve_ids.empty();
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {

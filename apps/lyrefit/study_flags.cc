@@ -9,10 +9,9 @@
 
 namespace lyrefit {
 
-void AddStudyFlags(Verb* verb, StudyFlags* flags) {
-  verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders")
-      .Required()
-      .ReadsCurves();
+Flag AddStudyFlags(Verb* verb, StudyFlags* flags) {
+  Flag curves = verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders");
+  curves.ReadsCurves();
   AddConditionFlags(verb, &flags->conditions);
   verb->AddOption("--at", &flags->at,
                   "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as "
@@ -49,15 +48,18 @@ void AddStudyFlags(Verb* verb, StudyFlags* flags) {
   verb->AddOption("--csv", &flags->csv_file, "one row a run; - for standard output, alone")
       .Writes();
   verb->AddQuietSwitch();
+  return curves;
 }
 
 void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {
   const std::string peers = PagmoNames();
   const std::string pagmo = peers.empty() ? "; pagmo:NAME in a build with pagmo2"
                                           : "; pagmo:NAME with NAME one of " + peers;
-  verb->AddOption(
-          "--algorithms", &flags->algorithms,
-          "list of " + AllTexts<Algorithm>() + pagmo + " (default " + flags->algorithms + ")")
+  verb->AddOption("--algorithms", &flags->algorithms,
+                  "list of " + AllTexts<Algorithm>() +
+                      ", shape (starts from the curve's shape alone), "
+                      "default (the fit with its default settings)" +
+                      pagmo + " (default " + flags->algorithms + ")")
       .Type("LIST")
       .Group("Search");
 }
@@ -123,10 +125,14 @@ Expected<std::vector<Model>> ParseModels(const std::string& text) {
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search) {
   const std::string pagmo = "pagmo:";
   if (name.rfind(pagmo, 0) == 0) return PagmoContender(name.substr(pagmo.size()), search);
+  for (const ContenderKind kind : {ContenderKind::kShape, ContenderKind::kDefault}) {
+    if (name == ToText(kind)) return OwnContender(kind);
+  }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
   if (!algorithm) {
-    return Fail(fmt::format("--algorithms: expected a list of {} or pagmo:NAME, found '{}'",
-                            AllTexts<Algorithm>(), name));
+    return Fail(
+        fmt::format("--algorithms: expected a list of {}, shape, default or pagmo:NAME, found '{}'",
+                    AllTexts<Algorithm>(), name));
   }
   return PlainContenders({*algorithm}, search)[0];
 }

@@ -24,13 +24,21 @@ struct StudyFlags {
   CompareOptions options;
   SearchOptions search;
   std::vector<std::string> with;
+  std::string landscape;  // made problems instead of curves: "strings_2,strings_3", "all"
+  int devices = 50;       // of each
   bool no_polish = false;
   std::string json_file;
   std::string csv_file;
 };
 
-// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
-void AddStudyFlags(Verb* verb, StudyFlags* flags);
+// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves
+// comes back: whether it is required is the verb's to say.
+Flag AddStudyFlags(Verb* verb, StudyFlags* flags);
+// --landscape, --devices and --multistart. What goes without them is refused by CheckLandscape().
+void AddLandscapeFlags(Verb* verb, StudyFlags* flags);
+// Either curves or made problems, and nothing said of these that they say themselves. Of a study of
+// problems with effects the defaults of runs and multistart.
+Expected<void> CheckLandscape(const Verb& verb, StudyFlags* flags);
 void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags);
 // The rows of the search's option table with these names; `flags->search` holds the defaults.
 void AddSearchRows(Verb* verb, const std::vector<std::string>& names, StudyFlags* flags);
@@ -50,8 +58,12 @@ struct StudyCondition {
 // "1000x25,200x25" given to --at.
 Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text);
 
-// The curves of all files, with their bounds; of sets those that --curves and --at name.
+// The made problems of --landscape, or the curves of all files, with their bounds; of sets those
+// that --curves and --at name.
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
+
+// The devices of --landscape.
+Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // One algorithm by its name, and those of --algorithms, with these settings.
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search);

@@ -16,6 +16,7 @@ inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& co
   problem.bounds_name = "literature";
   problem.reference = {
       kBest, false, kUnknown, kUnknown, "best of all runs", {0.76, 3e-7, 1.48, 0.036, 53}};
+  problem.parameters = {"photocurrent", "saturation_current", "n", "Rs", "Rsh"};
   std::vector<std::vector<double>> searched, polished;
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     std::vector<RunOutcome> outcomes(4);

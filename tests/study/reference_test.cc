@@ -9,7 +9,7 @@ namespace lyrefit {
 namespace {
 
 CompareCurve Rtc(double upper_n) {
-  CompareCurve subject{*ReadCurve(LYREFIT_DATA_DIR "/rtc_france"), {}};
+  CompareCurve subject = MakeSubject(*ReadCurve(LYREFIT_DATA_DIR "/rtc_france"), {});
   subject.bounds.name = "own";
   subject.bounds.table = {
       {"Iph", {0, 10}}, {"Is", {0, 1e-5}}, {"n", {1, upper_n}}, {"Rs", {0, 2}}, {"Rsh", {0, 100}}};

@@ -13,7 +13,7 @@ namespace lyrefit {
 inline CompareCurve RtcFrance(const std::string& bounds = "physical") {
   const auto curve = ReadCurve(std::string(LYREFIT_DATA_DIR) + "/rtc_france");
   EXPECT_TRUE(curve) << curve.error().ToString();
-  CompareCurve subject{*curve, {}};
+  CompareCurve subject = MakeSubject(*curve, {});
   subject.bounds.name = bounds;
   return subject;
 }

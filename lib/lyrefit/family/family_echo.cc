@@ -33,6 +33,10 @@ std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options) {
   echo("weights", ToText(options.weights), ToText(defaults.weights));
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
   AppendNonDefaults(options.search, defaults.search, kSearchOptionTable, &echoes);
+  if (options.searcher) echo("search", "of its own", "");
+  if (options.starts != StartsFrom::kAll) {
+    echo("starts", options.starts == StartsFrom::kShape ? "shape" : "search", "all");
+  }
   echo("search-curves", NumberText(options.search_curves), NumberText(defaults.search_curves));
   echo("fit-curves", NumberText(options.fit_curves), NumberText(defaults.fit_curves));
   echo("irradiance-offset", options.irradiance_offset ? "yes" : "no", "no");

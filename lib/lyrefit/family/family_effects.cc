@@ -180,6 +180,21 @@ std::vector<FitPoint> OtherValleys(const FamilyProblem& family, const JointProbl
 
 }  // namespace
 
+std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOptions& options,
+                                     const std::vector<int>& search_curves,
+                                     std::vector<JointPoint> starts, std::ptrdiff_t elites,
+                                     const Observer& observer) {
+  const auto others = starts.begin() + elites;
+  std::vector<JointPoint> birds(starts.begin(), others);
+  if (options.starts == StartsFrom::kSearch) return birds;
+  if (options.starts == StartsFrom::kShape && others != starts.end()) {
+    starts.erase(starts.begin(), others);
+    birds.clear();
+  }
+  if (!family.translation.extended) return starts;
+  return FamilyEffectStarts(family, options, search_curves, birds, std::move(starts), observer);
+}
+
 QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
                 const JointProblem& problem, const JointEnd& end, const Observer& observer) {
   QuotedFit quoted{family, problem, end, {}};

@@ -22,6 +22,13 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer);
 
+// The starts of a joint fit: of `starts`, the first so many of which are the search's elites, those
+// that the options let in; with effects as FamilyEffectStarts has them.
+std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOptions& options,
+                                     const std::vector<int>& search_curves,
+                                     std::vector<JointPoint> starts, std::ptrdiff_t elites,
+                                     const Observer& observer);
+
 // A joint fit as it is judged: with the effects' parameters in the units of reports, and beside
 // other optima where intervals are asked for. Without effects as it is.
 struct QuotedFit {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/kernel.h"
@@ -62,13 +63,19 @@ class SharedObjective {
 
 }  // namespace
 
-FamilySearchEnd SearchFamily(const FamilyProblem& family, const FamilyOptions& options,
-                             const std::vector<int>& curves, const Observer& observer) {
+Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const FamilyOptions& options,
+                                       const std::vector<int>& curves, const Observer& observer) {
   const JointProblem problem = JointProblemOn(family, options, curves);
   const SharedObjective shared(family, problem);
   const ObjectiveFunction objective = [&](const double* x) { return shared(x); };
   FamilySearchEnd end;
-  end.summary = Search(objective, shared.box(), options.search, observer);
+  if (options.searcher) {
+    end.summary = options.searcher(objective, shared.box(), options.search, observer);
+    const auto valid = CheckBirds(objective, shared.box(), &end.summary);
+    if (!valid) return tl::unexpected(valid.error());
+  } else {
+    end.summary = Search(objective, shared.box(), options.search, observer);
+  }
   for (const Bird& bird : end.summary.elites) end.elites.push_back(shared.Point(bird.x.data()));
   const bool stopped = end.summary.termination == SearchTermination::kInterrupted;
   if (options.random_baseline && !stopped && options.search.algorithm != Algorithm::kRandom) {

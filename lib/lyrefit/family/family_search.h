@@ -14,8 +14,9 @@ struct FamilySearchEnd {
   bool has_random = false;
 };
 
-FamilySearchEnd SearchFamily(const FamilyProblem& family, const FamilyOptions& options,
-                             const std::vector<int>& curves, const Observer& observer);
+// Error: a search of the user's own came back with what is no bird of the box.
+Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const FamilyOptions& options,
+                                       const std::vector<int>& curves, const Observer& observer);
 
 // Root mean square of both residuals over all points of the given curves, unweighted. `local` holds
 // one entry for each of them.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/family_echo.h"
@@ -20,6 +21,7 @@
 #include "lyrefit/family/odd_curves.h"
 #include "lyrefit/family/spread_curves.h"
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 
@@ -103,9 +105,11 @@ void FitFreely(Job* job, FamilyReport* report) {
   }
 }
 
-void SearchShared(Job* job, FamilyReport* report) {
-  const FamilySearchEnd end =
+Expected<void> SearchShared(Job* job, FamilyReport* report) {
+  const Expected<FamilySearchEnd> searched =
       SearchFamily(job->family, job->options, job->search_curves, job->observer);
+  if (!searched) return tl::unexpected(searched.error());
+  const FamilySearchEnd& end = *searched;
   job->stopped = end.summary.termination == SearchTermination::kInterrupted;
   report->search = end.summary;
   for (const int c : job->search_curves) report->search_ids.push_back(job->set.curves[c].name);
@@ -117,6 +121,22 @@ void SearchShared(Job* job, FamilyReport* report) {
   job->elites = static_cast<std::ptrdiff_t>(end.elites.size());
   const std::vector<double>& shared = job->searched.shared;
   report->searched.assign(shared.begin(), shared.begin() + job->family.translation.size());
+  return {};
+}
+
+// What becomes of the best bird by itself.
+void FollowBird(Job* job, const JointProblem& problem, FamilyReport* report) {
+  const BirdEnds ends = PolishBird(job->family, job->options, job->search_curves, job->searched,
+                                   job->observer, problem);
+  report->rmse.plain_polished = FamilyRmse(problem, ends.plain.point);
+  report->rmse.best_bird_polished = FamilyRmse(problem, ends.own.point);
+  const Translation& at = job->family.translation;
+  report->best_bird_polished =
+      at.extended ? ReportedShared(at, ends.own.point.shared) : ends.own.point.shared;
+  report->best_bird_polished.resize(at.size());
+  report->plain_seconds = ends.plain_seconds;
+  report->best_bird_seconds = ends.own_seconds;
+  job->stopped = job->stopped || ends.plain.stopped || ends.own.stopped;
 }
 
 // What the curve's own fit gives beyond the shared parameters.
@@ -223,13 +243,13 @@ void Refine(Job* job, FamilyReport* report) {
   JointPoint bird = job->searched;
   bird.local.assign(problem.curves.size(), {0, 0});
   report->rmse.searched_all = FamilyRmse(problem, bird);
-  if (job->family.translation.extended) {
-    const std::vector<JointPoint> elites(job->starts.begin(), job->starts.begin() + job->elites);
-    job->starts = FamilyEffectStarts(job->family, job->options, job->search_curves, elites,
-                                     job->starts, job->observer);
-  }
+  if (job->options.plain_polish) FollowBird(job, problem, report);
+  const auto begin = std::chrono::steady_clock::now();
+  job->starts = ChooseStarts(job->family, job->options, job->search_curves, std::move(job->starts),
+                             job->elites, job->observer);
   const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
                                   job->observer, &problem);
+  report->joint_seconds = SecondsSince(begin);
   report->termination = end.stopped     ? "interrupted"
                         : end.converged ? "converged"
                                         : "no convergence";
@@ -255,11 +275,8 @@ void Refine(Job* job, FamilyReport* report) {
   }
 }
 
-}  // namespace
-
-Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
-                                 const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
+// The problem, if it can be fitted.
+Expected<FamilyProblem> CheckedProblem(const CurveSet& set, const FamilyOptions& options) {
   if (auto threads = ValidateThreads(options.threads); !threads) {
     return tl::unexpected(threads.error());
   }
@@ -268,19 +285,37 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   if (auto checked = CheckAgainst(*family, options); !checked) {
     return tl::unexpected(checked.error());
   }
-  Job job{set, options, observer, std::move(*family), {}, {}, {}, 0, {}, false};
-  const std::vector<int>& fitted = job.family.curves.fitted;
   std::size_t points = 0;
-  for (const int c : fitted) points += set.curves[c].size();
-  if (static_cast<int>(points) <= job.family.free_parameters) {
+  for (const int c : family->curves.fitted) points += set.curves[c].size();
+  if (static_cast<int>(points) <= family->free_parameters) {
     return Fail(fmt::format("{} points cannot determine {} shared parameters", points,
-                            job.family.free_parameters),
+                            family->free_parameters),
                 set.source);
   }
+  return family;
+}
+
+}  // namespace
+
+Expected<Translation> CheckFamily(const CurveSet& set, const FamilyOptions& options) {
+  Expected<FamilyProblem> family = CheckedProblem(set, options);
+  if (!family) return tl::unexpected(family.error());
+  return std::move(family->translation);
+}
+
+Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
+                                 const Observer& observer) {
+  const auto begin = std::chrono::steady_clock::now();
+  Expected<FamilyProblem> family = CheckedProblem(set, options);
+  if (!family) return tl::unexpected(family.error());
+  Job job{set, options, observer, std::move(*family), {}, {}, {}, 0, {}, false};
+  const std::vector<int>& fitted = job.family.curves.fitted;
   job.search_curves = SpreadCurves(ConditionsOf(job.family.curves), fitted, options.search_curves);
   FamilyReport report = Head(job);
   DescribeCurves(job, &report);
-  SearchShared(&job, &report);
+  if (auto searched = SearchShared(&job, &report); !searched) {
+    return tl::unexpected(searched.error());
+  }
   if (!job.stopped) FitFreely(&job, &report);
   if (!job.stopped) {
     Refine(&job, &report);

@@ -10,6 +10,7 @@
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/error_spec.h"
+#include "lyrefit/fit/fit.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/search/search.h"
 
@@ -48,9 +49,13 @@ struct FamilyOptions {
   ErrorSpec errors;            // of curves fitted one by one, as in FitOptions
   FamilyWeights weights = FamilyWeights::kEqual;
   SearchOptions search = FamilySearch();
-  int search_curves = 6;  // the search sees so many well-spread curves
-  int fit_curves = 0;     // the joint fit sees so many well-spread curves, the others are held out
-                          // and tested; 0: all
+  SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
+  // Where the joint fit begins: kShape leaves out the search's birds, kSearch all but these.
+  StartsFrom starts = StartsFrom::kAll;
+  bool plain_polish = false;  // what becomes of the best bird by itself, as in FitOptions
+  int search_curves = 6;      // the search sees so many well-spread curves
+  int fit_curves = 0;  // the joint fit sees so many well-spread curves, the others are held out
+                       // and tested; 0: all
   // One common error of each sensor, as shared unknowns: true = reading + offset.
   bool irradiance_offset = false;
   bool temperature_offset = false;
@@ -83,6 +88,9 @@ struct FamilyOptions {
 // names.
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options = {},
                                  const Observer& observer = {});
+
+// What FitFamily() would object to before its search, and else the law that it would fit.
+Expected<Translation> CheckFamily(const CurveSet& set, const FamilyOptions& options);
 
 // De Soto and PVsyst with one and two diodes on the same curves, with `candidates` filled in. Of
 // the laws whose error on held-out curves is within one standard error of the lowest, the one with

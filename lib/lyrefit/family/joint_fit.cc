@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 
@@ -67,6 +68,24 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   }
   best.stopped = watch.Stopped();
   return best;
+}
+
+BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const JointPoint& bird,
+                    const Observer& observer, JointProblem problem) {
+  BirdEnds ends;
+  JointPoint start = bird;
+  start.local.assign(problem.curves.size(), {0, 0});
+  SharedObserver watch(observer, "joint fit", 0);
+  JointOptions how;
+  how.proceed = watch.Proceed();
+  auto begin = std::chrono::steady_clock::now();
+  ends.plain = RefineJointlyPlainly(problem, start, how);
+  ends.plain_seconds = SecondsSince(begin);
+  begin = std::chrono::steady_clock::now();
+  ends.own = FitJointly(family, options, search_curves, {bird}, observer, &problem);
+  ends.own_seconds = SecondsSince(begin);
+  return ends;
 }
 
 std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,

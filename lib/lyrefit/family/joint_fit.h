@@ -15,6 +15,18 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
                     const Observer& observer, JointProblem* problem);
 
+// What becomes of the search's best bird by itself: after one bounded solve of all curves, and
+// after a joint fit that begins at it alone.
+struct BirdEnds {
+  JointEnd plain;
+  JointEnd own;
+  double plain_seconds = 0;
+  double own_seconds = 0;
+};
+BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const JointPoint& bird,
+                    const Observer& observer, JointProblem problem);
+
 // A start from a curve's own fit: its parameters brought to the reference by the usual
 // coefficients. Empty where they do not go there.
 std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
@@ -141,16 +142,17 @@ void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
   const bool extended = !job->forms.empty();
   const RefineProblem problem =
       extended ? InForm(job->problem, job->forms[bird.form], bird.p) : job->problem;
-  report->rmse.plain_polished =
-      BothRmse(report->device, RefinePlainly(problem, bird.p).p, job->curve);
-  const auto begin = std::chrono::steady_clock::now();
+  auto begin = std::chrono::steady_clock::now();
+  const RefineEnd plain = RefinePlainly(problem, bird.p);
+  report->plain_seconds = SecondsSince(begin);
+  report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
+  begin = std::chrono::steady_clock::now();
   RefineOptions how;
   how.stop = job->watch.stop();
   report->best_bird_polished = extended
                                    ? Refine(problem, bird.p, how).p
                                    : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;
-  report->refine.best_bird_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report->refine.best_bird_seconds = SecondsSince(begin);
 }
 
 // Polishes, finds intervals around what is usable, and says where the polish ended.
@@ -222,6 +224,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.searched = report.refined = best.p;
   OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
+  if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
     PolishAndJudge(&job, *birds, space, &report);

@@ -107,6 +107,13 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   return {};
 }
 
+double FormPrice(const FitJob& job, int form) {
+  const double price = FormFactor(job.problem, job.forms[form]);
+  double lowest = price;
+  for (const Form& other : job.forms) lowest = std::min(lowest, FormFactor(job.problem, other));
+  return price / lowest;
+}
+
 void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report) {
   const Form& own = job->forms[form];
   const int first = job->base_size();
@@ -124,6 +131,7 @@ void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* 
   extension->usual = own.usual;
   job->free_parameters = own.free;
   for (int i = 0; i < first; ++i) job->free_parameters += std::isnan(job->fixed[i]) ? 1 : 0;
+  report->form_price = FormPrice(*job, form);
   report->device.extension = std::move(extension);
   job->problem.device = report->device;
   job->few = Thin(job->problem);

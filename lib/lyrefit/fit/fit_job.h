@@ -31,6 +31,9 @@ struct FitJob {
 // Checks the curve and the options; the device, bounds and the problem to solve.
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
 
+// See FitReport::form_price.
+double FormPrice(const FitJob& job, int form);
+
 // Settles for one of the forms, what is a whole number at what `p` says: bounds, problem and the
 // effects of the device that is reported.
 void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report);

@@ -212,8 +212,14 @@ struct FitReport {
   SearchOptions search_options;
   SearchSummary search;
   RefineReport refine;
+  // What the RMSE is multiplied by where forms are weighed against each other as BIC does it:
+  // points ^ (free parameters beyond those of the smallest form / 2 points). Of the answer, and of
+  // the best bird and its own polish; 1 where there is one form.
+  double form_price = 1;
+  double best_bird_price = 1;
   std::vector<FormReport> forms;  // of effects that have several; one is chosen
   double interval_seconds = 0;
+  double plain_seconds = kUnknown;    // of the best bird's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for
   std::optional<ModelChoice> choice;  // of `auto`
   // Of an extended model: ids of the effects beside the diodes, and how many curves under

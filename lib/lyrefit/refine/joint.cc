@@ -41,6 +41,18 @@ void AddSquares(const JointProblem& problem, const FamilyModel& model, const Fit
   }
 }
 
+JointEnd EndOf(const JointProblem& problem, const FamilyModel& model, RefineEnd found) {
+  JointEnd end;
+  AddSquares(problem, model, found, &end);
+  end.point = model.Unpack(found);
+  end.converged = found.converged;
+  end.stopped = found.stopped;
+  end.iterations = found.iterations;
+  end.projected_gradient = found.projected_gradient;
+  end.held = std::move(found.held);
+  return end;
+}
+
 }  // namespace
 
 void FindJointScales(JointProblem* problem) {
@@ -88,15 +100,13 @@ JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
     const double pivot = problem.voltage_scale_V / at.device.module_thermal_voltage_V;
     found.p[is] = problem.current_scale_A * std::exp(kAbsent - pivot / found.p[at.n_2]);
   }
-  JointEnd end;
-  AddSquares(problem, model, found, &end);
-  end.point = model.Unpack(found);
-  end.converged = found.converged;
-  end.stopped = found.stopped;
-  end.iterations = found.iterations;
-  end.projected_gradient = found.projected_gradient;
-  end.held = std::move(found.held);
-  return end;
+  return EndOf(problem, model, std::move(found));
+}
+
+JointEnd RefineJointlyPlainly(const JointProblem& problem, const JointPoint& start,
+                              const JointOptions& options) {
+  const FamilyModel model(problem);
+  return EndOf(problem, model, RefineModelPlainly(model, model.Pack(start), HowToRefine(options)));
 }
 
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance) {

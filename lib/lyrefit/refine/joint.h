@@ -97,6 +97,10 @@ struct JointOptions {
 JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
                        const JointOptions& options = {});
 
+// RefineModelPlainly of a joint problem.
+JointEnd RefineJointlyPlainly(const JointProblem& problem, const JointPoint& start,
+                              const JointOptions& options = {});
+
 // FindSpread of a joint problem at the end of its fit, `variance` that of a point of weight 1.
 struct JointSpread : Spread {
   std::vector<JointLocal> local_errors;  // standard errors of the curves' own unknowns

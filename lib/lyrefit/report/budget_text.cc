@@ -8,6 +8,7 @@
 #include "lyrefit/report/compare_text.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/pool.h"
 
 namespace lyrefit {
 namespace {
@@ -180,18 +181,26 @@ std::string BudgetOf(const Comparison& comparison, const ProblemResult& problem)
 }  // namespace
 
 std::string BudgetText(const Comparison& comparison) {
+  const std::size_t pools = PoolProblems(comparison).size();
+  std::string where = Plural(comparison.problems.size(), pools > 0 ? "device" : "problem");
+  if (pools > 0) where += " of " + Plural(pools, "problem");
   std::string text = InterruptedLine(comparison);
   text += fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}\n",
-                      comparison.version, Plural(comparison.options.runs, "run"),
-                      Plural(comparison.problems.size(), "problem"));
+                      comparison.version, Plural(comparison.options.runs, "run"), where);
   text += SetUpSection(comparison);
   text += Field("budget",
                 "columns are evaluations of one search; its population is about their root, 4 to "
                 "100; the polish comes on top");
-  text += Field("hit", "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference");
+  text += Field(
+      "hit", pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
+                         "have several forms, RMSEs count as BIC prices their parameters"
+                       : "a run within 1e-6 (search alone) or 1e-9 (polished) of the "
+                         "reference");
   text += Field("time", Duration(comparison.seconds));
-  for (const ProblemResult& problem : comparison.problems) text += BudgetOf(comparison, problem);
-  return text;
+  for (const ProblemResult& problem : comparison.problems) {
+    if (problem.problem.empty()) text += BudgetOf(comparison, problem);
+  }
+  return text + PoolSections(comparison);
 }
 
 }  // namespace lyrefit

@@ -1,20 +1,19 @@
 #include "lyrefit/report/compare_json.h"
 
-#include "lyrefit/law/device.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/report/pool_json.h"
+#include "lyrefit/report/rank_json.h"
 
 namespace lyrefit {
 namespace {
 
 Json Seconds(double value) { return {{"seconds", Number(value)}}; }
 
-Json ReferenceJson(const ProblemResult& problem, const CompareOptions& options) {
+Json ReferenceJson(const ProblemResult& problem) {
   const Reference& reference = problem.reference;
-  std::vector<ParameterInfo> infos = MakeDevice(problem.model, Conditions{}).parameters;
-  AddInfos(options.with, &infos);
   Json parameters = Json::object();
-  for (std::size_t i = 0; i < reference.parameters.size() && i < infos.size(); ++i) {
-    parameters[infos[i].name] = Number(reference.parameters[i]);
+  for (std::size_t i = 0; i < reference.parameters.size() && i < problem.parameters.size(); ++i) {
+    parameters[problem.parameters[i]] = Number(reference.parameters[i]);
   }
   return {{"rmse_A", Number(reference.rmse_A)},
           {"certified", reference.certified},
@@ -33,7 +32,7 @@ Json SpreadJson(const Spread& spread) {
           {"within_1e6", spread.within_1e6}};
 }
 
-Json RunsJson(const std::vector<RunRecord>& runs) {
+Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
   Json list = Json::array();
   for (const RunRecord& run : runs) {
     const bool hit = run.evaluations_to_target >= 0;
@@ -46,6 +45,12 @@ Json RunsJson(const std::vector<RunRecord>& runs) {
                     {"evaluations_to_target", hit ? Json(run.evaluations_to_target) : Json()},
                     {"search", Seconds(run.search_seconds)},
                     {"refine", Seconds(run.polish_seconds)}});
+    if (!pooled) continue;
+    Json& json = list.back();
+    json["plain"] = Seconds(run.plain_seconds);
+    json["best_bird"] = Seconds(run.own_seconds);
+    json["best_bird_parameters"] = Numbers(run.own_parameters);
+    json["refined_parameters"] = Numbers(run.parameters);
   }
   return list;
 }
@@ -63,7 +68,7 @@ Json SettingsJson(const SearchOptions& search) {
           {"elites", search.elites}};
 }
 
-Json ContenderJson(const ContenderResult& contender) {
+Json ContenderJson(const ContenderResult& contender, const ProblemResult& problem) {
   Json evaluations = Json::array();
   Json best = Json::array();
   for (const MedianPoint& point : contender.trace) {
@@ -84,68 +89,38 @@ Json ContenderJson(const ContenderResult& contender) {
           {"search", Seconds(contender.search_seconds)},
           {"refine", Seconds(contender.polish_seconds)},
           {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
-          {"runs", RunsJson(contender.runs)}};
+          {"runs", RunsJson(contender.runs, !problem.problem.empty())}};
 }
 
-Json PairsJson(const ProblemResult& problem, const Ranking& ranking) {
-  Json list = Json::array();
-  for (const RankPair& pair : ranking.pairs) {
-    list.push_back({{"first", problem.contenders[pair.first].name},
-                    {"second", problem.contenders[pair.second].name},
-                    {"mean_rank_difference", Number(pair.difference)},
-                    {"low_95", Number(pair.low_95)},
-                    {"high_95", Number(pair.high_95)},
-                    {"p_value", Number(pair.p_value)},
-                    {"p_sidak", Number(pair.p_sidak)},
-                    {"p_holm", Number(pair.p_holm)}});
-  }
-  return list;
+std::vector<std::string> ContenderNames(const ProblemResult& problem) {
+  std::vector<std::string> names;
+  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
+  return names;
 }
 
-Json SignedRanksJson(const ProblemResult& problem, const Ranking& ranking) {
-  Json list = Json::array();
-  for (const Ranking::SignedRank& pair : ranking.signed_ranks) {
-    const Wilcoxon& test = pair.test;
-    list.push_back({{"first", problem.contenders[pair.first].name},
-                    {"second", problem.contenders[pair.second].name},
-                    {"pairs", test.pairs},
-                    {"zeros", test.zeros},
-                    {"ties", test.ties},
-                    {"rank_sum_plus", Number(test.rank_sum_plus)},
-                    {"rank_sum_minus", Number(test.rank_sum_minus)},
-                    {"p_value", Number(test.p_value)},
-                    {"exact", test.exact},
-                    {"p_normal", Number(test.p_normal)},
-                    {"smallest_p", Number(test.smallest_p)},
-                    {"p_holm", Number(pair.p_holm)}});
-  }
-  return list;
-}
-
-// Null where nothing was ranked.
-Json RankingJson(const ProblemResult& problem, const Ranking& ranking) {
-  if (ranking.friedman.contenders == 0) return nullptr;
-  return {{"friedman",
-           {{"blocks", ranking.friedman.blocks},
-            {"mean_rank", Numbers(ranking.friedman.mean_rank)},
-            {"chi_square", Number(ranking.friedman.chi_square)},
-            {"p_value", Number(ranking.friedman.p_value)}}},
-          {"dunn", PairsJson(problem, ranking)},
-          {"wilcoxon", SignedRanksJson(problem, ranking)}};
-}
-
-Json ProblemJson(const ProblemResult& problem, const CompareOptions& options) {
+Json ProblemJson(const ProblemResult& problem) {
   Json contenders = Json::array();
-  for (const ContenderResult& c : problem.contenders) contenders.push_back(ContenderJson(c));
-  return {{"curve", problem.curve_name},
-          {"model", ToText(problem.model)},
-          {"bounds", problem.bounds_name},
-          {"complete", problem.complete},
-          {"reference", ReferenceJson(problem, options)},
-          {"contenders", std::move(contenders)},
-          {"ranking",
-           {{"searched", RankingJson(problem, problem.searched)},
-            {"refined", RankingJson(problem, problem.polished)}}}};
+  for (const ContenderResult& c : problem.contenders)
+    contenders.push_back(ContenderJson(c, problem));
+  Json json = {{"curve", problem.curve_name},
+               {"model", ToText(problem.model)},
+               {"bounds", problem.bounds_name},
+               {"complete", problem.complete},
+               {"reference", ReferenceJson(problem)},
+               {"contenders", std::move(contenders)},
+               {"ranking",
+                {{"searched", RankingJson(ContenderNames(problem), problem.searched)},
+                 {"refined", RankingJson(ContenderNames(problem), problem.polished)}}}};
+  if (problem.problem.empty()) return json;
+  json["problem"] = problem.problem;
+  if (const Reference& reference = problem.reference; reference.points > 0) {
+    json["reference"]["multistart"] = {{"found_by_it_alone", reference.by_multistart},
+                                       {"random_points", reference.points},
+                                       {"visits", reference.visits}};
+  }
+  json["objective"] = ToText(problem.objective);
+  for (const EffectUse& use : problem.with) json["with"].push_back(DescribeUse(use));
+  return json;
 }
 
 }  // namespace
@@ -167,8 +142,10 @@ std::string CompareJson(const Comparison& comparison) {
   json["warnings"] = comparison.doubts;
   json["problems"] = Json::array();
   for (const ProblemResult& problem : comparison.problems) {
-    json["problems"].push_back(ProblemJson(problem, options));
+    json["problems"].push_back(ProblemJson(problem));
   }
+  if (Json pools = PoolsJson(comparison); !pools.empty()) json["pools"] = std::move(pools);
+  if (options.multistart > 0) json["multistart"] = options.multistart;
   // Names and files may hold bytes that are not UTF-8.
   return JsonText(json, 1);
 }

@@ -25,7 +25,8 @@ Expected<void> PlotConvergence(const Comparison& comparison, const std::string& 
 }
 
 Expected<void> PlotBudget(const Comparison& comparison, const std::string& path) {
-  return Draw(BudgetScript, comparison, path);
+  const bool pooled = !comparison.problems.empty() && !comparison.problems[0].problem.empty();
+  return Draw(pooled ? PoolScript : BudgetScript, comparison, path);
 }
 
 }  // namespace lyrefit

@@ -22,41 +22,26 @@ bool FirstIsBetter(const SignedRank& pair) {
   return pair.test.rank_sum_plus < pair.test.rank_sum_minus;
 }
 
+std::vector<std::string> NamesOf(const ProblemResult& problem) {
+  std::vector<std::string> names;
+  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
+  return names;
+}
+
 // "mlo 1.20, de 1.80, ...", the best first.
-std::string MeanRanks(const ProblemResult& problem, const Friedman& friedman) {
+std::string MeanRanks(const std::vector<std::string>& names, const Friedman& friedman) {
   std::vector<int> order(friedman.mean_rank.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return friedman.mean_rank[a] < friedman.mean_rank[b]; });
   std::string text;
   for (const int c : order) {
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", problem.contenders[c].name,
-                        friedman.mean_rank[c]);
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", names[c], friedman.mean_rank[c]);
   }
   const bool level = friedman.mean_rank[order.front()] == friedman.mean_rank[order.back()];
   if (level) text = fmt::format("all {:.2f}", friedman.mean_rank[0]);
   return text + fmt::format("; chi-square {:.4g} with {} degrees of freedom, p = {}",
                             friedman.chi_square, friedman.contenders - 1, PText(friedman.p_value));
-}
-
-// One line for each contender that is better than others beyond chance.
-std::string Winners(const ProblemResult& problem, const Ranking& ranking) {
-  std::string text;
-  for (int c = 0; c < static_cast<int>(problem.contenders.size()); ++c) {
-    std::string losers;
-    double largest_p = 0;
-    for (const SignedRank& pair : ranking.signed_ranks) {
-      const int winner = FirstIsBetter(pair) ? pair.first : pair.second;
-      if (pair.p_holm >= kSignificant || winner != c) continue;
-      const int loser = pair.first + pair.second - winner;
-      losers += (losers.empty() ? "" : ", ") + problem.contenders[loser].name;
-      largest_p = std::max(largest_p, pair.p_holm);
-    }
-    if (losers.empty()) continue;
-    text += Wrap("    ", fmt::format("{} below {} (p at most {})", problem.contenders[c].name,
-                                     losers, PText(largest_p)));
-  }
-  return text;
 }
 
 // Differences that are significant and mean nothing: both algorithms always end at the reference.
@@ -127,15 +112,34 @@ std::string TestsOf(const ProblemResult& problem, const Ranking& ranking, const 
   const int runs = ranking.friedman.blocks;
   const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
   std::string text = fmt::format("  Ranks, {}: Friedman over {} runs\n", stage, runs);
-  text += Wrap("    ", MeanRanks(problem, ranking.friedman));
+  text += Wrap("    ", MeanRanks(NamesOf(problem), ranking.friedman));
   text += fmt::format(
       "  Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} apart)\n",
       stage, ranking.signed_ranks.size(),
       std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart));
-  return text + Winners(problem, ranking);
+  return text + WinnersText(NamesOf(problem), ranking);
 }
 
 }  // namespace
+
+std::string WinnersText(const std::vector<std::string>& names, const Ranking& ranking) {
+  std::string text;
+  for (int c = 0; c < static_cast<int>(names.size()); ++c) {
+    std::string losers;
+    double largest_p = 0;
+    for (const SignedRank& pair : ranking.signed_ranks) {
+      const int winner = FirstIsBetter(pair) ? pair.first : pair.second;
+      if (pair.p_holm >= kSignificant || winner != c) continue;
+      const int loser = pair.first + pair.second - winner;
+      losers += (losers.empty() ? "" : ", ") + names[loser];
+      largest_p = std::max(largest_p, pair.p_holm);
+    }
+    if (losers.empty()) continue;
+    text +=
+        Wrap("    ", fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
+  }
+  return text;
+}
 
 std::string RankSection(const ProblemResult& problem) {
   return TestsOf(problem, problem.searched, "search alone") +

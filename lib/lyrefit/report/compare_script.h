@@ -11,5 +11,7 @@ namespace lyrefit {
 std::string BoxScript(const Comparison& comparison, const std::string& terminal);
 std::string ConvergenceScript(const Comparison& comparison, const std::string& terminal);
 std::string BudgetScript(const Comparison& comparison, const std::string& terminal);
+// pool_script.cc: the same of pooled problems.
+std::string PoolScript(const Comparison& comparison, const std::string& terminal);
 
 }  // namespace lyrefit

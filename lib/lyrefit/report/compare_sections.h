@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/study/compare.h"
 
@@ -29,6 +30,13 @@ std::string OverviewSection(const Comparison& comparison);
 
 // compare_ranks.cc: Friedman and Wilcoxon of one problem.
 std::string RankSection(const ProblemResult& problem);
+
+// The same file: one line for each of `names`, as the ranks count them, that is better than others
+// beyond chance.
+std::string WinnersText(const std::vector<std::string>& names, const Ranking& ranking);
+
+// pool_text.cc: problems of many basins; nothing where there are none.
+std::string PoolSections(const Comparison& comparison);
 
 // What the polish left of the ranking, in one sentence.
 std::string PolishVerdict(const ProblemResult& problem);

@@ -138,9 +138,16 @@ std::string InterruptedLine(const Comparison& comparison) {
 
 std::string SetUpSection(const Comparison& comparison) {
   const CompareOptions& options = comparison.options;
+  const bool one = std::all_of(comparison.problems.begin(), comparison.problems.end(),
+                               [&](const ProblemResult& problem) {
+                                 return problem.problem.empty() || !options.with.empty();
+                               });
   std::string text =
-      Field("objective", fmt::format("{}: of search, polish and every RMSE below; constants {}",
-                                     ObjectiveText(comparison), ToText(options.constants)));
+      one ? Field("objective",
+                  fmt::format("{}: of search, polish and every RMSE below; constants {}",
+                              ObjectiveText(comparison), ToText(options.constants)))
+          : Field("objective", "of search, polish and RMSE: as each problem says; constants " +
+                                   ToText(options.constants));
   const std::string budget = CommonBudget(comparison);
   if (!budget.empty()) text += Field("budget", budget + " a run");
   const char* const common = budget.empty() ? "" : ": in each run all start from the same points";

@@ -8,7 +8,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kPanelHeight = 300;
 constexpr int kLeft = 96;  // room for the axis of the panels on the left
 constexpr int kGap = 64;   // between panels, for the numbers of the next axis
 constexpr int kRight = 24;
@@ -30,13 +29,14 @@ constexpr std::array<int, 8> kPoints = {7, 5, 9, 11, 6, 4, 8, 10};
 }  // namespace
 
 PanelPage::PanelPage(int panels, int columns, std::string title, LegendMark mark,
-                     std::vector<std::string> legend, int names_below)
+                     std::vector<std::string> legend, int names_below, int panel_height)
     : panels_(panels),
       columns_(std::min(columns, panels)),
       title_(std::move(title)),
       mark_(mark),
       legend_(std::move(legend)),
-      names_below_(names_below) {}
+      names_below_(names_below),
+      panel_height_(panel_height) {}
 
 int PanelPage::Width() const {
   return kLeft + columns_ * PanelWidth(columns_) + (columns_ - 1) * kGap + kRight;
@@ -62,7 +62,7 @@ int PanelPage::Top() const { return kTitle + LegendRows() * kLegendRow; }
 
 int PanelPage::Height() const {
   const int rows = (panels_ - 1) / columns_ + 1;
-  return Top() + rows * (kPanelTitle + kPanelHeight + kAxis + names_below_);
+  return Top() + rows * (kPanelTitle + panel_height_ + kAxis + names_below_);
 }
 
 std::string PanelPage::Begin(const std::string& terminal) const {
@@ -126,17 +126,17 @@ std::string PanelPage::Place(int panel, const PanelText& text) const {
   const double width = PanelWidth(columns_);
   const double left = kLeft + column * (width + kGap);
   const double top =
-      Top() + row * (kPanelTitle + kPanelHeight + kAxis + names_below_) + kPanelTitle;
+      Top() + row * (kPanelTitle + panel_height_ + kAxis + names_below_) + kPanelTitle;
   std::string script;
   if (panel > 0) script += "unset arrow\nunset label\nunset object\n";  // these are drawn
   script += fmt::format(
       "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
       "set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n"
       "set title {} noenhanced offset 0,-0.6\n",
-      left / w, (left + width) / w, 1 - top / h, 1 - (top + kPanelHeight) / h,
+      left / w, (left + width) / w, 1 - top / h, 1 - (top + panel_height_) / h,
       GnuplotText(text.title));
   script += fmt::format("set label 1 {} at graph 0.5, screen {:.5f} center noenhanced\n",
-                        GnuplotText(text.x_axis), 1 - (top + kPanelHeight + 46) / h);
+                        GnuplotText(text.x_axis), 1 - (top + panel_height_ + 46) / h);
   if (column > 0) return script;
   return script +
          fmt::format("set label 2 {} at screen {:.5f}, graph 0.5 center rotate noenhanced\n",

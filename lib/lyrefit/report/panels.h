@@ -21,7 +21,7 @@ class PanelPage {
  public:
   // `legend` names the lines in order; `names_below` is the room for names under each panel.
   PanelPage(int panels, int columns, std::string title, LegendMark mark,
-            std::vector<std::string> legend, int names_below);
+            std::vector<std::string> legend, int names_below, int panel_height = 300);
 
   // Terminal, title and legend; then for each panel Place() and its own commands; then End().
   std::string Begin(const std::string& terminal) const;
@@ -43,6 +43,7 @@ class PanelPage {
   LegendMark mark_;
   std::vector<std::string> legend_;
   int names_below_;
+  int panel_height_;
 };
 
 // In gnuplot's single quotes; control characters become blanks.

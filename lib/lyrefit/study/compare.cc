@@ -8,14 +8,17 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/study/best_known.h"
 #include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/compare_journal.h"
+#include "lyrefit/study/compare_run.h"
 #include "lyrefit/study/reference.h"
 #include "lyrefit/study/summary.h"
 
@@ -24,18 +27,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// One curve with one model, while its runs are under way.
+// One subject with one model, while its runs are under way.
 struct Problem {
-  Problem(const CompareCurve& subject_, Model model, int runs)
-      : subject(subject_), outcomes(runs), left(runs) {
-    result.curve_name = subject.curve.name;
-    result.model = model;
-    result.bounds_name = subject.bounds.name;
-  }
+  Problem(const CompareCurve& subject_, ProblemResult described, int runs)
+      : subject(subject_), outcomes(runs), left(runs), result(std::move(described)) {}
 
   const CompareCurve& subject;
   std::vector<std::optional<RunOutcome>> outcomes;  // contender by contender
   std::atomic<int> left;                            // runs that are not done
+  std::optional<BestKnown> known;                   // where the journal has it
   ProblemResult result;
 };
 
@@ -44,9 +44,14 @@ using Problems = std::vector<std::unique_ptr<Problem>>;
 Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOptions& options,
                       int runs) {
   Problems problems;
+  std::set<std::string> names;  // of those that are pooled by themselves
   for (const CompareCurve& curve : curves) {
-    for (const Model model : options.models) {
-      problems.push_back(std::make_unique<Problem>(curve, model, runs));
+    const bool own = curve.model || curve.set;
+    for (const Model model : own ? std::vector<Model>{Model::kSingleDiode} : options.models) {
+      ProblemResult described = DescribeProblem(curve, model, options);
+      std::string& name = described.problem;
+      while (!name.empty() && curve.problem.empty() && !names.insert(name).second) name += "'";
+      problems.push_back(std::make_unique<Problem>(curve, std::move(described), runs));
     }
   }
   return problems;
@@ -69,43 +74,6 @@ double WorkOfAll(const Problems& problems, const std::vector<Contender>& contend
   return work;
 }
 
-FitOptions OptionsOf(const Problem& problem, const CompareOptions& options) {
-  FitOptions fit;
-  fit.model = problem.result.model;
-  fit.objective = options.objective;
-  fit.constants = options.constants;
-  fit.bounds = problem.subject.bounds;
-  fit.with = options.with;
-  fit.force_effects = options.force_effects;
-  fit.random_baseline = false;
-  fit.polish = options.polish;
-  fit.plain_polish = options.plain_polish;
-  fit.intervals = Intervals::kNone;
-  fit.threads = 1;
-  fit.kernel = options.kernel;
-  return fit;
-}
-
-RunOutcome OutcomeOf(const FitReport& report, int run, Objective objective) {
-  RunOutcome outcome;
-  outcome.record.run = run;
-  outcome.record.searched_A = report.rmse.searched.Of(objective);
-  outcome.record.plain_polished_A = report.rmse.plain_polished.Of(objective);
-  outcome.record.own_polished_A = report.rmse.best_bird_polished.Of(objective);
-  outcome.record.polished_A = report.rmse.refined.Of(objective);
-  outcome.record.evaluations = report.search.evaluations;
-  outcome.record.search_seconds = report.search.seconds;
-  outcome.record.polish_seconds = report.refine.seconds;
-  outcome.gains = KeepGains(report.search.trace);
-  if (outcome.gains.empty()) {  // a search of the user's own that keeps no trace
-    outcome.gains.push_back({0, report.search.evaluations, outcome.record.searched_A});
-  }
-  for (const Estimate& e : report.estimates) {
-    outcome.parameters.push_back(report.polished ? e.refined : e.searched);
-  }
-  return outcome;
-}
-
 // The comparison as it goes on: jobs write to their own slot, and the last one of a problem sums it
 // up.
 class Study {
@@ -121,15 +89,12 @@ class Study {
   // One cheap search each finds whatever a fit would object to.
   Expected<void> Try() const {
     for (const auto& problem : problems_) {
-      FitOptions fit = OptionsOf(*problem, options_);
-      fit.polish = fit.plain_polish = false;
-      fit.search.population = 4;
-      fit.search.max_evaluations = 4;
-      if (const auto report = Fit(problem->subject.curve, fit); !report) {
-        Error error = report.error();
+      const auto tried = TryProblem(problem->subject, problem->result, options_);
+      if (!tried) {
+        Error error = tried.error();
         error.message =
             fmt::format("{} cannot be compared on {}: {}", ToText(problem->result.model),
-                        problem->subject.curve.name, error.message);
+                        problem->result.curve_name, error.message);
         return tl::unexpected(std::move(error));
       }
     }
@@ -140,6 +105,15 @@ class Study {
   Expected<void> TakeUp(std::unique_ptr<Journal> journal) {
     journal_ = std::move(journal);
     for (const Journal::Record& record : journal_->records()) {
+      if (IsBestKnown(record)) {
+        auto known = ReadBestKnown(*journal_, record);
+        if (!known) return tl::unexpected(known.error());
+        if (known->problem < 0 || known->problem >= static_cast<int>(problems_.size())) {
+          return Fail("this record is of no problem of the study", journal_->path(), record.line);
+        }
+        problems_[known->problem]->known = std::move(known->known);
+        continue;
+      }
       auto run = ReadRun(*journal_, record);
       if (!run) return tl::unexpected(run.error());
       const RunPlace& at = run->place;
@@ -163,8 +137,9 @@ class Study {
     Comparison comparison;
     comparison.version = Version();
     comparison.options = options_;
-    for (const auto& problem : problems_) {
-      if (problem->left > 0) SumUp(problem.get());
+    for (int p = 0; p < static_cast<int>(problems_.size()); ++p) {
+      const auto& problem = problems_[p];
+      if (problem->left > 0) SumUp(p);
       comparison.interrupted = comparison.interrupted || !problem->result.complete;
       if (problem->result.contenders.empty()) continue;
       comparison.problems.push_back(std::move(problem->result));
@@ -201,28 +176,25 @@ class Study {
     if (!taken_up) slot = FitOnce(*problem, at);
     if (!slot) return;
     const std::int64_t evaluations = slot->record.evaluations;
-    if (--problem->left == 0) SumUp(problem);
+    if (--problem->left == 0) SumUp(at.problem);
     if (!taken_up) watch_.FinishJob(WorkOf(*problem, contenders_[at.contender]), evaluations);
   }
 
   // Nothing where it was stopped.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
     const Contender& contender = contenders_[at.contender];
-    FitOptions fit = OptionsOf(problem, options_);
-    fit.search = contender.search;
-    fit.search.seed = options_.seed;
-    fit.search.run = at.run;
-    fit.searcher = contender.searcher;
-    const auto report = Fit(problem.subject.curve, fit, watch_.Inside());
-    CHECK(report.has_value()) << report.error().ToString();  // Try() would have seen it
-    if (report->interrupted) return {};
-    RunOutcome outcome = OutcomeOf(*report, at.run, options_.objective);
+    auto done =
+        RunOnce(problem.subject, problem.result, options_, contender, at.run, watch_.Inside());
+    CHECK(done.has_value()) << done.error().ToString();  // Try() would have seen it
+    if (!*done) return {};
+    RunOutcome outcome = std::move(**done);
     if (journal_) journal_->Append(WriteRun(at, problem.result, contender, options_, outcome));
     return outcome;
   }
 
   // Of the runs that are done.
-  void SumUp(Problem* problem) {
+  void SumUp(int which) {
+    Problem* problem = problems_[which].get();
     std::vector<std::vector<RunOutcome>> outcomes(contenders_.size());
     bool any = false;
     for (std::size_t i = 0; i < problem->outcomes.size(); ++i) {
@@ -234,10 +206,35 @@ class Study {
     ProblemResult& result = problem->result;
     result.complete = problem->left == 0;
     if (!any) return;
-    result.reference =
-        FindReference(problem->subject, result.model, options_, BestOf(outcomes), watch_.Inside());
+    result.reference = ReferenceOf(which, BestOf(outcomes));
     result.complete = result.complete && !result.reference.interrupted;
     SumUpContenders(contenders_, options_, std::move(outcomes), &result);
+  }
+
+  // Certified where that can be, else the best known.
+  Reference ReferenceOf(int which, const BestFound& best) {
+    Problem* problem = problems_[which].get();
+    const ProblemResult& result = problem->result;
+    const bool plain = result.with.empty() && !result.family;
+    Reference reference;
+    if (plain) {
+      CompareOptions options = options_;
+      options.objective = result.objective;
+      reference = FindReference(problem->subject, result.model, options, best, watch_.Inside());
+      const bool enough = reference.certified || reference.interrupted;
+      if (enough || options.multistart == 0) return reference;
+    }
+    if (!problem->known) {
+      problem->known = FindBestKnown(problem->subject, result, options_, watch_.Inside());
+      const bool whole = !problem->known->interrupted && options_.multistart > 0;
+      if (journal_ && whole) journal_->Append(WriteBestKnown(which, *problem->known));
+    }
+    Reference known = BestKnownReference(best, *problem->known);
+    if (!plain) return known;
+    if (reference.rmse_A < known.rmse_A) return reference;
+    known.lower_bound_A = reference.lower_bound_A;
+    known.floor_A = reference.floor_A;
+    return known;
   }
 
   const std::vector<Contender>& contenders_;
@@ -260,7 +257,9 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
   }
   std::vector<IvCurve> readings;
   readings.reserve(curves.size());
-  for (const CompareCurve& curve : curves) readings.push_back(curve.curve);
+  for (const CompareCurve& curve : curves) {
+    if (!curve.set) readings.push_back(curve.curve);
+  }
   auto doubts = JudgeReadings(readings);
   if (!doubts) return tl::unexpected(doubts.error());
   Study study(curves, contenders, options, observer);

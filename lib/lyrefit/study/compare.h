@@ -1,17 +1,34 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/search/search.h"
+#include "lyrefit/study/landscape.h"
 #include "lyrefit/study/rank_tests.h"
 
 namespace lyrefit {
+
+// What of the hybrid a contender is about.
+enum class ContenderKind {
+  kSearch,   // a search; what becomes of its birds is looked at by how far they are polished
+  kShape,    // the places that the curve's shape suggests; its search is a token
+  kDefault,  // the fit with its default settings, as it is
+};
+
+template <>
+struct EnumTable<ContenderKind> {
+  static constexpr EnumText<ContenderKind> kRows[] = {{ContenderKind::kSearch, "search"},
+                                                      {ContenderKind::kShape, "shape"},
+                                                      {ContenderKind::kDefault, "default"}};
+};
 
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
 // run r all of ours start from the same first birds.
@@ -20,11 +37,25 @@ struct Contender {
   std::string algorithm;  // without its setting, "mlo"; empty: the name
   SearchOptions search;
   SearchFunction searcher;  // empty: Search()
+  ContenderKind kind = ContenderKind::kSearch;
+  StartsFrom starts = StartsFrom::kAll;  // see FitOptions
+  std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
 };
 
+// A curve, or a set of curves, that searches are compared on.
 struct CompareCurve {
   IvCurve curve;
   BoundsSpec bounds;
+  // Subjects with the same name here are devices of one problem, and summed up as one; see pool.h.
+  std::string problem;
+  // What is its own instead of the comparison's, empty: as there. Effects are fitted to the solved
+  // current, whatever is said here.
+  std::optional<Model> model;
+  std::optional<Objective> objective;
+  std::vector<EffectUse> with;
+  // A family instead of a curve, with its own law, model, effects and bounds.
+  std::optional<CurveSet> set;
+  FamilyOptions family;
 };
 
 struct CompareOptions {
@@ -39,7 +70,10 @@ struct CompareOptions {
   bool polish = true;
   bool plain_polish = false;  // see FitOptions
   bool rankings = true;       // rank tests of the contenders against each other
-  int threads = 0;            // 0: all cores; never changes a result but the seconds
+  // Random points that are polished to their end, beside long searches, to find the best known
+  // optimum of a problem that no certificate is at hand for; 0: the runs alone. See best_known.h.
+  int multistart = 0;
+  int threads = 0;  // 0: all cores; never changes a result but the seconds
   const Kernel* kernel = nullptr;
   // A file that every finished run is written to, and that a study is taken up from; empty: none.
   // Taken up, it ends with the bits of one that was never interrupted. `runs`, `target_gap`,
@@ -48,7 +82,8 @@ struct CompareOptions {
   std::string journal_section = "comparison";  // of a file that several studies share
 };
 
-// RMSE in ampere, all of the objective compared. NaN: not asked for.
+// RMSE in ampere, all of the objective compared. NaN: not asked for. Where effects have several
+// forms (law/forms.h) it is times FitReport::form_price, so that the best form has the lowest.
 struct RunRecord {
   int run = 0;  // number of the run, which with the seed names its random stream
   double searched_A = kUnknown;
@@ -59,7 +94,13 @@ struct RunRecord {
   // Of the search alone, counted in whole iterations; -1: never reached.
   std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;
-  double polish_seconds = 0;
+  double polish_seconds = 0;        // from all starts
+  double plain_seconds = kUnknown;  // of the best bird's plain solve
+  double own_seconds = kUnknown;    // of the best bird's own polish
+  // Of problems that are pooled: where the best bird's own polish and the hybrid ended, in the
+  // order of Reference::parameters. Empty: not kept.
+  std::vector<double> own_parameters;
+  std::vector<double> parameters;
 };
 
 struct Spread {
@@ -82,6 +123,8 @@ struct ContenderResult {
   std::string name;
   std::string algorithm;
   SearchOptions search;
+  ContenderKind kind = ContenderKind::kSearch;
+  std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   Spread searched;
   Spread plain_polished;
@@ -105,6 +148,9 @@ struct Reference {
   std::string origin;               // in plain words
   std::vector<double> parameters;   // in the device's order, effects in the units of reports
   bool interrupted = false;         // before there was a proof
+  bool by_multistart = false;       // no run came within 1e-6 of the multistart's (best_known.h)
+  int points = 0;                   // random points that it polished
+  int visits = 0;                   // those that ended within 1e-6 (relative) of the reference
 };
 
 // Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
@@ -120,11 +166,19 @@ struct Ranking {
   std::vector<SignedRank> signed_ranks;  // every pair
 };
 
-// One curve with one model.
+// One curve, or set of curves, with one model.
 struct ProblemResult {
   std::string curve_name;
   Model model = Model::kSingleDiode;
   std::string bounds_name;
+  // What it is pooled under (pool.h): the subject's own, else, of a curve with effects, the
+  // curve's name. Empty: a plain problem on its own.
+  std::string problem;
+  Objective objective = Objective::kMeasuredCurrent;
+  std::vector<EffectUse> with;
+  bool family = false;
+  std::vector<std::string> parameters;  // names, in the order of Reference::parameters
+  int first_effect = -1;                // where those of the effects begin; -1: none
   Reference reference;
   std::vector<ContenderResult> contenders;
   // Of the runs that every contender has done.
@@ -146,6 +200,12 @@ struct Comparison {
   std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
+// A curve on its own.
+CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
+
+// One of the made devices of a problem.
+CompareCurve SubjectOf(LandscapeCase made);
+
 // Runs every contender `runs` times on every curve with every model. Everything is checked before
 // the first run. Run r of all contenders comes before run r + 1 of any. The observer hears of stage
 // "compare" at the beginning, after every run (iteration: runs done of those planned) and now and
@@ -163,6 +223,8 @@ std::vector<Contender> PlainContenders(const std::vector<Algorithm>& algorithms,
 std::vector<Contender> SensitivityContenders(const std::vector<double>& memory_rates,
                                              const std::vector<double>& distance_coefficients,
                                              const SearchOptions& search);
+// "shape" and "default", by their kind; what they search with is set by themselves.
+Contender OwnContender(ContenderKind kind);
 // Every algorithm with every budget of evaluations, the algorithm the outer loop. The population is
 // about the root of the budget, 4 to 100. Names read "mlo@420".
 std::vector<Contender> BudgetContenders(const std::vector<Algorithm>& algorithms,

@@ -23,6 +23,9 @@ Expected<void> CheckOptions(std::size_t curves, std::size_t contenders,
   if (options.runs < 1 || options.runs > kMostRuns) {
     return Fail(fmt::format("runs = {} is outside [1, {}]", options.runs, kMostRuns));
   }
+  if (options.multistart < 0 || options.multistart > kMostRuns) {
+    return Fail(fmt::format("multistart = {} is outside [0, {}]", options.multistart, kMostRuns));
+  }
   if (auto threads = ValidateThreads(options.threads); !threads) return threads;
   if (!(options.target_gap > 0 && options.target_gap < kInfinity)) {
     return Fail(fmt::format("target-gap = {:g} must be above 0", options.target_gap));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lyrefit/base/version.h"
+#include "lyrefit/family/family_echo.h"
 
 namespace lyrefit {
 namespace {
@@ -20,9 +21,39 @@ std::string CurveText(const IvCurve& curve) {
                      Fingerprint(all));
 }
 
+std::string SetText(const CurveSet& set) {
+  std::string all = fmt::format("{} curves", set.curves.size());
+  for (const IvCurve& curve : set.curves) all += "; " + CurveText(curve);
+  return all;
+}
+
+std::string FamilyText(const FamilyOptions& options) {
+  std::string text;
+  for (const OptionEcho& echo : FamilyEcho(options)) {
+    text += (text.empty() ? "" : ", ") + echo.name + " " + echo.value;
+  }
+  return text;
+}
+
+// What one of the devices of a problem has of its own.
+void AddOwn(const CompareCurve& subject, const std::string& which, JournalLine* head) {
+  JournalLine& lines = *head;
+  if (!subject.problem.empty()) lines["problem of curve " + which] = subject.problem;
+  if (subject.model) lines["model of curve " + which] = ToText(*subject.model);
+  if (subject.objective) lines["objective of curve " + which] = ToText(*subject.objective);
+  std::string effects;
+  for (const EffectUse& use : subject.with) {
+    effects += (effects.empty() ? "" : " ") + DescribeUse(use);
+  }
+  if (!effects.empty()) lines["effects of curve " + which] = effects;
+  if (subject.set) lines["family of curve " + which] = FamilyText(subject.family);
+}
+
 std::string BoundsText(const CompareCurve& subject, const CompareOptions& options) {
   std::vector<double> all;
-  for (const Model model : options.models) {
+  std::vector<Model> models = options.models;
+  if (subject.model) models = {*subject.model};
+  for (const Model model : models) {
     const Device device = MakeDevice(model, subject.curve.conditions, options.constants);
     const auto bounds = MakeBounds(subject.bounds, device, subject.curve);
     if (!bounds) continue;
@@ -39,6 +70,7 @@ std::string SettingsText(const Contender& contender) {
   AppendNonDefaults(contender.search, kSearchOptionTable, &echoes);
   std::string text =
       contender.searcher ? "a search of its own" : ToText(contender.search.algorithm);
+  if (contender.kind != ContenderKind::kSearch) text = ToText(contender.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;
   }
@@ -59,6 +91,7 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
   for (const EffectUse& use : options.with)
     effects += (effects.empty() ? "" : " ") + DescribeUse(use);
   if (!effects.empty()) head["with"] = effects;
+  if (options.multistart > 0) head["multistart"] = options.multistart;
   for (const Model model : options.models) models += (models.empty() ? "" : ",") + ToText(model);
   for (const Contender& c : contenders) names += (names.empty() ? "" : ",") + c.name;
   head["models"] = models;
@@ -66,9 +99,12 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
   for (const Contender& c : contenders) head["algorithm " + c.name] = SettingsText(c);
   head["number of curves"] = curves.size();
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const std::string which = fmt::format("{} {}", i + 1, curves[i].curve.name);
-    head["curve " + which] = CurveText(curves[i].curve);
-    head["bounds of curve " + which] = BoundsText(curves[i], options);
+    const CompareCurve& subject = curves[i];
+    const std::string& name = subject.set ? subject.set->name : subject.curve.name;
+    const std::string which = fmt::format("{} {}", i + 1, name);
+    head["curve " + which] = subject.set ? SetText(*subject.set) : CurveText(subject.curve);
+    if (!subject.set) head["bounds of curve " + which] = BoundsText(subject, options);
+    AddOwn(subject, which, &head);
   }
   return head;
 }
@@ -81,22 +117,27 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
   for (const TracePoint& point : outcome.gains) {
     gains.push_back({point.iteration, point.evaluations, ExactNumber(point.best)});
   }
-  return {{"problem", place.problem},
-          {"curve", problem.curve_name},
-          {"model", ToText(problem.model)},
-          {"contender", place.contender},
-          {"algorithm", contender.name},
-          {"run", place.run},
-          {"seed", options.seed},
-          {"searched_A", ExactNumber(record.searched_A)},
-          {"plain_polished_A", ExactNumber(record.plain_polished_A)},
-          {"best_bird_polished_A", ExactNumber(record.own_polished_A)},
-          {"refined_A", ExactNumber(record.polished_A)},
-          {"evaluations", record.evaluations},
-          {"search_seconds", ExactNumber(record.search_seconds)},
-          {"refine_seconds", ExactNumber(record.polish_seconds)},
-          {"parameters", ExactNumbers(outcome.parameters)},
-          {"trace", std::move(gains)}};
+  JournalLine line = {{"problem", place.problem},
+                      {"curve", problem.curve_name},
+                      {"model", ToText(problem.model)},
+                      {"contender", place.contender},
+                      {"algorithm", contender.name},
+                      {"run", place.run},
+                      {"seed", options.seed},
+                      {"searched_A", ExactNumber(record.searched_A)},
+                      {"plain_polished_A", ExactNumber(record.plain_polished_A)},
+                      {"best_bird_polished_A", ExactNumber(record.own_polished_A)},
+                      {"refined_A", ExactNumber(record.polished_A)},
+                      {"evaluations", record.evaluations},
+                      {"search_seconds", ExactNumber(record.search_seconds)},
+                      {"refine_seconds", ExactNumber(record.polish_seconds)},
+                      {"parameters", ExactNumbers(outcome.parameters)},
+                      {"trace", std::move(gains)}};
+  if (problem.problem.empty()) return line;
+  line["plain_seconds"] = ExactNumber(record.plain_seconds);
+  line["best_bird_seconds"] = ExactNumber(record.own_seconds);
+  line["best_bird_parameters"] = ExactNumbers(outcome.own_parameters);
+  return line;
 }
 
 Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& record) {
@@ -115,6 +156,11 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   r.search_seconds = read.Number("search_seconds");
   r.polish_seconds = read.Number("refine_seconds");
   run.outcome.parameters = read.Numbers("parameters");
+  if (record.json.contains("best_bird_parameters")) {
+    r.plain_seconds = read.Number("plain_seconds");
+    r.own_seconds = read.Number("best_bird_seconds");
+    run.outcome.own_parameters = read.Numbers("best_bird_parameters");
+  }
   bool sound = true;
   for (const std::vector<double>& row : read.Rows("trace")) {
     sound = sound && row.size() == 3;
@@ -128,6 +174,27 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
                 record.line);
   }
   return run;
+}
+
+JournalLine WriteBestKnown(int problem, const BestKnown& known) {
+  return {{"problem", problem},         {"best_known_A", ExactNumber(known.best.rmse_A)},
+          {"found_by", known.found_by}, {"points", known.points},
+          {"visits", known.visits},     {"parameters", ExactNumbers(known.best.parameters)}};
+}
+
+bool IsBestKnown(const Journal::Record& record) { return record.json.contains("best_known_A"); }
+
+Expected<WrittenBestKnown> ReadBestKnown(const Journal& journal, const Journal::Record& record) {
+  RecordReader read(journal, record);
+  WrittenBestKnown written;
+  written.problem = static_cast<int>(read.Whole("problem"));
+  written.known.best.rmse_A = read.Number("best_known_A");
+  written.known.found_by = read.Text("found_by");
+  written.known.points = static_cast<int>(read.Whole("points"));
+  written.known.visits = static_cast<int>(read.Whole("visits"));
+  written.known.best.parameters = read.Numbers("parameters");
+  if (auto checked = read.Checked(); !checked) return tl::unexpected(checked.error());
+  return written;
 }
 
 }  // namespace lyrefit

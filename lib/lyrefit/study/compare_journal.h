@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/study/best_known.h"
 #include "lyrefit/study/compare.h"
 #include "lyrefit/study/journal.h"
 #include "lyrefit/study/summary.h"
@@ -29,5 +30,14 @@ struct WrittenRun {
   RunOutcome outcome;
 };
 Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& record);
+
+// What a problem's multistart found, in a record of its own.
+JournalLine WriteBestKnown(int problem, const BestKnown& known);
+bool IsBestKnown(const Journal::Record& record);
+struct WrittenBestKnown {
+  int problem = 0;
+  BestKnown known;
+};
+Expected<WrittenBestKnown> ReadBestKnown(const Journal& journal, const Journal::Record& record);
 
 }  // namespace lyrefit

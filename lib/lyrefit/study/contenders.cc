@@ -11,8 +11,11 @@ std::vector<Contender> PlainContenders(const std::vector<Algorithm>& algorithms,
                                        const SearchOptions& search) {
   std::vector<Contender> contenders;
   for (const Algorithm algorithm : algorithms) {
-    contenders.push_back({ToText(algorithm), ToText(algorithm), search, {}});
-    contenders.back().search.algorithm = algorithm;
+    Contender contender;
+    contender.name = contender.algorithm = ToText(algorithm);
+    contender.search = search;
+    contender.search.algorithm = algorithm;
+    contenders.push_back(std::move(contender));
   }
   return contenders;
 }
@@ -47,10 +50,23 @@ std::vector<Contender> BudgetContenders(const std::vector<Algorithm>& algorithms
       contender.algorithm = ToText(algorithm);
       contender.search = BudgetSearch(budget, search);
       contender.search.algorithm = algorithm;
+      contender.budget = budget;
       contenders.push_back(std::move(contender));
     }
   }
   return contenders;
+}
+
+Contender OwnContender(ContenderKind kind) {
+  Contender contender;
+  contender.name = contender.algorithm = ToText(kind);
+  contender.kind = kind;
+  if (kind != ContenderKind::kShape) return contender;
+  contender.starts = StartsFrom::kShape;
+  contender.search.algorithm = Algorithm::kRandom;
+  contender.search.population = 4;
+  contender.search.max_evaluations = 4;
+  return contender;
 }
 
 SearchOptions BudgetSearch(std::int64_t budget, SearchOptions search) {

@@ -80,7 +80,7 @@ class PaperRun {
     Expected<BoundsSpec> spec = ReadBoundsFile((folder / ("bounds-" + bounds + ".json")).string());
     if (!spec) return tl::unexpected(spec.error());
     spec->name = bounds;
-    return CompareCurve{std::move(*curve), std::move(*spec)};
+    return MakeSubject(std::move(*curve), std::move(*spec));
   }
 
   // The MSX-60 module as the paper ran it: at 75 C and with the literature's constants.
@@ -239,7 +239,7 @@ class PaperRun {
       const Conditions& at = curve.conditions;
       curve.name = fmt::format("{}/{:g}x{:g}", set->name, at.irradiance_W_m2,
                                at.cell_temperature_K - kZeroCelsius_K);
-      subjects.push_back({std::move(curve), *bounds});
+      subjects.push_back(MakeSubject(std::move(curve), *bounds));
     }
     return Study(
         subjects, PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),

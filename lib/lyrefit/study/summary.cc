@@ -92,7 +92,9 @@ BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
       const RunRecord& run = outcome.record;
       for (const double rmse :
            {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
-        if (rmse < best.rmse_A) best = {rmse, outcome.parameters};  // false for what is not known
+        if (!(rmse < best.rmse_A)) continue;  // what is not known as well
+        const bool own = rmse == run.own_polished_A && !outcome.own_parameters.empty();
+        best = {rmse, own ? outcome.own_parameters : outcome.parameters};
       }
     }
   }
@@ -160,15 +162,20 @@ Ranking RankJoined(const std::vector<std::vector<double>>& values) {
 }
 
 ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
-                          double reference, double target_gap) {
+                          double reference, double target_gap, bool keep_parameters) {
   ContenderResult result;
   result.name = contender.name;
   result.algorithm = contender.algorithm.empty() ? contender.name : contender.algorithm;
   result.search = contender.search;
+  result.kind = contender.kind;
+  result.budget = contender.budget;
   for (RunOutcome& outcome : *outcomes) {
     outcome.record.evaluations_to_target =
         EvaluationsTo(reference * (1 + target_gap), outcome.gains);
     result.runs.push_back(outcome.record);
+    if (!keep_parameters) continue;
+    result.runs.back().parameters = outcome.parameters;
+    result.runs.back().own_parameters = outcome.own_parameters;
   }
   result.searched = SpreadOf(Column(result.runs, &RunRecord::searched_A), reference);
   result.plain_polished = SpreadOf(Column(result.runs, &RunRecord::plain_polished_A), reference);
@@ -188,8 +195,8 @@ void SumUpContenders(const std::vector<Contender>& contenders, const CompareOpti
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     if (outcomes[c].empty()) continue;
     for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];
-    result->contenders.push_back(
-        Summarise(contenders[c], &outcomes[c], result->reference.rmse_A, options.target_gap));
+    result->contenders.push_back(Summarise(contenders[c], &outcomes[c], result->reference.rmse_A,
+                                           options.target_gap, !result->problem.empty()));
   }
   if (!options.rankings) return;
   std::vector<std::vector<double>> searched, polished;

@@ -12,6 +12,7 @@ struct RunOutcome {
   RunRecord record;
   std::vector<TracePoint> gains;   // the trace without the points that brought nothing; never empty
   std::vector<double> parameters;  // of the run's answer
+  std::vector<double> own_parameters;  // of the best bird's own polish; empty: not kept
 };
 
 // The points of `trace` where the best became better, and the last one.
@@ -38,9 +39,10 @@ Ranking RankAll(std::vector<std::vector<double>> values);
 // The same with answers that agree within 1e-9 joined, whoever found them.
 Ranking RankJoined(const std::vector<std::vector<double>>& values);
 
-// Everything that the runs of one contender say together; fills their evaluations to target.
+// Everything that the runs of one contender say together; fills their evaluations to target, and
+// where asked for the parameters they ended at.
 ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
-                          double reference, double target_gap);
+                          double reference, double target_gap, bool keep_parameters = false);
 
 // Contenders and rankings of a problem from what each contender has done, by rising number of the
 // run. Contenders without a run are left out; ranks are of the runs that all the others have done.

@@ -1,0 +1,208 @@
+#include "lyrefit/study/compare_run.h"
+
+#include "lyrefit/law/current.h"
+#include "lyrefit/law/quote.h"
+
+namespace lyrefit {
+namespace {
+
+FitOptions FitOptionsOf(const CompareCurve& subject, const ProblemResult& problem,
+                        const CompareOptions& options) {
+  FitOptions fit;
+  fit.model = problem.model;
+  fit.objective = problem.objective;
+  fit.constants = options.constants;
+  fit.bounds = subject.bounds;
+  fit.with = problem.with;
+  fit.force_effects = options.force_effects;
+  fit.random_baseline = false;
+  fit.polish = options.polish;
+  fit.plain_polish = options.plain_polish;
+  fit.intervals = Intervals::kNone;
+  fit.threads = 1;
+  fit.kernel = options.kernel;
+  return fit;
+}
+
+// What a study has no use for is left out.
+FamilyOptions FamilyOptionsOf(const CompareCurve& subject, const CompareOptions& options) {
+  FamilyOptions family = subject.family;
+  family.plain_polish = options.plain_polish;
+  family.random_baseline = false;
+  family.intervals = false;
+  family.free_fits = false;
+  family.folds = 0;
+  family.threads = 1;
+  return family;
+}
+
+// How a contender searches in `fit`, FitOptions or FamilyOptions.
+template <class Options>
+void SetContender(const Contender& contender, const CompareOptions& options, int run,
+                  Options* fit) {
+  if (contender.kind != ContenderKind::kDefault) fit->search = contender.search;
+  if (contender.kind != ContenderKind::kSearch) fit->plain_polish = false;
+  fit->starts = contender.starts;
+  fit->search.seed = options.seed;
+  fit->search.run = static_cast<std::uint64_t>(run);
+  fit->searcher = contender.searcher;
+}
+
+void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
+  outcome->record.run = run;
+  outcome->record.evaluations = search.evaluations;
+  outcome->record.search_seconds = search.seconds;
+}
+
+// The best bird's own polish, also where nothing else was polished.
+double OwnPolish(const FitReport& report, const ProblemResult& problem) {
+  const std::vector<double>& p = report.best_bird_polished;
+  if (report.polished || problem.problem.empty() || p.empty()) {
+    return report.rmse.best_bird_polished.Of(problem.objective);
+  }
+  return Rmse(report.device, problem.objective, p.data(), report.curve.voltage_V,
+              report.curve.current_A);
+}
+
+RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int run) {
+  const Objective objective = problem.objective;
+  RunOutcome outcome;
+  FillSearch(report.search, run, &outcome);
+  RunRecord& record = outcome.record;
+  const double bird = report.best_bird_price;
+  record.searched_A = report.rmse.searched.Of(objective) * bird;
+  record.plain_polished_A = report.rmse.plain_polished.Of(objective) * bird;
+  record.own_polished_A = OwnPolish(report, problem) * bird;
+  record.polished_A = report.rmse.refined.Of(objective) * report.form_price;
+  record.polish_seconds = report.refine.seconds;
+  record.plain_seconds = report.plain_seconds;
+  record.own_seconds = report.refine.best_bird_seconds;
+  outcome.gains = KeepGains(report.search.trace);
+  if (outcome.gains.empty()) {  // a search of the user's own that keeps no trace
+    outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
+  }
+  for (const Estimate& e : report.estimates) {
+    outcome.parameters.push_back(report.polished ? e.refined : e.searched);
+  }
+  if (!problem.problem.empty() && !report.best_bird_polished.empty()) {
+    outcome.own_parameters = Reported(report.device, report.best_bird_polished);
+  }
+  return outcome;
+}
+
+RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, int run) {
+  const Objective objective = problem.objective;
+  RunOutcome outcome;
+  FillSearch(report.search, run, &outcome);
+  RunRecord& record = outcome.record;
+  record.searched_A = report.rmse.searched_all.Of(objective);
+  record.plain_polished_A = report.rmse.plain_polished.Of(objective);
+  record.own_polished_A = report.rmse.best_bird_polished.Of(objective);
+  record.polished_A = report.rmse.refined.Of(objective);
+  record.polish_seconds = report.free_seconds + report.joint_seconds;
+  record.plain_seconds = report.plain_seconds;
+  record.own_seconds = report.best_bird_seconds;
+  // The search saw some of the curves only: of its course nothing compares with the reference.
+  outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
+  for (const Estimate& e : report.estimates) outcome.parameters.push_back(e.refined);
+  outcome.own_parameters = report.best_bird_polished;
+  return outcome;
+}
+
+// Names of the parameters and where those of the effects begin.
+void NameParameters(const CompareCurve& subject, const CompareOptions& options,
+                    ProblemResult* problem) {
+  std::vector<ParameterInfo> infos;
+  if (subject.set) {
+    const auto law = CheckFamily(*subject.set, subject.family);
+    if (!law) return;  // TryProblem() will say why
+    infos = law->parameters;
+    problem->first_effect = law->first_effect;
+  } else {
+    infos = MakeDevice(problem->model, subject.curve.conditions, options.constants).parameters;
+    if (!problem->with.empty()) problem->first_effect = static_cast<int>(infos.size());
+    AddInfos(problem->with, &infos);
+  }
+  for (const ParameterInfo& info : infos) problem->parameters.push_back(info.name);
+}
+
+}  // namespace
+
+CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds) {
+  CompareCurve subject;
+  subject.curve = std::move(curve);
+  subject.bounds = std::move(bounds);
+  return subject;
+}
+
+CompareCurve SubjectOf(LandscapeCase made) {
+  CompareCurve subject = MakeSubject(std::move(made.curve), std::move(made.bounds));
+  subject.problem = std::move(made.problem);
+  subject.model = made.model;
+  subject.with = std::move(made.with);
+  subject.set = std::move(made.set);
+  subject.family = std::move(made.family);
+  return subject;
+}
+
+ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
+                              const CompareOptions& options) {
+  ProblemResult problem;
+  problem.family = subject.set.has_value();
+  problem.curve_name = problem.family ? subject.set->name : subject.curve.name;
+  problem.model = problem.family ? subject.family.model : subject.model.value_or(model);
+  problem.bounds_name = subject.bounds.name;
+  problem.with = problem.family         ? subject.family.with
+                 : subject.with.empty() ? options.with
+                                        : subject.with;
+  problem.objective = subject.objective.value_or(options.objective);
+  if (problem.family) problem.objective = subject.family.objective;
+  if (!problem.with.empty()) problem.objective = Objective::kSolvedCurrent;
+  problem.problem = subject.problem;
+  if (problem.problem.empty() && (problem.family || !problem.with.empty())) {
+    problem.problem = problem.curve_name;
+    if (options.models.size() > 1) problem.problem += " " + ToText(problem.model);
+  }
+  NameParameters(subject, options, &problem);
+  return problem;
+}
+
+Expected<void> TryProblem(const CompareCurve& subject, const ProblemResult& problem,
+                          const CompareOptions& options) {
+  if (problem.family) {
+    const auto law = CheckFamily(*subject.set, FamilyOptionsOf(subject, options));
+    if (!law) return tl::unexpected(law.error());
+    return {};
+  }
+  FitOptions fit = FitOptionsOf(subject, problem, options);
+  fit.polish = fit.plain_polish = false;
+  fit.search.population = 4;
+  fit.search.max_evaluations = 4;
+  const auto report = Fit(subject.curve, fit);
+  if (!report) return tl::unexpected(report.error());
+  return {};
+}
+
+Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
+                                            const ProblemResult& problem,
+                                            const CompareOptions& options,
+                                            const Contender& contender, int run,
+                                            const Observer& observer) {
+  std::optional<RunOutcome> outcome;
+  if (problem.family) {
+    FamilyOptions family = FamilyOptionsOf(subject, options);
+    SetContender(contender, options, run, &family);
+    const auto report = FitFamily(*subject.set, family, observer);
+    if (!report) return tl::unexpected(report.error());
+    if (!report->interrupted) outcome = OutcomeOf(*report, problem, run);
+    return outcome;
+  }
+  FitOptions fit = FitOptionsOf(subject, problem, options);
+  SetContender(contender, options, run, &fit);
+  const auto report = Fit(subject.curve, fit, observer);
+  if (!report) return tl::unexpected(report.error());
+  if (!report->interrupted) outcome = OutcomeOf(*report, problem, run);
+  return outcome;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/study/compare.h"
+
+// Problems of many basins, where what counts is how often a search ends in the best one and what it
+// costs: all devices of a problem are summed up as one. All of it follows from the runs.
+namespace lyrefit {
+
+// How far a run is taken.
+enum class PolishLevel {
+  kSearch,  // not beyond the search
+  kPlain,   // one bounded solve from the best bird
+  kOwn,     // the best bird's own polish
+  kHybrid,  // all starts
+};
+
+template <>
+struct EnumTable<PolishLevel> {
+  static constexpr EnumText<PolishLevel> kRows[] = {{PolishLevel::kSearch, "search alone"},
+                                                    {PolishLevel::kPlain, "plain solve"},
+                                                    {PolishLevel::kOwn, "best bird"},
+                                                    {PolishLevel::kHybrid, "all starts"}};
+};
+constexpr std::array<PolishLevel, 4> kPolishLevels = {PolishLevel::kSearch, PolishLevel::kPlain,
+                                                      PolishLevel::kOwn, PolishLevel::kHybrid};
+
+// A hit, and relative to each other two ends in the same basin: of RMSE, relative.
+constexpr double kPoolHit = 1e-6;
+
+// Runs that ended elsewhere than in the best known optimum. Excess: RMSE / reference - 1.
+// Deviation: the largest of any parameter of the effects (of the device, where there are none) from
+// its value at the reference, relative to that; 1 where that is 0 and the run's is not.
+struct Failures {
+  int runs = 0;
+  int basins = 0;     // ends of one device within kPoolHit of each other are one
+  int commonest = 0;  // runs in the one that most ended in; of several the lowest
+  std::string commonest_device;
+  double commonest_excess = kUnknown;
+  double median_excess = kUnknown;
+  double worst_excess = kUnknown;
+  double median_deviation = kUnknown;  // NaN of levels whose parameters are not kept
+  double worst_deviation = kUnknown;
+  std::string worst_parameter;
+};
+
+struct PooledLevel {
+  int runs = 0;               // every run of every device
+  int hits = 0;               // within kPoolHit of the device's reference
+  Spread excess;              // over the runs; its counts are those of the hits
+  double seconds = kUnknown;  // median of a run: the search and this level's polish
+  Failures failures;
+};
+
+struct PooledContender {
+  std::string name;
+  std::string algorithm;
+  ContenderKind kind = ContenderKind::kSearch;
+  std::int64_t budget = 0;        // 0: none
+  double evaluations = kUnknown;  // median of a run
+  // By PolishLevel; only the last one of contenders that are no searches. Empty: not known.
+  std::array<std::optional<PooledLevel>, 4> levels;
+
+  const std::optional<PooledLevel>& At(PolishLevel level) const {
+    return levels[static_cast<std::size_t>(level)];
+  }
+};
+
+struct PooledProblem {
+  std::string name;
+  std::vector<const ProblemResult*> devices;  // of the comparison, in its order
+  int certified = 0;                          // of them
+  std::vector<PooledContender> contenders;
+};
+
+// Every problem of the comparison that has a name to be pooled under, in the order of the first
+// device of each; none in a plain study. They point into the comparison.
+std::vector<PooledProblem> PoolProblems(const Comparison& comparison);
+
+// What one run came to at a level: RMSE in ampere, and seconds with the search. NaN: not known.
+double RmseAt(const RunRecord& run, PolishLevel level);
+double SecondsAt(const RunRecord& run, PolishLevel level);
+
+// See Failures.
+struct Deviation {
+  double value = kUnknown;
+  int parameter = -1;
+};
+Deviation LargestDeviation(const ProblemResult& device, const std::vector<double>& parameters);
+
+}  // namespace lyrefit

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "lyrefit/study/pool.h"
+
+namespace lyrefit {
+
+// Share of a problem's runs that must hit for a way to be enough.
+constexpr double kEnoughShare = 0.96;
+
+// The fewest hits of so many runs that are enough.
+int EnoughHits(int runs);
+
+// How a problem was solved: by whom, how far polished.
+struct Way {
+  const PooledContender* contender = nullptr;
+  PolishLevel level = PolishLevel::kSearch;
+  const PooledLevel& figures() const { return *contender->At(level); }
+  bool IsEnough() const { return figures().hits >= EnoughHits(figures().runs); }
+};
+
+// What the figures of one problem say, by rule. A search is enough at a level from a budget on if
+// its hits are enough there and at every larger budget; of the ways that are, the least median time
+// of a run wins. Where starts from the shape alone are enough, "all starts", which has them, says
+// nothing of a search and does not count.
+struct SearchVerdict {
+  std::optional<Way> shape;   // where it was a contender, enough or not
+  std::optional<Way> search;  // the winner, random points among the searches
+  std::optional<Way> best;    // where none is enough: the most hits, then the least time
+  std::optional<Way> random;  // that of random points, where they are not the winner
+  int needed = 0;             // hits that are enough
+  bool shape_is_enough = false;
+  bool shape_wins = false;  // it is enough, and no search that is enough is faster
+};
+SearchVerdict JudgePool(const PooledProblem& pool);
+
+// The fit with its default settings against pagmo2's algorithms with the best bird's own polish.
+struct PeerRatio {
+  Way self;
+  std::optional<Way> peer;  // the fastest of at least as many hits; else the one with most hits
+  bool equal = false;       // it has at least as many hits
+  double times = kUnknown;  // its median time by that of the default fit; NaN if not equal
+};
+// Nothing where the default fit was no contender.
+std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool);
+
+}  // namespace lyrefit

@@ -1,0 +1,141 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../temp_folder.h"
+#include "lyrefit/report/compare_json.h"
+#include "lyrefit/study/pool.h"
+#include "pooled_study.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Comparison Compared(const std::vector<CompareCurve>& subjects, const CompareOptions& options,
+                    const Observer& observer = {}) {
+  const auto comparison = Compare(subjects, PooledContenders(), options, observer);
+  EXPECT_TRUE(comparison) << comparison.error().ToString();
+  return *comparison;
+}
+
+nlohmann::json WithoutSeconds(nlohmann::json value) {
+  if (value.is_object()) value.erase("seconds");
+  for (auto& child : value) {
+    if (child.is_structured()) child = WithoutSeconds(child);
+  }
+  return value;
+}
+
+nlohmann::json Figures(const Comparison& comparison) {
+  return WithoutSeconds(nlohmann::json::parse(CompareJson(comparison)));
+}
+
+std::vector<CompareCurve> StringsAndFamilies() {
+  std::vector<CompareCurve> subjects = MadeSubjects("strings_2", 2);
+  for (CompareCurve& family : MadeSubjects("family_offsets", 1)) {
+    subjects.push_back(std::move(family));
+  }
+  return subjects;
+}
+
+TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
+  const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
+  ASSERT_EQ(comparison.problems.size(), 3U);
+  const auto pools = PoolProblems(comparison);
+  ASSERT_EQ(pools.size(), 2U);
+  EXPECT_EQ(pools[0].name, "strings_2");
+  EXPECT_EQ(pools[0].devices.size(), 2U);
+  EXPECT_EQ(pools[1].name, "family_offsets");
+  for (const ProblemResult& problem : comparison.problems) {
+    EXPECT_EQ(problem.objective, Objective::kSolvedCurrent);
+    EXPECT_EQ(problem.reference.points, 2);
+    EXPECT_EQ(problem.reference.parameters.size(), problem.parameters.size());
+    ASSERT_EQ(problem.contenders.size(), 6U);
+    for (const ContenderResult& contender : problem.contenders) {
+      const RunRecord& run = contender.runs.at(0);
+      EXPECT_GE(run.polished_A, problem.reference.rmse_A) << contender.name;
+      EXPECT_LE(run.polished_A, run.searched_A) << contender.name;
+      EXPECT_EQ(run.parameters.size(), problem.parameters.size());
+      if (contender.kind != ContenderKind::kSearch) continue;
+      EXPECT_LE(run.evaluations, contender.budget);
+      EXPECT_EQ(run.own_parameters.size(), problem.parameters.size());
+      EXPECT_GE(run.plain_seconds, 0);
+      EXPECT_LE(run.plain_polished_A, run.searched_A * (1 + 1e-9));
+      EXPECT_LE(run.own_polished_A, run.searched_A * (1 + 1e-9));
+    }
+  }
+  EXPECT_EQ(comparison.problems[0].parameters.at(comparison.problems[0].first_effect),
+            "substrings_light_deficit_1");
+}
+
+TEST(ComparePooled, RunsADefaultFitAsItIs) {
+  const CompareCurve subject = MadeSubjects("strings_2", 1)[0];
+  const Comparison comparison = Compared({subject}, PooledOptions());
+  FitOptions fit;
+  fit.with = subject.with;
+  fit.bounds = subject.bounds;
+  fit.model = *subject.model;
+  fit.intervals = Intervals::kNone;
+  const auto report = Fit(subject.curve, fit);
+  ASSERT_TRUE(report);
+  const RunRecord& run = comparison.problems[0].contenders[5].runs[0];
+  EXPECT_EQ(run.polished_A, report->rmse.refined.solved_current_A);
+  EXPECT_EQ(run.evaluations, report->search.evaluations);
+}
+
+TEST(ComparePooled, GivesTheSameBitsOnAnyNumberOfThreads) {
+  CompareOptions options = PooledOptions();
+  const nlohmann::json two = Figures(Compared(StringsAndFamilies(), options));
+  options.threads = 1;
+  EXPECT_EQ(Figures(Compared(StringsAndFamilies(), options)), two);
+}
+
+TEST(ComparePooled, IsTakenUpWithTheSameBits) {
+  const TempFolder folder;
+  CompareOptions options = PooledOptions();
+  const nlohmann::json whole = Figures(Compared(StringsAndFamilies(), options));
+  options.journal = folder.Path("study.jsonl");
+  const Comparison part = Compared(StringsAndFamilies(), options, [](const Progress& progress) {
+    return progress.iteration >= 8 ? ObserverAction::kStop : ObserverAction::kContinue;
+  });
+  EXPECT_TRUE(part.interrupted);
+  EXPECT_EQ(Figures(Compared(StringsAndFamilies(), options)), whole);
+  const Comparison again = Compared(StringsAndFamilies(), options);
+  EXPECT_THAT(again.remarks, ElementsAre(HasSubstr("18 of 18 runs were done before")));
+  EXPECT_EQ(Figures(again), whole);
+}
+
+TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
+  const TempFolder folder;
+  CompareOptions options = PooledOptions();
+  options.journal = folder.Path("study.jsonl");
+  Compared(MadeSubjects("strings_2", 1), options);
+  const auto refusal = [&](const std::vector<CompareCurve>& subjects) {
+    const auto comparison = Compare(subjects, PooledContenders(), options);
+    return comparison ? "not refused" : comparison.error().ToString();
+  };
+  EXPECT_THAT(refusal(MadeSubjects("strings_2", 2)), HasSubstr("begun with number of curves: 1"));
+  std::vector<CompareCurve> other = MadeSubjects("strings_2", 1);
+  other[0].with[0].ranges["w1"] = {0.25, 0.25};
+  EXPECT_THAT(refusal(other), HasSubstr("begun with effects of curve 1 strings_2 0"));
+  other = MadeSubjects("strings_2", 1);
+  other[0].problem = "lights";
+  EXPECT_THAT(refusal(other), HasSubstr("begun with problem of curve 1 strings_2 0: strings_2"));
+  options.multistart = 3;
+  EXPECT_THAT(refusal(MadeSubjects("strings_2", 1)), HasSubstr("begun with multistart: 2"));
+}
+
+TEST(ComparePooled, NamesWhatCannotBeFitted) {
+  std::vector<CompareCurve> subjects = MadeSubjects("family_offsets", 1);
+  subjects[0].set->curves.resize(1);
+  const auto comparison = Compare(subjects, PooledContenders(), PooledOptions());
+  ASSERT_FALSE(comparison);
+  EXPECT_THAT(comparison.error().ToString(), HasSubstr("cannot be compared on family_offsets 0"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/study/compare.h"
+
+namespace lyrefit {
+
+// One run of made figures: RMSE in units of the reference, seconds in ms.
+struct MadeRun {
+  double searched;
+  double own;
+  double hybrid;
+};
+
+inline ContenderResult MadeContender(const std::string& algorithm, std::int64_t budget,
+                                     const std::vector<MadeRun>& runs, double search_ms = 10) {
+  ContenderResult contender;
+  contender.algorithm = algorithm;
+  contender.name = budget > 0 ? algorithm + "@" + std::to_string(budget) : algorithm;
+  contender.budget = budget;
+  if (algorithm == "shape") contender.kind = ContenderKind::kShape;
+  if (algorithm == "default") contender.kind = ContenderKind::kDefault;
+  for (const MadeRun& made : runs) {
+    RunRecord run;
+    run.run = static_cast<int>(contender.runs.size());
+    run.searched_A = 2e-3 * made.searched;  // 2 mA: the reference of every made device
+    run.plain_polished_A = run.searched_A;
+    run.own_polished_A = 2e-3 * made.own;
+    run.polished_A = 2e-3 * made.hybrid;
+    run.evaluations = budget;
+    run.search_seconds = 1e-3 * search_ms;
+    run.plain_seconds = 1e-3;
+    run.own_seconds = 5e-3;
+    run.polish_seconds = 30e-3;
+    contender.runs.push_back(std::move(run));
+  }
+  return contender;
+}
+
+inline ProblemResult MadeDevice(const std::string& name, const std::string& problem,
+                                std::vector<ContenderResult> contenders) {
+  ProblemResult device;
+  device.curve_name = name;
+  device.problem = problem;
+  device.objective = Objective::kSolvedCurrent;
+  device.reference.rmse_A = 2e-3;
+  device.reference.origin = "best of all runs";
+  device.contenders = std::move(contenders);
+  return device;
+}
+
+inline Comparison MadeComparison(std::vector<ProblemResult> devices) {
+  Comparison comparison;
+  comparison.options.runs = 1;
+  comparison.problems = std::move(devices);
+  return comparison;
+}
+
+}  // namespace lyrefit

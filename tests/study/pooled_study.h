@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/study/compare.h"
+#include "lyrefit/study/landscape.h"
+
+namespace lyrefit {
+
+// The first devices of a made problem.
+inline std::vector<CompareCurve> MadeSubjects(const std::string& problem, int devices) {
+  auto cases = MakeLandscape(problem, devices, 0);
+  EXPECT_TRUE(cases) << cases.error().ToString();
+  std::vector<CompareCurve> subjects;
+  for (LandscapeCase& made : *cases) subjects.push_back(SubjectOf(std::move(made)));
+  return subjects;
+}
+
+// Two searches of two budgets, and the shape's starts.
+inline std::vector<Contender> PooledContenders() {
+  std::vector<Contender> contenders =
+      BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {10, 40});
+  contenders.push_back(OwnContender(ContenderKind::kShape));
+  contenders.push_back(OwnContender(ContenderKind::kDefault));
+  return contenders;
+}
+
+inline CompareOptions PooledOptions() {
+  CompareOptions options;
+  options.runs = 1;
+  options.plain_polish = true;
+  options.rankings = false;
+  options.multistart = 2;
+  options.threads = 2;
+  return options;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,112 @@
+#include "lyrefit/study/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "made_pool.h"
+
+namespace lyrefit {
+namespace {
+
+// Ten runs, so many of which hit by the best bird's own polish and with all starts.
+ContenderResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
+                     double search_ms = 10) {
+  std::vector<MadeRun> runs;
+  for (int r = 0; r < 10; ++r) runs.push_back({9, r < own ? 1.0 : 2, r < hybrid ? 1.0 : 2});
+  return MadeContender(algorithm, budget, runs, search_ms);
+}
+
+Comparison OfOne(std::vector<ContenderResult> contenders) {
+  return MadeComparison({MadeDevice("x 0", "x", std::move(contenders))});
+}
+
+TEST(EnoughHits, AreNinetySixOfAHundred) {
+  EXPECT_EQ(EnoughHits(50), 48);
+  EXPECT_EQ(EnoughHits(100), 96);
+  EXPECT_EQ(EnoughHits(10), 10);
+  EXPECT_EQ(EnoughHits(2), 2);
+  EXPECT_EQ(EnoughHits(25), 24);
+}
+
+TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
+  const Comparison comparison = OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100),
+                                       Hits("de", 10, 9, 9), Hits("de", 100, 10, 10, 20)});
+  const auto pools = PoolProblems(comparison);
+  const SearchVerdict verdict = JudgePool(pools[0]);
+  ASSERT_TRUE(verdict.search);
+  EXPECT_EQ(verdict.search->contender->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
+  EXPECT_EQ(verdict.search->level, PolishLevel::kOwn);
+  EXPECT_EQ(verdict.needed, 10);
+  EXPECT_FALSE(verdict.random);
+  EXPECT_FALSE(verdict.best);
+  EXPECT_FALSE(verdict.shape);
+}
+
+TEST(JudgePool, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
+  const Comparison comparison =
+      OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100), Hits("mlo", 1000, 10, 0, 1000)});
+  const auto pools = PoolProblems(comparison);
+  EXPECT_EQ(JudgePool(pools[0]).search->contender->name, "mlo@1000");
+}
+
+TEST(JudgePool, LeavesAllStartsOutWhereTheShapeIsEnough) {
+  const Comparison with = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 3, 10)});
+  const auto pools = PoolProblems(with);
+  const SearchVerdict verdict = JudgePool(pools[0]);
+  EXPECT_TRUE(verdict.shape_is_enough);
+  EXPECT_TRUE(verdict.shape_wins);
+  EXPECT_FALSE(verdict.search) << "it gets there by the shape's starts alone";
+  EXPECT_EQ(verdict.best->figures().hits, 3);
+  const Comparison without = OfOne({Hits("shape", 0, 0, 9, 0), Hits("mlo", 10, 3, 10)});
+  const auto other = PoolProblems(without);
+  EXPECT_EQ(JudgePool(other[0]).search->level, PolishLevel::kHybrid);
+  EXPECT_FALSE(JudgePool(other[0]).shape_wins);
+}
+
+TEST(JudgePool, LetsAFasterSearchWinAgainstTheShape) {
+  const Comparison comparison = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 10, 10)});
+  const auto pools = PoolProblems(comparison);
+  EXPECT_FALSE(JudgePool(pools[0]).shape_wins) << "15 ms against 30 ms";
+}
+
+TEST(JudgePool, SetsRandomPointsBesideTheWinner) {
+  const Comparison comparison =
+      OfOne({Hits("mlo", 10, 10, 10), Hits("random", 10, 5, 10), Hits("random", 100, 7, 7)});
+  const auto pools = PoolProblems(comparison);
+  const SearchVerdict verdict = JudgePool(pools[0]);
+  EXPECT_EQ(verdict.search->contender->name, "mlo@10");
+  ASSERT_TRUE(verdict.random);
+  EXPECT_EQ(verdict.random->contender->name, "random@10") << "most hits, though not enough on";
+  EXPECT_EQ(verdict.random->level, PolishLevel::kHybrid);
+}
+
+TEST(CompareWithPeers, TakesTheFastestOfAtLeastAsManyHits) {
+  const Comparison comparison =
+      OfOne({Hits("default", 0, 0, 9, 0), Hits("pagmo:cmaes", 10, 8, 10, 1),
+             Hits("pagmo:cmaes", 100, 9, 10, 115), Hits("pagmo:de", 100, 10, 10, 55),
+             Hits("de", 10, 10, 10, 1)});
+  const auto pools = PoolProblems(comparison);
+  const auto ratio = CompareWithPeers(pools[0]);
+  ASSERT_TRUE(ratio);
+  EXPECT_TRUE(ratio->equal);
+  EXPECT_EQ(ratio->peer->contender->name, "pagmo:de@100");
+  EXPECT_DOUBLE_EQ(ratio->times, 2) << "60 ms by 30 ms";
+}
+
+TEST(CompareWithPeers, NamesTheBestWhereNoneHitsAsOften) {
+  const Comparison comparison = OfOne(
+      {Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 8, 10), Hits("pagmo:de", 100, 7, 10)});
+  const auto pools = PoolProblems(comparison);
+  const auto ratio = CompareWithPeers(pools[0]);
+  EXPECT_FALSE(ratio->equal);
+  EXPECT_EQ(ratio->peer->contender->name, "pagmo:de@10");
+  EXPECT_TRUE(std::isnan(ratio->times));
+  const Comparison none = OfOne({Hits("pagmo:de", 10, 8, 10)});
+  const auto others = PoolProblems(none);
+  EXPECT_FALSE(CompareWithPeers(others[0]));
+}
+
+}  // namespace
+}  // namespace lyrefit

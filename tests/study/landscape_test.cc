@@ -57,7 +57,7 @@ TruthFit OfCurve(const LandscapeCase& device) {
   options.bounds = device.bounds;
   options.with = device.with;
   const Observer observer;
-  FitJob job{device.curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer)};
+  FitJob job{device.curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
   FitReport report;
   const auto prepared = PrepareFit(&job, &report);
   EXPECT_TRUE(prepared) << prepared.error().ToString();

@@ -14,11 +14,11 @@ namespace {
 constexpr int kGroups = 4;
 enum { kDrop = 2 * kGroups, kCovered, kParameters };
 
-using Shares = std::vector<double>;
+using ShareList = std::vector<double>;
 
 // Lights from the middles of the plateaus that groups of such shares have, the brightest (the rest)
 // first and then in the order given; `shares` by their place among the parameters.
-void AddStart(const CurveShape& shape, const Shares& shares, const std::vector<int>& order,
+void AddStart(const CurveShape& shape, const ShareList& shares, const std::vector<int>& order,
               std::vector<ShapeStart>* starts) {
   constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
   constexpr double kBright = 0.02;  // of the voltage: tracers hurry through the first plateau
@@ -52,11 +52,11 @@ std::vector<int> InOrder(std::size_t count) {
 // A light for each of so many equal substrings, or for the brightest of them and four more.
 void AddEqual(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
   const int groups = std::min(substrings - 1, kGroups);
-  AddStart(shape, Shares(groups, 1.0 / substrings), InOrder(groups), starts);
+  AddStart(shape, ShareList(groups, 1.0 / substrings), InOrder(groups), starts);
 }
 
 // All ways to give `groups` groups at least one of the substrings and the brightest at least one.
-void AddShares(const CurveShape& shape, int substrings, std::size_t groups, Shares* shares,
+void AddShares(const CurveShape& shape, int substrings, std::size_t groups, ShareList* shares,
                std::vector<ShapeStart>* starts) {
   if (shares->size() == groups) {
     AddStart(shape, *shares, InOrder(groups), starts);
@@ -76,7 +76,7 @@ void AddShares(const CurveShape& shape, int substrings, std::size_t groups, Shar
 std::vector<ShapeStart> AskedStarts(const CurveShape& shape, const DataTraits& traits,
                                     const std::vector<ParameterBounds>& asked) {
   std::vector<ShapeStart> starts;
-  Shares shares;
+  ShareList shares;
   bool told = true;
   for (int k = 0; k < kGroups; ++k) {
     const ParameterBounds& share = asked[2 * k + 1];
@@ -94,7 +94,7 @@ std::vector<ShapeStart> AskedStarts(const CurveShape& shape, const DataTraits& t
                  shares.end() &&
              std::next_permutation(order.begin(), order.end()));
   } else {
-    Shares some;
+    ShareList some;
     const int substrings = std::max(SubstringsOf(traits), static_cast<int>(shares.size()) + 1);
     AddShares(shape, substrings, shares.size(), &some, &starts);
   }

@@ -128,6 +128,11 @@ Expected<void> FitCommand::SetFixed() {
   if (!with) return tl::unexpected(with.error());
   options_.with = std::move(*with);
   options_.force_effects = verb_->Forced() && !options_.with.empty();
+  if (!options_.with.empty()) {
+    const SearchOptions usual = FitOptions::SearchBesideShapes();
+    if (!verb_->Given("--population")) options_.search.population = usual.population;
+    if (!verb_->Given("--iterations")) options_.search.iterations = usual.iterations;
+  }
   if (auto_model_ && !options_.with.empty()) {
     return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
   }

@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kDrawn = 40;
 constexpr std::size_t kKept = 4;
-constexpr double kBeside = 0.1;  // of a side, in all of them
-constexpr int kSettings = 3;     // on either side
+constexpr double kBeside = 0.1;      // of a side, in all of them
+constexpr int kNext = 3;             // settings on either side
+constexpr std::size_t kSpread = 16;  // settings over all there are
 
 struct Draw {
   double mean_square = 0;
@@ -62,29 +63,43 @@ void AddWholeNumbers(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
   }
 }
 
-void AddSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+// A parameter that is settled by trying and no whole number, and what it is tried at.
+struct Setting {
+  int parameter = 0;
+  std::set<double> values;
+};
+
+std::vector<Setting> SettingsOf(const FitJob& job, const Form& form) {
   const Extension& extension = *job.problem.device.extension;
-  const Form& form = job.forms[at.start.form];
+  std::vector<Setting> settings;
   int first = 0;
   for (const EffectUse& use : extension.uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size() && effect.probes != nullptr; ++k) {
       const ParameterBounds& bounds = form.bounds[first + k];
-      if (!effect.parameters[k].searched || bounds.whole > 0) continue;
-      std::set<double> tried;
+      const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
+      if (!effect.parameters[k].searched || !free) continue;
+      Setting setting{job.base_size() + first + k, {}};
       for (const Probe& probe : effect.probes(extension.readings.traits)) {
-        if (WithinBounds(bounds, probe[k]) == probe[k]) tried.insert(probe[k]);
+        if (WithinBounds(bounds, probe[k]) == probe[k]) setting.values.insert(probe[k]);
       }
-      const int i = job.base_size() + first + k;
-      const auto add = [&](double value) {
-        starts->push_back({"next setting", at.end.p, at.start.form});
-        starts->back().p[i] = value;
-      };
-      auto above = tried.upper_bound(at.end.p[i]), below = tried.lower_bound(at.end.p[i]);
-      for (int step = 0; step < kSettings && above != tried.end(); ++step) add(*above++);
-      for (int step = 0; step < kSettings && below != tried.begin(); ++step) add(*--below);
+      settings.push_back(std::move(setting));
     }
     first += effect.size();
+  }
+  return settings;
+}
+
+void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+  for (const Setting& setting : SettingsOf(job, job.forms[at.start.form])) {
+    const double here = at.end.p[setting.parameter];
+    const auto add = [&](double value) {
+      starts->push_back({"next setting", at.end.p, at.start.form});
+      starts->back().p[setting.parameter] = value;
+    };
+    auto above = setting.values.upper_bound(here), below = setting.values.lower_bound(here);
+    for (int step = 0; step < kNext && above != setting.values.end(); ++step) add(*above++);
+    for (int step = 0; step < kNext && below != setting.values.begin(); ++step) add(*--below);
   }
 }
 
@@ -95,7 +110,7 @@ std::vector<PolishStart> ShapeStarts(const FitJob& job) {
   for (std::size_t f = 0; f < job.forms.size(); ++f) {
     for (const std::vector<double>& place :
          ShapePlaces(*job.problem.device.extension, job.forms[f])) {
-      starts.push_back({fmt::format("shape {}", starts.size() + 1),
+      starts.push_back({fmt::format("{}{}", kShapeOrigin, starts.size() + 1),
                         TypicalDevice(job.problem, place), static_cast<int>(f)});
     }
   }
@@ -135,7 +150,20 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
 std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
   std::vector<PolishStart> starts;
   AddWholeNumbers(job, at, &starts);
-  AddSettings(job, at, &starts);
+  AddNextSettings(job, at, &starts);
+  return starts;
+}
+
+std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at) {
+  std::vector<PolishStart> starts;
+  for (const Setting& setting : SettingsOf(job, job.forms[at.form])) {
+    const std::vector<double> values(setting.values.begin(), setting.values.end());
+    const std::size_t count = std::min(kSpread, values.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      starts.push_back({"spread setting", at.p, at.form});
+      starts.back().p[setting.parameter] = values[(2 * k + 1) * values.size() / (2 * count)];
+    }
+  }
   return starts;
 }
 

@@ -13,7 +13,8 @@ namespace lyrefit {
 
 // Places for descents over the basins of a device with effects.
 
-// Where the shape of the curve suggests, in every form, on a typical device.
+// Where the shape of the curve suggests, in every form, on a typical device: "shape 1", ...
+constexpr char kShapeOrigin[] = "shape ";
 std::vector<PolishStart> ShapeStarts(const FitJob& job);
 
 // The best of many random places, none of them beside another; every second one has the diodes of
@@ -24,6 +25,9 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
 // One more or less of each whole number of an end, one less of one for one more of another, and the
 // next settings of what is settled by trying as well.
 std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at);
+
+// A place with what is settled by trying at values spread over all there are.
+std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at);
 
 // "probe 1", ... in one of the forms.
 std::vector<PolishStart> Named(const std::string& origin, int form,

@@ -13,10 +13,11 @@ constexpr std::size_t kOnwards = 12, kAhead = 6;
 constexpr int kOfEachForm = 2;       // go on whatever the others do
 constexpr double kNear = 2;          // of the lowest RMSE: what may still become the best
 constexpr int kEnough = 3;           // ends in the best basin
-constexpr double kSameBasin = 1e-6;  // relative, of the paid mean square
+constexpr double kSameBasin = 1e-6;  // relative, of the mean square
 
+// A form that another one holds in it comes to the same curve.
 bool SameBasin(const BasinEnd& a, const BasinEnd& b) {
-  return a.start.form == b.start.form && std::fabs(a.paid - b.paid) <= kSameBasin * b.paid;
+  return std::fabs(a.end.mean_square - b.end.mean_square) <= kSameBasin * b.end.mean_square;
 }
 
 }  // namespace

@@ -76,6 +76,15 @@ struct FitOptions {
       Intervals::kProfile;         // kProfile: profile only where symmetric would be false
   int threads = 0;                 // 0: all cores; never changes a result
   const Kernel* kernel = nullptr;  // nullptr: the fastest
+
+  // For a model with effects: a small flock, as the shape of the curve and the basins that its
+  // polish comes to say more about where to look.
+  static SearchOptions SearchBesideShapes() {
+    SearchOptions search;
+    search.population = 10;
+    search.iterations = 6;
+    return search;
+  }
 };
 
 // The hybrid estimator: search the bounds, polish the best bird, further elites and a separable

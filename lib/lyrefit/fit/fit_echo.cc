@@ -35,7 +35,9 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   echo("searcher", options.searcher ? "custom" : "", "");
   echo("plain-polish", options.plain_polish ? "yes" : "no", "no");
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
-  AppendNonDefaults(options.search, kSearchOptionTable, &echoes);
+  AppendNonDefaults(options.search,
+                    options.with.empty() ? defaults.search : FitOptions::SearchBesideShapes(),
+                    kSearchOptionTable, &echoes);
   echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
   echo("polish", options.polish ? "yes" : "no", "yes");
   echo("floor", options.floor ? "yes" : "no", "no");

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kBirds = 3;
+constexpr std::size_t kShapes = 3;
 constexpr int kRounds = 3;  // of random places, and of probes beside the best
 constexpr int kAgain = 2;   // ends in the best basin that make further rounds needless
 constexpr int kSteps = 6;   // of whole numbers and settings
@@ -57,8 +58,27 @@ std::vector<FormReport> ReportForms(const FitJob& job, const Basins& basins) {
   return reports;
 }
 
-// Effects that no shape shows, beside the best fit so far, again and again as that gets better.
+// Where the best ends began that a shape suggested.
+std::vector<PolishStart> BestShapes(const Basins& basins) {
+  std::vector<const BasinEnd*> shapes;
+  for (const BasinEnd& end : basins.ends()) {
+    if (end.start.origin.rfind(kShapeOrigin, 0) == 0) shapes.push_back(&end);
+  }
+  std::stable_sort(shapes.begin(), shapes.end(),
+                   [](const BasinEnd* a, const BasinEnd* b) { return a->paid < b->paid; });
+  std::vector<PolishStart> starts;
+  for (std::size_t k = 0; k < std::min(kShapes, shapes.size()); ++k) {
+    starts.push_back(shapes[k]->start);
+  }
+  return starts;
+}
+
+// Effects that no shape shows: at settings spread over the places that a shape suggests, then
+// beside the best fit so far, again and again as that gets better.
 void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* basins) {
+  for (const PolishStart& shape : BestShapes(*basins)) {
+    basins->Descend(SpreadSettings(job, shape));
+  }
   for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
     const int before = basins->best();
     const BasinEnd best = basins->ends()[before];
@@ -76,11 +96,14 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   const std::vector<bool> shapeless = Shapeless(job);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
   const bool all = std::find(shapeless.begin(), shapeless.end(), false) == shapeless.end();
+  const std::size_t first = from == StartsFrom::kAll ? 1 : kBirds;
+  const auto birds_between = [&](std::size_t begin, std::size_t end) {
+    return std::vector<PolishStart>(
+        birds.begin() + static_cast<std::ptrdiff_t>(std::min(begin, birds.size())),
+        birds.begin() + static_cast<std::ptrdiff_t>(std::min(end, birds.size())));
+  };
   std::vector<PolishStart> starts;
-  if (from != StartsFrom::kShape) {
-    const std::size_t count = std::min(kBirds, birds.size());
-    starts.assign(birds.begin(), birds.begin() + static_cast<std::ptrdiff_t>(count));
-  }
+  if (from != StartsFrom::kShape) starts = birds_between(0, first);
   if (from != StartsFrom::kSearch) {
     std::vector<PolishStart> more = ShapeStarts(job);
     if (more.empty()) {
@@ -91,6 +114,7 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   basins->Descend(std::move(starts));
   if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, basins);
   if (from == StartsFrom::kShape) return;
+  if (basins->visits() < kAgain) basins->Descend(birds_between(first, kBirds));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
   for (int round = 0; round < kRounds && basins->visits() < kAgain; ++round) {
     if (job.watch.stopped()) return;

@@ -198,6 +198,7 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
     return outcome;
   }
   FitOptions fit = FitOptionsOf(subject, problem, options);
+  if (!problem.with.empty()) fit.search = FitOptions::SearchBesideShapes();
   SetContender(contender, options, run, &fit);
   const auto report = Fit(subject.curve, fit, observer);
   if (!report) return tl::unexpected(report.error());

@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "lyrefit/fit/form_problem.h"
+#include "lyrefit/law/law.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr int kFirst = 5, kMore = 9, kMost = 20;  // steps
+constexpr int kFirst = 5, kMore = 9, kMost = 20, kToTheEnd = 100;  // steps
 constexpr std::size_t kOnwards = 12, kAhead = 6;
 constexpr int kOfEachForm = 2;       // go on whatever the others do
+constexpr double kClose = 1.02;      // of the lowest RMSE: what may be the best after so many steps
 constexpr double kNear = 2;          // of the lowest RMSE: what may still become the best
 constexpr int kEnough = 3;           // ends in the best basin
 constexpr double kSameBasin = 1e-6;  // relative, of the mean square
@@ -27,7 +29,8 @@ void Basins::Descend(std::vector<PolishStart> starts) {
   for (PolishStart& start : starts) {
     RefineEnd here;
     here.p = start.p;
-    here.mean_square = MeanSquare(problem_, start.p);
+    LawWorkspace impatient(GiveUp::kSlow);
+    here.mean_square = MeanSquare(problem_, start.p, &impatient);
     here.held.assign(start.p.size(), false);
     ways.push_back(static_cast<int>(ends_.size()));
     ends_.emplace_back();
@@ -37,6 +40,7 @@ void Basins::Descend(std::vector<PolishStart> starts) {
   GoOn(&ways, kFirst, kOnwards);
   GoOn(&ways, kMore, kAhead);
   GoOn(&ways, kMost, kAhead);
+  GoOn(&ways, kToTheEnd, kAhead);
   Finish(ways);
 }
 
@@ -48,6 +52,7 @@ void Basins::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   briefly.max_rounds = 1;
   briefly.max_iterations = briefly.first_iterations = steps;
   briefly.trust_radius = 1e4;
+  briefly.impatient = true;
   briefly.stop = watch_->stop();
   for (const int way : *ways) {
     const BasinEnd& at = ends_[way];
@@ -79,7 +84,7 @@ void Basins::Finish(const std::vector<int>& ways) {
     const BasinEnd& best = ends_[best_];
     const bool known = best.finished && best.start.form == at.start.form && visits() >= kEnough;
     if (watch_->stopped()) break;
-    if (known || IsHopeless(at)) continue;
+    if (known || at.paid > kClose * kClose * best.paid) continue;
     const RefineProblem own = InForm(problem_, forms_[at.start.form], at.end.p);
     Take(way, Refine(own, at.end.p, whole));
     at.finished = true;

@@ -249,9 +249,10 @@ struct LawWorkspace::State {
   const std::vector<ReadingBlock>* blocks = nullptr;
   std::vector<StringState> strings;  // of each block, as the last evaluation left them; or none
   bool fresh = true;
+  GiveUp give_up = GiveUp::kNever;
 };
 
-LawWorkspace::LawWorkspace() = default;
+LawWorkspace::LawWorkspace(GiveUp give_up) : give_up_(give_up) {}
 LawWorkspace::LawWorkspace(const std::vector<ReadingBlock>& blocks)
     : state_(std::make_unique<State>()) {
   state_->blocks = &blocks;
@@ -263,6 +264,7 @@ LawWorkspace::State* LawWorkspace::Of(const Readings& readings) {
     state_->own = BlocksOf(readings);
     state_->blocks = &state_->own;
     state_->strings.resize(state_->own.size());
+    state_->give_up = give_up_;
   }
   return state_.get();
 }
@@ -303,7 +305,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         state.fresh && b > 0 &&
         StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
     if (!follows) Start(cell, limits, block, voltage, state.fresh, &at);
-    const StringRoot root = SolveString(plain, cell, limits, voltage, &at, kept);
+    const StringRoot root = SolveString(plain, cell, limits, voltage, &at, state.give_up);
     if constexpr (!kDerivatives) {
       const Pack recorded =
           instrument ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;

@@ -65,12 +65,18 @@ struct Law {
   bool Searched(int parameter) const;  // not to be descended in, unless asked for
 };
 
+// Who would rather have no current than look for it in brackets, some ten thousand times as long.
+enum class GiveUp {
+  kNever,
+  kAbsurd,  // where cells drive more than a million scales through their own bypass diode
+  kSlow,    // wherever steps lead to no end
+};
+
 // The readings laid out for the law, and where the last evaluation of it ended: from there the next
-// starts. For one law and one set of readings, which must not change in between. Laws that no
-// device has are given up sooner (string.h).
+// starts. For one law and one set of readings, which must not change in between.
 class LawWorkspace {
  public:
-  LawWorkspace();
+  explicit LawWorkspace(GiveUp give_up = GiveUp::kAbsurd);
   // On blocks that stand already (reading_blocks.h) and outlive this; every evaluation starts
   // afresh, and none is given up.
   explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
@@ -81,6 +87,7 @@ class LawWorkspace {
 
  private:
   std::unique_ptr<State> state_;
+  GiveUp give_up_ = GiveUp::kNever;
 };
 
 // Recorded current of every reading. `jacobian`, where given, receives its derivatives by all

@@ -336,7 +336,7 @@ void Take(const Cell<Pack>& cell, const Mask& lanes, const StringState& from, St
 }  // namespace
 
 StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
-                       const Pack& voltage, StringState* state, bool give_up) {
+                       const Pack& voltage, StringState* state, GiveUp give_up) {
   constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
   Linear linear;
@@ -359,7 +359,8 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
     }
     near = All(done);
     if (k != kMostSteps - kPatience) continue;
-    if (give_up) hopeless = IsAbsurd(cell, terms) & (!done);
+    if (give_up == GiveUp::kSlow) hopeless = !done;
+    if (give_up == GiveUp::kAbsurd) hopeless = IsAbsurd(cell, terms) & (!done);
     if (Any(hopeless)) break;
     StringState settled;
     StartString(cell, limits, voltage, 0.0, &settled);

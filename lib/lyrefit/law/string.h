@@ -69,10 +69,9 @@ struct StringRoot {
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state);
 
-// The root at `voltage` per cell, from the state that is given, which moves there. Where it is far
-// and cells drive more than a million scales through their own bypass diode, the current is NaN for
-// those who would rather `give_up` than look for it in brackets, some ten thousand times as long.
+// The root at `voltage` per cell, from the state that is given, which moves there; NaN where it was
+// given up.
 StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
-                       const Pack& voltage, StringState* state, bool give_up = false);
+                       const Pack& voltage, StringState* state, GiveUp give_up = GiveUp::kNever);
 
 }  // namespace lyrefit

@@ -18,6 +18,9 @@ struct RefineOptions {
   // Small problems are solved in fewer evaluations (SolveOptions::small) and end with their first
   // solve where nothing speaks against it. For fits by the hundred, which need not be exact.
   bool small = false;
+  // Of one curve: whether places whose currents are slow to be had are taken for places that have
+  // none.
+  bool impatient = false;
   // A mean square that a small problem gives up on when it is out of reach.
   double to_beat = HUGE_VAL;
   // Of the first solve, which has the bounds: the rounds go on from wherever it comes to, and where

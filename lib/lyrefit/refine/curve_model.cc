@@ -20,9 +20,11 @@ ModelShape ShapeOf(const RefineProblem& problem) {
 
 }  // namespace
 
-CurveModel::CurveModel(const RefineProblem& problem, bool keep)
-    : FitModel(ShapeOf(problem)), problem_(problem) {
-  if (keep && problem.device.extension != nullptr) kept_ = std::make_unique<LawWorkspace>();
+CurveModel::CurveModel(const RefineProblem& problem)
+    : FitModel(ShapeOf(problem)), problem_(problem) {}
+
+CurveModel::CurveModel(const RefineProblem& problem, GiveUp give_up) : CurveModel(problem) {
+  if (problem.device.extension != nullptr) kept_ = std::make_unique<LawWorkspace>(give_up);
 }
 
 CurveModel::CurveModel(std::unique_ptr<RefineProblem> own)

@@ -12,9 +12,11 @@ namespace lyrefit {
 // kernel.
 class CurveModel : public FitModel {
  public:
-  // Keeps a reference. In one descent each evaluation may start where the last one ended (`keep`):
-  // faster for extended devices, and then not for several threads at once.
-  explicit CurveModel(const RefineProblem& problem, bool keep = false);
+  // Keeps a reference.
+  explicit CurveModel(const RefineProblem& problem);
+  // For one descent, in which each evaluation may start where the last one ended: faster for
+  // extended devices, and not for several threads at once.
+  CurveModel(const RefineProblem& problem, GiveUp give_up);
 
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
                 double* local_slopes) const override;

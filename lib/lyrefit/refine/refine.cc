@@ -10,7 +10,8 @@ namespace lyrefit {
 
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
-  return RefineModel(CurveModel(problem, true), {std::move(start), {}}, options);
+  const CurveModel model(problem, options.impatient ? GiveUp::kSlow : GiveUp::kAbsurd);
+  return RefineModel(model, {std::move(start), {}}, options);
 }
 
 RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/basin_starts.h"
@@ -35,7 +36,7 @@ class BasinsTest : public ::testing::Test {
     }
     return {"truth", Inner(report_.device, p), 0};
   }
-  // The same with two lights exchanged, or with one that all share.
+  // The same under other lights.
   PolishStart Changed(double d1, double d2, double d3) const {
     PolishStart start = Truth();
     double* const own = start.p.data() + job_.base_size();
@@ -96,29 +97,37 @@ TEST_F(BasinsTest, CountsWhatWasMet) {
 }
 
 TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
+  std::vector<PolishStart> starts = ShapeStarts(job_);  // two forms
+  for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));
+  // One into each of three basins, by where it ends.
+  std::map<double, PolishStart> into;
+  for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
+    const PolishStart& start = starts[k];
+    Basins alone(job_.problem, job_.forms, &job_.watch);
+    alone.Descend({start});
+    const double end = alone.ends()[0].paid;
+    const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
+      return std::fabs(other.first / end - 1) < 0.01;
+    });
+    if (!known) into[end] = start;
+  }
+  ASSERT_EQ(into.size(), 3u);
+  // The worst first: none is out of reach of what is known by then.
   Basins basins(job_.problem, job_.forms, &job_.watch);
-  basins.Descend(ShapeStarts(job_));
-  for (const BasinEnd& end : basins.ends()) EXPECT_TRUE(std::isfinite(end.paid));
-  const BasinCount count = basins.Count();
-  // Ends in order, a new basin where they are apart.
-  std::vector<double> paid;
-  for (const BasinEnd& end : basins.ends()) {
-    if (end.finished) paid.push_back(end.paid);
-  }
-  std::sort(paid.begin(), paid.end());
-  std::vector<int> visits;
-  for (std::size_t k = 0; k < paid.size(); ++k) {
-    if (k == 0 || paid[k] > paid[k - 1] * (1 + 1e-6)) visits.push_back(0);
-    ++visits.back();
-  }
-  const int once = static_cast<int>(std::count(visits.begin(), visits.end(), 1));
-  const int twice = static_cast<int>(std::count(visits.begin(), visits.end(), 2));
-  EXPECT_EQ(count.starts, static_cast<int>(paid.size()));
-  EXPECT_EQ(count.basins, static_cast<int>(visits.size()));
-  EXPECT_EQ(count.best_visits, visits.front());
-  EXPECT_EQ(count.once, once);
-  EXPECT_EQ(count.twice, twice);
-  EXPECT_DOUBLE_EQ(count.unseen, once * (once - 1) / (2.0 * (twice + 1)));
+  for (auto start = into.rbegin(); start != into.rend(); ++start) basins.Descend({start->second});
+  BasinCount count = basins.Count();
+  EXPECT_EQ(count.basins, 3);
+  EXPECT_EQ(count.once, 3);
+  EXPECT_EQ(count.twice, 0);
+  EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
+  basins.Descend({into.begin()->second});
+  count = basins.Count();
+  EXPECT_EQ(count.starts, 4);
+  EXPECT_EQ(count.basins, 3);
+  EXPECT_EQ(count.best_visits, 2);
+  EXPECT_EQ(count.once, 2);
+  EXPECT_EQ(count.twice, 1);
+  EXPECT_EQ(count.unseen, 0.5);  // 2 x 1 / (2 x 2)
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
 #include "lyrefit/study/landscape.h"
+#include "module_with.h"
 
 namespace lyrefit {
 namespace {
@@ -31,14 +32,6 @@ FitOptions ByName(const char* effect) {
   options.with = {{FindEffect(effect), {}}};
   options.random_baseline = false;
   return options;
-}
-
-const Estimate& Find(const FitReport& report, const std::string& symbol) {
-  for (const Estimate& e : report.estimates) {
-    if (e.info.symbol == symbol) return e;
-  }
-  ADD_FAILURE() << "no parameter " << symbol;
-  return report.estimates.front();
 }
 
 void ExpectNear(const FitReport& report, const std::string& symbol, double truth) {
@@ -92,16 +85,14 @@ INSTANTIATE_TEST_SUITE_P(Counted, StringsByName, ::testing::Values(3, 5));
 
 // Effects held as they are, in a module whose bypass diodes are counted.
 IvCurve ModuleOf(int substrings, const EffectUse& use) {
-  SimulateOptions options;
-  options.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};
-  options.conditions.cells_in_series = 60;
+  SimulateOptions options = Module();
+  options.noise_A = 0;
   auto taken = Simulate(options);
   EXPECT_TRUE(taken) << taken.error().ToString();
   taken->notes.bypass_diodes = substrings;
   options.taken = *taken;
   options.with = {use};
-  options.noise_A = 0.004;
-  options.seed = 3;
+  options.noise_A = Module().noise_A;
   const auto curve = Simulate(options);
   EXPECT_TRUE(curve) << curve.error().ToString();
   return curve ? *curve : IvCurve{};

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/simulate.h"
+#include "module_with.h"
 
 namespace lyrefit {
 namespace {
@@ -49,10 +49,7 @@ TEST(SearchSpace, GivesEveryWholeNumberAsMuchRoom) {
 
 // A module of three substrings, and an effect beside its diodes that is asked for by name.
 Device ModuleWith(const char* effect) {
-  SimulateOptions options;
-  options.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};
-  options.conditions.cells_in_series = 60;
-  auto curve = Simulate(options);
+  auto curve = Simulate(Module());
   EXPECT_TRUE(curve) << curve.error().ToString();
   curve->notes.bypass_diodes = 3;
   const auto device =

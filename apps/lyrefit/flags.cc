@@ -108,10 +108,12 @@ Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag
 }
 
 Flag AddWithFlag(Verb* verb, const std::string& group, std::vector<std::string>* target) {
-  return AddListFlag(verb, "--with",
-                     "an effect beside the diodes, as diagnose --explain names it, its parameters "
-                     "free, held (d=0.3) or within a range (d=0:0.5); once for each",
-                     target)
+  return AddListFlag(
+             verb, "--with",
+             "an effect beside the diodes, as diagnose --explain names it: alone, with what "
+             "the shape of the curve suggests free; or with parameters held (d=0.3) or "
+             "within a range (d=0:0.5); once for each",
+             target)
       .Type("EFFECT[:P=VALUE|LOW:HIGH,...]")
       .Group(group);
 }

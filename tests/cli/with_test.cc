@@ -45,6 +45,18 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   const json& depth = report["parameters"]["shading_shading_depth"];
   EXPECT_LT(depth["low_95"], depth["refined"]);
   EXPECT_GT(depth["high_95"], depth["refined"]);
+  // By its name alone: its forms, and a share of the three substrings that are counted.
+  EXPECT_THAT(fit.out, HasSubstr("d, w, Vb free <-\n"));
+  EXPECT_EQ(report["forms"].size(), 2u);
+  const json& share = report["parameters"]["shading_shaded_share"];
+  EXPECT_NEAR(share["whole"].get<double>(), 1.0 / 3, 1e-15);
+  EXPECT_TRUE(share["low_95"].is_null());
+  EXPECT_FALSE(share["fixed"].get<bool>());
+  EXPECT_THAT(fit.out, HasSubstr("whole number, settled by trying"));
+  const json& basins = report["refine"]["basins"];
+  EXPECT_GE(basins["starts"], basins["basins"]);
+  EXPECT_GE(basins["best_visits"], 1);
+  EXPECT_LE(basins["starts"], report["refine"]["start_list"].size());
   ExpectSameCurve(file, report);
 }
 

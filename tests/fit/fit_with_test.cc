@@ -6,28 +6,12 @@
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
+#include "module_with.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
-
-SimulateOptions Module() {
-  SimulateOptions options;
-  options.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};
-  options.conditions.cells_in_series = 60;
-  options.noise_A = 0.004;
-  options.seed = 3;
-  return options;
-}
-
-const Estimate& Find(const FitReport& report, const std::string& symbol) {
-  for (const Estimate& e : report.estimates) {
-    if (e.info.symbol == symbol) return e;
-  }
-  ADD_FAILURE() << "no parameter " << symbol;
-  return report.estimates.front();
-}
 
 TEST(FitWith, FindsAShadeAndTheDeviceBehindIt) {
   SimulateOptions options = Module();

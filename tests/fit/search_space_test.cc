@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+
+#include "lyrefit/effects/catalogue.h"
+#include "module_with.h"
 
 namespace lyrefit {
 namespace {
@@ -22,6 +26,81 @@ TEST(SearchSpace, IsLinearLogarithmicOrFixedAsTheBoundsSay) {
   EXPECT_EQ(p[0], 2.5);
   EXPECT_NEAR(p[1], 1e-7, 1e-19);
   EXPECT_EQ(p[2], 5);
+}
+
+TEST(SearchSpace, GivesEveryWholeNumberAsMuchRoom) {
+  const ParameterBounds counted{2, 5, 2, 5, SearchScale::kLinear, 1};
+  const SearchSpace space({counted}, {std::nan("")});
+  ASSERT_EQ(space.dimensions(), 1);
+  EXPECT_EQ(space.box().lower[0], 0);
+  EXPECT_EQ(space.box().upper[0], 4);
+  std::map<double, int> met;
+  for (int k = 0; k < 400; ++k) {
+    const double x = (k + 0.5) / 100;
+    double p = 0;
+    space.ToParameters(&x, &p);
+    ++met[p];
+  }
+  EXPECT_EQ(met, (std::map<double, int>{{2, 100}, {3, 100}, {4, 100}, {5, 100}}));
+  double p = 0;
+  space.ToParameters(&space.box().upper[0], &p);  // the end belongs to the last
+  EXPECT_EQ(p, 5);
+}
+
+// A module of three substrings, and an effect beside its diodes that is asked for by name.
+Device ModuleWith(const char* effect) {
+  auto curve = Simulate(Module());
+  EXPECT_TRUE(curve) << curve.error().ToString();
+  curve->notes.bypass_diodes = 3;
+  const auto device =
+      Extend(MakeDevice(Model::kSingleDiode, curve->conditions), Model::kSingleDiode,
+             ConstantSet::kCodata, *curve, {{FindEffect(effect), {}}}, /*force=*/true);
+  EXPECT_TRUE(device) << device.error().ToString();
+  return *device;
+}
+
+TEST(SearchSpace, HasASideForTheFormsOfEffects) {
+  const Device device = ModuleWith("weak_cell");
+  const Extension& extension = *device.extension;
+  const std::vector<Form> forms = FormsOf(extension);
+  ASSERT_GT(forms.size(), 2u);
+  const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
+  const SearchSpace space(base, std::vector<double>(5, std::nan("")), extension, forms);
+  // Five of the diode, all that is free in some form (d, Vb, a, Vbr, m, A), and the form.
+  ASSERT_EQ(space.dimensions(), 12);
+  EXPECT_EQ(space.box().upper.back(), static_cast<double>(forms.size()));
+  std::vector<double> x, p(device.size());
+  for (int j = 0; j < space.dimensions(); ++j) {
+    x.push_back(0.5 * (space.box().lower[j] + space.box().upper[j]));
+  }
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    x.back() = static_cast<double>(f) + 0.5;
+    ASSERT_EQ(space.FormAt(x.data()), static_cast<int>(f));
+    space.ToParameters(x.data(), p.data());
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(p[i], 0.5);
+    for (std::size_t k = 0; k < forms[f].bounds.size(); ++k) {
+      const ParameterBounds& own = forms[f].bounds[k];
+      EXPECT_EQ(p[5 + k], WithinBounds(own, p[5 + k])) << k;
+      if (own.lower == own.upper) continue;
+      EXPECT_DOUBLE_EQ(p[5 + k], 0.5 * (own.lower + own.upper)) << k;
+    }
+  }
+}
+
+TEST(SearchSpace, SharesOfSubstringsAreSearchedAsWholeNumbersOfThem) {
+  const Device device = ModuleWith("shading");
+  const Extension& extension = *device.extension;
+  const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
+  const SearchSpace space(base, std::vector<double>(5, 0.5), extension, FormsOf(extension));
+  ASSERT_EQ(space.dimensions(), 5);  // d, w, Vb, c and the form
+  EXPECT_EQ(space.box().lower[1], 0);
+  EXPECT_EQ(space.box().upper[1], 2);
+  std::vector<double> x = {0.5, 0, 0.5, 0.5, 0.5}, p(device.size());
+  for (const auto& [at, share] : {std::pair{0.3, 1.0 / 3}, {0.99, 1.0 / 3}, {1.01, 2.0 / 3}}) {
+    x[1] = at;
+    space.ToParameters(x.data(), p.data());
+    EXPECT_DOUBLE_EQ(p[6], share) << at;
+  }
 }
 
 }  // namespace

@@ -159,5 +159,44 @@ TEST(Extend, SaysWhatCannotBe) {
               HasSubstr("24 parameters are too many for one law, expected 20 at most"));
 }
 
+TEST(Extend, KeepsToWholeNumbers) {
+  IvCurve curve = UpAndDown();
+  curve.notes.bypass_diodes = 3;
+  const auto extend = [&](const EffectUse& use) {
+    return Extend(MakeDevice(Model::kSingleDiode, curve.conditions), Model::kSingleDiode,
+                  ConstantSet::kCodata, curve, {use}, /*force=*/true);
+  };
+  const auto error_of = [&](const EffectUse& use) {
+    const auto device = extend(use);
+    return device ? "no error" : device.error().ToString();
+  };
+  const auto share_of = [&](double low, double high) {
+    const auto device = extend(Use("shading", {{"w", {low, high}}}));
+    EXPECT_TRUE(device) << device.error().ToString();
+    return device ? device->extension->bounds[1] : ParameterBounds{};
+  };
+  const ParameterBounds any = share_of(0.2, 0.9);  // bounds of one's own move to whole substrings
+  EXPECT_DOUBLE_EQ(any.lower, 1.0 / 3);
+  EXPECT_DOUBLE_EQ(any.upper, 2.0 / 3);
+  EXPECT_DOUBLE_EQ(any.whole, 1.0 / 3);
+  const ParameterBounds typed = share_of(0.33333, 0.66666);  // as they are typed
+  EXPECT_DOUBLE_EQ(typed.lower, 1.0 / 3);
+  EXPECT_DOUBLE_EQ(typed.upper, 2.0 / 3);
+  const ParameterBounds one = share_of(0.3, 0.4);  // which leaves nothing to try
+  EXPECT_EQ(one.lower, one.upper);
+  EXPECT_DOUBLE_EQ(one.lower, 1.0 / 3);
+  const ParameterBounds held = share_of(0.4, 0.4);
+  EXPECT_EQ(held.lower, 0.4);
+  EXPECT_EQ(held.upper, 0.4);
+  EXPECT_THAT(error_of(Use("shading", {{"w", {0.4, 0.5}}})),
+              HasSubstr("shading: w = 0.4:0.5 holds no whole number of 3 substrings: expected a "
+                        "range around 0.666667"));
+  EXPECT_THAT(error_of(Use("weak_cell", {{"chains", {1.2, 1.8}}})),
+              HasSubstr("weak_cell: chains = 1.2:1.8 holds no whole number of them: expected a "
+                        "range around 2"));
+  curve.notes.bypass_diodes.reset();  // shares of substrings that nobody has counted
+  EXPECT_EQ(error_of(Use("shading", {{"w", {0.4, 0.5}}})), "no error");
+}
+
 }  // namespace
 }  // namespace lyrefit

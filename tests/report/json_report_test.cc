@@ -29,15 +29,15 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
       "key_points",      "information", "residuals", "correlations",
       "search",          "refine",      "intervals", "model_choice",
       "options",         "interrupted", "usable",    "not_usable_because",
-      "warnings",        "data",        "errors"};
+      "warnings",        "data",        "errors",    "forms"};
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
                                         "iterations", "evaluations", "termination", "message",
                                         "seconds",    "elites",      "trace"};
   EXPECT_EQ(Keys(j["search"]), search);
-  const std::set<std::string> refine = {"termination", "message", "starts",
-                                        "agreeing",    "winner",  "projected_gradient",
-                                        "condition",   "seconds", "start_list"};
+  const std::set<std::string> refine = {
+      "termination",        "message",   "starts",  "agreeing",   "winner",
+      "projected_gradient", "condition", "seconds", "start_list", "basins"};
   EXPECT_EQ(Keys(j["refine"]), refine);
 }
 
@@ -50,6 +50,36 @@ TEST(JsonReport, TellsTheFloorWhereItWasAskedFor) {
                                                 "n_lower", "n_upper", "refined_above"}));
   EXPECT_EQ(floor["lower_bound_A"], 9.7e-4);
   EXPECT_EQ(floor["refined_above"], 0.01);
+}
+
+TEST(JsonReport, CountsBasinsAndListsFormsOfAModelWithEffects) {
+  FitReport report = SampleReport();
+  EXPECT_TRUE(Parsed(report)["refine"]["basins"].is_null());
+  EXPECT_TRUE(Parsed(report)["forms"].is_null());
+  EXPECT_TRUE(Parsed(report)["parameters"]["n"]["whole"].is_null());
+  report.refine.starts.resize(49);
+  report.refine.basins = BasinCount{14, 4, 6, 3, 1, 1.5};
+  report.forms = {{"d, Vb free; a = 0", 2, 1.2e-3, 87.5, false, false},
+                  {"d, Vb, m, A free", 4, 7.73e-4, 0, true, true}};
+  report.estimates[2].bounds.whole = 0.25;
+  const json j = Parsed(report);
+  EXPECT_EQ(j["refine"]["start_list"].size(), 49u);
+  EXPECT_EQ(j["refine"]["basins"], (json{{"starts", 14},
+                                         {"basins", 4},
+                                         {"best_visits", 6},
+                                         {"once", 3},
+                                         {"twice", 1},
+                                         {"unseen", 1.5}}));
+  ASSERT_EQ(j["forms"].size(), 2u);
+  EXPECT_EQ(j["forms"][0], (json{{"what", "d, Vb free; a = 0"},
+                                 {"free", 2},
+                                 {"solved_current_rmse_A", 1.2e-3},
+                                 {"bic_above", 87.5},
+                                 {"finished", false},
+                                 {"chosen", false}}));
+  EXPECT_EQ(j["forms"][1]["chosen"], true);
+  EXPECT_EQ(j["parameters"]["n"]["whole"], 0.25);
+  EXPECT_EQ(j["parameters"]["n"]["fixed"], false);
 }
 
 TEST(JsonReport, NamesParametersAsPvlibDoes) {

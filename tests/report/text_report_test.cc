@@ -29,6 +29,11 @@ TEST(FullReport, FitsATerminalOf100Columns) {
   report.warnings = {
       "a warning of many words that goes on and on, longer than any terminal is wide, "
       "because the matter is not simple and wants to be explained in plain words"};
+  report.forms = {
+      {"shading.d, shading.w, shading.Vb, shading.c, irr_step.s, irr_step.x0 free; "
+       "irr_step.shape = 2",
+       6, 1e-3, 0, true, true},
+      {"shading.d, shading.w, shading.Vb, irr_step.s free", 4, 1e-3, 1e5, false, false}};
   for (Estimate& e : report.estimates) {
     e.at_bound = BoundSide::kLower;
     e.identifiable = false;
@@ -162,6 +167,60 @@ TEST(FullReport, ShowsTheChoiceOfTheModel) {
   EXPECT_THAT(LineWith(text, "sd <-"), HasSubstr("7.73000e-04"));
   EXPECT_THAT(LineWith(text, "  dd "), HasSubstr("0.24  no"));
   EXPECT_THAT(text, HasSubstr("A second diode does not pay."));
+}
+
+TEST(FullReport, CountsTheBasinsOfAModelWithEffects) {
+  FitReport report = SampleReport();
+  report.refine.starts.resize(49, {"random", 9e-4, 7.8e-4, false});
+  report.refine.basins = BasinCount{14, 3, 6, 2, 0, 1};
+  const std::string text = FullReport(report);
+  EXPECT_THAT(text, HasSubstr("14 of 49 went to their end, in 3 basins, the best of them reached 6 "
+                              "times; the other"));
+  EXPECT_THAT(text, HasSubstr("35 were given up"));
+  EXPECT_THAT(text, HasSubstr("the best end came from start 2: elite 2"));
+  EXPECT_THAT(text, Not(HasSubstr("came to the same curve")));
+  EXPECT_THAT(LineWith(text, "  basins "),
+              HasSubstr("by Chao's estimate 1.0 more were probably not seen: 2 of the 3"));
+  EXPECT_EQ(text.find("random "), text.rfind("random "));  // the baseline: no line for each start
+  report.refine.starts.resize(14);
+  report.refine.basins = BasinCount{14, 1, 14, 0, 0, 0};
+  EXPECT_THAT(
+      LineWith(FullReport(report), "  starts "),
+      HasSubstr("14 of 14 went to their end, in 1 basin, the best of them reached 14 times"));
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("given up")));
+  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
+              HasSubstr("none was left unseen: none was reached just once"));
+  report.refine.basins = BasinCount{1, 1, 1, 1, 0, 0};
+  EXPECT_THAT(FullReport(report),
+              HasSubstr("1 of 14 went to its end, in 1 basin, the best of them reached once"));
+  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
+              HasSubstr("none was left unseen: only one was reached just once"));
+  report.refine.basins = BasinCount{};  // interrupted
+  EXPECT_THAT(FullReport(report), HasSubstr("none of 14 went to its end"));
+  EXPECT_EQ(LineWith(FullReport(report), "  basins "), "");
+}
+
+TEST(FullReport, ShowsTheFormsThatEffectsCanHave) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("Choice of the form")));
+  report.forms = {{"d, Vb, m, A free", 4, 7.73e-4, 0, true, true},
+                  {"d, Vb free; a = 0", 2, 1.2e-3, 87.654, false, false}};
+  const std::string text = FullReport(report);
+  EXPECT_THAT(LineWith(text, "d, Vb, m, A free <-"), HasSubstr("7.73000e-04"));
+  EXPECT_THAT(LineWith(text, "d, Vb, m, A free <-"), Not(HasSubstr("given up")));
+  EXPECT_THAT(LineWith(text, "d, Vb free; a = 0"), HasSubstr("1.20000e-03"));
+  EXPECT_THAT(LineWith(text, "d, Vb free; a = 0"),
+              HasSubstr("87.65  d, Vb free; a = 0 (given up: at most this much)"));
+  EXPECT_THAT(text, HasSubstr("RMSE in A (solved-current)"));
+}
+
+TEST(FullReport, TellsWholeNumbersFromFixedOnes) {
+  FitReport report = SampleReport();
+  report.estimates[2].bounds.whole = 1;
+  report.estimates[2].standard_error = kUnknown;
+  const std::string line = LineWith(FullReport(report), "  n1 ");
+  EXPECT_THAT(line, HasSubstr("whole number, settled by trying"));
+  EXPECT_THAT(line, Not(HasSubstr("fixed")));
 }
 
 TEST(FullReport, TakesAnEmptyReport) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/law/effect_ranges.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
 #include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {
@@ -23,127 +23,6 @@ Expected<Readings> ReadingsOf(const IvCurve& curve) {
   light /= static_cast<double>(readings->points.size());
   for (Reading& r : readings->points) r.irradiance = light > 0 ? r.irradiance / light : 1;
   return readings;
-}
-
-std::optional<int> FindParameter(const Effect& effect, const std::string& key) {
-  for (int k = 0; k < effect.size(); ++k) {
-    if (key == effect.parameters[k].symbol || key == effect.parameters[k].name) return k;
-  }
-  return std::nullopt;
-}
-
-std::string SymbolsOf(const Effect& effect) {
-  std::string list;
-  for (const EffectParameter& info : effect.parameters) {
-    list += (list.empty() ? "" : ", ") + std::string(info.symbol);
-  }
-  return list.empty() ? "none" : list;
-}
-
-Error Unfit(const Effect& effect, const std::string& why) {
-  Error error;
-  error.message = fmt::format("{}: {}", effect.id, why);
-  return error;
-}
-
-// "0.3", or "0.2:0.4".
-std::string RangeText(const std::pair<double, double>& range) {
-  if (range.first == range.second) return fmt::format("{:g}", range.first);
-  return fmt::format("{:g}:{:g}", range.first, range.second);
-}
-
-// The range that was asked for parameter k, if one was.
-std::optional<std::pair<double, double>> RangeOf(const EffectUse& use, int k) {
-  const EffectParameter& info = use.effect->parameters[k];
-  for (const char* key : {info.symbol, info.name}) {
-    if (const auto found = use.ranges.find(key); found != use.ranges.end()) return found->second;
-  }
-  return std::nullopt;
-}
-
-// The middle of what was asked for, the neutral values where nothing was; in the effect's numbers.
-std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale) {
-  std::vector<double> neutral;
-  for (const EffectParameter& info : use.effect->parameters) neutral.push_back(info.neutral);
-  std::vector<double> reported = ReportedValues(*use.effect, neutral.data(), scale);
-  for (int k = 0; k < use.effect->size(); ++k) {
-    if (const auto range = RangeOf(use, k)) reported[k] = 0.5 * (range->first + range->second);
-  }
-  return InnerValues(*use.effect, reported, scale);
-}
-
-// Of a parameter that is a whole number of something: bounds that are, and how far apart such
-// numbers lie. One that is held stays as it was asked for.
-Expected<void> KeepWhole(const EffectUse& use, int k, const DataTraits& traits,
-                         ParameterBounds* bounds) {
-  const EffectParameter& info = use.effect->parameters[k];
-  double step = 0;
-  if (info.whole == Whole::kCount) step = 1;
-  if (info.whole == Whole::kSubstrings && traits.substrings > 1) step = 1.0 / traits.substrings;
-  if (step == 0 || bounds->lower == bounds->upper) return {};
-  constexpr double kSlack = 1e-4;  // of a step: shares are typed with few digits
-  const double first = std::ceil(bounds->lower / step - kSlack);
-  const double last = std::floor(bounds->upper / step + kSlack);
-  if (first > last) {
-    return tl::unexpected(Unfit(
-        *use.effect,
-        fmt::format("{} = {:g}:{:g} holds no whole number of {}: expected a range around {:g}",
-                    info.symbol, bounds->lower, bounds->upper,
-                    info.whole == Whole::kCount ? std::string("them")
-                                                : fmt::format("{} substrings", traits.substrings),
-                    first * step)));
-  }
-  bounds->lower = bounds->search_lower = first * step;
-  bounds->upper = bounds->search_upper = last * step;
-  if (first < last) bounds->whole = step;
-  return {};
-}
-
-// Bounds of parameter k: the effect's own, narrower where that was asked for.
-Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vector<double>& usual,
-                                   const ReadingScale& scale, const DataTraits& traits) {
-  const Effect& effect = *use.effect;
-  const EffectParameter& info = effect.parameters[k];
-  double lower = info.lower, upper = info.upper;
-  if (const auto range = RangeOf(use, k)) {
-    const double a = InnerValue(effect, k, range->first, usual, scale);
-    const double b = InnerValue(effect, k, range->second, usual, scale);
-    const double slack = 1e-9 * (upper - lower);
-    if (!(std::min(a, b) >= lower - slack && std::max(a, b) <= upper + slack)) {
-      const double factor = info.ReportedFactor(usual.data(), scale);
-      const double p = lower * factor, q = upper * factor;
-      return tl::unexpected(Unfit(
-          effect,
-          fmt::format("{} = {} is outside {:g} to {:g}{}{}", info.symbol, RangeText(*range),
-                      std::min(p, q), std::max(p, q), *info.unit != 0 ? " " : "", info.unit)));
-    }
-    lower = std::max(lower, std::min(a, b));
-    upper = std::min(upper, std::max(a, b));
-  } else if (info.held) {
-    lower = upper = usual[k];
-  }
-  ParameterBounds bounds{lower, upper, lower, upper, SearchScale::kLinear};
-  if (auto fine = KeepWhole(use, k, traits, &bounds); !fine) return tl::unexpected(fine.error());
-  return bounds;
-}
-
-// One effect's bounds, and where a fit begins.
-Expected<void> AddUse(const EffectUse& use, Extension* extension) {
-  for (const auto& [key, range] : use.ranges) {
-    if (auto known = CheckParameter(use, key); !known) return known;
-    if (range.first <= range.second) continue;
-    return tl::unexpected(
-        Unfit(*use.effect, fmt::format("{} = {} is reversed", key, RangeText(range))));
-  }
-  const ReadingScale& scale = extension->readings.scale;
-  const std::vector<double> usual = UsualValues(use, scale);
-  for (int k = 0; k < use.effect->size(); ++k) {
-    const auto bounds = BoundsOf(use, k, usual, scale, extension->readings.traits);
-    if (!bounds) return tl::unexpected(bounds.error());
-    extension->bounds.push_back(*bounds);
-    extension->usual.push_back(WithinBounds(*bounds, usual[k]));
-  }
-  return {};
 }
 
 Expected<void> CheckTogether(const std::vector<EffectUse>& uses, int base_size) {
@@ -202,12 +81,6 @@ Expected<void> CheckLayout(const StringLayout& layout, const Conditions& conditi
 
 }  // namespace
 
-Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
-  if (FindParameter(*use.effect, key)) return {};
-  return tl::unexpected(Unfit(
-      *use.effect, fmt::format("has no parameter '{}', expected {}", key, SymbolsOf(*use.effect))));
-}
-
 Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout) {
@@ -225,36 +98,6 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
   extension.law.constants = constants;
   extension.law.layout = std::move(layout);
   return AddEffects(base, std::move(extension), uses, force);
-}
-
-Expected<void> CheckFitRanges(const Extension& extension) {
-  const ReadingScale& scale = extension.readings.scale;
-  int first = 0;
-  for (const EffectUse& use : extension.uses) {
-    const Effect& effect = *use.effect;
-    const auto usual = extension.usual.begin() + first;
-    const auto bounds = extension.bounds.begin() + first;
-    first += effect.size();
-    for (int k = 0; k < effect.size(); ++k) {
-      const auto range = RangeOf(use, k);
-      for (int j = 0; range && j < effect.size(); ++j) {
-        const auto factor_at = [&](double other) {
-          std::vector<double> p(usual, usual + effect.size());
-          p[j] = other;
-          return effect.parameters[k].ReportedFactor(p.data(), scale);
-        };
-        if (j == k || factor_at(bounds[j].lower) == factor_at(bounds[j].upper)) continue;
-        const char* symbol = effect.parameters[k].symbol;
-        const char* other = effect.parameters[j].symbol;
-        return tl::unexpected(Unfit(
-            effect, fmt::format("a fit can keep to {} = {} only where {}, which {} is measured by, "
-                                "is held: expected {}={},{}=VALUE, or {} left out",
-                                symbol, RangeText(*range), other, symbol, symbol, RangeText(*range),
-                                other, symbol)));
-      }
-    }
-  }
-  return {};
 }
 
 bool OneOfSeveral(const Extension& extension, int k) {
@@ -322,16 +165,6 @@ std::vector<std::vector<double>> EffectStarts(const Extension& extension) {
     }
   }
   return probes;
-}
-
-std::string DescribeUse(const EffectUse& use) {
-  std::string text = use.effect->id;
-  char separator = ':';
-  for (const auto& [key, range] : use.ranges) {
-    text += separator + key + "=" + RangeText(range);
-    separator = ',';
-  }
-  return text;
 }
 
 namespace {

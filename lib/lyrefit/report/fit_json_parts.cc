@@ -18,7 +18,8 @@ Json EstimateJson(const Estimate& e, bool polished) {
           {"reason", e.reason},
           {"fixed", e.fixed},
           {"lower", Number(e.bounds.lower)},
-          {"upper", Number(e.bounds.upper)}};
+          {"upper", Number(e.bounds.upper)},
+          {"whole", e.bounds.whole > 0 ? Json(e.bounds.whole) : Json(nullptr)}};
 }
 
 Json ErrorsJson(const std::optional<ErrorReport>& errors) {

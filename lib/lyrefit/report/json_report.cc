@@ -54,6 +54,14 @@ Json FloorJson(const FitReport& report) {
           {"refined_above", Number(floor.above)}};
 }
 
+// Null where there are no effects.
+Json BasinsJson(const std::optional<BasinCount>& basins) {
+  if (!basins) return nullptr;
+  return {
+      {"starts", basins->starts}, {"basins", basins->basins}, {"best_visits", basins->best_visits},
+      {"once", basins->once},     {"twice", basins->twice},   {"unseen", Number(basins->unseen)}};
+}
+
 Json RefineJson(const RefineReport& refine) {
   Json starts = Json::array();
   for (const StartReport& start : refine.starts) {
@@ -70,6 +78,7 @@ Json RefineJson(const RefineReport& refine) {
           {"projected_gradient", Number(refine.projected_gradient)},
           {"condition", Number(refine.condition)},
           {"seconds", Number(refine.seconds)},
+          {"basins", BasinsJson(refine.basins)},
           {"start_list", std::move(starts)}};
 }
 
@@ -87,6 +96,21 @@ Json ChoiceJson(const std::optional<ModelChoice>& choice) {
   return {{"chosen", ToText(choice->chosen)},
           {"sentence", choice->sentence},
           {"candidates", std::move(candidates)}};
+}
+
+// Null where there was nothing to choose from.
+Json FormsJson(const std::vector<FormReport>& forms) {
+  if (forms.empty()) return nullptr;
+  Json list = Json::array();
+  for (const FormReport& form : forms) {
+    list.push_back({{"what", form.what},
+                    {"free", form.free},
+                    {"solved_current_rmse_A", Number(form.rmse_A)},
+                    {"bic_above", Number(form.bic_above)},
+                    {"finished", form.finished},
+                    {"chosen", form.chosen}});
+  }
+  return list;
 }
 
 // What came out.
@@ -117,6 +141,7 @@ void AddEvidence(const FitReport& report, Json* json) {
   j["intervals"] = {{"seconds", Number(report.interval_seconds)},
                     {"none_because", report.no_intervals_because}};
   j["model_choice"] = ChoiceJson(report.choice);
+  j["forms"] = FormsJson(report.forms);
   j["options"] = OptionsJson(report.non_default_options);
   j["interrupted"] = report.interrupted;
   j["usable"] = report.usable;

@@ -42,9 +42,43 @@ std::string PolishText(const RefineReport& refine) {
                             Significant(refine.condition, 2));
 }
 
+// "14 of 49 went to their end, in 3 basins, the best of them reached 6 times; the other 35 were
+// ..."
+std::string BasinStarts(const BasinCount& count, int starts) {
+  if (count.starts == 0) return fmt::format("none of {} went to its end", starts);
+  std::string text =
+      fmt::format("{} of {} went to {} end, in {}, the best of them reached {}", count.starts,
+                  starts, count.starts == 1 ? "its" : "their", Plural(count.basins, "basin"),
+                  count.best_visits == 1 ? "once" : fmt::format("{} times", count.best_visits));
+  const int others = starts - count.starts;
+  if (others > 0) {
+    text += fmt::format(
+        "; {} given up: out of reach of the best, or that had been reached often "
+        "enough",
+        others == 1 ? "the other one was" : fmt::format("the other {} were", others));
+  }
+  return text;
+}
+
+// What may have been missed.
+std::string UnseenText(const BasinCount& count) {
+  if (count.unseen > 0) {
+    return fmt::format(
+        "by Chao's estimate {} more were probably not seen: {} of the {} were reached just once "
+        "(doi:10.2307/2531532)",
+        Significant(count.unseen, 2), count.once, count.basins);
+  }
+  return fmt::format(
+      "by Chao's estimate none was left unseen: {} was reached just once "
+      "(doi:10.2307/2531532)",
+      count.once == 0 ? "none" : "only one");
+}
+
 std::string StartsText(const RefineReport& refine) {
   const int starts = static_cast<int>(refine.starts.size());
-  std::string text = fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
+  std::string text = refine.basins
+                         ? BasinStarts(*refine.basins, starts)
+                         : fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
   if (refine.winner >= 0 && refine.winner < starts) {
     text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
                         refine.starts[refine.winner].origin);
@@ -65,6 +99,21 @@ std::string ChoiceSection(const FitReport& report) {
                Significant(c.f_p_value, 2), c.identifiable ? "yes" : "no"});
   }
   return "Choice of the model\n" + table.Text() + Wrap("  ", report.choice->sentence);
+}
+
+// What of the effects is free, where that followed from the shape of the curve.
+std::string FormSection(const FitReport& report) {
+  if (report.forms.empty()) return "";
+  const auto line = [](const std::string& rmse, const std::string& bic, const std::string& what) {
+    return Wrap(fmt::format("  {:>26}  {:>18}  ", rmse, bic), what);
+  };
+  std::string text = "Choice of the form\n";
+  text += line("RMSE in A (solved-current)", "BIC above the best", "of the effects");
+  for (const FormReport& form : report.forms) {
+    const char* mark = form.chosen ? " <-" : form.finished ? "" : " (given up: at most this much)";
+    text += line(Scientific(form.rmse_A, 6), Decimals(form.bic_above), form.what + mark);
+  }
+  return text;
 }
 
 std::string ResidualSection(const FitReport& report) {
@@ -93,6 +142,8 @@ std::string SearchSection(const FitReport& report) {
   text += Field("search", SearchText(report.search_options, report.search));
   text += Field("polish", report.polished ? PolishText(report.refine) : "none");
   if (report.polished) text += Field("starts", StartsText(report.refine));
+  const bool counted = report.refine.basins && report.refine.basins->starts > 0;
+  if (counted) text += Field("basins", UnseenText(*report.refine.basins));
   if (report.interval_seconds > 0) text += Field("intervals", Duration(report.interval_seconds));
   return text + Field("options", OptionsText(report.non_default_options));
 }

@@ -144,6 +144,7 @@ std::string LabelWithUnit(const ParameterInfo& info) {
 
 std::string EstimateMarks(const Estimate& estimate) {
   if (estimate.fixed) return "fixed";
+  if (estimate.bounds.whole > 0) return "whole number, settled by trying";
   std::string marks;
   if (estimate.at_bound != BoundSide::kNone) {
     marks = fmt::format("{} bound", ToText(estimate.at_bound));

@@ -27,9 +27,10 @@ std::string Header(const FitReport& report) {
 std::string FullReport(const FitReport& report) {
   std::string text = Header(report);
   for (const std::string& section :
-       {ChoiceSection(report), ParameterSection(report), ErrorSection(report), RmseSection(report),
-        KeyPointSection(report), ResidualSection(report), SearchSection(report),
-        List("Assumptions", report.curve.assumptions), List("Warnings", report.warnings)}) {
+       {ChoiceSection(report), FormSection(report), ParameterSection(report), ErrorSection(report),
+        RmseSection(report), KeyPointSection(report), ResidualSection(report),
+        SearchSection(report), List("Assumptions", report.curve.assumptions),
+        List("Warnings", report.warnings)}) {
     if (!section.empty()) text += "\n" + section;
   }
   return text;

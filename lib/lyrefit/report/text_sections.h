@@ -16,6 +16,7 @@ std::string KeyPointSection(const FitReport& report);
 
 // text_evidence.cc: how far to trust it.
 std::string ChoiceSection(const FitReport& report);
+std::string FormSection(const FitReport& report);
 std::string ResidualSection(const FitReport& report);
 std::string SearchSection(const FitReport& report);
 

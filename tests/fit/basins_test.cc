@@ -1,0 +1,134 @@
+#include "lyrefit/fit/basins.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/law/quote.h"
+#include "lyrefit/study/landscape.h"
+
+namespace lyrefit {
+namespace {
+
+// A module of four substrings under a light each, made, and what a fit by name makes ready of it.
+class BasinsTest : public ::testing::Test {
+ protected:
+  BasinsTest() : made_(MakeLandscape("strings_4", 1, 3).value().front()) {
+    options_.with = {{FindEffect("substrings"), {}}};
+    const auto ready = PrepareFit(&job_, &report_);
+    EXPECT_TRUE(ready) << ready.error().ToString();
+  }
+
+  // The values it was made with, under the form where shades cover all cells of a substring.
+  PolishStart Truth() const {
+    std::vector<double> p = job_.forms[0].usual;
+    p.insert(p.begin(), job_.base_size(), 1);
+    p = Reported(report_.device, p);
+    for (int i = 0; i < report_.device.size(); ++i) {
+      const auto known = made_.truth.find(report_.device.parameters[i].symbol);
+      if (known != made_.truth.end()) p[i] = known->second;
+    }
+    return {"truth", Inner(report_.device, p), 0};
+  }
+  // The same under other lights.
+  PolishStart Changed(double d1, double d2, double d3) const {
+    PolishStart start = Truth();
+    double* const own = start.p.data() + job_.base_size();
+    own[0] = d1, own[2] = d2, own[4] = d3;
+    return start;
+  }
+
+  LandscapeCase made_;
+  FitOptions options_;
+  Observer observer_;
+  FitJob job_{made_.curve, options_, observer_, {}, {}, 0, {}, {}, FitWatch(observer_), {}};
+  FitReport report_;
+};
+
+TEST_F(BasinsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
+  const PolishStart truth = Truth();
+  const RefineEnd end = Refine(InForm(job_.problem, job_.forms[0], truth.p), truth.p);
+  EXPECT_NEAR(std::sqrt(end.mean_square) / made_.noise_A, 1, 0.2);
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  basins.Descend(ShapeStarts(job_));
+  const BasinEnd& best = basins.ends()[basins.best()];
+  EXPECT_TRUE(best.finished);
+  EXPECT_EQ(best.start.form, 0);
+  EXPECT_NEAR(best.end.mean_square / end.mean_square, 1, 1e-6);
+  for (const BasinEnd& other : basins.ends()) EXPECT_GE(other.paid, best.paid);
+}
+
+TEST_F(BasinsTest, WhatAFormFreesIsPaidFor) {
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  basins.Descend(ShapeStarts(job_));
+  const double points = static_cast<double>(made_.curve.size());
+  for (const BasinEnd& end : basins.ends()) {
+    const double free = job_.forms[end.start.form].free;
+    EXPECT_NEAR(points * std::log(end.paid / end.end.mean_square), free * std::log(points), 1e-6);
+  }
+}
+
+TEST_F(BasinsTest, CountsWhatWasMet) {
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  const double d1 = made_.truth.at("substrings.d1");
+  const double d2 = made_.truth.at("substrings.d2");
+  const double d3 = made_.truth.at("substrings.d3");
+  // Equal groups may change places: the same basin twice.
+  basins.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
+  BasinCount count = basins.Count();
+  EXPECT_EQ(count.starts, 2);
+  EXPECT_EQ(count.basins, 1);
+  EXPECT_EQ(count.best_visits, 2);
+  EXPECT_EQ(count.once, 0);
+  EXPECT_EQ(count.twice, 1);
+  EXPECT_EQ(count.unseen, 0);
+  EXPECT_EQ(basins.visits(), 2);
+  // Far away: given up, and in no count.
+  basins.Descend({Changed(0.02, 0.02, 0.02)});
+  ASSERT_EQ(basins.ends().size(), 3u);
+  count = basins.Count();
+  EXPECT_EQ(count.starts, basins.ends()[2].finished ? 3 : 2);
+}
+
+TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
+  std::vector<PolishStart> starts = ShapeStarts(job_);  // two forms
+  for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));
+  // One into each of three basins, by where it ends.
+  std::map<double, PolishStart> into;
+  for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
+    const PolishStart& start = starts[k];
+    Basins alone(job_.problem, job_.forms, &job_.watch);
+    alone.Descend({start});
+    const double end = alone.ends()[0].paid;
+    const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
+      return std::fabs(other.first / end - 1) < 0.01;
+    });
+    if (!known) into[end] = start;
+  }
+  ASSERT_EQ(into.size(), 3u);
+  // The worst first: none is out of reach of what is known by then.
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  for (auto start = into.rbegin(); start != into.rend(); ++start) basins.Descend({start->second});
+  BasinCount count = basins.Count();
+  EXPECT_EQ(count.basins, 3);
+  EXPECT_EQ(count.once, 3);
+  EXPECT_EQ(count.twice, 0);
+  EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
+  basins.Descend({into.begin()->second});
+  count = basins.Count();
+  EXPECT_EQ(count.starts, 4);
+  EXPECT_EQ(count.basins, 3);
+  EXPECT_EQ(count.best_visits, 2);
+  EXPECT_EQ(count.once, 2);
+  EXPECT_EQ(count.twice, 1);
+  EXPECT_EQ(count.unseen, 0.5);  // 2 x 1 / (2 x 2)
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,184 @@
+#include "lyrefit/law/forms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/law/kernel.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+// One sweep of a module, cut off at half of its current from the middle on, whose bypass diodes
+// somebody has counted (0: nobody).
+IvCurve SteppedModule(int diodes) {
+  const std::vector<double> module = {8.2, 2e-9, 1.15, 0.25, 300};
+  IvCurve curve;
+  curve.name = "made";
+  curve.conditions.cells_in_series = 60;
+  if (diodes > 0) curve.notes.bypass_diodes = diodes;
+  for (int k = 0; k < 80; ++k) curve.voltage_V.push_back(39.0 * k / 79);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  curve.current_A = SolveCurrents(device, module.data(), curve.voltage_V);
+  for (int k = 40; k < 80; ++k) curve.current_A[k] = std::min(curve.current_A[k], 4.1);
+  return curve;
+}
+
+Extension Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
+  const auto device = Extend(MakeDevice(Model::kSingleDiode, curve.conditions), Model::kSingleDiode,
+                             ConstantSet::kCodata, curve, uses, /*force=*/true);
+  EXPECT_TRUE(device) << device.error().ToString();
+  return device ? *device->extension : Extension{};
+}
+
+EffectUse Named(const char* id, std::map<std::string, std::pair<double, double>> ranges = {}) {
+  return {FindEffect(id), std::move(ranges)};
+}
+
+std::vector<std::string> Descriptions(const Extension& extension) {
+  std::vector<std::string> list;
+  for (const Form& form : FormsOf(extension)) list.push_back(DescribeForm(extension, form));
+  return list;
+}
+
+TEST(Forms, AWeakCellHasOneForEachReverseLawAndNumberOfChains) {
+  const Extension extension = Extended(SteppedModule(3), {Named("weak_cell")});
+  EXPECT_THAT(Descriptions(extension),
+              UnorderedElementsAre("d, Vb, m, A free", "d, Vb, m, A free; chains = 2",
+                                   "d, Vb, a, Vbr free", "d, Vb, a, Vbr free; chains = 2",
+                                   "d, Vb free; a = 0", "d, Vb free; a = 0, chains = 2"));
+  for (const Form& form : FormsOf(extension)) {
+    const bool no_law = DescribeForm(extension, form).find("a = 0") != std::string::npos;
+    EXPECT_EQ(form.free, no_law ? 2 : 4);
+  }
+}
+
+class SubstringsForms : public ::testing::TestWithParam<int> {};
+
+TEST_P(SubstringsForms, HaveALightForEachThatIsCountedButTheBrightest) {
+  const int diodes = GetParam();
+  const int groups = diodes - 1;
+  const Extension extension = Extended(SteppedModule(diodes), {Named("substrings")});
+  const std::vector<Form> forms = FormsOf(extension);
+  ASSERT_EQ(forms.size(), 2u);  // shades on all of a substring's cells, and on a part of them
+  EXPECT_EQ(forms[0].free, groups + 1);
+  EXPECT_EQ(forms[1].free, groups + 2);
+  for (const Form& form : forms) {
+    for (int k = 0; k < 4; ++k) {
+      const ParameterBounds& light = form.bounds[2 * k];
+      EXPECT_EQ(light.lower < light.upper, k < groups) << k;
+      EXPECT_DOUBLE_EQ(form.usual[2 * k + 1], k < groups ? 1.0 / diodes : 0) << k;
+      EXPECT_EQ(form.bounds[2 * k + 1].lower, form.bounds[2 * k + 1].upper) << k;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counted, SubstringsForms, ::testing::Values(2, 3, 4, 5));
+
+TEST(Forms, ASharesWholeSubstringsStayFree) {
+  const Extension extension = Extended(SteppedModule(5), {Named("shading")});
+  const std::vector<Form> forms = FormsOf(extension);
+  EXPECT_THAT(Descriptions(extension), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
+  for (const Form& form : forms) {
+    EXPECT_DOUBLE_EQ(form.bounds[1].lower, 0.2);
+    EXPECT_DOUBLE_EQ(form.bounds[1].upper, 0.8);
+    EXPECT_DOUBLE_EQ(form.bounds[1].whole, 0.2);
+  }
+  // Where nobody has counted the substrings any share will do.
+  for (const Form& form : FormsOf(Extended(SteppedModule(0), {Named("shading")}))) {
+    EXPECT_EQ(form.bounds[1].whole, 0);
+  }
+}
+
+TEST(Forms, RangesLeaveOne) {
+  const Extension extension = Extended(SteppedModule(3), {Named("weak_cell", {{"d", {0.1, 0.9}}})});
+  const std::vector<Form> forms = FormsOf(extension);
+  ASSERT_EQ(forms.size(), 1u);
+  EXPECT_EQ(forms[0].free, 1);
+  EXPECT_EQ(forms[0].usual, extension.usual);
+  EXPECT_EQ(forms[0].bounds[0].lower, 0.1);
+  EXPECT_EQ(forms[0].bounds[0].upper, 0.9);
+}
+
+TEST(Forms, OfTwoEffectsAreAllPairs) {
+  const Extension extension =
+      Extended(SteppedModule(3), {Named("shading"), Named("nonohmic_shunt")});
+  EXPECT_EQ(FormsOf(extension).size(), 2u);  // a shunt has no shape, and one form
+  for (const std::string& what : Descriptions(extension)) {
+    EXPECT_THAT(what, HasSubstr("shading.d, shading.w, shading.Vb"));
+    EXPECT_THAT(what, HasSubstr("nonohmic_shunt.k"));
+  }
+}
+
+TEST(Forms, PlacesOfAShapeAreInsideTheirBounds) {
+  for (const Effect* effect : Catalogue()) {
+    if (effect->starts == nullptr) continue;
+    for (const int diodes : {0, 3, 4}) {
+      const Extension extension = Extended(SteppedModule(diodes), {{effect, {}}});
+      for (const Form& form : FormsOf(extension)) {
+        const std::vector<std::vector<double>> places = ShapePlaces(extension, form);
+        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeForm(extension, form);
+        for (const std::vector<double>& place : places) {
+          ASSERT_EQ(place.size(), form.bounds.size());
+          for (std::size_t k = 0; k < place.size(); ++k) {
+            EXPECT_DOUBLE_EQ(place[k], WithinBounds(form.bounds[k], place[k]))
+                << effect->id << "." << effect->parameters[k].symbol;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Forms, APlaceOfAShapeSeesTheStep) {
+  const Extension extension = Extended(SteppedModule(2), {Named("shading")});
+  const std::vector<std::vector<double>> places =
+      ShapePlaces(extension, FormsOf(extension).front());
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0][0], 0.5, 0.03);  // half of the light is missing
+  EXPECT_DOUBLE_EQ(places[0][1], 0.5);   // in half of the cells
+}
+
+TEST(Forms, SharesLeaveARest) {
+  const Extension extension =
+      Extended(SteppedModule(5), {Named("substrings", {{"d1", {0, 0.9}},
+                                                       {"w1", {0.2, 0.8}},
+                                                       {"d2", {0, 0.9}},
+                                                       {"w2", {0.2, 0.8}},
+                                                       {"d3", {0, 0.9}},
+                                                       {"w3", {0.2, 0.8}}})});
+  std::vector<double> p = extension.usual;
+  const auto leave = [&](double w1, double w2, double w3) {
+    p[1] = w1, p[3] = w2, p[5] = w3;
+    LeaveARest(extension, extension.bounds, p.data());
+    return std::vector<double>{p[1], p[3], p[5]};
+  };
+  using ::testing::DoubleNear;
+  using ::testing::ElementsAre;
+  const auto about = [](double share) { return DoubleNear(share, 1e-12); };
+  // One substring less of the largest, until one is left.
+  EXPECT_THAT(leave(0.8, 0.2, 0.2), ElementsAre(about(0.4), about(0.2), about(0.2)));
+  EXPECT_THAT(leave(0.2, 0.2, 0.6), ElementsAre(about(0.2), about(0.2), about(0.4)));
+  EXPECT_THAT(leave(0.4, 0.2, 0.2), ElementsAre(0.4, 0.2, 0.2));
+}
+
+TEST(Forms, SharesThatAreNoWholeNumbersLeaveARestToo) {
+  const Extension extension = Extended(
+      SteppedModule(0),
+      {Named("substrings",
+             {{"d1", {0, 0.9}}, {"w1", {0.1, 0.9}}, {"d2", {0, 0.9}}, {"w2", {0.1, 0.9}}})});
+  std::vector<double> p = extension.usual;
+  p[1] = 0.7, p[3] = 0.5;
+  LeaveARest(extension, extension.bounds, p.data());
+  EXPECT_DOUBLE_EQ(p[1], 0.35);
+  EXPECT_DOUBLE_EQ(p[3], 0.5);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -38,6 +38,7 @@ void AddStart(const CurveShape& shape, const ShareList& shares, const std::vecto
   start.p[kDrop] = 0.5;
   start.p[kCovered] = 1;
   starts->push_back(start);
+  if (order.size() == std::size_t{kGroups}) return;
   start.p[kCovered] = 0.3;
   start.freed.push_back(kCovered);
   starts->push_back(std::move(start));

@@ -103,6 +103,33 @@ void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
   }
 }
 
+// One parameter elsewhere in its range, of those that say how something acts (a bypass diode's
+// drop, a reverse law's exponent) and not how strong it is.
+void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+  constexpr double kFar = 0.15;  // of the range
+  const Form& form = job.forms[at.start.form];
+  int first = 0;
+  for (const EffectUse& use : job.problem.device.extension->uses) {
+    const Effect& effect = *use.effect;
+    for (int k = 0; k < effect.size(); ++k) {
+      const ParameterBounds& bounds = form.bounds[first + k];
+      const EffectParameter& info = effect.parameters[k];
+      const bool strength = k == 0 || info.scatter > 0;
+      const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
+      if (!free || strength || info.searched) continue;
+      const int i = job.base_size() + first + k;
+      const double range = bounds.upper - bounds.lower;
+      for (const double part : {0.15, 0.5, 0.85}) {
+        const double value = bounds.lower + part * range;
+        if (std::fabs(value - at.end.p[i]) < kFar * range) continue;
+        starts->push_back({"elsewhere", at.end.p, at.start.form});
+        starts->back().p[i] = value;
+      }
+    }
+    first += effect.size();
+  }
+}
+
 }  // namespace
 
 std::vector<PolishStart> ShapeStarts(const FitJob& job) {
@@ -151,6 +178,7 @@ std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
   std::vector<PolishStart> starts;
   AddWholeNumbers(job, at, &starts);
   AddNextSettings(job, at, &starts);
+  AddElsewhere(job, at, &starts);
   return starts;
 }
 

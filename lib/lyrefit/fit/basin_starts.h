@@ -22,8 +22,8 @@ std::vector<PolishStart> ShapeStarts(const FitJob& job);
 std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
                                       const std::vector<double>& best, RandomStream* random);
 
-// One more or less of each whole number of an end, one less of one for one more of another, and the
-// next settings of what is settled by trying as well.
+// One more or less of each whole number of an end, one less of one for one more of another, the
+// next settings of what is settled by trying as well, and single other parameters elsewhere.
 std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at);
 
 // A place with what is settled by trying at values spread over all there are.

@@ -90,6 +90,21 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* 
   }
 }
 
+// Whether the residuals of an end, from reading to reading, are like noise (Durbin and Watson 1950,
+// doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
+bool LeavesNoise(const FitJob& job, const BasinEnd& at) {
+  constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
+  std::vector<double> residuals(job.problem.voltage_V.size());
+  Residuals(job.problem, at.end.p.data(), residuals.data(), nullptr);
+  double steps = 0, sum = residuals[0] * residuals[0];
+  for (std::size_t k = 1; k < residuals.size(); ++k) {
+    const double step = residuals[k] - residuals[k - 1];
+    steps += step * step;
+    sum += residuals[k] * residuals[k];
+  }
+  return steps > kLeast * sum;
+}
+
 void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, const FitJob& job,
                Basins* basins) {
   const StartsFrom from = job.options.starts;
@@ -116,8 +131,8 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   if (from == StartsFrom::kShape) return;
   if (basins->visits() < kAgain) basins->Descend(birds_between(first, kBirds));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
-  for (int round = 0; round < kRounds && basins->visits() < kAgain; ++round) {
-    if (job.watch.stopped()) return;
+  for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
+    if (basins->visits() >= kAgain && LeavesNoise(job, basins->ends()[basins->best()])) return;
     basins->Descend(RandomStarts(job, space, basins->ends()[basins->best()].end.p, &random));
   }
 }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/search_space.h"
+
+namespace lyrefit {
+
+// What the birds of a fit's search stand for, on one set of points.
+//
+// A hard bird (Birds::kHard) is a place in Rs, the n and the effects' parameters. Iph, the
+// saturation currents and 1/Rsh, which the law is linear in or nearly so, are solved for between
+// their bounds within each evaluation, so its value depends on the place alone:
+//   measured current   by bounded linear least squares, exactly
+//   solved current     from there by Levenberg-Marquardt steps, to 1e-6 of the sum of squares
+//   with effects       by the same steps from a typical device of those n
+// This is variable projection (Golub and Pereyra 1973, doi:10.1137/0710036).
+class BirdPlaces {
+ public:
+  // Of the points of `problem`: those of the job, or the few that stand for them. Where the search
+  // asks for places to begin, those that the shape of the curve suggests come with the box.
+  BirdPlaces(const FitJob& job, const RefineProblem& problem);
+
+  // Whether the box has a side.
+  Expected<void> Check() const;
+  const Box& box() const { return box_; }
+  int FormAt(const double* x) const { return space_.FormAt(x); }
+
+  // The complete device of a bird, and its RMSE in the objective of the fit.
+  std::vector<double> DeviceAt(const double* x);
+  double RmseAt(const double* x);
+  // Evaluations of all points so far, with or without derivatives.
+  std::int64_t evaluations() const { return evaluations_; }
+
+ private:
+  double SolveEasy();
+  double Descend();
+
+  const RefineProblem& problem_;
+  bool hard_ = false;
+  SearchSpace space_;
+  Box box_;
+  RefineProblem easy_;  // of hard birds: all others held
+  std::vector<double> p_;
+  std::int64_t evaluations_ = 0;
+};
+
+// The box of complete devices.
+SearchSpace CompleteSpace(const FitJob& job);
+
+}  // namespace lyrefit

@@ -1,8 +1,9 @@
 #include "lyrefit/fit/birds.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
-#include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/probe_starts.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/linear_part.h"
@@ -66,6 +67,7 @@ BirdPlaces::BirdPlaces(const FitJob& job, const RefineProblem& problem)
       hard_(job.options.birds == Birds::kHard),
       space_(SpaceOfBirds(job)),
       box_(space_.box()),
+      effects_(job.effects()),
       p_(problem.device.size()) {
   if (hard_) {
     easy_ = problem;
@@ -76,9 +78,28 @@ BirdPlaces::BirdPlaces(const FitJob& job, const RefineProblem& problem)
       easy_.upper[i] = problem.upper[i];
     }
   }
-  if (job.options.search.algorithm != Algorithm::kMloKnees || job.forms.empty()) return;
-  for (const PolishStart& start : ShapeStarts(job)) {
-    box_.suggested.push_back(space_.FromParameters(start.p.data(), start.form));
+}
+
+void BirdPlaces::Suggest(const std::vector<PolishStart>& starts) {
+  struct Place {
+    const PolishStart* start;
+    double mean_square;
+    int rank;  // in its form
+  };
+  std::vector<Place> places;
+  for (const PolishStart& start : starts) {
+    places.push_back({&start, MeanSquare(problem_, start.p), 0});
+    ++evaluations_;
+    if (!std::isfinite(places.back().mean_square)) places.pop_back();
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.mean_square < b.mean_square; });
+  std::map<int, int> of_form;
+  for (Place& place : places) place.rank = of_form[place.start->form]++;
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.rank < b.rank; });
+  for (const Place& place : places) {
+    box_.suggested.push_back(space_.FromParameters(place.start->p.data(), place.start->form));
   }
 }
 
@@ -107,21 +128,37 @@ double BirdPlaces::SolveEasy() {
     idealities.push_back(p_[IdealityIndex(d)]);
   }
   const double rs = p_[kRs];
-  if (problem_.device.extension != nullptr) {
-    const int base = problem_.device.extension->law.base_size();
-    p_ = TypicalDevice(problem_, {p_.begin() + base, p_.end()}, idealities);
-    p_[kRs] = rs;
+  const std::size_t base = p_.size() - static_cast<std::size_t>(effects_);
+  const bool measured = problem_.objective == Objective::kMeasuredCurrent;
+  std::vector<double> typical;
+  if (!measured) {
+    const std::vector<double> place(p_.begin() + static_cast<std::ptrdiff_t>(base), p_.end());
+    typical = TypicalDevice(problem_, place, idealities);
+    typical[kRs] = rs;
+  }
+  if (effects_ > 0) {
+    p_ = std::move(typical);
     return Descend();
   }
   ++evaluations_;
   p_ = ToParameters(problem_, SolveLinearPart(problem_, problem_.weights, rs, idealities), rs,
                     idealities);
-  if (problem_.objective == Objective::kSolvedCurrent) return Descend();
   ++evaluations_;
-  return MeanSquare(problem_, p_);
+  const double linear = MeanSquare(problem_, p_);
+  if (measured) return linear;
+  ++evaluations_;
+  if (!(linear < MeanSquare(problem_, typical))) {
+    p_ = std::move(typical);
+  } else {  // a logarithm does not tell the way back from 0
+    for (int d = 0; d < DiodeCount(problem_.device); ++d) {
+      const int is = SaturationCurrentIndex(d);
+      if (!(p_[is] > 0)) p_[is] = typical[is];
+    }
+  }
+  return Descend();
 }
 
-// A diode without current, of which a logarithm could not tell the way back, is left out.
+// From `p_`, in what is solved for.
 double BirdPlaces::Descend() {
   const CountedCurve curve(easy_, &evaluations_);
   std::vector<bool> held;

@@ -5,6 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {
@@ -15,15 +16,20 @@ namespace lyrefit {
 // saturation currents and 1/Rsh, which the law is linear in or nearly so, are solved for between
 // their bounds within each evaluation, so its value depends on the place alone:
 //   measured current   by bounded linear least squares, exactly
-//   solved current     from there by Levenberg-Marquardt steps, to 1e-6 of the sum of squares
-//   with effects       by the same steps from a typical device of those n
+//   solved current     by Levenberg-Marquardt steps, to 1e-6 of the sum of squares, from there or
+//                      from a typical device of those n, whichever is lower
+//   with effects       by the same steps from the typical device
+// With effects the rest may have several minima where the place is far from any fit; the one that
+// the typical device leads to counts.
 // This is variable projection (Golub and Pereyra 1973, doi:10.1137/0710036).
 class BirdPlaces {
  public:
-  // Of the points of `problem`: those of the job, or the few that stand for them. Where the search
-  // asks for places to begin, those that the shape of the curve suggests come with the box.
+  // Of the points of `problem`: those of the job, or the few that stand for them.
   BirdPlaces(const FitJob& job, const RefineProblem& problem);
 
+  // Puts places into the box that a search may begin from: the best of each form first, then the
+  // second of each. One evaluation each.
+  void Suggest(const std::vector<PolishStart>& starts);
   // Whether the box has a side.
   Expected<void> Check() const;
   const Box& box() const { return box_; }
@@ -43,6 +49,7 @@ class BirdPlaces {
   bool hard_ = false;
   SearchSpace space_;
   Box box_;
+  int effects_ = 0;     // parameters of effects
   RefineProblem easy_;  // of hard birds: all others held
   std::vector<double> p_;
   std::int64_t evaluations_ = 0;

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
@@ -47,13 +48,17 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlac
 
 // Runs the search; returns the elites.
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
+  const auto begin = std::chrono::steady_clock::now();
   BirdPlaces few(*job, job->few), all(*job, job->problem);
   if (auto sound = few.Check(); !sound) return tl::unexpected(sound.error());
+  if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
+  const double getting_ready = SecondsSince(begin);
   const Box& box = few.box();
   const ObjectiveFunction objective = [&](const double* x) { return few.RmseAt(x); };
   const SearchFunction& searcher = job->options.searcher;
   report->search = searcher ? searcher(objective, box, job->options.search, job->observer)
                             : Search(objective, box, job->options.search, job->observer);
+  report->search.seconds += getting_ready;
   report->curve_evaluations = few.evaluations();
   if (searcher || job->few.points.size < job->problem.points.size) {
     const auto valid =

@@ -158,13 +158,16 @@ std::vector<std::vector<double>> PlacesOf(std::vector<Trial> trials) {
 
 std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
                                   const std::vector<double>& idealities) {
-  const Extension& extension = *problem.device.extension;
-  const DataTraits& traits = extension.readings.traits;
+  const Extension* const extension = problem.device.extension.get();
   const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
-  const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
-  const double voltage = per_cell * extension.readings.scale.cells;
+  double voltage = problem.voltage_scale_V;
+  if (extension != nullptr) {
+    const DataTraits& traits = extension->readings.traits;
+    const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
+    voltage = per_cell * extension->readings.scale.cells;
+  }
   constexpr double kIdeality = 1.2;
-  std::vector<double> p(extension.law.base_size(), 0);
+  std::vector<double> p(extension != nullptr ? extension->law.base_size() : problem.device.size());
   p[kIph] = current;
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;

@@ -39,7 +39,7 @@ struct Contender {
   SearchFunction searcher;  // empty: Search()
   ContenderKind kind = ContenderKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
-  Birds birds = Birds::kAll;             // the same; those of families are always complete
+  Birds birds = Birds::kAll;             // the same; kHard is for curves, not for families
   std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
 };
 

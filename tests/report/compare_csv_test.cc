@@ -31,7 +31,7 @@ TEST(CompareCsv, HasOneRowARun) {
   EXPECT_THAT(lines[1], StartsWith("sample_cell,sd,measured-current,literature,mlo,0,7,"
                                    "0.00098602187789,"));
   EXPECT_THAT(lines[24], StartsWith("sample_cell,dd,measured-current,literature,random,3,7,"));
-  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14);
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15);
 }
 
 TEST(CompareCsv, LeavesFieldsEmptyThatAreNotKnown) {
@@ -40,8 +40,9 @@ TEST(CompareCsv, LeavesFieldsEmptyThatAreNotKnown) {
   RunRecord& run = comparison.problems[0].contenders[0].runs[0];
   run = {};
   run.evaluations = 5;
+  run.curve_evaluations = 9;
   EXPECT_EQ(Lines(CompareCsv(comparison))[1],
-            "sample_cell,sd,measured-current,literature,mlo,0,7,,,,,5,,0,0");
+            "sample_cell,sd,measured-current,literature,mlo,0,7,,,,,5,9,,0,0");
 }
 
 TEST(CompareCsv, QuotesNamesWithCommas) {

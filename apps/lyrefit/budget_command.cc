@@ -72,11 +72,11 @@ Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
   std::vector<Contender> contenders;
   for (const std::string& name : *names) {
     if (name == ToText(ContenderKind::kShape) || name == ToText(ContenderKind::kDefault)) {
-      contenders.push_back(*ParseContender(name, flags_.search));  // has no budget
+      contenders.push_back(*ParseContender(name, flags_.search, flags_.birds));  // has no budget
       continue;
     }
     for (const std::int64_t budget : *budgets) {
-      auto contender = ParseContender(name, BudgetSearch(budget, flags_.search));
+      auto contender = ParseContender(name, BudgetSearch(budget, flags_.search), flags_.birds);
       if (!contender) return tl::unexpected(contender.error());
       contender->name = fmt::format("{}@{}", name, budget);
       contender->budget = budget;

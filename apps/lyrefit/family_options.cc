@@ -14,9 +14,9 @@ constexpr double kWorstAccuracy_percent = 50;
 // Of a set, but not of what its curves share.
 constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
 // Flags that a joint fit does not have.
-constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss",
-                                     "--loss-scale", "--kernel",        "--curve",
-                                     "--no-polish",  "--temperature-C", "--irradiance-Wm2"};
+constexpr const char* kOneCurve[] = {
+    "--floor", "--bounds", "--loss",      "--loss-scale",    "--kernel",
+    "--curve", "--birds",  "--no-polish", "--temperature-C", "--irradiance-Wm2"};
 // Flags about what the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",

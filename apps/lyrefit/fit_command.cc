@@ -75,6 +75,7 @@ void FitCommand::AddModelFlags() {
 
 void FitCommand::AddSearchFlags() {
   AddEnumFlag(verb_, "--algorithm", "how to search", &options_.search.algorithm).Group("Search");
+  AddBirdsFlag(verb_, &options_.birds);
   AddTableFlags(verb_, kSearchOptionTable, "Search", &options_.search);
 }
 

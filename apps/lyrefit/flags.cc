@@ -81,6 +81,14 @@ Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target) {
       .Writes();
 }
 
+Flag AddBirdsFlag(Verb* verb, Birds* target) {
+  return AddEnumFlag(verb, "--birds",
+                     "a bird is a complete device, or a place in the hard parameters (Rs, n, "
+                     "effects), where Iph, Is and Rsh are solved for",
+                     target)
+      .Group("Search");
+}
+
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
                  std::vector<std::string>* target) {
   return verb->AddOption(flag, target, doc).OneEach().Type("TEXT ...");

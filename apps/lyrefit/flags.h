@@ -14,6 +14,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/fit/fit.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/report/json_report.h"
 
@@ -79,6 +80,9 @@ void AddTableFlags(Verb* verb, const Table& table, const std::string& group, Opt
 
 // --resume FILE: where a study is written to run by run (or set by set), and taken up from.
 Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target);
+
+// --birds, of the verbs that search curves.
+Flag AddBirdsFlag(Verb* verb, Birds* target);
 
 // A flag that may be given several times, one value each.
 Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,

@@ -62,6 +62,7 @@ void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags) {
                       pagmo + " (default " + flags->algorithms + ")")
       .Type("LIST")
       .Group("Search");
+  AddBirdsFlag(verb, &flags->birds);
 }
 
 void AddSearchRows(Verb* verb, const std::vector<std::string>& names, StudyFlags* flags) {
@@ -122,11 +123,16 @@ Expected<std::vector<Model>> ParseModels(const std::string& text) {
   return models;
 }
 
-Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search) {
-  const std::string pagmo = "pagmo:";
-  if (name.rfind(pagmo, 0) == 0) return PagmoContender(name.substr(pagmo.size()), search);
+Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
+                                   Birds birds) {
   for (const ContenderKind kind : {ContenderKind::kShape, ContenderKind::kDefault}) {
     if (name == ToText(kind)) return OwnContender(kind);
+  }
+  const std::string pagmo = "pagmo:";
+  if (name.rfind(pagmo, 0) == 0) {
+    auto peer = PagmoContender(name.substr(pagmo.size()), search);
+    if (peer) peer->birds = birds;
+    return peer;
   }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
   if (!algorithm) {
@@ -134,7 +140,9 @@ Expected<Contender> ParseContender(const std::string& name, const SearchOptions&
         fmt::format("--algorithms: expected a list of {}, shape, default or pagmo:NAME, found '{}'",
                     AllTexts<Algorithm>(), name));
   }
-  return PlainContenders({*algorithm}, search)[0];
+  Contender contender = PlainContenders({*algorithm}, search)[0];
+  contender.birds = birds;
+  return contender;
 }
 
 Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags) {
@@ -142,7 +150,7 @@ Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags) {
   if (!names) return tl::unexpected(names.error());
   std::vector<Contender> contenders;
   for (const std::string& name : *names) {
-    auto contender = ParseContender(name, flags.search);
+    auto contender = ParseContender(name, flags.search, flags.birds);
     if (!contender) return tl::unexpected(contender.error());
     contenders.push_back(std::move(*contender));
   }

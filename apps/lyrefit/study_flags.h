@@ -23,6 +23,7 @@ struct StudyFlags {
   ConditionFlags conditions;
   CompareOptions options;
   SearchOptions search;
+  Birds birds = Birds::kAll;  // of --algorithms that are searches
   std::vector<std::string> with;
   std::string landscape;  // made problems instead of curves: "strings_2,strings_3", "all"
   int devices = 50;       // of each
@@ -66,7 +67,8 @@ Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // One algorithm by its name, and those of --algorithms, with these settings.
-Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search);
+Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
+                                   Birds birds);
 Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags);
 
 // One file to write when all is done.

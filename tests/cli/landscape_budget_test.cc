@@ -92,8 +92,8 @@ TEST(LandscapeBudget, HasTheSameBitsOnAnyThreadsAndWhenTakenUp) {
   EXPECT_EQ(run("--threads 2 " + journal, "again"), whole);
   EXPECT_EQ(FileText(folder.Path("again.csv")), FileText(folder.Path("three.csv")))
       << "seconds too: they are those of the runs";
-  EXPECT_EQ(Columns(FileText(folder.Path("one.csv")), 0, 13),
-            Columns(FileText(folder.Path("three.csv")), 0, 13));
+  EXPECT_EQ(Columns(FileText(folder.Path("one.csv")), 0, 14),
+            Columns(FileText(folder.Path("three.csv")), 0, 14));
   const AppResult other = RunApp(kSmall + "--seed 2 " + journal);
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_THAT(other.err, HasSubstr("this study was begun with"));

@@ -25,12 +25,13 @@ TEST(CompareCsv, HasOneRowARun) {
   ASSERT_EQ(lines.size(), 1U + 2 * 3 * 4);
   EXPECT_EQ(lines[0],
             "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-            "best_bird_polished_A,refined_A,evaluations,evaluations_to_target,search_seconds,"
+            "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+            "search_seconds,"
             "refine_seconds");
   EXPECT_THAT(lines[1], StartsWith("sample_cell,sd,measured-current,literature,mlo,0,7,"
                                    "0.00098602187789,"));
   EXPECT_THAT(lines[24], StartsWith("sample_cell,dd,measured-current,literature,random,3,7,"));
-  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14);
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15);
 }
 
 TEST(CompareCsv, LeavesFieldsEmptyThatAreNotKnown) {
@@ -39,8 +40,9 @@ TEST(CompareCsv, LeavesFieldsEmptyThatAreNotKnown) {
   RunRecord& run = comparison.problems[0].contenders[0].runs[0];
   run = {};
   run.evaluations = 5;
+  run.curve_evaluations = 9;
   EXPECT_EQ(Lines(CompareCsv(comparison))[1],
-            "sample_cell,sd,measured-current,literature,mlo,0,7,,,,,5,,0,0");
+            "sample_cell,sd,measured-current,literature,mlo,0,7,,,,,5,9,,0,0");
 }
 
 TEST(CompareCsv, QuotesNamesWithCommas) {

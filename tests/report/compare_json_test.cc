@@ -35,9 +35,10 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(problem["reference"]),
             (Set{"rmse_A", "certified", "lower_bound_A", "floor_A", "origin", "parameters"}));
   const json& contender = problem["contenders"][0];
-  EXPECT_EQ(Keys(contender), (Set{"name", "algorithm", "settings", "searched", "plain_polished",
-                                  "best_bird_polished", "refined", "evaluations", "target",
-                                  "search", "refine", "median_trace", "runs"}));
+  EXPECT_EQ(Keys(contender),
+            (Set{"name", "algorithm", "settings", "searched", "plain_polished",
+                 "best_bird_polished", "refined", "evaluations", "curve_evaluations", "birds",
+                 "target", "search", "refine", "median_trace", "runs"}));
   EXPECT_EQ(Keys(contender["settings"]),
             (Set{"population", "iterations", "memory_rate", "distance_coefficient", "de_scale",
                  "de_crossover", "max_evaluations", "elites"}));
@@ -45,7 +46,7 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
             (Set{"min_A", "mean_A", "median_A", "max_A", "std_A", "within_1e9", "within_1e6"}));
   EXPECT_EQ(Keys(contender["runs"][0]),
             (Set{"run", "searched_A", "plain_polished_A", "best_bird_polished_A", "refined_A",
-                 "evaluations", "evaluations_to_target", "search", "refine"}));
+                 "evaluations", "curve_evaluations", "evaluations_to_target", "search", "refine"}));
   EXPECT_EQ(Keys(problem["ranking"]), (Set{"searched", "refined"}));
   const json& ranking = problem["ranking"]["searched"];
   EXPECT_EQ(Keys(ranking), (Set{"friedman", "dunn", "wilcoxon"}));

@@ -31,9 +31,9 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
       "options",         "interrupted", "usable",    "not_usable_because",
       "warnings",        "data",        "errors",    "forms"};
   EXPECT_EQ(Keys(j), top);
-  const std::set<std::string> search = {"algorithm",  "seed",        "run",         "population",
-                                        "iterations", "evaluations", "termination", "message",
-                                        "seconds",    "elites",      "trace"};
+  const std::set<std::string> search = {
+      "algorithm",         "seed",        "run",     "population", "iterations", "evaluations",
+      "curve_evaluations", "termination", "message", "seconds",    "elites",     "trace"};
   EXPECT_EQ(Keys(j["search"]), search);
   const std::set<std::string> refine = {
       "termination",        "message",   "starts",  "agreeing",   "winner",

@@ -55,6 +55,7 @@ inline FitReport SampleReport() {
   report.search.termination = SearchTermination::kIterations;
   report.search.iterations = 40;
   report.search.evaluations = 1200;
+  report.curve_evaluations = 1200;
   report.search.seconds = 0.0041;
   report.search.elites.resize(4);
   report.refine.termination = "converged";

@@ -42,6 +42,14 @@ std::vector<CompareCurve> StringsAndFamilies() {
   return subjects;
 }
 
+TEST(ComparePooled, HasNoHardBirdsOfFamilies) {
+  std::vector<Contender> contenders = PooledContenders();
+  contenders[0].birds = Birds::kHard;
+  const auto comparison = Compare(StringsAndFamilies(), contenders, PooledOptions());
+  ASSERT_FALSE(comparison);
+  EXPECT_THAT(comparison.error().ToString(), HasSubstr("birds hard is for curves"));
+}
+
 TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
   const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
   ASSERT_EQ(comparison.problems.size(), 3U);

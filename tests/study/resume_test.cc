@@ -55,6 +55,34 @@ class ResumeTest : public testing::Test {
   std::int64_t first_ = -1;  // runs done when the observer first heard
 };
 
+TEST_F(ResumeTest, KnowsWhatHardBirdsCost) {
+  std::vector<Contender> contenders = SmallContenders();
+  const auto run = [&](std::int64_t stop_after) {
+    return Compare({RtcFrance()}, contenders, options_, [&](const Progress& progress) {
+      return progress.iteration >= stop_after ? ObserverAction::kStop : ObserverAction::kContinue;
+    });
+  };
+  contenders[0].birds = Birds::kHard;
+  ASSERT_TRUE(run(7));
+  const auto whole = run(1 << 20);
+  ASSERT_TRUE(whole) << whole.error().ToString();
+  for (const ContenderResult& contender : whole->problems.at(0).contenders) {
+    const bool hard = contender.name == contenders[0].name;
+    EXPECT_EQ(contender.birds, hard ? Birds::kHard : Birds::kAll);
+    for (const RunRecord& record : contender.runs) {
+      if (hard) {
+        EXPECT_GE(record.curve_evaluations, 2 * record.evaluations);
+      } else {
+        EXPECT_EQ(record.curve_evaluations, record.evaluations);
+      }
+    }
+  }
+  contenders[0].birds = Birds::kAll;
+  const auto other = run(1 << 20);
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().ToString(), HasSubstr("hard birds"));
+}
+
 TEST_F(ResumeTest, EndsWithTheBitsOfAStudyThatWasNeverInterrupted) {
   CompareOptions plain = options_;
   plain.journal.clear();

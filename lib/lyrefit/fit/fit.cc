@@ -4,10 +4,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <type_traits>
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fit_echo.h"
@@ -32,56 +33,47 @@ namespace {
 constexpr int kGridStarts = 4;
 
 // The best of as many random points as the search evaluated.
-void RunRandomBaseline(FitJob* job, const SearchSpace& space, const ObjectiveFunction& objective,
+void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlaces* places,
                        FitReport* report) {
   SearchOptions random = job->options.search;
   random.algorithm = Algorithm::kRandom;
   random.max_evaluations = std::max<std::int64_t>(report->search.evaluations, 4);
   random.target = -kInfinity;
   random.patience = 0;
-  const SearchSummary baseline = Search(objective, space.box(), random, job->observer);
+  const SearchSummary baseline = Search(objective, places->box(), random, job->observer);
   if (baseline.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
-  std::vector<double> p(report->device.size());
-  space.ToParameters(baseline.best.x.data(), p.data());
+  const std::vector<double> p = places->DeviceAt(baseline.best.x.data());
   report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
 }
 
-SearchSpace SpaceOf(const FitJob& job) {
-  if (job.forms.empty()) return {job.bounds, job.fixed};
-  const auto base = [&](const auto& all) {
-    return std::decay_t<decltype(all)>(all.begin(), all.begin() + job.base_size());
-  };
-  return {base(job.bounds), base(job.fixed), *job.problem.device.extension, job.forms};
-}
-
 // Runs the search; returns the elites.
-Expected<std::vector<PolishStart>> RunSearch(const SearchSpace& space, FitJob* job,
-                                             FitReport* report) {
-  std::vector<double> p(report->device.size());
-  const auto rmse_of = [&](const RefineProblem& problem) -> ObjectiveFunction {
-    return [&](const double* x) {
-      space.ToParameters(x, p.data());
-      return std::sqrt(MeanSquare(problem, p));
-    };
-  };
-  const ObjectiveFunction objective = rmse_of(job->few);
+Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
+  const auto begin = std::chrono::steady_clock::now();
+  BirdPlaces few(*job, job->few), all(*job, job->problem);
+  if (auto sound = few.Check(); !sound) return tl::unexpected(sound.error());
+  if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
+  const double getting_ready = SecondsSince(begin);
+  const Box& box = few.box();
+  const ObjectiveFunction objective = [&](const double* x) { return few.RmseAt(x); };
   const SearchFunction& searcher = job->options.searcher;
-  report->search = searcher ? searcher(objective, space.box(), job->options.search, job->observer)
-                            : Search(objective, space.box(), job->options.search, job->observer);
+  report->search = searcher ? searcher(objective, box, job->options.search, job->observer)
+                            : Search(objective, box, job->options.search, job->observer);
+  report->search.seconds += getting_ready;
+  report->curve_evaluations = few.evaluations();
   if (searcher || job->few.points.size < job->problem.points.size) {
-    const auto valid = CheckBirds(rmse_of(job->problem), space.box(), &report->search);
+    const auto valid =
+        CheckBirds([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
     if (!valid) return tl::unexpected(valid.error());
   }
   if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
   if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
-    RunRandomBaseline(job, space, objective, report);
+    RunRandomBaseline(job, objective, &few, report);
   }
   std::vector<PolishStart> elites;
   for (const Bird& bird : report->search.elites) {
-    space.ToParameters(bird.x.data(), p.data());
-    elites.push_back({elites.empty() ? "best bird" : fmt::format("elite {}", elites.size() + 1), p,
-                      space.FormAt(bird.x.data())});
+    elites.push_back({elites.empty() ? "best bird" : fmt::format("elite {}", elites.size() + 1),
+                      all.DeviceAt(bird.x.data()), all.FormAt(bird.x.data())});
   }
   return elites;
 }
@@ -217,8 +209,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   EchoOptions(options, &report);
 
-  const SearchSpace space = SpaceOf(job);
-  const auto birds = RunSearch(space, &job, &report);
+  const auto birds = RunSearch(&job, &report);
   if (!birds) return tl::unexpected(birds.error());
   const PolishStart& best = birds->front();
   report.searched = report.refined = best.p;
@@ -227,7 +218,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, *birds, space, &report);
+    PolishAndJudge(&job, *birds, CompleteSpace(job), &report);
   } else {
     if (extended) SettleForm(best.form, best.p, &job, &report);
     report.refined = report.searched;

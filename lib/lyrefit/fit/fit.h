@@ -38,6 +38,17 @@ enum class StartsFrom {
   kShape,   // places that the shape of the curve suggests (plateaus, shoulders), without the search
 };
 
+// What a bird of the search stands for.
+enum class Birds {
+  kAll,   // a complete device
+  kHard,  // its hard parameters alone: Rs, the n and the effects; see fit/birds.h
+};
+
+template <>
+struct EnumTable<Birds> {
+  static constexpr EnumText<Birds> kRows[] = {{Birds::kAll, "all"}, {Birds::kHard, "hard"}};
+};
+
 enum class Intervals { kNone, kSymmetric, kProfile };
 
 template <>
@@ -58,6 +69,7 @@ struct FitOptions {
   std::vector<EffectUse> with;
   bool force_effects = false;  // also those that data of this kind cannot show
   SearchOptions search;
+  Birds birds = Birds::kAll;
   SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
   bool random_baseline =
       true;  // print the best of as many random points beside the search's figure

@@ -35,6 +35,7 @@ void EchoOptions(const FitOptions& options, FitReport* report) {
   echo("searcher", options.searcher ? "custom" : "", "");
   echo("plain-polish", options.plain_polish ? "yes" : "no", "no");
   echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
+  echo("birds", ToText(options.birds), ToText(defaults.birds));
   AppendNonDefaults(options.search,
                     options.with.empty() ? defaults.search : FitOptions::SearchBesideShapes(),
                     kSearchOptionTable, &echoes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -211,6 +212,9 @@ struct FitReport {
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
   SearchOptions search_options;
   SearchSummary search;
+  // Evaluations of the whole curve, with or without derivatives, that the search cost: as many as
+  // its own, unless each bird solves for parameters (FitOptions::birds).
+  std::int64_t curve_evaluations = 0;
   RefineReport refine;
   // What the RMSE is multiplied by where forms are weighed against each other as BIC does it:
   // points ^ (free parameters beyond those of the smallest form / 2 points). Of the answer, and of

@@ -156,20 +156,32 @@ std::vector<std::vector<double>> PlacesOf(std::vector<Trial> trials) {
 
 }  // namespace
 
-std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place) {
-  const Extension& extension = *problem.device.extension;
-  const DataTraits& traits = extension.readings.traits;
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
+                                  const std::vector<double>& idealities) {
+  const Extension* const extension = problem.device.extension.get();
   const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
-  const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
-  const double voltage = per_cell * extension.readings.scale.cells;
+  double voltage = problem.voltage_scale_V;
+  if (extension != nullptr) {
+    const DataTraits& traits = extension->readings.traits;
+    const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
+    voltage = per_cell * extension->readings.scale.cells;
+  }
   constexpr double kIdeality = 1.2;
-  std::vector<double> p(extension.law.base_size(), 0);
+  std::vector<double> p(extension != nullptr ? extension->law.base_size() : problem.device.size());
   p[kIph] = current;
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;
-  p[SaturationCurrentIndex(0)] =
-      current / std::expm1(voltage / (kIdeality * problem.device.module_thermal_voltage_V));
+  const auto saturation = [&](double share, double n) {
+    return share * current / std::expm1(voltage / (n * problem.device.module_thermal_voltage_V));
+  };
+  p[SaturationCurrentIndex(0)] = saturation(1, kIdeality);
   for (int d = 0; d < DiodeCount(problem.device); ++d) p[IdealityIndex(d)] = kIdeality;
+  for (std::size_t d = 0; d < idealities.size(); ++d) {
+    const int diode = static_cast<int>(d);
+    p[SaturationCurrentIndex(diode)] =
+        saturation(1 / static_cast<double>(idealities.size()), idealities[d]);
+    p[IdealityIndex(diode)] = idealities[d];
+  }
   for (std::size_t i = 0; i < p.size(); ++i) {
     p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
   }

@@ -23,9 +23,12 @@ std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, cons
                                               const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count);
 
-// A crystalline device with the largest current and the open-circuit voltage of the readings, and
+// A crystalline device with the largest current and the open-circuit voltage of the readings (of
+// plain devices: the largest forward voltage), and
 // its effects at `place`: where cells stand under unlike light, no base device by itself is like
-// the one behind the curve.
-std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place);
+// the one behind the curve. `idealities`: of each diode, which then have equal shares of the
+// current; empty: a usual one, and the first diode has all.
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
+                                  const std::vector<double>& idealities = {});
 
 }  // namespace lyrefit

@@ -8,6 +8,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kMiddle = 0.5;  // of a stretch
+
 int Stretch(double x, int count) { return std::clamp(static_cast<int>(x), 0, count - 1); }
 
 }  // namespace
@@ -73,6 +75,21 @@ void SearchSpace::ToParameters(const double* x, double* p) const {
     own[k] = bounds[k].lower < bounds[k].upper ? WithinBounds(bounds[k], own[k]) : bounds[k].lower;
   }
   LeaveARest(*extension_, bounds, own);
+}
+
+std::vector<double> SearchSpace::FromParameters(const double* p, int form) const {
+  std::vector<double> x;
+  for (const Side& side : sides_) {
+    const double value = p[side.parameter];
+    if (side.whole > 0) {
+      x.push_back(std::round((value - side.first) / side.whole) + kMiddle);
+    } else {
+      x.push_back(side.log_base > 0 ? std::log(value / side.log_base) : value);
+    }
+  }
+  if (forms_.size() > 1) x.push_back(form + kMiddle);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = std::clamp(x[k], box_.lower[k], box_.upper[k]);
+  return x;
 }
 
 int SearchSpace::FormAt(const double* x) const {

@@ -25,6 +25,9 @@ class SearchSpace {
   int dimensions() const { return static_cast<int>(box_.lower.size()); }
   // Device parameters of a point of the box, into `p` (as many as the device has).
   void ToParameters(const double* x, double* p) const;
+  // A point of the box that stands for these parameters in a form, as far as its sides know them;
+  // those outside their ranges are moved inside. The middle of its stretch for a whole number.
+  std::vector<double> FromParameters(const double* p, int form) const;
   // Which of the forms a point is of.
   int FormAt(const double* x) const;
 

@@ -11,7 +11,8 @@ namespace lyrefit {
 std::string CompareCsv(const Comparison& comparison) {
   std::string csv =
       "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-      "best_bird_polished_A,refined_A,evaluations,evaluations_to_target,search_seconds,"
+      "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,search_"
+      "seconds,"
       "refine_seconds";
   const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
                                   [](const auto& problem) { return !problem.problem.empty(); });
@@ -23,12 +24,12 @@ std::string CompareCsv(const Comparison& comparison) {
     for (const ContenderResult& contender : problem.contenders) {
       for (const RunRecord& run : contender.runs) {
         const std::int64_t to_target = run.evaluations_to_target;
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{}", begin,
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{},{}", begin,
                        CsvField(contender.name), run.run, comparison.options.seed,
                        CsvField(run.searched_A), CsvField(run.plain_polished_A),
                        CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
-                       to_target < 0 ? "" : std::to_string(to_target), CsvField(run.search_seconds),
-                       CsvField(run.polish_seconds));
+                       run.curve_evaluations, to_target < 0 ? "" : std::to_string(to_target),
+                       CsvField(run.search_seconds), CsvField(run.polish_seconds));
         if (pooled) {
           fmt::format_to(std::back_inserter(csv), ",{},{},{},{}", CsvField(problem.problem),
                          CsvField(problem.reference.rmse_A), CsvField(run.plain_seconds),

@@ -100,7 +100,8 @@ std::string FamilyOutSection(const FamilyReport& report) {
 std::string FamilySearchSection(const FamilyReport& report) {
   std::string text = "How it was found\n";
   if (!OneByOne(report)) {
-    text += Field("search", SearchText(report.search_options, report.search));
+    text += Field("search",
+                  SearchText(report.search_options, report.search, report.search.evaluations));
     text +=
         Field("joint fit", fmt::format("{}; projected gradient {}",
                                        report.termination.empty() ? "not run" : report.termination,

@@ -189,7 +189,7 @@ void AddEvidence(const FamilyReport& report, Json* json) {
   j["without_odd"] = WithoutOddJson(report);
   j["candidates"] = CandidatesJson(report);
   j["correlations"] = CorrelationsJson(report.correlations);
-  j["search"] = SearchJson(report.search_options, report.search);
+  j["search"] = SearchJson(report.search_options, report.search, report.search.evaluations);
   j["search"]["curves"] = report.search_ids;
   j["refine"] = {{"termination", report.termination},
                  {"projected_gradient", Number(report.projected_gradient)}};

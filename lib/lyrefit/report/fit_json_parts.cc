@@ -70,7 +70,8 @@ Json ResidualsJson(const ResidualStatistics& r) {
           {"durbin_watson", Number(r.durbin_watson)}};
 }
 
-Json SearchJson(const SearchOptions& options, const SearchSummary& search) {
+Json SearchJson(const SearchOptions& options, const SearchSummary& search,
+                std::int64_t curve_evaluations) {
   Json trace = Json::array();
   for (const TracePoint& point : search.trace) {
     trace.push_back({{"iteration", point.iteration},
@@ -83,6 +84,7 @@ Json SearchJson(const SearchOptions& options, const SearchSummary& search) {
           {"population", options.population},
           {"iterations", search.iterations},
           {"evaluations", search.evaluations},
+          {"curve_evaluations", curve_evaluations},
           {"termination", ToText(search.termination)},
           {"message", search.message},
           {"seconds", Number(search.seconds)},

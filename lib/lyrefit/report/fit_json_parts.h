@@ -25,6 +25,7 @@ Json KeyPointsJson(const KeyPoints& points);
 Json CorrelationsJson(const std::vector<Correlation>& correlations);
 Json LargestErrorJson(const ResidualStatistics& r);
 Json ResidualsJson(const ResidualStatistics& r);  // all but the largest error
-Json SearchJson(const SearchOptions& options, const SearchSummary& search);
+Json SearchJson(const SearchOptions& options, const SearchSummary& search,
+                std::int64_t curve_evaluations);
 
 }  // namespace lyrefit

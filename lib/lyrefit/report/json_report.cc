@@ -136,7 +136,7 @@ void AddEvidence(const FitReport& report, Json* json) {
                       {"bic", Number(report.criteria.bic)}};
   j["residuals"] = ResidualsJson(report.residuals);
   j["correlations"] = CorrelationsJson(report.correlations);
-  j["search"] = SearchJson(report.search_options, report.search);
+  j["search"] = SearchJson(report.search_options, report.search, report.curve_evaluations);
   j["refine"] = RefineJson(report.refine);
   j["intervals"] = {{"seconds", Number(report.interval_seconds)},
                     {"none_because", report.no_intervals_because}};

@@ -45,6 +45,7 @@ Json ContenderJson(const PooledContender& contender) {
           {"kind", ToText(contender.kind)},
           {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
           {"evaluations", Number(contender.evaluations)},
+          {"curve_evaluations", Number(contender.curve_evaluations)},
           {"searched", LevelJson(contender.At(PolishLevel::kSearch))},
           {"plain_polished", LevelJson(contender.At(PolishLevel::kPlain))},
           {"best_bird_polished", LevelJson(contender.At(PolishLevel::kOwn))},

@@ -139,7 +139,8 @@ std::string ResidualSection(const FitReport& report) {
 
 std::string SearchSection(const FitReport& report) {
   std::string text = "How it was found\n";
-  text += Field("search", SearchText(report.search_options, report.search));
+  text +=
+      Field("search", SearchText(report.search_options, report.search, report.curve_evaluations));
   text += Field("polish", report.polished ? PolishText(report.refine) : "none");
   if (report.polished) text += Field("starts", StartsText(report.refine));
   const bool counted = report.refine.basins && report.refine.basins->starts > 0;

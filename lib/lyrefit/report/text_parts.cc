@@ -171,11 +171,16 @@ std::string CorrelationsText(const std::vector<Correlation>& correlations) {
   return text;
 }
 
-std::string SearchText(const SearchOptions& options, const SearchSummary& search) {
+std::string SearchText(const SearchOptions& options, const SearchSummary& search,
+                       std::int64_t curve_evaluations) {
+  std::string of_curve;
+  if (curve_evaluations != search.evaluations) {
+    of_curve = fmt::format(" ({} of the curve)", curve_evaluations);
+  }
   std::string text = fmt::format(
-      "{}: {}, seed {}, {} birds x {} iterations, {} evaluations; ended by: {}",
+      "{}: {}, seed {}, {} birds x {} iterations, {} evaluations{}; ended by: {}",
       Duration(search.seconds), ToText(options.algorithm), options.seed, options.population,
-      search.iterations, search.evaluations, ToText(search.termination));
+      search.iterations, search.evaluations, of_curve, ToText(search.termination));
   if (search.termination != SearchTermination::kIterations && !search.message.empty()) {
     text += fmt::format(" ({})", search.message);
   }

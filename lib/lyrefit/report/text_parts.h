@@ -64,7 +64,8 @@ std::string UnidentifiableNotes(const std::vector<Estimate>& estimates);
 std::string CorrelationsText(const std::vector<Correlation>& correlations);
 
 // "4.1 ms: mlo, seed 0, 20 birds x 20 iterations, 420 evaluations; ended by: iterations"
-std::string SearchText(const SearchOptions& options, const SearchSummary& search);
+std::string SearchText(const SearchOptions& options, const SearchSummary& search,
+                       std::int64_t curve_evaluations);
 
 // "seed = 1 (default 0), ..."
 std::string OptionsText(const std::vector<OptionEcho>& options);

@@ -39,6 +39,7 @@ struct Contender {
   SearchFunction searcher;  // empty: Search()
   ContenderKind kind = ContenderKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
+  Birds birds = Birds::kAll;             // the same; kHard is for curves, not for families
   std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
 };
 
@@ -91,6 +92,7 @@ struct RunRecord {
   double own_polished_A = kUnknown;    // the best bird's own polish
   double polished_A = kUnknown;        // the hybrid: best of all starts
   std::int64_t evaluations = 0;
+  std::int64_t curve_evaluations = 0;  // that those cost; see FitReport
   // Of the search alone, counted in whole iterations; -1: never reached.
   std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;
@@ -124,6 +126,7 @@ struct ContenderResult {
   std::string algorithm;
   SearchOptions search;
   ContenderKind kind = ContenderKind::kSearch;
+  Birds birds = Birds::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   Spread searched;
@@ -134,6 +137,7 @@ struct ContenderResult {
   double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
                                            // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit
   double evaluations = 0;                  // mean of a run, as are the seconds
+  double curve_evaluations = 0;            // and this
   double search_seconds = 0;
   double polish_seconds = 0;
   std::vector<MedianPoint> trace;  // about 60 points, evenly spaced in the logarithm

@@ -70,6 +70,7 @@ std::string SettingsText(const Contender& contender) {
   AppendNonDefaults(contender.search, kSearchOptionTable, &echoes);
   std::string text =
       contender.searcher ? "a search of its own" : ToText(contender.search.algorithm);
+  if (contender.birds != Birds::kAll) text += ", " + ToText(contender.birds) + " birds";
   if (contender.kind != ContenderKind::kSearch) text = ToText(contender.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;
@@ -133,6 +134,7 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
                       {"refine_seconds", ExactNumber(record.polish_seconds)},
                       {"parameters", ExactNumbers(outcome.parameters)},
                       {"trace", std::move(gains)}};
+  if (contender.birds != Birds::kAll) line["curve_evaluations"] = record.curve_evaluations;
   if (problem.problem.empty()) return line;
   line["plain_seconds"] = ExactNumber(record.plain_seconds);
   line["best_bird_seconds"] = ExactNumber(record.own_seconds);
@@ -152,7 +154,10 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   r.plain_polished_A = read.Number("plain_polished_A");
   r.own_polished_A = read.Number("best_bird_polished_A");
   r.polished_A = read.Number("refined_A");
-  r.evaluations = read.Whole("evaluations");
+  r.evaluations = r.curve_evaluations = read.Whole("evaluations");
+  if (record.json.contains("curve_evaluations")) {
+    r.curve_evaluations = read.Whole("curve_evaluations");
+  }
   r.search_seconds = read.Number("search_seconds");
   r.polish_seconds = read.Number("refine_seconds");
   run.outcome.parameters = read.Numbers("parameters");

@@ -50,7 +50,7 @@ void SetContender(const Contender& contender, const CompareOptions& options, int
 
 void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
   outcome->record.run = run;
-  outcome->record.evaluations = search.evaluations;
+  outcome->record.evaluations = outcome->record.curve_evaluations = search.evaluations;
   outcome->record.search_seconds = search.seconds;
 }
 
@@ -69,6 +69,7 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   RunOutcome outcome;
   FillSearch(report.search, run, &outcome);
   RunRecord& record = outcome.record;
+  record.curve_evaluations = report.curve_evaluations;
   const double bird = report.best_bird_price;
   record.searched_A = report.rmse.searched.Of(objective) * bird;
   record.plain_polished_A = report.rmse.plain_polished.Of(objective) * bird;
@@ -199,6 +200,7 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
   }
   FitOptions fit = FitOptionsOf(subject, problem, options);
   if (!problem.with.empty()) fit.search = FitOptions::SearchBesideShapes();
+  fit.birds = contender.birds;
   SetContender(contender, options, run, &fit);
   const auto report = Fit(subject.curve, fit, observer);
   if (!report) return tl::unexpected(report.error());

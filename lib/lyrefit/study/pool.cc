@@ -113,11 +113,13 @@ PooledContender Pool(const ContenderResult& contender, const std::vector<PooledR
   pooled.algorithm = contender.algorithm;
   pooled.kind = contender.kind;
   pooled.budget = contender.budget;
-  std::vector<double> evaluations;
+  std::vector<double> evaluations, of_curves;
   for (const PooledRun& run : runs) {
     evaluations.push_back(static_cast<double>(run.run->evaluations));
+    of_curves.push_back(static_cast<double>(run.run->curve_evaluations));
   }
   pooled.evaluations = MedianOf(std::move(evaluations));
+  pooled.curve_evaluations = MedianOf(std::move(of_curves));
   for (const PolishLevel level : kPolishLevels) {
     if (contender.kind != ContenderKind::kSearch && level != PolishLevel::kHybrid) continue;
     pooled.levels[static_cast<std::size_t>(level)] = PoolLevel(runs, level);

@@ -61,8 +61,9 @@ struct PooledContender {
   std::string name;
   std::string algorithm;
   ContenderKind kind = ContenderKind::kSearch;
-  std::int64_t budget = 0;        // 0: none
-  double evaluations = kUnknown;  // median of a run
+  std::int64_t budget = 0;              // 0: none
+  double evaluations = kUnknown;        // median of a run
+  double curve_evaluations = kUnknown;  // the same
   // By PolishLevel; only the last one of contenders that are no searches. Empty: not known.
   std::array<std::optional<PooledLevel>, 4> levels;
 

@@ -168,6 +168,7 @@ ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* o
   result.algorithm = contender.algorithm.empty() ? contender.name : contender.algorithm;
   result.search = contender.search;
   result.kind = contender.kind;
+  result.birds = contender.birds;
   result.budget = contender.budget;
   for (RunOutcome& outcome : *outcomes) {
     outcome.record.evaluations_to_target =
@@ -183,6 +184,7 @@ ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* o
   result.polished = SpreadOf(Column(result.runs, &RunRecord::polished_A), reference);
   CountHits(&result);
   result.evaluations = Mean(Column(result.runs, &RunRecord::evaluations));
+  result.curve_evaluations = Mean(Column(result.runs, &RunRecord::curve_evaluations));
   result.search_seconds = Mean(Column(result.runs, &RunRecord::search_seconds));
   result.polish_seconds = Mean(Column(result.runs, &RunRecord::polish_seconds));
   result.trace = MedianCourse(*outcomes);

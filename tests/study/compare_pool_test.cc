@@ -88,6 +88,7 @@ TEST(ComparePooled, RunsADefaultFitAsItIs) {
   fit.bounds = subject.bounds;
   fit.model = *subject.model;
   fit.intervals = Intervals::kNone;
+  fit.search = FitOptions::SearchBesideShapes();
   const auto report = Fit(subject.curve, fit);
   ASSERT_TRUE(report);
   const RunRecord& run = comparison.problems[0].contenders[5].runs[0];

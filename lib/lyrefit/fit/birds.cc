@@ -18,7 +18,7 @@ constexpr int kMostSteps = 30;
 class CountedCurve : public CurveModel {
  public:
   CountedCurve(const RefineProblem& problem, std::int64_t* evaluations)
-      : CurveModel(problem, /*keep=*/true), evaluations_(evaluations) {}
+      : CurveModel(problem, GiveUp::kAbsurd), evaluations_(evaluations) {}
 
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
                 double* local_slopes) const override {

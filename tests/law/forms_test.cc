@@ -66,9 +66,10 @@ TEST_P(SubstringsForms, HaveALightForEachThatIsCountedButTheBrightest) {
   const int groups = diodes - 1;
   const Extension extension = Extended(SteppedModule(diodes), {Named("substrings")});
   const std::vector<Form> forms = FormsOf(extension);
-  ASSERT_EQ(forms.size(), 2u);  // shades on all of a substring's cells, and on a part of them
+  // Shades on all of a substring's cells and, where there are few enough groups, on a part of them.
+  ASSERT_EQ(forms.size(), groups < 4 ? 2u : 1u);
   EXPECT_EQ(forms[0].free, groups + 1);
-  EXPECT_EQ(forms[1].free, groups + 2);
+  EXPECT_EQ(forms.back().free, groups + (groups < 4 ? 2 : 1));
   for (const Form& form : forms) {
     for (int k = 0; k < 4; ++k) {
       const ParameterBounds& light = form.bounds[2 * k];

@@ -238,6 +238,15 @@ FamilyReport Head(const Job& job) {
   return report;
 }
 
+// What is a whole number was settled by the starts: from here on it is held.
+void SettleWhole(const std::vector<double>& shared, FamilyProblem* family) {
+  for (std::size_t i = 0; i < family->bounds.size(); ++i) {
+    if (family->bounds[i].whole == 0) continue;
+    const double at = family->fixed[i] = shared[i];
+    family->bounds[i] = {at, at, at, at, SearchScale::kLinear};
+  }
+}
+
 void Refine(Job* job, FamilyReport* report) {
   JointProblem problem = JointProblemOn(job->family, job->options, job->family.curves.fitted);
   JointPoint bird = job->searched;
@@ -249,6 +258,7 @@ void Refine(Job* job, FamilyReport* report) {
                              job->elites, job->observer);
   const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
                                   job->observer, &problem);
+  SettleWhole(end.point.shared, &job->family);
   report->joint_seconds = SecondsSince(begin);
   report->termination = end.stopped     ? "interrupted"
                         : end.converged ? "converged"

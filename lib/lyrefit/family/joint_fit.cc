@@ -27,6 +27,16 @@ double NoiseOf(const FamilyProblem& family, const JointProblem& problem, const J
   return std::sqrt(end.squares / degrees);
 }
 
+// The problem with what is a whole number held at what `shared` says of it.
+JointProblem HoldingWhole(JointProblem problem, const FamilyProblem& family,
+                          const std::vector<double>& shared) {
+  for (std::size_t i = 0; i < family.bounds.size(); ++i) {
+    if (family.bounds[i].whole == 0) continue;
+    problem.lower[i] = problem.upper[i] = WithinBounds(family.bounds[i], shared[i]);
+  }
+  return problem;
+}
+
 }  // namespace
 
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
@@ -45,7 +55,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
     start.local.assign(small.curves.size(), {0, 0});
     JointOptions quick = thorough;
     quick.function_tolerance = 1e-10;
-    ends[s] = RefineJointly(small, start, quick);
+    ends[s] = RefineJointly(HoldingWhole(small, family, start.shared), start, quick);
   });
   std::stable_sort(ends.begin(), ends.end(),
                    [](const JointEnd& a, const JointEnd& b) { return Total(a) < Total(b); });
@@ -56,9 +66,10 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
     if (repeats) continue;
     JointPoint start = ends[s].point;
     start.local.assign(problem->curves.size(), {0, 0});
-    JointEnd end = RefineJointly(*problem, start, thorough);
+    JointEnd end = RefineJointly(HoldingWhole(*problem, family, start.shared), start, thorough);
     if (s == 0 || Total(end) < Total(best)) best = std::move(end);
   }
+  *problem = HoldingWhole(std::move(*problem), family, best.point.shared);
   constexpr int kRounds = 4;
   for (int round = 0; HasPriors(*problem) && round < kRounds && !watch.Stopped(); ++round) {
     const double before = problem->noise_A;

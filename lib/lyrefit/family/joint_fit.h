@@ -10,7 +10,9 @@ namespace lyrefit {
 
 // The joint fit of some curves from several starts: every start is refined on the curves of the
 // search, the best two on all. With priors the noise that they are weighed against is found on the
-// way. `problem` (on `curves`) gets that noise. Stopped by the observer, it is the best so far.
+// way. `problem` (on `curves`) gets that noise, and
+// holds what is a whole number where the best fit has it. Stopped by the observer, it is the best
+// so far.
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
                     const Observer& observer, JointProblem* problem);

@@ -13,7 +13,7 @@ constexpr int kFirst = 5, kMore = 9, kMost = 20, kToTheEnd = 100;  // steps
 constexpr std::size_t kOnwards = 12, kAhead = 6;
 constexpr int kOfEachForm = 2;       // go on whatever the others do
 constexpr double kClose = 1.02;      // of the lowest RMSE: what may be the best after so many steps
-constexpr double kNear = 2;          // of the lowest RMSE: what may still become the best
+constexpr double kNear = 3;          // of the lowest RMSE: what may still become the best
 constexpr int kEnough = 3;           // ends in the best basin
 constexpr double kSameBasin = 1e-6;  // relative, of the mean square
 
@@ -40,6 +40,9 @@ void Basins::Descend(std::vector<PolishStart> starts) {
   GoOn(&ways, kFirst, kOnwards);
   GoOn(&ways, kMore, kAhead);
   GoOn(&ways, kMost, kAhead);
+  ways.erase(
+      std::remove_if(ways.begin(), ways.end(), [this](int way) { return IsHopeless(ends_[way]); }),
+      ways.end());
   GoOn(&ways, kToTheEnd, kAhead);
   Finish(ways);
 }
@@ -66,7 +69,7 @@ void Basins::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   for (const int way : *ways) {
     const BasinEnd& at = ends_[way];
     const bool among_first = ++of_form[at.start.form] <= kOfEachForm;
-    if ((left.size() < most || among_first) && !IsHopeless(at)) left.push_back(way);
+    if (among_first || (left.size() < most && !IsHopeless(at))) left.push_back(way);
   }
   *ways = std::move(left);
 }

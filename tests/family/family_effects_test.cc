@@ -146,6 +146,17 @@ TEST_F(FamilyEffectsTest, AShadedModuleIsFoundWhereOneInsists) {
   EXPECT_LT(report.reference.max_power_W, 55);
 }
 
+TEST_F(FamilyEffectsTest, WholeSubstringsAreCountedAndNotMeasured) {
+  for (IvCurve& curve : set_.curves) curve.notes.bypass_diodes = 3;
+  Make({UseOf("shading", {{"d", {0.3, 0.3}}, {"w", {2.0 / 3, 2.0 / 3}}, {"Vb", {0.5, 0.5}}})});
+  options_.with = {UseOf("shading")};
+  options_.force_effects = true;
+  const FamilyReport report = Fit();
+  EXPECT_DOUBLE_EQ(Of(report, "shading.w").refined, 2.0 / 3);
+  ExpectFound(report, "shading.d", 0.3);
+  EXPECT_NEAR(report.rmse.refined.solved_current_A, 1e-3, 1e-4);
+}
+
 TEST_F(FamilyEffectsTest, ADarkCurveTellsAPhotoshuntFromTheShunt) {
   TranslationSpec spec = law_.spec;
   spec.shunt = ShuntLaw::kConstant;

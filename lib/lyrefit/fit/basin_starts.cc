@@ -198,6 +198,7 @@ std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at
 std::vector<PolishStart> Named(const std::string& origin, int form,
                                std::vector<std::vector<double>> places) {
   std::vector<PolishStart> starts;
+  starts.reserve(places.size());
   for (std::vector<double>& place : places) {
     starts.push_back({fmt::format("{} {}", origin, starts.size() + 1), std::move(place), form});
   }

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFirst = 5, kMore = 9, kMost = 20, kToTheEnd = 100;  // steps
+constexpr int kFirst = 5, kMore = 9, kOn = 20, kToTheEnd = 100;  // steps
 constexpr std::size_t kOnwards = 12, kAhead = 6;
 constexpr int kOfEachForm = 2;       // go on whatever the others do
 constexpr double kClose = 1.02;      // of the lowest RMSE: what may be the best after so many steps
@@ -39,7 +39,7 @@ void Basins::Descend(std::vector<PolishStart> starts) {
   }
   GoOn(&ways, kFirst, kOnwards);
   GoOn(&ways, kMore, kAhead);
-  GoOn(&ways, kMost, kAhead);
+  GoOn(&ways, kOn, kAhead);
   ways.erase(
       std::remove_if(ways.begin(), ways.end(), [this](int way) { return IsHopeless(ends_[way]); }),
       ways.end());

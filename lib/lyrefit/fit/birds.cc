@@ -124,6 +124,7 @@ double BirdPlaces::RmseAt(const double* x) {
 // Mean square with the best values of what is solved for at the rest of `p_`.
 double BirdPlaces::SolveEasy() {
   std::vector<double> idealities;
+  idealities.reserve(DiodeCount(problem_.device));
   for (int d = 0; d < DiodeCount(problem_.device); ++d) {
     idealities.push_back(p_[IdealityIndex(d)]);
   }

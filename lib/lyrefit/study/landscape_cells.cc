@@ -21,6 +21,7 @@ std::vector<int> DrawGroups(int substrings, int lights, RandomStream* random) {
     std::sort(cuts.begin(), cuts.end());
     cuts.push_back(substrings);
     std::vector<int> groups;
+    groups.reserve(lights);
     for (int k = 0; k < lights; ++k) groups.push_back(cuts[k] - (k > 0 ? cuts[k - 1] : 0));
     if (std::adjacent_find(groups.begin(), groups.end(), std::not_equal_to<>()) != groups.end()) {
       return groups;

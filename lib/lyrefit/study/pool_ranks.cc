@@ -76,6 +76,7 @@ void AddRankings(const std::vector<const PooledProblem*>& pools, const std::stri
 std::vector<PooledRanking> RankPools(const std::vector<PooledProblem>& pools) {
   std::vector<PooledRanking> rankings;
   std::vector<const PooledProblem*> all;
+  all.reserve(pools.size());
   for (const PooledProblem& pool : pools) all.push_back(&pool);
   if (all.size() > 1) AddRankings(all, "", &rankings);
   for (const PooledProblem* pool : all) AddRankings({pool}, pool->name, &rankings);

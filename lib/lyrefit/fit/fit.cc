@@ -84,7 +84,8 @@ void FillResults(const FitJob& job, FitReport* report) {
   const Device& device = report->device;
   report->rmse.searched = BothRmse(device, report->searched, curve);
   if (report->polished) {
-    report->rmse.best_bird_polished = BothRmse(device, report->best_bird_polished, curve);
+    const std::vector<double>& bird = report->best_bird_polished;
+    if (!bird.empty()) report->rmse.best_bird_polished = BothRmse(device, bird, curve);
     report->rmse.refined = BothRmse(device, report->refined, curve);
   }
   const std::vector<double>& p = report->refined;
@@ -160,8 +161,11 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   const double best_bird_seconds = report->refine.best_bird_seconds;
   report->refine = polish.report;
   report->refine.best_bird_seconds = best_bird_seconds;
-  if (report->best_bird_polished.empty()) report->best_bird_polished = polish.first.p;
-  OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
+  const bool of_bird = !extended || options.starts != StartsFrom::kShape;
+  if (report->best_bird_polished.empty() && of_bird) report->best_bird_polished = polish.first.p;
+  if (!report->best_bird_polished.empty()) {
+    OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
+  }
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
 

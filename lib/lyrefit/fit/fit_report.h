@@ -70,11 +70,13 @@ struct RmsePair {
 };
 
 struct RmseTable {
-  RmsePair random_baseline;     // best of as many uniform random points as the search evaluated
-  RmsePair searched;            // the metaheuristic's best bird as it is
-  RmsePair plain_polished;      // that bird after one bounded solve in all parameters, if asked for
-  RmsePair best_bird_polished;  // that bird after its own polish
-  RmsePair refined;             // the best end of all starts
+  RmsePair random_baseline;  // best of as many uniform random points as the search evaluated
+  RmsePair searched;         // the metaheuristic's best bird as it is
+  RmsePair plain_polished;   // that bird after one bounded solve in all parameters, if asked for
+  // That bird after its own polish; with effects as far as that was worth it, unless it was asked
+  // for (FitOptions::plain_polish).
+  RmsePair best_bird_polished;
+  RmsePair refined;  // the best end of all starts
 };
 
 // The lowest measured-current RMSE that any number of diodes in parallel can reach, n and Rs within

@@ -99,7 +99,8 @@ void Basins::Take(int way, RefineEnd end) {
   BasinEnd& at = ends_[way];
   const double factor = FormFactor(problem_, forms_[at.start.form]);
   const double paid = end.mean_square * factor * factor;
-  if (!at.end.p.empty() && !(paid <= at.paid)) return;
+  constexpr double kSame = 1e-12;  // relative: rounding of one evaluation or another
+  if (!at.end.p.empty() && !(paid <= at.paid * (1 + kSame))) return;
   at.end = std::move(end);
   at.paid = std::isfinite(paid) ? paid : HUGE_VAL;
   if (best_ < 0 || at.paid < ends_[best_].paid) best_ = way;

@@ -135,13 +135,14 @@ void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
   const bool extended = !job->forms.empty();
   const RefineProblem problem =
       extended ? InForm(job->problem, job->forms[bird.form], bird.p) : job->problem;
+  RefineOptions how;
+  how.stop = job->watch.stop();
+  how.impatient = true;
   auto begin = std::chrono::steady_clock::now();
-  const RefineEnd plain = RefinePlainly(problem, bird.p);
+  const RefineEnd plain = RefinePlainly(problem, bird.p, how);
   report->plain_seconds = SecondsSince(begin);
   report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
   begin = std::chrono::steady_clock::now();
-  RefineOptions how;
-  how.stop = job->watch.stop();
   report->best_bird_polished = extended
                                    ? Refine(problem, bird.p, how).p
                                    : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;

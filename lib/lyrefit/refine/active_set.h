@@ -53,7 +53,7 @@ RefineEnd RefineModel(const FitModel& model, FitPoint start, const RefineOptions
 
 // One bounded solve in all parameters at once and nothing more: what a metaheuristic followed by
 // least squares usually means, and the yardstick for RefineModel. Of the options it reads
-// `max_iterations`, `function_tolerance`, `enough` and `stop`.
+// `max_iterations`, `function_tolerance`, `enough`, `stop` and `impatient`.
 RefineEnd RefineModelPlainly(const FitModel& model, FitPoint start,
                              const RefineOptions& options = {});
 

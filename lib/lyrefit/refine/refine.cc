@@ -26,7 +26,8 @@ RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& st
 
 RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,
                         const RefineOptions& options) {
-  return RefineModelPlainly(CurveModel(problem), {std::move(start), {}}, options);
+  const CurveModel model(problem, options.impatient ? GiveUp::kSlow : GiveUp::kAbsurd);
+  return RefineModelPlainly(model, {std::move(start), {}}, options);
 }
 
 }  // namespace lyrefit

@@ -33,6 +33,9 @@ class Basins {
   const std::vector<BasinEnd>& ends() const { return ends_; }  // in the order of the starts
   int best() const { return best_; }                           // index into ends()
   int visits() const { return VisitsOf(ends_[best_]); }        // finished ends in the best basin
+  // Of all finished ends, whatever they began at. Chao's estimate asks for independent starts:
+  // those beside an earlier end come back to its basin sooner than others, so that it is a lower
+  // one.
   BasinCount Count() const;
 
  private:

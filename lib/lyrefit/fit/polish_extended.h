@@ -10,9 +10,10 @@
 namespace lyrefit {
 
 // The hybrid over the basins of a device with effects. It begins where the shape of the curve
-// suggests, at the best bird and further elites, and at probes of what shows in no shape; goes on
-// from random places, where these have not come to the best basin more than once; and last tries
-// the whole numbers next to those of the best. Settles for the form of the best end.
+// suggests, at the best bird and at probes of what shows in no shape; goes on from further elites
+// where the best basin was reached once, and from random places where that is still so or where
+// its residuals are no noise; and last tries what is next to the best end: other whole numbers,
+// other settings, single parameters elsewhere. Settles for the form of the best end.
 PolishResult PolishExtended(const std::vector<PolishStart>& birds, const SearchSpace& space,
                             FitJob* job, FitReport* report);
 

@@ -82,18 +82,42 @@ TEST_F(BasinsTest, CountsWhatWasMet) {
   // Equal groups may change places: the same basin twice.
   basins.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
   BasinCount count = basins.Count();
-  EXPECT_EQ(count.starts, 2);
+  EXPECT_EQ(count.ends, 2);
   EXPECT_EQ(count.basins, 1);
   EXPECT_EQ(count.best_visits, 2);
-  EXPECT_EQ(count.once, 0);
-  EXPECT_EQ(count.twice, 1);
-  EXPECT_EQ(count.unseen, 0);
+  EXPECT_EQ(count.independent.once, 0);
+  EXPECT_EQ(count.independent.twice, 1);
+  EXPECT_FALSE(std::isfinite(count.unseen));  // of two
   EXPECT_EQ(basins.visits(), 2);
   // Far away: given up, and in no count.
   basins.Descend({Changed(0.02, 0.02, 0.02)});
   ASSERT_EQ(basins.ends().size(), 3u);
   count = basins.Count();
-  EXPECT_EQ(count.starts, basins.ends()[2].finished ? 3 : 2);
+  EXPECT_EQ(count.ends, basins.ends()[2].finished ? 3 : 2);
+}
+
+TEST_F(BasinsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  const double d1 = made_.truth.at("substrings.d1");
+  const double d2 = made_.truth.at("substrings.d2");
+  const double d3 = made_.truth.at("substrings.d3");
+  basins.Descend({Changed(d1, d2, d3)});
+  PolishStart beside = Changed(d3, d1, d2);
+  beside.beside = true;
+  basins.Descend({beside});
+  const BasinCount count = basins.Count();
+  EXPECT_EQ(count.ends, 2);
+  EXPECT_EQ(count.best_visits, 2);
+  EXPECT_EQ(count.independent.ends, 1);
+  EXPECT_EQ(count.independent.basins, 1);
+  EXPECT_EQ(count.independent.best_visits, 1);
+  EXPECT_EQ(count.independent.once, 1);
+  EXPECT_EQ(count.independent.twice, 0);
+  EXPECT_FALSE(std::isfinite(count.unseen));
+  for (const PolishStart& start : Neighbours(job_, basins.ends()[basins.best()])) {
+    EXPECT_TRUE(start.beside) << start.origin;
+  }
+  for (const PolishStart& start : ShapeStarts(job_)) EXPECT_FALSE(start.beside) << start.origin;
 }
 
 TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
@@ -117,16 +141,16 @@ TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
   for (auto start = into.rbegin(); start != into.rend(); ++start) basins.Descend({start->second});
   BasinCount count = basins.Count();
   EXPECT_EQ(count.basins, 3);
-  EXPECT_EQ(count.once, 3);
-  EXPECT_EQ(count.twice, 0);
+  EXPECT_EQ(count.independent.once, 3);
+  EXPECT_EQ(count.independent.twice, 0);
   EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
   basins.Descend({into.begin()->second});
   count = basins.Count();
-  EXPECT_EQ(count.starts, 4);
+  EXPECT_EQ(count.ends, 4);
   EXPECT_EQ(count.basins, 3);
   EXPECT_EQ(count.best_visits, 2);
-  EXPECT_EQ(count.once, 2);
-  EXPECT_EQ(count.twice, 1);
+  EXPECT_EQ(count.independent.once, 2);
+  EXPECT_EQ(count.independent.twice, 1);
   EXPECT_EQ(count.unseen, 0.5);  // 2 x 1 / (2 x 2)
 }
 

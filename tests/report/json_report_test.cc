@@ -58,18 +58,19 @@ TEST(JsonReport, CountsBasinsAndListsFormsOfAModelWithEffects) {
   EXPECT_TRUE(Parsed(report)["forms"].is_null());
   EXPECT_TRUE(Parsed(report)["parameters"]["n"]["whole"].is_null());
   report.refine.starts.resize(49);
-  report.refine.basins = BasinCount{14, 4, 6, 3, 1, 1.5};
+  report.refine.basins = BasinCount{14, 5, 6, {12, 4, 5, 3, 1}, 1.5};
   report.forms = {{"d, Vb free; a = 0", 2, 1.2e-3, 87.5, false, false},
                   {"d, Vb, m, A free", 4, 7.73e-4, 0, true, true}};
   report.estimates[2].bounds.whole = 0.25;
   const json j = Parsed(report);
   EXPECT_EQ(j["refine"]["start_list"].size(), 49u);
-  EXPECT_EQ(j["refine"]["basins"], (json{{"starts", 14},
-                                         {"basins", 4},
-                                         {"best_visits", 6},
-                                         {"once", 3},
-                                         {"twice", 1},
-                                         {"unseen", 1.5}}));
+  EXPECT_EQ(j["refine"]["basins"],
+            (json{{"ends", 14},
+                  {"basins", 5},
+                  {"best_visits", 6},
+                  {"independent",
+                   {{"ends", 12}, {"basins", 4}, {"best_visits", 5}, {"once", 3}, {"twice", 1}}},
+                  {"unseen", 1.5}}));
   ASSERT_EQ(j["forms"].size(), 2u);
   EXPECT_EQ(j["forms"][0], (json{{"what", "d, Vb free; a = 0"},
                                  {"free", 2},

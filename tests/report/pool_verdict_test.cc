@@ -67,7 +67,7 @@ TEST(VerdictText, SaysThatNothingIsEnough) {
 
 TEST(VerdictText, SaysThatNobodyEverHits) {
   EXPECT_EQ(Sentence({{"mlo", 100, 0, 0, 5}, {"random", 100, 0, 0, 8}}),
-            "x: nothing is enough: no search hits in any run; random points hit in none");
+            "x: nothing is enough: the searches never hit; random points hit in none");
 }
 
 TEST(PeerText, SaysHowManyTimesFasterOrThatNoneHitsAsOften) {
@@ -80,7 +80,7 @@ TEST(PeerText, SaysHowManyTimesFasterOrThatNoneHitsAsOften) {
   const Comparison fewer = Fifty({{"default", 0, 0, 49, 2}, {"pagmo:de", 1000, 48, 50, 123}});
   EXPECT_EQ(PeerText(PoolProblems(fewer)[0]),
             "default (49 of 50, 32 ms): no peer hits as often; the best is pagmo:de@1000 (48 of "
-            "50, 128 ms)");
+            "50, 128 ms), in 4 times the time");
   const Comparison none = Fifty({{"default", 0, 0, 49, 2}, {"mlo", 1000, 48, 50, 123}});
   EXPECT_EQ(PeerText(PoolProblems(none)[0]), "");
 }

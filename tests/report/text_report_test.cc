@@ -175,7 +175,7 @@ TEST(FullReport, ShowsTheChoiceOfTheModel) {
 TEST(FullReport, CountsTheBasinsOfAModelWithEffects) {
   FitReport report = SampleReport();
   report.refine.starts.resize(49, {"random", 9e-4, 7.8e-4, false});
-  report.refine.basins = BasinCount{14, 3, 6, 2, 0, 1};
+  report.refine.basins = BasinCount{14, 3, 6, {14, 3, 6, 2, 0}, 1};
   const std::string text = FullReport(report);
   EXPECT_THAT(text, HasSubstr("14 of 49 went to their end, in 3 basins, the best of them reached 6 "
                               "times; the other"));
@@ -183,21 +183,32 @@ TEST(FullReport, CountsTheBasinsOfAModelWithEffects) {
   EXPECT_THAT(text, HasSubstr("the best end came from start 2: elite 2"));
   EXPECT_THAT(text, Not(HasSubstr("came to the same curve")));
   EXPECT_THAT(LineWith(text, "  basins "),
-              HasSubstr("by Chao's estimate 1.0 more were probably not seen: 2 of the 3"));
+              HasSubstr("by Chao's estimate (doi:10.2307/2531532) 1.0 more were probably not"));
+  EXPECT_THAT(text, HasSubstr("basins were reached just once\n"));
+  EXPECT_THAT(text, Not(HasSubstr("beside an earlier end")));
+  report.refine.basins = BasinCount{14, 3, 6, {9, 2, 4, 1, 0}, 0};
+  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
+              HasSubstr("9 of the 14 ends did not begin beside an earlier end, 4 of those in the"));
+  EXPECT_THAT(FullReport(report), HasSubstr("none was left unseen: only one"));
+  report.refine.basins = BasinCount{5, 1, 5, {2, 1, 0, 0, 1}, kUnknown};
+  EXPECT_THAT(LineWith(FullReport(report), "  basins "), HasSubstr("none of those in the"));
+  EXPECT_THAT(FullReport(report), HasSubstr("few descents to estimate how many basins were not seen"));
+  report.refine.basins = BasinCount{5, 1, 0, {5, 1, 0, 0, 0}, 0};  // interrupted
+  EXPECT_THAT(FullReport(report), HasSubstr("in 1 basin, none of them the best"));
   EXPECT_EQ(text.find("random "), text.rfind("random "));  // the baseline: no line for each start
   report.refine.starts.resize(14);
-  report.refine.basins = BasinCount{14, 1, 14, 0, 0, 0};
+  report.refine.basins = BasinCount{14, 1, 14, {14, 1, 14, 0, 0}, 0};
   EXPECT_THAT(
       LineWith(FullReport(report), "  starts "),
       HasSubstr("14 of 14 went to their end, in 1 basin, the best of them reached 14 times"));
   EXPECT_THAT(FullReport(report), Not(HasSubstr("given up")));
   EXPECT_THAT(LineWith(FullReport(report), "  basins "),
-              HasSubstr("none was left unseen: none was reached just once"));
-  report.refine.basins = BasinCount{1, 1, 1, 1, 0, 0};
+              HasSubstr("none was left unseen: none was reached"));
+  report.refine.basins = BasinCount{1, 1, 1, {1, 1, 1, 1, 0}, kUnknown};
   EXPECT_THAT(FullReport(report),
               HasSubstr("1 of 14 went to its end, in 1 basin, the best of them reached once"));
   EXPECT_THAT(LineWith(FullReport(report), "  basins "),
-              HasSubstr("none was left unseen: only one was reached just once"));
+              HasSubstr("too few descents to estimate how many basins were not seen"));
   report.refine.basins = BasinCount{};  // interrupted
   EXPECT_THAT(FullReport(report), HasSubstr("none of 14 went to its end"));
   EXPECT_EQ(LineWith(FullReport(report), "  basins "), "");

@@ -48,7 +48,7 @@ void AddWholeNumbers(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
     for (const auto& [i, step] : steps) {
       if (std::fabs(p[i] - wanted[i]) > 0.5 * std::fabs(step)) return;
     }
-    starts->push_back({"one more or less", std::move(p), at.start.form});
+    starts->push_back({"one more or less", std::move(p), at.start.form, true});
   };
   for (const auto& [i, step] : steps) {
     std::vector<double> p = at.end.p;
@@ -94,7 +94,7 @@ void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
   for (const Setting& setting : SettingsOf(job, job.forms[at.start.form])) {
     const double here = at.end.p[setting.parameter];
     const auto add = [&](double value) {
-      starts->push_back({"next setting", at.end.p, at.start.form});
+      starts->push_back({"next setting", at.end.p, at.start.form, true});
       starts->back().p[setting.parameter] = value;
     };
     auto above = setting.values.upper_bound(here), below = setting.values.lower_bound(here);
@@ -122,7 +122,7 @@ void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart
       for (const double part : {0.15, 0.5, 0.85}) {
         const double value = bounds.lower + part * range;
         if (std::fabs(value - at.end.p[i]) < kFar * range) continue;
-        starts->push_back({"elsewhere", at.end.p, at.start.form});
+        starts->push_back({"elsewhere", at.end.p, at.start.form, true});
         starts->back().p[i] = value;
       }
     }

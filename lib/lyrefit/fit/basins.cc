@@ -106,29 +106,43 @@ void Basins::Take(int way, RefineEnd end) {
   if (best_ < 0 || at.paid < ends_[best_].paid) best_ = way;
 }
 
-int Basins::VisitsOf(const BasinEnd& end) const {
-  return static_cast<int>(std::count_if(ends_.begin(), ends_.end(), [&](const BasinEnd& other) {
-    return other.finished && SameBasin(other, end);
+int Basins::visits() const {
+  return static_cast<int>(std::count_if(ends_.begin(), ends_.end(), [this](const BasinEnd& end) {
+    return end.finished && SameBasin(end, ends_[best_]);
   }));
 }
 
 BasinCount Basins::Count() const {
+  struct Basin {
+    const BasinEnd* first;
+    int ends, apart;
+  };
+  std::vector<Basin> basins;
   BasinCount count;
-  std::vector<const BasinEnd*> met;
   for (const BasinEnd& end : ends_) {
     if (!end.finished) continue;
-    ++count.starts;
-    const bool known = std::any_of(met.begin(), met.end(),
-                                   [&](const BasinEnd* other) { return SameBasin(end, *other); });
-    if (known) continue;
-    met.push_back(&end);
-    const int visits = VisitsOf(end);
-    count.once += visits == 1 ? 1 : 0;
-    count.twice += visits == 2 ? 1 : 0;
+    auto basin = std::find_if(basins.begin(), basins.end(),
+                              [&](const Basin& known) { return SameBasin(end, *known.first); });
+    if (basin == basins.end()) basin = basins.insert(basin, {&end, 0, 0});
+    ++basin->ends;
+    basin->apart += end.start.beside ? 0 : 1;
   }
-  count.basins = static_cast<int>(met.size());
-  count.best_visits = visits();
-  count.unseen = count.once * (count.once - 1) / (2.0 * (count.twice + 1));
+  BasinCount::Independent& independent = count.independent;
+  for (const Basin& basin : basins) {
+    count.ends += basin.ends;
+    independent.ends += basin.apart;
+    independent.basins += basin.apart > 0 ? 1 : 0;
+    independent.once += basin.apart == 1 ? 1 : 0;
+    independent.twice += basin.apart == 2 ? 1 : 0;
+    if (!SameBasin(*basin.first, ends_[best_])) continue;
+    count.best_visits += basin.ends;
+    independent.best_visits += basin.apart;
+  }
+  count.basins = static_cast<int>(basins.size());
+  constexpr int kLeast = 3;
+  if (independent.ends >= kLeast) {
+    count.unseen = independent.once * (independent.once - 1) / (2.0 * (independent.twice + 1));
+  }
   return count;
 }
 

@@ -32,10 +32,7 @@ class Basins {
 
   const std::vector<BasinEnd>& ends() const { return ends_; }  // in the order of the starts
   int best() const { return best_; }                           // index into ends()
-  int visits() const { return VisitsOf(ends_[best_]); }        // finished ends in the best basin
-  // Of all finished ends, whatever they began at. Chao's estimate asks for independent starts:
-  // those beside an earlier end come back to its basin sooner than others, so that it is a lower
-  // one.
+  int visits() const;                                          // finished ends in the best basin
   BasinCount Count() const;
 
  private:
@@ -43,7 +40,6 @@ class Basins {
   void Finish(const std::vector<int>& ways);
   void Take(int way, RefineEnd end);
   bool IsHopeless(const BasinEnd& end) const;
-  int VisitsOf(const BasinEnd& end) const;
 
   const RefineProblem& problem_;
   const std::vector<Form>& forms_;

@@ -98,15 +98,24 @@ struct StartReport {
   bool agrees = false;  // shares the best end, or its own is within 1e-9 relative of it
 };
 
-// Of the starts of one polish: in how many basins they ended, and how many there may be besides.
+// Of the starts of one polish that went to their end: in how many basins, and how many there may be
+// besides. A start beside an earlier end (one cell more, the next setting) comes back to its basin
+// sooner than another, and is in no estimate.
 struct BasinCount {
-  int starts = 0;
+  int ends = 0;
   int basins = 0;
-  int best_visits = 0;       // starts that ended in the best one
-  int once = 0;              // basins that one start ended in
-  int twice = 0;             // basins that two ended in
-  double unseen = kUnknown;  // Chao's lower estimate, bias-corrected: once (once - 1) / (2 (twice +
-                             // 1)) doi:10.2307/2531532
+  int best_visits = 0;  // ends in the best one
+  struct Independent {  // of the starts that were not beside an earlier end
+    int ends = 0;
+    int basins = 0;
+    int best_visits = 0;
+    int once = 0;   // basins with one end
+    int twice = 0;  // with two
+  };
+  Independent independent;
+  // Chao's lower estimate, bias-corrected: once (once - 1) / (2 (twice + 1)),
+  // doi:10.2307/2531532; unknown where `independent` has less than three ends.
+  double unseen = kUnknown;
 };
 
 // The best fit in one of several forms that effects can have (law/forms.h).

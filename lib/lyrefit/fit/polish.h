@@ -14,7 +14,8 @@ namespace lyrefit {
 struct PolishStart {
   std::string origin;
   std::vector<double> p;
-  int form = 0;  // which of the forms its effects have
+  int form = 0;         // which of the forms its effects have
+  bool beside = false;  // begins at an earlier end, changed a little
 };
 
 // All starts polished: the first start is the best bird, whose own end is kept apart.

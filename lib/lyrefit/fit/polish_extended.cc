@@ -83,9 +83,11 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* 
     const int before = basins->best();
     const BasinEnd best = basins->ends()[before];
     const int form = best.start.form;
-    basins->Descend(
+    std::vector<PolishStart> probes =
         Named("probe beside", form,
-              ProbesBeside(job.problem, job.forms[form], best.end, shapeless, kProbes)));
+              ProbesBeside(job.problem, job.forms[form], best.end, shapeless, kProbes));
+    for (PolishStart& probe : probes) probe.beside = true;
+    basins->Descend(std::move(probes));
     if (basins->best() == before) return;
   }
 }

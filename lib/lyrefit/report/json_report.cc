@@ -57,9 +57,17 @@ Json FloorJson(const FitReport& report) {
 // Null where there are no effects.
 Json BasinsJson(const std::optional<BasinCount>& basins) {
   if (!basins) return nullptr;
-  return {
-      {"starts", basins->starts}, {"basins", basins->basins}, {"best_visits", basins->best_visits},
-      {"once", basins->once},     {"twice", basins->twice},   {"unseen", Number(basins->unseen)}};
+  const BasinCount::Independent& independent = basins->independent;
+  return {{"ends", basins->ends},
+          {"basins", basins->basins},
+          {"best_visits", basins->best_visits},
+          {"independent",
+           {{"ends", independent.ends},
+            {"basins", independent.basins},
+            {"best_visits", independent.best_visits},
+            {"once", independent.once},
+            {"twice", independent.twice}}},
+          {"unseen", Number(basins->unseen)}};
 }
 
 Json RefineJson(const RefineReport& refine) {

@@ -45,7 +45,7 @@ std::string SearchText(const SearchVerdict& verdict) {
                        HitsText(*verdict.search), HowText(*verdict.search, "from"));
   }
   const int runs = verdict.best->figures().runs;
-  if (verdict.best->figures().hits == 0) return "no search hits in any run";
+  if (verdict.best->figures().hits == 0) return "the searches never hit";
   return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
                      verdict.needed, runs, verdict.best->contender->algorithm,
                      verdict.best->figures().hits, HowText(*verdict.best, "at"));
@@ -91,8 +91,9 @@ std::string PeerText(const PooledProblem& pool) {
                        Duration(way.figures().seconds));
   };
   if (!ratio->equal) {
-    return fmt::format("{}: no peer hits as often; the best is {}", brief(ratio->self),
-                       brief(*ratio->peer));
+    const double times = ratio->peer->figures().seconds / ratio->self.figures().seconds;
+    return fmt::format("{}: no peer hits as often; the best is {}, in {:.3g} times the time",
+                       brief(ratio->self), brief(*ratio->peer), times);
   }
   if (std::isnan(ratio->times)) {
     return fmt::format("{} hits no more often than {}", brief(ratio->self), brief(*ratio->peer));

@@ -42,15 +42,19 @@ std::string PolishText(const RefineReport& refine) {
                             Significant(refine.condition, 2));
 }
 
+std::string BestVisits(int count) {
+  if (count == 0) return "none of them the best";  // interrupted
+  return "the best of them reached " + (count == 1 ? "once" : fmt::format("{} times", count));
+}
+
 // "14 of 49 went to their end, in 3 basins, the best of them reached 6 times; the other 35 were
 // ..."
 std::string BasinStarts(const BasinCount& count, int starts) {
-  if (count.starts == 0) return fmt::format("none of {} went to its end", starts);
-  std::string text =
-      fmt::format("{} of {} went to {} end, in {}, the best of them reached {}", count.starts,
-                  starts, count.starts == 1 ? "its" : "their", Plural(count.basins, "basin"),
-                  count.best_visits == 1 ? "once" : fmt::format("{} times", count.best_visits));
-  const int others = starts - count.starts;
+  if (count.ends == 0) return fmt::format("none of {} went to its end", starts);
+  std::string text = fmt::format("{} of {} went to {} end, in {}, {}", count.ends, starts,
+                                 count.ends == 1 ? "its" : "their", Plural(count.basins, "basin"),
+                                 BestVisits(count.best_visits));
+  const int others = starts - count.ends;
   if (others > 0) {
     text += fmt::format(
         "; {} given up: out of reach of the best, or that had been reached often "
@@ -62,16 +66,23 @@ std::string BasinStarts(const BasinCount& count, int starts) {
 
 // What may have been missed.
 std::string UnseenText(const BasinCount& count) {
-  if (count.unseen > 0) {
-    return fmt::format(
-        "by Chao's estimate {} more were probably not seen: {} of the {} were reached just once "
-        "(doi:10.2307/2531532)",
-        Significant(count.unseen, 2), count.once, count.basins);
+  const BasinCount::Independent& of = count.independent;
+  std::string text;
+  if (of.ends < count.ends) {
+    text = fmt::format(
+        "{} of the {} did not begin beside an earlier end, {} of those in the best; ", of.ends,
+        Plural(count.ends, "end"), of.best_visits == 0 ? "none" : std::to_string(of.best_visits));
   }
-  return fmt::format(
-      "by Chao's estimate none was left unseen: {} was reached just once "
-      "(doi:10.2307/2531532)",
-      count.once == 0 ? "none" : "only one");
+  if (!std::isfinite(count.unseen)) {
+    return text + "too few descents to estimate how many basins were not seen";
+  }
+  text += "by Chao's estimate (doi:10.2307/2531532) ";
+  if (count.unseen > 0) {
+    return text + fmt::format("{} more were probably not seen: {} of {} were reached just once",
+                              Significant(count.unseen, 2), of.once, Plural(of.basins, "basin"));
+  }
+  return text + fmt::format("none was left unseen: {} was reached just once",
+                            of.once == 0 ? "none" : "only one");
 }
 
 std::string StartsText(const RefineReport& refine) {
@@ -143,7 +154,7 @@ std::string SearchSection(const FitReport& report) {
       Field("search", SearchText(report.search_options, report.search, report.curve_evaluations));
   text += Field("polish", report.polished ? PolishText(report.refine) : "none");
   if (report.polished) text += Field("starts", StartsText(report.refine));
-  const bool counted = report.refine.basins && report.refine.basins->starts > 0;
+  const bool counted = report.refine.basins && report.refine.basins->ends > 0;
   if (counted) text += Field("basins", UnseenText(*report.refine.basins));
   if (report.interval_seconds > 0) text += Field("intervals", Duration(report.interval_seconds));
   return text + Field("options", OptionsText(report.non_default_options));

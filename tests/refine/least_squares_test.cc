@@ -61,6 +61,28 @@ TEST(LeastSquaresTest, MovesAStartInsideTheBounds) {
   EXPECT_NEAR(end.p[0], 1, 1e-5);
 }
 
+// Whichever side of zero its step is rounded to, and whether it is nearer the upper bound or the
+// lower one.
+TEST(LeastSquaresTest, WhatNothingHangsOnStays) {
+  LeastSquaresProblem problem = Unbounded(3, 2);
+  problem.lower[2] = -1;
+  problem.upper[2] = 1;
+  for (const double sign : {1.0, -1.0}) {
+    problem.evaluate = [sign](const double* p, double* r, double* jacobian) {
+      r[0] = 10 * (p[1] - p[0] * p[0]);
+      r[1] = 1 - p[0];
+      const double rows[] = {-20 * p[0], 10, sign * 0.0, -1, 0, sign * 0.0};
+      for (int k = 0; k < 6; ++k) jacobian[k] = rows[k];
+      return true;
+    };
+    for (const double there : {-0.25, 0.0, 0.25}) {
+      const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1, there});
+      EXPECT_EQ(end.p[2], there);
+      EXPECT_NEAR(end.p[0], 1, 1e-6);
+    }
+  }
+}
+
 TEST(LeastSquaresTest, HeldParametersStay) {
   LeastSquaresProblem problem = Valley();
   problem.held = {1, 0};

@@ -192,7 +192,8 @@ TEST(FullReport, CountsTheBasinsOfAModelWithEffects) {
   EXPECT_THAT(FullReport(report), HasSubstr("none was left unseen: only one"));
   report.refine.basins = BasinCount{5, 1, 5, {2, 1, 0, 0, 1}, kUnknown};
   EXPECT_THAT(LineWith(FullReport(report), "  basins "), HasSubstr("none of those in the"));
-  EXPECT_THAT(FullReport(report), HasSubstr("few descents to estimate how many basins were not seen"));
+  EXPECT_THAT(FullReport(report),
+              HasSubstr("few descents to estimate how many basins were not seen"));
   report.refine.basins = BasinCount{5, 1, 0, {5, 1, 0, 0, 0}, 0};  // interrupted
   EXPECT_THAT(FullReport(report), HasSubstr("in 1 basin, none of them the best"));
   EXPECT_EQ(text.find("random "), text.rfind("random "));  // the baseline: no line for each start

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace lyrefit {
 namespace {
@@ -219,54 +218,6 @@ TEST(Knees, FindTheBasinThatIsSuggested) {
   options.algorithm = Algorithm::kMloKnees;
   for (options.seed = 0; options.seed < 20; ++options.seed) {
     EXPECT_LT(Search(TwoBowls, box, options).best.objective, -0.07) << options.seed;
-  }
-}
-
-// Eight equal wells.
-double EightWells(const double* x) {
-  double sum = 0;
-  for (int j = 0; j < 3; ++j) {
-    const double at = std::fabs(x[j] - 0.5) - 1.5;
-    sum += at * at;
-  }
-  return std::sqrt(sum);
-}
-
-// As many flocks as elites: each ends in a well of its own choice, so that four of them lie in as
-// many as chance says, 8 (1 - (7/8)^4) = 3.31, whereas one long search drags its birds together.
-TEST(Flocks, HaveElitesInAsManyWellsAsIndependentSearches) {
-  const auto wells_a_run = [](Algorithm algorithm) {
-    SearchOptions options;
-    options.algorithm = algorithm;
-    options.iterations = 200;
-    double wells = 0;
-    for (options.seed = 0; options.seed < 100; ++options.seed) {
-      std::set<int> found;
-      for (const Bird& elite : Search(EightWells, kBox, options).elites) {
-        if (elite.objective > 0.1) continue;
-        found.insert((elite.x[0] > 0.5) + 2 * (elite.x[1] > 0.5) + 4 * (elite.x[2] > 0.5));
-      }
-      wells += static_cast<double>(found.size()) / 100;
-    }
-    return wells;
-  };
-  EXPECT_NEAR(wells_a_run(Algorithm::kFlocks), 3.31, 0.3);
-  EXPECT_LT(wells_a_run(Algorithm::kMlo), 3);
-}
-
-TEST(Flocks, KeepWhatAnEarlierOneFound) {
-  SearchOptions options;
-  options.algorithm = Algorithm::kFlocks;
-  for (options.seed = 0; options.seed < 20; ++options.seed) {
-    double best = kInfinity;
-    const SearchSummary summary = Search(
-        [&](const double* x) {
-          best = std::min(best, TwoBowls(x));
-          return TwoBowls(x);
-        },
-        kBox, options);
-    EXPECT_EQ(summary.best.objective, best);
-    EXPECT_EQ(summary.trace.back().best, best);
   }
 }
 

@@ -91,6 +91,7 @@ bool TakeStep(const LeastSquaresProblem& problem, const Quadratic& model, const 
     double reach = 1;
     int first = -1;
     for (const int k : free) {
+      if (step[k] == before[k]) continue;
       const double bound = step[k] < before[k] ? problem.lower[k] : problem.upper[k];
       const double room = (bound - from[k] - before[k]) / (step[k] - before[k]);
       if (!(room < reach)) continue;

@@ -246,7 +246,13 @@ std::string RanksText(const std::vector<PooledProblem>& pools) {
 std::string PoolSections(const Comparison& comparison) {
   const std::vector<PooledProblem> pools = PoolProblems(comparison);
   if (pools.empty()) return "";
-  std::string text = "\nWhich search, from which budget, or none\n";
+  std::string text =
+      "\n" +
+      Wrap("",
+           "Hits and median time of a run: of starts from the curve's shape alone, of the default "
+           "fit, of the fastest search that is enough, of random points and of the fastest peer as "
+           "good as the default fit; where none is, of the one with the most hits") +
+      VerdictTable(pools) + "\nWhich search, from which budget, or none\n";
   for (const PooledProblem& pool : pools) text += Wrap("  ", VerdictText(pool) + ".");
   std::string peers;
   for (const PooledProblem& pool : pools) {

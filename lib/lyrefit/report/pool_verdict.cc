@@ -60,6 +60,14 @@ std::string RandomText(const Way& random) {
                      HowText(random, "at"));
 }
 
+// "50 (12 ms)", of a search "lo@3000 49 (299 ms)"
+std::string CellText(const std::optional<Way>& way, bool named) {
+  if (!way) return "-";
+  const PooledLevel& figures = way->figures();
+  return (named ? way->contender->name + " " : "") +
+         fmt::format("{} ({})", figures.hits, Duration(figures.seconds));
+}
+
 std::string Headline(const SearchVerdict& verdict) {
   if (verdict.shape_wins) return "no search is needed";
   if (!verdict.search) return "nothing is enough";
@@ -81,6 +89,25 @@ std::string VerdictText(const PooledProblem& pool) {
   if (verdict.search || verdict.best) add(SearchText(verdict));
   if (verdict.random) add(RandomText(*verdict.random));
   return text;
+}
+
+std::string VerdictTable(const std::vector<PooledProblem>& pools) {
+  TextTable table("lrrrrrr");
+  table.Add({"problem", "runs", "shape", "default", "search", "random", "peer"});
+  for (const PooledProblem& pool : pools) {
+    const SearchVerdict verdict = JudgePool(pool);
+    const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
+    const std::optional<Way>& search = verdict.search ? verdict.search : verdict.best;
+    int runs = 0;
+    for (const std::optional<Way>& way : {verdict.shape, search}) {
+      if (way) runs = way->figures().runs;
+    }
+    table.Add({pool.name, std::to_string(runs), CellText(verdict.shape, false),
+               CellText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
+               CellText(search, true), CellText(verdict.random, true),
+               CellText(ratio ? ratio->peer : std::nullopt, true)});
+  }
+  return table.Text();
 }
 
 std::string PeerText(const PooledProblem& pool) {

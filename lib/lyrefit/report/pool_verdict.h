@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/study/verdict.h"
 
@@ -11,6 +12,11 @@ namespace lyrefit {
 // "strings_4: no search is needed: starts from the curve's shape alone hit 50 of 50 (8 ms); of the
 // searches random reaches 48 of 50 with the best bird's own polish from 1000 evaluations (310 ms)"
 std::string VerdictText(const PooledProblem& pool);
+
+// A line a problem: hits and median time of a run of the starts from the shape alone, of the
+// default fit, of the search that was enough (else of the one with the most hits), of random points
+// and of the fastest peer of equal success (else of the one with the most hits).
+std::string VerdictTable(const std::vector<PooledProblem>& pools);
 
 // "default (50 of 50, 10 ms) is 12 times faster than pagmo:cmaes@1000 (50 of 50, 120 ms)"; empty
 // where the default fit or any peer was no contender.

@@ -7,19 +7,23 @@
 // number a move (the bird's own memory, read literally, equals its position and collapses the
 // search); Eq. 23 and 24 are lost in print, and the form below is ours.
 //
-// Ours too, and under a name of its own, is the self-tuned flock, which the paper leaves to the
+// Ours too, and under a name of its own, is tuning during the run, which the paper leaves to the
 // future: each move draws its Pm or gamma from what lately gained.
 
-#include "lyrefit/search/lyrebird.h"
-
 #include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/search/bird_order.h"
+#include "lyrefit/search/crowding.h"
+#include "lyrefit/search/learned_setting.h"
+#include "lyrefit/search/run.h"
 
 namespace lyrefit {
 namespace {
 
-bool Learns(const SearchOptions& options) {
-  return options.algorithm == Algorithm::kMloTuned || options.algorithm == Algorithm::kFlocks;
-}
+bool Learns(const SearchOptions& options) { return options.algorithm == Algorithm::kMloTuned; }
 
 // LO and its ablations are MLO with strategies off.
 double MemoryRateOf(const SearchOptions& options) {
@@ -32,7 +36,47 @@ double GammaOf(const SearchOptions& options) {
   return a == Algorithm::kLo || a == Algorithm::kLoMblss ? 0 : options.distance_coefficient;
 }
 
-}  // namespace
+// The moves of a flock of lyrebirds, which are the birds of a run.
+class Lyrebird {
+ public:
+  // The birds have been drawn.
+  Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random);
+
+  // Iteration `t` of `planned`: every bird moves, until the run stops.
+  void Move(double t, double planned);
+
+ private:
+  struct Learned {
+    LearnedSetting rate;
+    LearnedSetting gamma;
+  };
+
+  bool Propose(int i, double t, double planned);
+  double MemoryRate();
+  double Gamma();
+  bool Escape(int i);
+  void Imitate(int i);
+  void Hide(int i, double t);
+  void Disperse(int i);
+  void Accept(int i);
+  double Unit(double x, int j) const;
+  std::vector<double> UnitPopulation();
+
+  SearchRun* run_;
+  RandomStream* random_;
+  const int d_;
+  const int n_;
+  const double memory_rate_;
+  const double gamma_;
+  const bool keeps_distances_;
+  std::vector<double> candidate_;
+  std::vector<double> unit_;
+  BirdOrder order_;
+  std::optional<Crowding> crowding_;
+  std::optional<Learned> learned_;
+  bool escaped_ = false;  // the move at hand
+  double drawn_ = 0;      // and the learned setting's value for it
+};
 
 Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random)
     : run_(run),
@@ -43,13 +87,10 @@ Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* r
       gamma_(GammaOf(options)),
       keeps_distances_(gamma_ > 0 || Learns(options)),
       candidate_(d_),
-      unit_(d_) {
-  if (Learns(options)) learned_ = {LearnedSetting(memory_rate_), LearnedSetting(gamma_)};
-}
-
-void Lyrebird::Settle() {
-  order_.emplace(*run_);
+      unit_(d_),
+      order_(*run) {
   if (keeps_distances_) crowding_.emplace(n_, d_, UnitPopulation());
+  if (Learns(options)) learned_ = {LearnedSetting(memory_rate_), LearnedSetting(gamma_)};
 }
 
 void Lyrebird::Move(double t, double planned) {
@@ -92,9 +133,9 @@ bool Lyrebird::Propose(int i, double t, double planned) {
 
 // Eq. 18, 19: x' = x + r (s - J x), s a random better bird, J in {1, 2}.
 bool Lyrebird::Escape(int i) {
-  const int better = order_->Better(i);
+  const int better = order_.Better(i);
   if (better == 0) return false;
-  const double* safe = run_->x(order_->At(random_->Index(better)));
+  const double* safe = run_->x(order_.At(random_->Index(better)));
   const double* x = run_->x(i);
   std::uint64_t coins = random_->Bits();
   for (int j = 0; j < d_; ++j, coins >>= 1) {
@@ -140,7 +181,7 @@ void Lyrebird::Accept(int i) {
     (escaped_ ? learned_->rate : learned_->gamma).Gained(drawn_, run_->f(i) - value);
   }
   run_->Replace(i, candidate_.data(), value);
-  order_->Improved(i);
+  order_.Improved(i);
   if (!crowding_) return;
   for (int j = 0; j < d_; ++j) unit_[j] = Unit(candidate_[j], j);
   crowding_->Move(i, unit_.data());
@@ -161,12 +202,13 @@ std::vector<double> Lyrebird::UnitPopulation() {
   return unit;
 }
 
+}  // namespace
+
 void RunLyrebird(SearchRun* run, const SearchOptions& options) {
   RandomStream random(options.seed, options.run);
   DrawPopulation(run, &random, options.iterations, options.algorithm == Algorithm::kMloKnees);
   if (run->stopped()) return;
   Lyrebird flock(run, options, &random);
-  flock.Settle();
   for (std::int64_t t = 1; !run->stopped(); ++t) {
     flock.Move(static_cast<double>(t), options.iterations);
     run->EndIteration(t, options.iterations);

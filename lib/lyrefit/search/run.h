@@ -31,12 +31,6 @@ class SearchRun {
 
   void Replace(int bird, const double* x, double f);
 
-  // As if a population of so many had been asked for; before the first bird is drawn.
-  void UseBirds(int birds);
-
-  // The best bird is kept as an end, and the birds count no more: they are drawn anew.
-  void EndFlock();
-
   // Ends iteration `t` of `planned`: writes the trace, asks the observer, looks at the clock.
   void EndIteration(std::int64_t t, std::int64_t planned);
 
@@ -59,8 +53,6 @@ class SearchRun {
   std::vector<double> x_;
   std::vector<double> f_;
   int best_ = 0;
-  std::vector<Bird> ends_;  // the best bird of each flock that ended
-  double best_end_ = kInfinity;
   double best_at_last_gain_ = kInfinity;
   std::int64_t last_gain_ = 0;
   SearchSummary summary_;
@@ -68,7 +60,6 @@ class SearchRun {
 
 // The algorithms, one file each.
 void RunLyrebird(SearchRun* run, const SearchOptions& options);
-void RunFlocks(SearchRun* run, const SearchOptions& options);
 void RunRandom(SearchRun* run, const SearchOptions& options);
 void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options);
 

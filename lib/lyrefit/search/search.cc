@@ -57,20 +57,8 @@ void SearchRun::Replace(int bird, const double* x, double f) {
   if (f < f_[best_]) best_ = bird;
 }
 
-void SearchRun::UseBirds(int birds) {
-  x_.resize(static_cast<std::size_t>(birds) * dimensions_);
-  f_.resize(birds);
-}
-
-void SearchRun::EndFlock() {
-  ends_.push_back({{x(best_), x(best_) + dimensions_}, f_[best_]});
-  best_end_ = std::min(best_end_, f_[best_]);
-  std::fill(f_.begin(), f_.end(), kInfinity);
-  best_ = 0;
-}
-
 void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
-  const double best = std::min(f_[best_], best_end_);
+  const double best = f_[best_];
   summary_.iterations = t;
   summary_.trace.push_back({t, summary_.evaluations, best});
   if (best < best_at_last_gain_) {
@@ -105,17 +93,11 @@ void SearchRun::AddElite(const double* candidate, double f) {
   if (distinct) summary_.elites.push_back({{candidate, candidate + dimensions_}, f});
 }
 
-// Ends of flocks get ahead of other birds, however good.
 void SearchRun::CollectElites() {
-  const auto better = [](const Bird& a, const Bird& b) { return a.objective < b.objective; };
   std::vector<int> order(population());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return f_[a] < f_[b]; });
-  if (!ends_.empty()) ends_.push_back({{x(best_), x(best_) + dimensions_}, f_[best_]});
-  std::stable_sort(ends_.begin(), ends_.end(), better);
-  for (const Bird& end : ends_) AddElite(end.x.data(), end.objective);
   for (const int bird : order) AddElite(x(bird), f_[bird]);
-  std::stable_sort(summary_.elites.begin(), summary_.elites.end(), better);
   summary_.best = summary_.elites.front();
 }
 
@@ -165,9 +147,6 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
     case Algorithm::kMloTuned:
     case Algorithm::kMloKnees:
       RunLyrebird(&run, options);
-      break;
-    case Algorithm::kFlocks:
-      RunFlocks(&run, options);
       break;
     case Algorithm::kRandom:
       RunRandom(&run, options);

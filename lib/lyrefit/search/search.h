@@ -21,7 +21,6 @@ enum class Algorithm {
   kLoDmlss,   // with the diversity-maintenance learn search strategy only
   kMloTuned,  // mlo that learns Pm and gamma from the moves that gained
   kMloKnees,  // mlo whose first flock sits partly where the problem suggests
-  kFlocks,    // mlo+tuned in small flocks one after another, whose ends are the elites
   kRandom,    // uniform random points: the baseline every figure is printed beside
   kDe,        // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
 };
@@ -35,7 +34,6 @@ struct EnumTable<Algorithm> {
       {Algorithm::kLoDmlss, "lo+dmlss"},
       {Algorithm::kMloTuned, "mlo+tuned"},
       {Algorithm::kMloKnees, "mlo+knees"},
-      {Algorithm::kFlocks, "flocks"},
       {Algorithm::kRandom, "random"},
       {Algorithm::kDe, "de"},
   };

@@ -102,7 +102,15 @@ TEST(CompareWithPeers, NamesTheBestWhereNoneHitsAsOften) {
   const auto ratio = CompareWithPeers(pools[0]);
   EXPECT_FALSE(ratio->equal);
   EXPECT_EQ(ratio->peer->contender->name, "pagmo:de@10");
-  EXPECT_TRUE(std::isnan(ratio->times));
+  EXPECT_DOUBLE_EQ(ratio->times, 15 / 0.8 / 30) << "15 ms, of which 8 in 10 hit, by 30 ms";
+  const Comparison rare = OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 2, 10, 0),
+                                 Hits("pagmo:de", 100, 7, 10, 5)});
+  const auto rarely = PoolProblems(rare);
+  EXPECT_EQ(CompareWithPeers(rarely[0])->peer->contender->name, "pagmo:de@100")
+      << "10 ms / 0.7 < 5 ms / 0.2";
+  const Comparison never = OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 0, 10)});
+  const auto nobody = PoolProblems(never);
+  EXPECT_TRUE(std::isnan(CompareWithPeers(nobody[0])->times));
   const Comparison none = OfOne({Hits("pagmo:de", 10, 8, 10)});
   const auto others = PoolProblems(none);
   EXPECT_FALSE(CompareWithPeers(others[0]));

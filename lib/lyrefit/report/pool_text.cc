@@ -250,8 +250,9 @@ std::string PoolSections(const Comparison& comparison) {
       "\n" +
       Wrap("",
            "Hits and median time of a run: of starts from the curve's shape alone, of the default "
-           "fit, of the fastest search that is enough, of random points and of the fastest peer as "
-           "good as the default fit; where none is, of the one with the most hits") +
+           "fit, of the fastest search that is enough or else of the one with the most hits, of "
+           "random points likewise, and of the fastest peer that hits as often as the default fit "
+           "or else of the one with the least time for a hit") +
       VerdictTable(pools) + "\nWhich search, from which budget, or none\n";
   for (const PooledProblem& pool : pools) text += Wrap("  ", VerdictText(pool) + ".");
   std::string peers;

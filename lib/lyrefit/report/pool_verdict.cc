@@ -117,10 +117,14 @@ std::string PeerText(const PooledProblem& pool) {
     return fmt::format("{} ({}, {})", way.contender->name, HitsText(way),
                        Duration(way.figures().seconds));
   };
+  if (!ratio->equal && std::isnan(ratio->times)) {
+    return fmt::format("{}: no peer ever hits", brief(ratio->self));
+  }
   if (!ratio->equal) {
-    const double times = ratio->peer->figures().seconds / ratio->self.figures().seconds;
-    return fmt::format("{}: no peer hits as often; the best is {}, in {:.3g} times the time",
-                       brief(ratio->self), brief(*ratio->peer), times);
+    return fmt::format(
+        "{}: no peer hits as often; the one with the least time for a hit, {}, takes {:.3g} times "
+        "as long for it",
+        brief(ratio->self), brief(*ratio->peer), ratio->times);
   }
   if (std::isnan(ratio->times)) {
     return fmt::format("{} hits no more often than {}", brief(ratio->self), brief(*ratio->peer));

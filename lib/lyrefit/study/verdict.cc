@@ -86,6 +86,12 @@ SearchVerdict JudgePool(const PooledProblem& pool) {
   return verdict;
 }
 
+double TimePerHit(const Way& way) {
+  const PooledLevel& figures = way.figures();
+  if (figures.hits == 0) return kInfinity;
+  return figures.seconds * figures.runs / figures.hits;
+}
+
 std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool) {
   const std::optional<Way> self = OfKind(pool, ContenderKind::kDefault);
   if (!self) return {};
@@ -94,12 +100,17 @@ std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool) {
   for (const PooledContender& contender : pool.contenders) {
     if (contender.algorithm.rfind(kPeers, 0) != 0 || !contender.At(PolishLevel::kOwn)) continue;
     const Way peer{&contender, PolishLevel::kOwn};
-    Keep(peer, MoreHits, &best);
+    Keep(
+        peer, [](const Way& a, const Way& b) { return TimePerHit(a) < TimePerHit(b); }, &best);
     if (peer.figures().hits >= self->figures().hits) Keep(peer, Faster, &fastest);
   }
   ratio.equal = fastest.has_value();
   ratio.peer = ratio.equal ? fastest : best;
-  if (ratio.equal) ratio.times = fastest->figures().seconds / self->figures().seconds;
+  if (ratio.equal) {
+    ratio.times = fastest->figures().seconds / self->figures().seconds;
+  } else if (best && std::isfinite(TimePerHit(*best))) {
+    ratio.times = TimePerHit(*best) / TimePerHit(*self);
+  }
   return ratio;
 }
 

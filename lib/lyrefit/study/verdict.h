@@ -38,10 +38,15 @@ SearchVerdict JudgePool(const PooledProblem& pool);
 // The fit with its default settings against pagmo2's algorithms with the best bird's own polish.
 struct PeerRatio {
   Way self;
-  std::optional<Way> peer;  // the fastest of at least as many hits; else the one with most hits
+  std::optional<Way> peer;  // the fastest of at least as many hits; else that of least TimePerHit
   bool equal = false;       // it has at least as many hits
-  double times = kUnknown;  // its median time by that of the default fit; NaN if not equal
+  // Its median time by that of the default fit; if not equal its TimePerHit by that. NaN where that
+  // is not known or not finite.
+  double times = kUnknown;
 };
+// The median time of a run by the share that hits: what it takes on average to go on until one
+// does. Infinite without a hit.
+double TimePerHit(const Way& way);
 // Nothing where the default fit was no contender.
 std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool);
 

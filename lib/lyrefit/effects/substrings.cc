@@ -131,6 +131,7 @@ Effect Substrings() {
     deficit.scatter = kSubstringScatter;
     deficit.held = share.held = true;
     share.whole = Whole::kSubstrings;
+    e.alike.push_back({e.size(), e.size() + 1});
     e.parameters.push_back(deficit);
     e.parameters.push_back(share);
   }

@@ -10,12 +10,12 @@
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
-#include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/form_problem.h"
 #include "lyrefit/fit/judge_fit.h"
+#include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
 #include "lyrefit/fit/robust.h"
@@ -165,7 +165,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   const bool of_bird = !extended || options.starts != StartsFrom::kShape;
   if (report->best_bird_polished.empty() && of_bird) report->best_bird_polished = polish.first.p;
   if (!report->best_bird_polished.empty()) {
-    OrderDiodes(report->device, job->bounds, &report->best_bird_polished, nullptr);
+    OrderAlike(report->device, job->bounds, &report->best_bird_polished, nullptr);
   }
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
@@ -181,7 +181,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
     }
     if (weighed && weighed->found) degrees = DegreesOfWeighed(job, *weighed->found, end);
   }
-  OrderDiodes(report->device, job->bounds, &end.p, &end.held);
+  OrderAlike(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
   if (!report->usable && options.intervals != Intervals::kNone) {
@@ -190,7 +190,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
         "interval means anything";
   }
   const auto begin = std::chrono::steady_clock::now();
-  for (FitPoint& other : polish.ends) OrderDiodes(report->device, job->bounds, &other.p, nullptr);
+  for (FitPoint& other : polish.ends) OrderAlike(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
@@ -218,7 +218,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (!birds) return tl::unexpected(birds.error());
   const PolishStart& best = birds->front();
   report.searched = report.refined = best.p;
-  OrderDiodes(report.device, job.bounds, &report.searched, nullptr);
+  OrderAlike(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
   if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);

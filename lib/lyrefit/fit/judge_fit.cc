@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "lyrefit/fit/diode_order.h"
 #include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/intervals.h"
+#include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/weigh.h"
 
 namespace lyrefit {
@@ -39,7 +39,7 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
       many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
-    OrderDiodes(report->device, job->bounds, &end->p, &end->held);
+    OrderAlike(report->device, job->bounds, &end->p, &end->held);
     report->refined = end->p;
     report->estimates = EstimatesOf(*job, *report);
     report->correlations.clear();

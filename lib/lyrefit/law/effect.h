@@ -259,6 +259,9 @@ struct Effect {
   std::vector<const char*> confused_with;   // ids, most alike first
   const char* separate_by = "";             // the measurement that would tell it from them
   std::vector<EffectParameter> parameters;  // the first is the strength, unless said
+  // Sets of them that may change places without changing a curve (groups of cells): reports have
+  // the sets in order of the first of each.
+  std::vector<std::vector<int>> alike;
   Hook<SkyStage> sky;
   Hook<CellStage> cell;
   Hook<JunctionStage> junction;

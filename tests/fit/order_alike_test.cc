@@ -1,6 +1,9 @@
-#include "lyrefit/fit/diode_order.h"
+#include "lyrefit/fit/order_alike.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/simulate.h"
@@ -11,22 +14,22 @@ namespace {
 
 const ParameterBounds kAny = {0, 1, 0, 1, SearchScale::kLinear};
 
-TEST(OrderDiodes, SortsByIdealityAndPutsVanishedOnesLast) {
+TEST(OrderAlike, SortsByIdealityAndPutsVanishedOnesLast) {
   //                       Iph Is1 n1   Rs Rsh Is2 n2   Is3 n3
   std::vector<double> p = {1, 0, 1.1, 2, 3, 7, 1.9, 8, 1.5};
   std::vector<bool> held = {false, true, true, false, false, false, false, false, false};
   const Device device = MakeDevice(Model::kTripleDiode, {});
-  OrderDiodes(device, std::vector<ParameterBounds>(9, kAny), &p, &held);
+  OrderAlike(device, std::vector<ParameterBounds>(9, kAny), &p, &held);
   EXPECT_EQ(p, (std::vector<double>{1, 8, 1.5, 2, 3, 7, 1.9, 0, 1.1}));
   EXPECT_EQ(held, (std::vector<bool>{false, false, false, false, false, false, false, true, true}));
 }
 
-TEST(OrderDiodes, LeavesDiodesWithBoundsOfTheirOwnAlone) {
+TEST(OrderAlike, LeavesDiodesWithBoundsOfTheirOwnAlone) {
   std::vector<ParameterBounds> bounds(7, kAny);
   bounds[6].lower = 0.5;
   std::vector<double> p = {1, 2, 1.9, 3, 4, 5, 1.1};
   const std::vector<double> before = p;
-  OrderDiodes(MakeDevice(Model::kDoubleDiode, {}), bounds, &p, nullptr);
+  OrderAlike(MakeDevice(Model::kDoubleDiode, {}), bounds, &p, nullptr);
   EXPECT_EQ(p, before);
 }
 
@@ -40,22 +43,42 @@ Device Extended(Model model, const char* effect) {
   return *Extend(base, model, ConstantSet::kCodata, *curve, {{FindEffect(effect), {}}}, false);
 }
 
-TEST(OrderDiodes, TakesNoParametersOfEffectsForDiodes) {
+TEST(OrderAlike, TakesNoParametersOfEffectsForDiodes) {
   const Device device = Extended(Model::kSingleDiode, "transient");
   std::vector<double> p = {8, 2e-9, 1.15, 0.2, 300, 0.3, 0.2, 0.1, 0, 2};
   const std::vector<double> before = p;
-  OrderDiodes(device, std::vector<ParameterBounds>(10, kAny), &p, nullptr);
+  OrderAlike(device, std::vector<ParameterBounds>(10, kAny), &p, nullptr);
   EXPECT_EQ(p, before);
 }
 
-TEST(OrderDiodes, LeavesDiodesThatFollowTheTemperatureEachInItsOwnWay) {
+TEST(OrderAlike, LeavesDiodesThatFollowTheTemperatureEachInItsOwnWay) {
   std::vector<double> p = {8, 1e-6, 1.9, 0.2, 300, 2e-9, 1.1, 5};
   const std::vector<double> before = p;
   const std::vector<ParameterBounds> bounds(8, kAny);
-  OrderDiodes(Extended(Model::kDoubleDiode, "temp_drift"), bounds, &p, nullptr);
+  OrderAlike(Extended(Model::kDoubleDiode, "temp_drift"), bounds, &p, nullptr);
   EXPECT_EQ(p, before);
-  OrderDiodes(Extended(Model::kDoubleDiode, "collection"), bounds, &p, nullptr);
+  OrderAlike(Extended(Model::kDoubleDiode, "collection"), bounds, &p, nullptr);
   EXPECT_EQ(p, (std::vector<double>{8, 2e-9, 1.1, 0.2, 300, 1e-6, 1.9, 5}));
+}
+
+// Groups of cells stand in the order of what they miss, those that are not there last.
+TEST(OrderAlike, SortsGroupsOfCells) {
+  const Device device = Extended(Model::kSingleDiode, "substrings");
+  const double third = 1.0 / 3;
+  //                       Iph Is1  n1    Rs   Rsh  d1 w1 d2   w2     d3   w3     d4 w4 Vb  c
+  std::vector<double> p = {8, 2e-9, 1.15, 0.2, 300, 0, 0, 0.7, third, 0.2, third, 0, 0, 0.5, 1};
+  std::vector<bool> held(p.size(), false);
+  held[7] = true;
+  std::vector<ParameterBounds> bounds(p.size(), kAny);
+  OrderAlike(device, bounds, &p, &held);
+  EXPECT_EQ(p, (std::vector<double>{8, 2e-9, 1.15, 0.2, 300, 0.2, third, 0.7, third, 0, 0, 0, 0,
+                                    0.5, 1}));
+  EXPECT_EQ(std::find(held.begin(), held.end(), true) - held.begin(), 7);
+  bounds[5].upper = 0.5;
+  std::swap(p[5], p[7]);
+  const std::vector<double> before = p;
+  OrderAlike(device, bounds, &p, nullptr);
+  EXPECT_EQ(p, before) << "they have bounds of their own";
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ constexpr EffectParameter kChains = {
 
 // A few cells of one substring have a light and a leak of their own. Other substrings are never in
 // reverse; where all cells are one substring it has no bypass diode. `deficit`: what the substring
-// lacks because of them; of several chains (1 or 2) one is concerned.
+// lacks because of them; of several chains (1 or 2) one is concerned, whose cells are dark where
+// that is all they could lack.
 template <class S>
 void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chains, Cell<S>* cell) {
   const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
@@ -18,7 +19,9 @@ void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chain
   const double elsewhere = 1 - mates / cell->cells;
   const bool bypassed = elsewhere > 1e-9;
   cell->kind[0] = {mates / cell->cells - odd, S(1.0), S(0.0), 0};
-  cell->kind[1] = {odd, 1.0 - deficit * chains, leak * chains, 0};
+  constexpr double kDark = 1e-3;
+  const S light = 1.0 - deficit * chains;
+  cell->kind[1] = {odd, Choose(ValueOf(light) < kDark, S(kDark), light), leak * chains, 0};
   cell->part[0] = {bypassed, mates, 0};
   cell->kinds = 2;
   cell->parts = 1;

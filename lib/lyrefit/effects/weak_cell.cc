@@ -29,7 +29,7 @@ Effect WeakCell() {
   e.parameters = {
       {"d", "light_deficit", "",
        "part of the substring's light that is missing because of them: in half-cut modules half of "
-       "what the cells themselves miss",
+       "what the cells themselves miss, at most 0.5",
        0, 0.999, 0},
       {"cells", "weak_cells", "", "how many they are, all in one substring", 1, 24, 1},
       {"g", "leak", "S", "conductance of each beside that of the others", 0, 5, 0, false, 1, 1},

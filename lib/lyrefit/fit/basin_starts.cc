@@ -103,6 +103,24 @@ void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
   }
 }
 
+// The same place in every other form, as far as that has it.
+void AddOtherForms(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+  const int first = job.base_size();
+  for (std::size_t f = 0; f < job.forms.size(); ++f) {
+    if (static_cast<int>(f) == at.start.form) continue;
+    const Form& form = job.forms[f];
+    std::vector<double> p = at.end.p;
+    for (int k = 0; k < job.effects(); ++k) {
+      const ParameterBounds& before = job.forms[at.start.form].bounds[k];
+      double& value = p[first + k];
+      if (before.lower == before.upper) value = form.usual[k];
+      value = WithinBounds(form.bounds[k], value);
+    }
+    LeaveARest(*job.problem.device.extension, form.bounds, p.data() + first);
+    starts->push_back({"another form", std::move(p), static_cast<int>(f), true});
+  }
+}
+
 // One parameter elsewhere in its range, of those that say how something acts (a bypass diode's
 // drop, a reverse law's exponent) and not how strong it is.
 void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
@@ -179,6 +197,7 @@ std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
   AddWholeNumbers(job, at, &starts);
   AddNextSettings(job, at, &starts);
   AddElsewhere(job, at, &starts);
+  AddOtherForms(job, at, &starts);
   return starts;
 }
 

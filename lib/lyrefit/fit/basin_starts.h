@@ -23,7 +23,8 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
                                       const std::vector<double>& best, RandomStream* random);
 
 // One more or less of each whole number of an end, one less of one for one more of another, the
-// next settings of what is settled by trying as well, and single other parameters elsewhere.
+// next settings of what is settled by trying as well, single other parameters elsewhere, and the
+// same place in the other forms.
 std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at);
 
 // A place with what is settled by trying at values spread over all there are.

@@ -120,6 +120,30 @@ TEST_F(BasinsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
   for (const PolishStart& start : ShapeStarts(job_)) EXPECT_FALSE(start.beside) << start.origin;
 }
 
+TEST_F(BasinsTest, AnEndIsTriedInEveryOtherForm) {
+  ASSERT_EQ(job_.forms.size(), 2u);
+  Basins basins(job_.problem, job_.forms, &job_.watch);
+  basins.Descend({Truth()});
+  const BasinEnd& end = basins.ends()[0];
+  int others = 0;
+  for (const PolishStart& start : Neighbours(job_, end)) {
+    if (start.form == end.start.form) continue;
+    ++others;
+    EXPECT_EQ(start.form, 1);
+    EXPECT_EQ(start.origin, "another form");
+    for (int i = 0; i < job_.base_size(); ++i) EXPECT_EQ(start.p[i], end.end.p[i]);
+    for (int k = 0; k < job_.effects(); ++k) {
+      const ParameterBounds& bounds = job_.forms[1].bounds[k];
+      const double value = start.p[job_.base_size() + k];
+      EXPECT_GE(value, bounds.lower) << k;
+      EXPECT_LE(value, bounds.upper) << k;
+      const ParameterBounds& before = job_.forms[0].bounds[k];
+      if (before.lower == before.upper) EXPECT_EQ(value, job_.forms[1].usual[k]) << k;
+    }
+  }
+  EXPECT_EQ(others, 1);
+}
+
 TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
   std::vector<PolishStart> starts = ShapeStarts(job_);  // two forms
   for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));

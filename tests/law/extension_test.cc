@@ -198,5 +198,21 @@ TEST(Extend, KeepsToWholeNumbers) {
   EXPECT_EQ(error_of(Use("shading", {{"w", {0.4, 0.5}}})), "no error");
 }
 
+// One of two chains side by side can lack all of its light, which is half of the substring's: less
+// than no light there is not.
+TEST(Extend, AWeakCellIsDarkAtMost) {
+  const auto currents = [](double deficit, double chains) {
+    const auto device = ExtendModule({Use("weak_cell")});
+    std::vector<double> p = kModule;
+    p.insert(p.end(), {deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0.7, chains});
+    std::vector<double> current_A(device->extension->readings.points.size());
+    EXPECT_TRUE(ExtendedCurrents(*device, p.data(), current_A.data(), nullptr));
+    return current_A;
+  };
+  EXPECT_EQ(currents(0.5, 2), currents(0.9, 2));
+  EXPECT_NE(currents(0.49, 2), currents(0.5, 2));
+  EXPECT_NE(currents(0.5, 1), currents(0.9, 1));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -56,10 +56,11 @@ Json AnswerJson(const PooledProblem& pool) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
   Json answer = {{"sentence", VerdictText(pool)}};
   if (!ratio || !ratio->peer) return answer;
-  answer["peer"] = {
-      {"name", ratio->peer->contender->name},    {"hits", ratio->peer->figures().hits},
-      {"hits_as_often", ratio->equal},           {"times_as_long", Number(ratio->times)},
-      {"for", ratio->equal ? "a run" : "a hit"}, {"sentence", PeerText(pool)}};
+  answer["peer"] = {{"name", ratio->peer->contender->name},
+                    {"hits", ratio->peer->figures().hits},
+                    {"repeats", ratio->repeats},
+                    {"times_faster", Number(ratio->times)},
+                    {"sentence", PeerText(pool)}};
   return answer;
 }
 

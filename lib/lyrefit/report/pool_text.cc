@@ -251,8 +251,7 @@ std::string PoolSections(const Comparison& comparison) {
       Wrap("",
            "Hits and median time of a run: of starts from the curve's shape alone, of the default "
            "fit, of the fastest search that is enough or else of the one with the most hits, of "
-           "random points likewise, and of the fastest peer that hits as often as the default fit "
-           "or else of the one with the least time for a hit") +
+           "random points likewise, and of the peer that is sure to hit the soonest") +
       VerdictTable(pools) + "\nWhich search, from which budget, or none\n";
   for (const PooledProblem& pool : pools) text += Wrap("  ", VerdictText(pool) + ".");
   std::string peers;
@@ -260,8 +259,15 @@ std::string PoolSections(const Comparison& comparison) {
     const std::string peer = PeerText(pool);
     if (!peer.empty()) peers += Wrap("  ", pool.name + ": " + peer + ".");
   }
-  if (!peers.empty())
-    text += "\nThe default fit against the fastest peer of equal success\n" + peers;
+  if (!peers.empty()) {
+    text +=
+        "\n" +
+        Wrap("", fmt::format("The default fit against the best peer of equal success: by pagmo2, "
+                             "with the best bird's own polish, run as often as it takes to hit "
+                             "with a probability of {} %",
+                             100 * kEnoughShare)) +
+        peers;
+  }
   for (const PooledProblem& pool : pools) text += PoolText(pool);
   return text + RanksText(pools);
 }

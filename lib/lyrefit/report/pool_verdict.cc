@@ -117,21 +117,15 @@ std::string PeerText(const PooledProblem& pool) {
     return fmt::format("{} ({}, {})", way.contender->name, HitsText(way),
                        Duration(way.figures().seconds));
   };
-  if (!ratio->equal && std::isnan(ratio->times)) {
-    return fmt::format("{}: no peer ever hits", brief(ratio->self));
-  }
-  if (!ratio->equal) {
-    return fmt::format(
-        "{}: no peer hits as often; the one with the least time for a hit, {}, takes {:.3g} times "
-        "as long for it",
-        brief(ratio->self), brief(*ratio->peer), ratio->times);
-  }
+  if (ratio->repeats == 0) return brief(ratio->self) + ": no peer ever hits";
   if (std::isnan(ratio->times)) {
-    return fmt::format("{} hits no more often than {}", brief(ratio->self), brief(*ratio->peer));
+    return fmt::format("{} never hits; {} does", brief(ratio->self), brief(*ratio->peer));
   }
-  return fmt::format("{} is {:.3g} times {} than {}", brief(ratio->self),
+  const std::string repeats =
+      ratio->repeats == 1 ? "" : fmt::format(", run {} times", ratio->repeats);
+  return fmt::format("{} is {:.3g} times {} than {}{}", brief(ratio->self),
                      ratio->times >= 1 ? ratio->times : 1 / ratio->times,
-                     ratio->times >= 1 ? "faster" : "slower", brief(*ratio->peer));
+                     ratio->times >= 1 ? "faster" : "slower", brief(*ratio->peer), repeats);
 }
 
 }  // namespace lyrefit

@@ -46,6 +46,20 @@ std::optional<Way> OfKind(const PooledProblem& pool, ContenderKind kind) {
   return {};
 }
 
+// 0: it never hits.
+int RepeatsToBeSure(const Way& way) {
+  const PooledLevel& figures = way.figures();
+  if (figures.hits == 0) return 0;
+  if (way.IsEnough()) return 1;
+  const double misses = 1 - static_cast<double>(figures.hits) / figures.runs;
+  return static_cast<int>(std::ceil(std::log(1 - kEnoughShare) / std::log(misses) - 1e-9));
+}
+
+bool SoonerSure(const Way& a, const Way& b) {
+  const double here = TimeToBeSure(a), there = TimeToBeSure(b);
+  return std::isinf(here) && std::isinf(there) ? Faster(a, b) : here < there;
+}
+
 }  // namespace
 
 int EnoughHits(int runs) { return static_cast<int>(std::ceil(kEnoughShare * runs - 1e-9)); }
@@ -86,31 +100,22 @@ SearchVerdict JudgePool(const PooledProblem& pool) {
   return verdict;
 }
 
-double TimePerHit(const Way& way) {
-  const PooledLevel& figures = way.figures();
-  if (figures.hits == 0) return kInfinity;
-  return figures.seconds * figures.runs / figures.hits;
+double TimeToBeSure(const Way& way) {
+  const int repeats = RepeatsToBeSure(way);
+  return repeats == 0 ? kInfinity : repeats * way.figures().seconds;
 }
 
 std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool) {
   const std::optional<Way> self = OfKind(pool, ContenderKind::kDefault);
   if (!self) return {};
-  PeerRatio ratio{*self, {}, false, kUnknown};
-  std::optional<Way> fastest, best;
+  PeerRatio ratio{*self, {}, 0, kUnknown};
   for (const PooledContender& contender : pool.contenders) {
     if (contender.algorithm.rfind(kPeers, 0) != 0 || !contender.At(PolishLevel::kOwn)) continue;
-    const Way peer{&contender, PolishLevel::kOwn};
-    Keep(
-        peer, [](const Way& a, const Way& b) { return TimePerHit(a) < TimePerHit(b); }, &best);
-    if (peer.figures().hits >= self->figures().hits) Keep(peer, Faster, &fastest);
+    Keep(Way{&contender, PolishLevel::kOwn}, SoonerSure, &ratio.peer);
   }
-  ratio.equal = fastest.has_value();
-  ratio.peer = ratio.equal ? fastest : best;
-  if (ratio.equal) {
-    ratio.times = fastest->figures().seconds / self->figures().seconds;
-  } else if (best && std::isfinite(TimePerHit(*best))) {
-    ratio.times = TimePerHit(*best) / TimePerHit(*self);
-  }
+  if (!ratio.peer) return ratio;
+  ratio.repeats = RepeatsToBeSure(*ratio.peer);
+  if (ratio.repeats > 0) ratio.times = TimeToBeSure(*ratio.peer) / TimeToBeSure(*self);
   return ratio;
 }
 

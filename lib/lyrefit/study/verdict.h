@@ -35,18 +35,18 @@ struct SearchVerdict {
 };
 SearchVerdict JudgePool(const PooledProblem& pool);
 
-// The fit with its default settings against pagmo2's algorithms with the best bird's own polish.
+// Median time of so many runs that with a probability of kEnoughShare one of them hits, going by
+// the share of those that did; infinite without a hit.
+double TimeToBeSure(const Way& way);
+
+// The fit with its default settings against pagmo2's algorithms with the best bird's own polish,
+// each run as often as it takes to be sure.
 struct PeerRatio {
   Way self;
-  std::optional<Way> peer;  // the fastest of at least as many hits; else that of least TimePerHit
-  bool equal = false;       // it has at least as many hits
-  // Its median time by that of the default fit; if not equal its TimePerHit by that. NaN where that
-  // is not known or not finite.
-  double times = kUnknown;
+  std::optional<Way> peer;  // that of least TimeToBeSure
+  int repeats = 0;          // of the peer; 0: it never hits
+  double times = kUnknown;  // its TimeToBeSure by that of the default fit; NaN where it never hits
 };
-// The median time of a run by the share that hits: what it takes on average to go on until one
-// does. Infinite without a hit.
-double TimePerHit(const Way& way);
 // Nothing where the default fit was no contender.
 std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool);
 

@@ -196,8 +196,13 @@ std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
   std::vector<PolishStart> starts;
   AddWholeNumbers(job, at, &starts);
   AddNextSettings(job, at, &starts);
-  AddElsewhere(job, at, &starts);
   AddOtherForms(job, at, &starts);
+  return starts;
+}
+
+std::vector<PolishStart> Elsewhere(const FitJob& job, const BasinEnd& at) {
+  std::vector<PolishStart> starts;
+  AddElsewhere(job, at, &starts);
   return starts;
 }
 

@@ -23,9 +23,11 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
                                       const std::vector<double>& best, RandomStream* random);
 
 // One more or less of each whole number of an end, one less of one for one more of another, the
-// next settings of what is settled by trying as well, single other parameters elsewhere, and the
-// same place in the other forms.
+// next settings of what is settled by trying as well, and the same place in the other forms.
 std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at);
+
+// An end with one parameter elsewhere in its range, of those that say how something acts.
+std::vector<PolishStart> Elsewhere(const FitJob& job, const BasinEnd& at);
 
 // A place with what is settled by trying at values spread over all there are.
 std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at);

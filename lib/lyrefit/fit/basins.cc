@@ -88,6 +88,9 @@ void Basins::Finish(const std::vector<int>& ways) {
     const bool known = best.finished && best.start.form == at.start.form && visits() >= kEnough;
     if (watch_->stopped()) break;
     if (known || at.paid > kClose * kClose * best.paid) continue;
+    // On its way it came to where another one ended.
+    at.finished = best.finished && best.start.form == at.start.form && SameBasin(at, best);
+    if (at.finished) continue;
     const RefineProblem own = InForm(problem_, forms_[at.start.form], at.end.p);
     Take(way, Refine(own, at.end.p, whole));
     at.finished = true;

@@ -28,10 +28,30 @@ std::vector<bool> Shapeless(const FitJob& job) {
   return shapeless;
 }
 
+// Whether the residuals of the best end, from reading to reading, are like noise (Durbin and Watson
+// 1950, doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
+bool LeavesNoise(const FitJob& job, const Basins& basins) {
+  constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
+  std::vector<double> residuals(job.problem.voltage_V.size());
+  Residuals(job.problem, basins.ends()[basins.best()].end.p.data(), residuals.data(), nullptr);
+  double steps = 0, sum = residuals[0] * residuals[0];
+  for (std::size_t k = 1; k < residuals.size(); ++k) {
+    const double step = residuals[k] - residuals[k - 1];
+    steps += step * step;
+    sum += residuals[k] * residuals[k];
+  }
+  return steps > kLeast * sum;
+}
+
 void ClimbSettings(const FitJob& job, Basins* basins) {
   for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
     const int before = basins->best();
     std::vector<PolishStart> neighbours = Neighbours(job, basins->ends()[before]);
+    // Forms are told apart by less than noise.
+    if (job.forms.size() > 1 || !LeavesNoise(job, *basins)) {
+      std::vector<PolishStart> elsewhere = Elsewhere(job, basins->ends()[before]);
+      std::move(elsewhere.begin(), elsewhere.end(), std::back_inserter(neighbours));
+    }
     if (neighbours.empty()) return;
     basins->Descend(std::move(neighbours));
     if (basins->best() == before) return;
@@ -92,21 +112,6 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* 
   }
 }
 
-// Whether the residuals of an end, from reading to reading, are like noise (Durbin and Watson 1950,
-// doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
-bool LeavesNoise(const FitJob& job, const BasinEnd& at) {
-  constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
-  std::vector<double> residuals(job.problem.voltage_V.size());
-  Residuals(job.problem, at.end.p.data(), residuals.data(), nullptr);
-  double steps = 0, sum = residuals[0] * residuals[0];
-  for (std::size_t k = 1; k < residuals.size(); ++k) {
-    const double step = residuals[k] - residuals[k - 1];
-    steps += step * step;
-    sum += residuals[k] * residuals[k];
-  }
-  return steps > kLeast * sum;
-}
-
 void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, const FitJob& job,
                Basins* basins) {
   const StartsFrom from = job.options.starts;
@@ -131,10 +136,11 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   basins->Descend(std::move(starts));
   if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, basins);
   if (from == StartsFrom::kShape) return;
+  if (from == StartsFrom::kAll && LeavesNoise(job, *basins)) return;
   if (basins->visits() < kAgain) basins->Descend(birds_between(first, kBirds));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
   for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
-    if (basins->visits() >= kAgain && LeavesNoise(job, basins->ends()[basins->best()])) return;
+    if (basins->visits() >= kAgain && LeavesNoise(job, *basins)) return;
     basins->Descend(RandomStarts(job, space, basins->ends()[basins->best()].end.p, &random));
   }
 }

@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSettled = 1e-6;  // relative change of the sum of squares
+constexpr double kStill = 1e-6;  // relative change of the sum of squares
 constexpr int kMostSteps = 30;
 
 class CountedCurve : public CurveModel {
@@ -170,7 +170,7 @@ double BirdPlaces::Descend() {
   SolveOptions how;
   how.bounded = how.small = true;
   how.max_iterations = kMostSteps;
-  how.function_tolerance = kSettled;
+  how.function_tolerance = kStill;
   how.trust_radius = 1e4;
   how.unit_A = problem_.current_scale_A;
   if (coordinates.size() > 0) {

@@ -64,6 +64,7 @@ void OrderAlike(const Device& device, const std::vector<ParameterBounds>& bounds
   const Ordering ordering{bounds, p, held};
   if (!SkyChanges(device)) {
     std::vector<AlikeSet> diodes;
+    diodes.reserve(DiodeCount(device));
     for (int d = 0; d < DiodeCount(device); ++d) {
       diodes.push_back({SaturationCurrentIndex(d), IdealityIndex(d)});
     }

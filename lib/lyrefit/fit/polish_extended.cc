@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kBirds = 3;
 constexpr std::size_t kShapes = 3;
-constexpr int kRounds = 3;  // of random places, and of probes beside the best
-constexpr int kAgain = 2;   // ends in the best basin that make further rounds needless
-constexpr int kSteps = 6;   // of whole numbers and settings
+constexpr int kFurther = 3;  // of random places, and of probes beside the best
+constexpr int kAgain = 2;    // ends in the best basin that make further rounds needless
+constexpr int kSteps = 6;    // of whole numbers and settings
 
 // Of each effect whether no shape of the curve shows where it is.
 std::vector<bool> Shapeless(const FitJob& job) {
@@ -99,7 +99,7 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* 
   for (const PolishStart& shape : BestShapes(*basins)) {
     basins->Descend(SpreadSettings(job, shape));
   }
-  for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
+  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
     const int before = basins->best();
     const BasinEnd best = basins->ends()[before];
     const int form = best.start.form;
@@ -139,7 +139,7 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   if (from == StartsFrom::kAll && LeavesNoise(job, *basins)) return;
   if (basins->visits() < kAgain) basins->Descend(birds_between(first, kBirds));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
-  for (int round = 0; round < kRounds && !job.watch.stopped(); ++round) {
+  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
     if (basins->visits() >= kAgain && LeavesNoise(job, *basins)) return;
     basins->Descend(RandomStarts(job, space, basins->ends()[basins->best()].end.p, &random));
   }

@@ -61,7 +61,7 @@ std::string RandomText(const Way& random) {
 }
 
 // "50 (12 ms)", of a search "lo@3000 49 (299 ms)"
-std::string CellText(const std::optional<Way>& way, bool named) {
+std::string WayText(const std::optional<Way>& way, bool named) {
   if (!way) return "-";
   const PooledLevel& figures = way->figures();
   return (named ? way->contender->name + " " : "") +
@@ -102,10 +102,10 @@ std::string VerdictTable(const std::vector<PooledProblem>& pools) {
     for (const std::optional<Way>& way : {verdict.shape, search}) {
       if (way) runs = way->figures().runs;
     }
-    table.Add({pool.name, std::to_string(runs), CellText(verdict.shape, false),
-               CellText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
-               CellText(search, true), CellText(verdict.random, true),
-               CellText(ratio ? ratio->peer : std::nullopt, true)});
+    table.Add({pool.name, std::to_string(runs), WayText(verdict.shape, false),
+               WayText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
+               WayText(search, true), WayText(verdict.random, true),
+               WayText(ratio ? ratio->peer : std::nullopt, true)});
   }
   return table.Text();
 }

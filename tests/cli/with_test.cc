@@ -54,9 +54,9 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   EXPECT_FALSE(share["fixed"].get<bool>());
   EXPECT_THAT(fit.out, HasSubstr("whole number, settled by trying"));
   const json& basins = report["refine"]["basins"];
-  EXPECT_GE(basins["starts"], basins["basins"]);
+  EXPECT_GE(basins["ends"], basins["basins"]);
   EXPECT_GE(basins["best_visits"], 1);
-  EXPECT_LE(basins["starts"], report["refine"]["start_list"].size());
+  EXPECT_LE(basins["ends"], report["refine"]["start_list"].size());
   ExpectSameCurve(file, report);
 }
 

@@ -8,6 +8,7 @@
 
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/probe_starts.h"
+#include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
@@ -28,19 +29,13 @@ std::vector<bool> Shapeless(const FitJob& job) {
   return shapeless;
 }
 
-// Whether the residuals of the best end, from reading to reading, are like noise (Durbin and Watson
-// 1950, doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
+// Whether the residuals of the best end are like noise (Durbin and Watson 1950,
+// doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
 bool LeavesNoise(const FitJob& job, const Basins& basins) {
   constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
   std::vector<double> residuals(job.problem.voltage_V.size());
   Residuals(job.problem, basins.ends()[basins.best()].end.p.data(), residuals.data(), nullptr);
-  double steps = 0, sum = residuals[0] * residuals[0];
-  for (std::size_t k = 1; k < residuals.size(); ++k) {
-    const double step = residuals[k] - residuals[k - 1];
-    steps += step * step;
-    sum += residuals[k] * residuals[k];
-  }
-  return steps > kLeast * sum;
+  return FindResidualStatistics(job.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
 void ClimbSettings(const FitJob& job, Basins* basins) {

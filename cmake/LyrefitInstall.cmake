@@ -12,6 +12,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/enum_text.h
   base/error.h
   base/file.h
+  base/numbers.h
   base/observer.h
   base/option.h
   base/parallel.h

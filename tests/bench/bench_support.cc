@@ -65,13 +65,6 @@ double CertifiedRmse(Model model, Objective objective) {
 
 bool IsHit(double rmse, double certified) { return std::fabs(rmse / certified - 1) <= 1e-9; }
 
-double Median(std::vector<double> values) {
-  CHECK(!values.empty());
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 std::string ModelName(Model model) {
   std::string name = ToText(model);
   for (char& c : name) c = static_cast<char>(c - 'a' + 'A');

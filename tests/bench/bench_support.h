@@ -35,8 +35,6 @@ double CertifiedRmse(Model model, Objective objective);
 // Within 1e-9 relative of it.
 bool IsHit(double rmse, double certified);
 
-double Median(std::vector<double> values);
-
 std::string ModelName(Model model);          // "SD"
 std::string ObjectiveName(Objective which);  // "measured"
 

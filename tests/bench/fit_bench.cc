@@ -15,6 +15,7 @@
 #include "bench_support.h"
 #include "benchmarks.h"
 #include "claims.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/law/current.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "law/made_curve.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
@@ -44,17 +45,12 @@ Noise Estimate(const Noisy& made, const DeviceNotes& notes = {}, const Grids& gr
   return EstimateNoise(measurement, made.residual, made.used);
 }
 
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Median over seeds of an estimate, in parts of the truth.
 template <class F>
 double MedianOver(int seeds, F estimate) {
   std::vector<double> values;
   for (int seed = 1; seed <= seeds; ++seed) values.push_back(estimate(seed));
-  return Median(values);
+  return UpperMedian(values);
 }
 
 TEST(EstimateNoiseTest, FindsEqualNoise) {
@@ -64,7 +60,7 @@ TEST(EstimateNoiseTest, FindsEqualNoise) {
       recipe.points = points;
       recipe.seed = seed;
       const Noisy made = MakeNoisy({recipe});
-      return Median(Estimate(made).sigma) * made.measurement.readings.scale.current_A / 0.004;
+      return UpperMedian(Estimate(made).sigma) * made.measurement.readings.scale.current_A / 0.004;
     });
     EXPECT_GT(ratio, 0.9) << points;
     EXPECT_LT(ratio, 1.15) << points;
@@ -89,8 +85,8 @@ TEST(EstimateNoiseTest, FindsNoiseInProportion) {
     }
     bottom.push_back(noise.sigma[smallest]);
   }
-  EXPECT_NEAR(Median(top), 1, 0.15);
-  EXPECT_LT(Median(bottom), 0.3 * 0.003);
+  EXPECT_NEAR(UpperMedian(top), 1, 0.15);
+  EXPECT_LT(UpperMedian(bottom), 0.3 * 0.003);
 }
 
 // The rounding of a coarse grid bounds the noise from below.
@@ -103,7 +99,7 @@ TEST(EstimateNoiseTest, NeverFallsBelowWhatAGridLeaves) {
   const double step = 0.02;  // of noise that is mostly rounding
   RandomStream random(3);
   for (double& r : made.residual) r = step * (random.Uniform() - 0.5);
-  const double found = Median(Estimate(made, {}, {step, step}).sigma);
+  const double found = UpperMedian(Estimate(made, {}, {step, step}).sigma);
   EXPECT_NEAR(found, step / std::sqrt(12), 0.3 * step / std::sqrt(12));
 }
 
@@ -112,7 +108,7 @@ TEST(IsCoarseTest, WeighsAGridAgainstTheNoise) {
   recipe.points = 100;
   const Noisy made = MakeNoisy({recipe});
   const Noise noise = Estimate(made);
-  const double sigma = Median(noise.sigma);
+  const double sigma = UpperMedian(noise.sigma);
   const auto coarse = [&](const Grids& grids) {
     Measurement measurement = made.measurement;
     measurement.values.grids = grids;
@@ -128,21 +124,21 @@ TEST(EstimateNoiseTest, SmoothMisfitIsNoNoise) {
   Recipe recipe;
   recipe.points = 150;
   Noisy made = MakeNoisy({recipe});
-  const double before = Median(Estimate(made).sigma);
+  const double before = UpperMedian(Estimate(made).sigma);
   for (std::size_t k = 0; k < made.residual.size(); ++k) {
     made.residual[k] += 0.02 * std::sin(4 * made.measurement.readings.points[k].x);
   }
-  EXPECT_NEAR(Median(Estimate(made).sigma), before, 0.05 * before);
+  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.05 * before);
 }
 
 TEST(EstimateNoiseTest, StepsAndOutliersAreNoNoise) {
   Recipe recipe;
   recipe.points = 150;
   Noisy made = MakeNoisy({recipe});
-  const double before = Median(Estimate(made).sigma);
+  const double before = UpperMedian(Estimate(made).sigma);
   made.residual[40] += 0.05;
   for (std::size_t k = 90; k < made.residual.size(); ++k) made.residual[k] += 0.01;
-  EXPECT_NEAR(Median(Estimate(made).sigma), before, 0.25 * before);
+  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.25 * before);
 }
 
 TEST(EstimateNoiseTest, DarkCurvesHaveTheirOwn) {
@@ -173,12 +169,12 @@ TEST(EstimateNoiseTest, AStatedShapeIsKeptAndItsSizeMeasured) {
 
 TEST(EstimateNoiseTest, LeftOutReadingsDoNotCount) {
   Noisy made = MakeNoisy({Recipe()});
-  const double before = Median(Estimate(made).sigma);
+  const double before = UpperMedian(Estimate(made).sigma);
   for (const int k : {10, 20, 21, 30}) {
     made.residual[k] = 3;
     made.used[k] = 0;
   }
-  EXPECT_NEAR(Median(Estimate(made).sigma), before, 0.25 * before);
+  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.25 * before);
 }
 
 TEST(EstimateNoiseTest, FewReadingsAndNoNoiseAreNoHarm) {

@@ -4,17 +4,10 @@
 #include <vector>
 
 #include "hidden/study.h"
+#include "lyrefit/base/median.h"
 
 namespace hidden {
-namespace {
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-}  // namespace
+namespace {}  // namespace
 
 int StudySize(const StudyOptions& options) {
   const int cases = options.cases > 0 ? options.cases : 100;
@@ -37,7 +30,8 @@ int StudySize(const StudyOptions& options) {
       }
       if (plain == 0) continue;
       std::printf("%-7s %-21s %5d %7.1f %8.3f %10.3f\n", Name(kind), hide->name, sized,
-                  Percent(holds, sized), Median(ratios), Median(widths));
+                  Percent(holds, sized), lyrefit::UpperMedian(ratios),
+                  lyrefit::UpperMedian(widths));
     }
   }
   return 0;

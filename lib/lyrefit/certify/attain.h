@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/certify/mixture.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/refine/problem.h"
@@ -13,7 +13,7 @@ namespace lyrefit {
 // of the lowest there is.
 struct Attained {
   std::vector<double> p;  // in the device's order
-  double mean_square = std::numeric_limits<double>::infinity();
+  double mean_square = kInfinity;
 };
 
 // Ranges of a proof. Iph, Is and 1/Rsh are only kept from being negative.

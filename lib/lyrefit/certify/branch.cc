@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <queue>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/certify/correlation.h"
 
 namespace lyrefit {
@@ -56,7 +56,7 @@ class Branch {
       : data_(data), limits_(limits), diodes_(diodes), primal_(primal) {}
 
   BranchEnd Run(const std::vector<Window>& windows) {
-    end_.best.primal = std::numeric_limits<double>::infinity();
+    end_.best.primal = kInfinity;
     Part whole;
     whole.windows = windows;
     whole.left = Solve(windows, limits_.rs_lower, {});
@@ -114,7 +114,7 @@ class Branch {
     int high, low;
     const double v_high = v0.cwiseMin(v1).maxCoeff(&high);
     const double v_low = std::max(0.0, v0.cwiseMax(v1).minCoeff(&low));
-    if (v_low >= v_high) return {std::numeric_limits<double>::infinity(), v_high};
+    if (v_low >= v_high) return {kInfinity, v_high};
     const double known = std::isfinite(primal_) ? primal_ : 0.5 * data_.current_A.squaredNorm();
     const double difference = data_.current_A[low] - data_.current_A[high] + 2 * std::sqrt(known);
     return {std::max(difference, 0.0) / (1 - v_low / v_high), v_high};
@@ -231,7 +231,7 @@ class Branch {
   const BranchLimits& limits_;
   const int diodes_;  // 0: any number
   double primal_;     // the best half sum of squares known
-  double settled_ = std::numeric_limits<double>::infinity();
+  double settled_ = kInfinity;
   std::priority_queue<Part, std::vector<Part>, LowerFirst> open_;
   BranchEnd end_;
 };
@@ -240,7 +240,7 @@ class Branch {
 
 BranchEnd BranchOverResistance(const MixtureData& data, const Window& window,
                                const BranchLimits& limits) {
-  return Branch(data, limits, 0, std::numeric_limits<double>::infinity()).Run({window});
+  return Branch(data, limits, 0, kInfinity).Run({window});
 }
 
 BranchEnd BranchOverDiodes(const MixtureData& data, const Window& window, int diodes, double primal,

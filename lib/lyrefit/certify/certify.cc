@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/attain.h"
 #include "lyrefit/certify/beyond.h"
@@ -24,7 +25,7 @@ struct Proof {
   Window window;
   BranchLimits limits;
   double thermal_voltage_V = 0;
-  double beyond = std::numeric_limits<double>::infinity();  // half sum of squares at larger Rs
+  double beyond = kInfinity;             // half sum of squares at larger Rs
   double rounding_A = 0;                 // RMSEs no further apart than this are equal
   std::vector<std::string> doubts = {};  // of the readings
   bool stopped = false;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
@@ -163,7 +164,7 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
       const Eigen::ArrayXd exponent_high =
           (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * scale_voltage_V;
       if (exponent_high.maxCoeff() > kHighestExponent) {
-        return std::numeric_limits<double>::infinity();
+        return kInfinity;
       }
       const double sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
       const double column_bend = sum / -std::expm1(-u0 * scale_voltage_V);

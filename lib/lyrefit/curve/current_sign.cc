@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lyrefit/base/median.h"
+
 namespace lyrefit {
 namespace {
 
@@ -11,12 +13,6 @@ struct Line {
   double intercept = 0;
   double slope = 0;
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Tukey's resistant line, through the medians of the outer thirds: outliers do not move it.
 Line ResistantLine(const std::vector<double>& x, const std::vector<double>& y) {
@@ -33,10 +29,10 @@ Line ResistantLine(const std::vector<double>& x, const std::vector<double>& y) {
     ends[2].push_back(x[high]);
     ends[3].push_back(y[high]);
   }
-  const double low_x = Median(ends[0]);
-  const double low_y = Median(ends[1]);
-  const double width = Median(ends[2]) - low_x;
-  const double slope = width > 0 ? (Median(ends[3]) - low_y) / width : 0;
+  const double low_x = UpperMedian(ends[0]);
+  const double low_y = UpperMedian(ends[1]);
+  const double width = UpperMedian(ends[2]) - low_x;
+  const double slope = width > 0 ? (UpperMedian(ends[3]) - low_y) / width : 0;
   return {low_y - slope * low_x, slope};
 }
 
@@ -58,7 +54,7 @@ double CurrentNear(double voltage, const std::vector<double>& voltage_V,
                     });
   std::vector<double> nearest;
   for (std::size_t i = 0; i < count; ++i) nearest.push_back(current_A[order[i]]);
-  return Median(nearest);
+  return UpperMedian(nearest);
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFarthest = 0.05;  // how far beyond its range a curve is extrapolated
 
 struct Point {
@@ -58,11 +58,11 @@ double ShortCircuitCurrent(const std::vector<Point>& points) {
   const std::size_t last = points.size() - 1;
   const double range = points[last].voltage_V - points[0].voltage_V;
   if (points[0].voltage_V > 0) {
-    if (points[0].voltage_V > kFarthest * range) return kNone;
+    if (points[0].voltage_V > kFarthest * range) return kUnknown;
     return CurrentAt(0, points[0], Partner(points, 0, 1));
   }
   if (points[last].voltage_V < 0) {
-    if (-points[last].voltage_V > kFarthest * range) return kNone;
+    if (-points[last].voltage_V > kFarthest * range) return kUnknown;
     return CurrentAt(0, points[last], Partner(points, last, -1));
   }
   const auto above = std::find_if(points.begin(), points.end(),
@@ -89,12 +89,12 @@ double OpenCircuitVoltage(const std::vector<Point>& points) {
   const bool near = last.current_A > 0 &&
                     last.current_A <= kFarthest * (largest - last.current_A) &&
                     last.current_A < before.current_A;
-  if (!near) return kNone;
+  if (!near) return kUnknown;
   const double beyond =
       last.current_A / (before.current_A - last.current_A) * (last.voltage_V - before.voltage_V);
   // Two noisy points may be all but parallel to the axis.
   const double range = last.voltage_V - points[0].voltage_V;
-  return beyond <= kFarthest * range ? last.voltage_V + beyond : kNone;
+  return beyond <= kFarthest * range ? last.voltage_V + beyond : kUnknown;
 }
 
 // The top of the parabola of power over voltage through three points with the middle one highest;
@@ -119,7 +119,7 @@ Point TopOfParabola(const Point& left, const Point& best, const Point& right) {
 KeyPoints FindKeyPoints(const std::vector<double>& voltage_V,
                         const std::vector<double>& current_A) {
   CHECK_EQ(voltage_V.size(), current_A.size());
-  KeyPoints key{kNone, kNone, kNone, kNone, kNone, kNone};
+  KeyPoints key{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   const std::vector<Point> points = SortAndMerge(voltage_V, current_A);
   if (points.size() < 2) return key;
   key.short_circuit_current_A = ShortCircuitCurrent(points);

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
@@ -28,7 +28,7 @@ Expected<std::size_t> NearestCurve(const CurveSet& set, double irradiance_W_m2,
                     irradiance_W_m2, temperature_C));
   }
   std::size_t nearest = set.curves.size();
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = kInfinity;
   for (std::size_t i = 0; i < set.curves.size(); ++i) {
     const IvCurve& curve = set.curves[i];
     if (!curve.irradiance_known || !curve.temperature_known) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
@@ -271,7 +272,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   diagnosis.base_sentence = DescribeLaw(readings, shown.base.law);
   diagnosis.evidence = DescribeEvidence(shown, measurement->values, outcome.correlation);
   if (measurement->noise_is_stated()) {
-    diagnosis.evidence.noise_stated_A = Median(shown.bench.sigma) * readings.scale.current_A;
+    diagnosis.evidence.noise_stated_A = UpperMedian(shown.bench.sigma) * readings.scale.current_A;
   }
   diagnosis.evidence.whiteness_p_value = Whiteness(outcome.found.base_bench, outcome.found.base);
   diagnosis.evidence.whiteness_after_p_value =

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/effects/catalogue.h"
@@ -15,7 +16,7 @@
 namespace lyrefit {
 namespace {
 
-double MedianSigma(const Noise& noise) { return Median(noise.sigma); }
+double MedianSigma(const Noise& noise) { return UpperMedian(noise.sigma); }
 
 // Of the readings that the bench uses.
 ResidualStatistics StatisticsOf(const Workbench& bench, const LawFit& fit) {

@@ -2,24 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return kNone;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 // Bin by bin, where at least half of the sweeps have readings.
 Eigen::VectorXd MedianShape(const std::vector<const SweepState*>& sweeps, int without = -1) {
@@ -31,7 +22,7 @@ Eigen::VectorXd MedianShape(const std::vector<const SweepState*>& sweeps, int wi
         values.push_back(sweeps[i]->shape[bin]);
       }
     }
-    shape[bin] = 2 * values.size() >= sweeps.size() ? Median(std::move(values)) : kNone;
+    shape[bin] = 2 * values.size() >= sweeps.size() ? Median(std::move(values)) : kUnknown;
   }
   return shape;
 }

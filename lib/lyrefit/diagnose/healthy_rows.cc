@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
@@ -73,7 +73,7 @@ HealthyRow RowOf(const FittedSweep& sweep, const Expectation& e, const Differenc
   row.high_95 = Read(reader, d.expected[j] + reach);
   row.z = d.value[j] / deviation;
   row.corrected_p = std::min(1.0, kQuantities * d.p[j]);
-  row.power = j == kShapeOff ? std::numeric_limits<double>::quiet_NaN()
+  row.power = j == kShapeOff ? kUnknown
               : j == kFill   ? std::expm1(d.value[j])
                              : PowerWith(sweep, j, std::max(row.expected, 0.0));
   return row;

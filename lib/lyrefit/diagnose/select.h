@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/noise.h"
@@ -49,7 +49,7 @@ struct Rival {
   double corrected_p = 1;  // of the statistic, the whole catalogue counted
   // What it leaves beyond what its law could still take up, root mean square in parts of Isc. NaN:
   // not asked.
-  double left = std::numeric_limits<double>::quiet_NaN();
+  double left = kUnknown;
   double Charged() const { return statistic - score.charge - freedom; }
 };
 

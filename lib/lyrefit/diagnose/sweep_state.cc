@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/choose_base.h"
@@ -57,7 +57,7 @@ void TakeShape(const Readings& readings, const LawFit& fit, SweepState* state) {
   }
   state->shape.resize(kShapeBins);
   for (int k = 0; k < kShapeBins; ++k) {
-    state->shape[k] = number[k] > 0 ? sum[k] / number[k] : std::numeric_limits<double>::quiet_NaN();
+    state->shape[k] = number[k] > 0 ? sum[k] / number[k] : kUnknown;
   }
 }
 
@@ -91,10 +91,9 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
   SweepState& state = sweep.state;
   state.name = curve.name;
   state.cells = readings.scale.cells;
-  constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
-  state.irradiance_W_m2 = curve.irradiance_known ? curve.conditions.irradiance_W_m2 : kUnstated;
+  state.irradiance_W_m2 = curve.irradiance_known ? curve.conditions.irradiance_W_m2 : kUnknown;
   state.temperature_C =
-      curve.temperature_known ? curve.conditions.cell_temperature_K - kZeroCelsius_K : kUnstated;
+      curve.temperature_known ? curve.conditions.cell_temperature_K - kZeroCelsius_K : kUnknown;
   Describe(readings, sweep.fit, &state);
   if (!(state.isc_A > 0 && state.voc_V > 0 && state.fill_factor > 0)) {
     return Fail(curve.name + ": no open-circuit voltage or maximum power can be read off it");

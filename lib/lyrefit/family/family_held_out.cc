@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_search.h"
@@ -60,7 +61,7 @@ HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
     result.largest_id = set.curves[one.curve].name;
   }
   result.rmse = {std::sqrt(measured / points), std::sqrt(solved / points)};
-  result.median_rmse_A = Median(rmse);
+  result.median_rmse_A = UpperMedian(rmse);
   result.curve_rmse_A = std::move(rmse);
   return result;
 }
@@ -125,7 +126,7 @@ double FreeMedian(const FamilyReport& report, const std::vector<int>& curves) {
     const double one = report.curves[c].free_rmse.solved_current_A;
     if (std::isfinite(one)) rmse.push_back(one);
   }
-  return Median(std::move(rmse));
+  return UpperMedian(std::move(rmse));
 }
 
 }  // namespace

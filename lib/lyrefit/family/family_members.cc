@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/family/spread_curves.h"
@@ -31,7 +32,7 @@ void LeaveOut(std::string reason, FamilyMember* member) {
 int UsualCells(const CurveSet& set) {
   std::vector<double> cells;
   for (const IvCurve& curve : set.curves) cells.push_back(curve.conditions.cells_in_series);
-  return cells.empty() ? 0 : static_cast<int>(Median(cells));
+  return cells.empty() ? 0 : static_cast<int>(UpperMedian(cells));
 }
 
 double LargestCurrent(const std::vector<double>& current_A) {
@@ -102,7 +103,7 @@ void GuessIrradiances(std::vector<FamilyMember>* members, std::vector<std::strin
   }
   if (!any_unknown) return;
   const bool none = per_sun.empty();
-  const double one_sun = none ? brightest : Median(per_sun);
+  const double one_sun = none ? brightest : UpperMedian(per_sun);
   if (none) {
     notes->push_back(
         "no curve states its irradiance: the brightest counts as 1000 W/m2, and photocurrent, "
@@ -136,7 +137,7 @@ Expected<void> GuessTemperatures(std::vector<FamilyMember>* members,
   }
   for (FamilyMember& member : *members) {
     if (member.role == CurveRole::kLeftOut || member.temperature_known) continue;
-    member.joint.temperature_K = Median(known);
+    member.joint.temperature_K = UpperMedian(known);
     member.joint.temperature_sd_K = kInfinity;
   }
   return {};
@@ -162,7 +163,7 @@ void UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
     if (curve.sigma_A.empty()) return;
     sigmas.insert(sigmas.end(), curve.sigma_A.begin(), curve.sigma_A.end());
   }
-  const double usual = Median(sigmas);
+  const double usual = UpperMedian(sigmas);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     for (std::size_t k = 0; k < set.curves[c].size(); ++k) {
       const double ratio = usual / set.curves[c].sigma_A[k];
@@ -248,7 +249,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
                     per_sun.size()),
         set.source);
   }
-  result.reference_current_A = Median(per_sun);
+  result.reference_current_A = UpperMedian(per_sun);
   SetWeights(options, result.reference_current_A, &result.members);
   UseSigmas(set, &result.members);
   result.fitted = usable;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -54,7 +55,7 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end,
   std::vector<double> rmse(curves);
   const auto measure = [&](const JointPoint& point) {
     for (int c = 0; c < curves; ++c) rmse[c] = std::sqrt(CurveSquare(problem, point, c));
-    return Median(rmse);
+    return UpperMedian(rmse);
   };
   double median = measure(end.point);
   const auto largest = [&] { return *std::max_element(rmse.begin(), rmse.end()); };

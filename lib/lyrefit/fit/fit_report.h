@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
@@ -15,8 +15,6 @@
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class BoundSide { kNone, kLower, kUpper };
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
@@ -36,7 +36,7 @@ Expected<void> CheckValue(const ParameterInfo& info, double value) {
 
 Expected<std::vector<double>> ParameterVector(const Device& device,
                                               const std::map<std::string, double>& parameters) {
-  std::vector<double> values(device.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(device.size(), kUnknown);
   std::vector<bool> given(device.size(), false);
   for (const auto& [name, value] : parameters) {
     const std::optional<int> index = device.Find(name);

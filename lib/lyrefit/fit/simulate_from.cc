@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/effects/catalogue.h"
@@ -44,8 +44,7 @@ double NumberOr(const json& document, const std::string& pointer, double usual) 
 std::vector<double> NumbersAt(const json& document, const std::string& pointer) {
   std::vector<double> values;
   for (const json& value : At(document, pointer)) {
-    values.push_back(value.is_number() ? value.get<double>()
-                                       : std::numeric_limits<double>::quiet_NaN());
+    values.push_back(value.is_number() ? value.get<double>() : kUnknown);
   }
   return values;
 }
@@ -57,7 +56,7 @@ Expected<double> ValueAt(const json& document, const std::string& pointer, const
   if (value.is_number()) return value.get<double>();
   const bool shunt = name == "resistance_shunt" || name == "R_sh_ref";
   const bool there = document.contains(json::json_pointer(pointer));
-  if (shunt && there && value.is_null()) return std::numeric_limits<double>::infinity();
+  if (shunt && there && value.is_null()) return kInfinity;
   return Fail("expected a number in " + pointer.substr(1), path);
 }
 

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 
@@ -72,17 +74,10 @@ ResidualStatistics FindResidualStatistics(const std::vector<double>& voltage_V,
   return result;
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double RobustScale(std::vector<double> values) {
   if (values.empty()) return 0;
   for (double& value : values) value = std::fabs(value);
-  return 1.4826 * Median(std::move(values));
+  return 1.4826 * UpperMedian(std::move(values));
 }
 
 double NoiseFromDifferences(const std::vector<double>& voltage_V,

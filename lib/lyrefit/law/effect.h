@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,6 +7,7 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/curve_shape.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/parameter.h"
@@ -211,7 +211,7 @@ struct EffectParameter {
   bool below_upper = false;
   bool above_lower = false;
   // Where a parameter that can be absent is: there it is not reported.
-  double absent_at = std::numeric_limits<double>::quiet_NaN();
+  double absent_at = kUnknown;
   Whole whole = Whole::kNo;  // where a fit of it by name searches among these
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;

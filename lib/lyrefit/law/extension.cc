@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/effect_ranges.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/reading_blocks.h"
@@ -220,7 +220,7 @@ std::vector<double> ExtendedCurrents(const Device& device, const double* p,
   std::vector<double> current_A(voltage_V.size());
   if (!InAmpere(extension.law, readings, BlocksOf(readings), p, current_A.data(), nullptr, nullptr,
                 nullptr)) {
-    std::fill(current_A.begin(), current_A.end(), std::numeric_limits<double>::quiet_NaN());
+    std::fill(current_A.begin(), current_A.end(), kUnknown);
   }
   return current_A;
 }

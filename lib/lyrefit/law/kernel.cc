@@ -3,9 +3,9 @@
 #include <glog/logging.h>
 
 #include <cstring>
-#include <limits>
 #include <numeric>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/extension.h"
 
 namespace lyrefit {
@@ -90,11 +90,10 @@ namespace {
 // Weighted like the kernels' sums.
 double ExtendedMeanSquare(const Device& device, Objective objective, const double* p,
                           const PointSet& points) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (objective == Objective::kMeasuredCurrent) return kNone;  // no explicit right-hand side
+  if (objective == Objective::kMeasuredCurrent) return kUnknown;  // no explicit right-hand side
   CHECK_EQ(points.size, static_cast<int>(device.extension->readings.points.size()));
   std::vector<double> current_A(points.size);
-  if (!ExtendedCurrents(device, p, current_A.data(), nullptr)) return kNone;
+  if (!ExtendedCurrents(device, p, current_A.data(), nullptr)) return kUnknown;
   double sum = 0;
   for (int k = 0; k < points.size; ++k) {
     const int block = k / Block::kLanes, lane = k % Block::kLanes;

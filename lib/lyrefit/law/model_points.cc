@@ -1,8 +1,8 @@
 #include "lyrefit/law/model_points.h"
 
 #include <cmath>
-#include <limits>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/extension.h"
 
@@ -35,8 +35,7 @@ KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
 
 KeyPoints ModelKeyPoints(const Device& device, const double* p) {
   if (device.extension != nullptr) return ExtendedKeyPoints(device, p);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  KeyPoints points{kNone, kNone, kNone, kNone, kNone, kNone};
+  KeyPoints points{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;
   // In the dark the root at V = 0 is zero but for rounding.
   if (!(points.short_circuit_current_A > 1e-15 * p[kIph]) || !(p[kIph] > 0)) return points;

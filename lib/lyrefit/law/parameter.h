@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 
@@ -69,7 +70,7 @@ inline ParameterRange RangeAround(ParameterKind kind, double value, double reach
   const double middle = ToScale(kind, value);
   const double part = StepOnScale(kind, value, reach);
   if (!IsConductance(kind)) return {FromScale(kind, middle - part), FromScale(kind, middle + part)};
-  const double infinity = std::numeric_limits<double>::infinity();
+  const double infinity = kInfinity;
   return {1 / (middle + part), middle > part ? 1 / (middle - part) : infinity};
 }
 
@@ -78,9 +79,9 @@ inline ParameterRange RangeAround(ParameterKind kind, double value, double reach
 // may vanish, a shunt may be perfect) and no place to look for anything.
 struct ParameterBounds {
   double lower = 0;
-  double upper = std::numeric_limits<double>::quiet_NaN();
+  double upper = kUnknown;
   double search_lower = 0;
-  double search_upper = std::numeric_limits<double>::quiet_NaN();
+  double search_upper = kUnknown;
   SearchScale scale = SearchScale::kLinear;
   double whole = 0;  // the values it may have lie so far apart, from `lower` on; 0: all between
 };

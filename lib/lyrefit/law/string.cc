@@ -1,7 +1,6 @@
 #include "lyrefit/law/string.h"
 
-#include <limits>
-
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/string_brackets.h"
 #include "lyrefit/law/string_kind.h"
 
@@ -373,7 +372,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   for (int s = 0; s < cell.strings; ++s) {
     root.current = root.current + linear.string_weight[s] * linear.current[s];
   }
-  root.current = Choose(hopeless, std::numeric_limits<double>::quiet_NaN(), root.current);
+  root.current = Choose(hopeless, kUnknown, root.current);
   FindSlopes(cell, voltage, *state, terms, linear, &root.slopes);
   return root;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <vector>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 
@@ -23,7 +24,7 @@ struct LeastSquaresOptions {
   double function_tolerance = 1e-9;  // relative change of the sum of squares
   // A sum of squares that others reached: where steps do not promise to come near it, the descent
   // ends.
-  double to_beat = std::numeric_limits<double>::infinity();
+  double to_beat = kInfinity;
   // Of the first step, in squared lengths of the columns: directions that are so much weaker than
   // the columns by themselves are held back.
   double trust_radius = 1e4;

@@ -1,9 +1,9 @@
 #include "lyrefit/refine/model_current.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "lyrefit/base/dual.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/extension.h"
 
 namespace lyrefit {
@@ -47,7 +47,7 @@ void ModelCurrents(const Device& device, Objective objective, const double* p,
   const bool measured = objective == Objective::kMeasuredCurrent;
   if (device.extension != nullptr) {
     if (measured || !ExtendedCurrents(device, p, current, slopes, held, kept)) {
-      current[0] = std::numeric_limits<double>::quiet_NaN();
+      current[0] = kUnknown;
     }
     return;
   }

@@ -1,9 +1,9 @@
 #include "lyrefit/refine/spread.h"
 
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/refine/linearize.h"
 
 namespace lyrefit {
@@ -96,8 +96,7 @@ std::vector<double> FindLocalErrors(const Linearization& now, const Directions& 
         variance * (TimesTransposed(solve) + TimesTransposed(through));
     for (Eigen::Index k = 0; k < local.cols(); ++k) {
       const bool decided = full && Decided(taken.row(k).transpose(), found);
-      errors.push_back(decided ? std::sqrt(covariance(k, k))
-                               : std::numeric_limits<double>::quiet_NaN());
+      errors.push_back(decided ? std::sqrt(covariance(k, k)) : kUnknown);
     }
   }
   return errors;
@@ -105,7 +104,7 @@ std::vector<double> FindLocalErrors(const Linearization& now, const Directions& 
 
 Spread SpreadOf(const Linearization& now, const Directions& found, int count, double variance) {
   Spread spread;
-  spread.standard_error.assign(count, std::numeric_limits<double>::quiet_NaN());
+  spread.standard_error.assign(count, kUnknown);
   spread.correlation = Eigen::MatrixXd::Zero(count, count);
   spread.condition = found.condition;
   const Eigen::MatrixXd natural = Times(now.natural_slope, found.half);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
 
@@ -50,14 +51,12 @@ struct SearchOptions {
   double de_scale = 0.5;               // F of differential evolution
   double de_crossover = 0.9;           // CR of differential evolution
   std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
-  double target =
-      -std::numeric_limits<double>::infinity();  // stop at or below this objective value
-  double time_limit_s = std::numeric_limits<double>::infinity();
+  double target = -kInfinity;  // stop at or below this objective value
+  double time_limit_s = kInfinity;
   int patience = 0;  // stop after so many iterations without a better best; 0: never
   int elites = 4;    // how many distinct birds to return, the best included
 };
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
     {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},

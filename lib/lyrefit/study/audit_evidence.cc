@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/fit/fit.h"
 
 namespace lyrefit {
@@ -69,7 +69,7 @@ std::optional<AuditReading> FindOtherDevice(const AuditSubject& subject) {
   const double photocurrent_A = subject.row->parameters[kIph].value;
   ReadingEvaluator evaluator(subject);
   std::optional<ReadingPlan> best;
-  double best_A = std::numeric_limits<double>::infinity();
+  double best_A = kInfinity;
   const auto attempt = [&](const ReadingPlan& plan) {
     const ConstantSet set = ReadingEvaluator::SetsOf(plan).front();
     const double rmse = evaluator.Rmse(plan, plan.objective, set);

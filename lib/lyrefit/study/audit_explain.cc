@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
@@ -52,7 +53,7 @@ class Explainer {
   Candidate Try(const ReadingPlan& plan) {
     Candidate candidate;
     candidate.plan = &plan;
-    candidate.distance = std::numeric_limits<double>::infinity();
+    candidate.distance = kInfinity;
     for (const ConstantSet set : ReadingEvaluator::SetsOf(plan)) {
       const double rmse = evaluator_.Rmse(plan, plan.objective, set);
       const double distance = std::fabs(std::log(std::max(rmse, 1e-300) / claim_));

@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/study/coverage_journal.h"
 #include "lyrefit/study/coverage_sets.h"
-#include "lyrefit/study/median.h"
 
 namespace lyrefit {
 namespace {
@@ -112,7 +112,7 @@ ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t inde
     count.low_95 = share.low_95;
     count.high_95 = share.high_95;
   }
-  count.median_half_width = MedianOf(std::move(widths));
+  count.median_half_width = Median(std::move(widths));
   return count;
 }
 

@@ -11,8 +11,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <utility>
+
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
@@ -199,7 +200,7 @@ bool RecordReader::Truth(const char* key) {
 
 double RecordReader::ToNumber(const JournalLine& value, const char* key) {
   if (value.is_number()) return value.get<double>();
-  if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (value == "nan") return kUnknown;
   if (value == "inf") return HUGE_VAL;
   if (value == "-inf") return -HUGE_VAL;
   Object(key, "a number");

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/study/median.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/study/summary.h"
 
 namespace lyrefit {
@@ -77,8 +78,8 @@ Failures SumUpFailures(const std::vector<PooledRun>& missed, PolishLevel level) 
     failures.worst_parameter = run.device->parameters[deviation.parameter];
   }
   failures.worst_excess = *std::max_element(excess.begin(), excess.end());
-  failures.median_excess = MedianOf(std::move(excess));
-  if (!deviations.empty()) failures.median_deviation = MedianOf(std::move(deviations));
+  failures.median_excess = Median(std::move(excess));
+  if (!deviations.empty()) failures.median_deviation = Median(std::move(deviations));
   return failures;
 }
 
@@ -102,7 +103,7 @@ std::optional<PooledLevel> PoolLevel(const std::vector<PooledRun>& runs, PolishL
   }
   const bool timed =
       std::none_of(seconds.begin(), seconds.end(), [](double value) { return std::isnan(value); });
-  if (timed) pooled.seconds = MedianOf(std::move(seconds));
+  if (timed) pooled.seconds = Median(std::move(seconds));
   pooled.failures = SumUpFailures(missed, level);
   return pooled;
 }
@@ -118,8 +119,8 @@ PooledContender Pool(const ContenderResult& contender, const std::vector<PooledR
     evaluations.push_back(static_cast<double>(run.run->evaluations));
     of_curves.push_back(static_cast<double>(run.run->curve_evaluations));
   }
-  pooled.evaluations = MedianOf(std::move(evaluations));
-  pooled.curve_evaluations = MedianOf(std::move(of_curves));
+  pooled.evaluations = Median(std::move(evaluations));
+  pooled.curve_evaluations = Median(std::move(of_curves));
   for (const PolishLevel level : kPolishLevels) {
     if (contender.kind != ContenderKind::kSearch && level != PolishLevel::kHybrid) continue;
     pooled.levels[static_cast<std::size_t>(level)] = PoolLevel(runs, level);

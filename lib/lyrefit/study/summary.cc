@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/study/median.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {
@@ -80,7 +81,7 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
       while (at[r] + 1 < gains.size() && gains[at[r] + 1].evaluations <= mark) ++at[r];
       best[r] = gains[at[r]].best;
     }
-    course.push_back({mark, MedianOf(best)});
+    course.push_back({mark, Median(best)});
   }
   return course;
 }
@@ -108,7 +109,7 @@ Spread SpreadOf(std::vector<double> values, double reference) {
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
   // Sums have the same bits whatever the order of the runs.
   std::sort(values.begin(), values.end());
-  spread.median = MedianOf(values);
+  spread.median = Median(values);
   spread.min = values.front();
   spread.max = values.back();
   // Rounding must not carry the mean of equal values out of their range.

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/study/median.h"
 #include "lyrefit/study/named_table.h"
 
 namespace lyrefit {
@@ -107,7 +107,7 @@ TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pai
     errors.push_back(error);
     CountInterval(pair, index, &result);
   }
-  result.median = MedianOf(std::move(errors));
+  result.median = Median(std::move(errors));
   if (one_truth) SumUpOneTruth(pairs, index, &result);
   return result;
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <limits>
+
+namespace lyrefit {
+
+// A number that nobody knows: unstated, not computed, not identifiable.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace lyrefit

@@ -243,5 +243,22 @@ TEST(LawTest, DoesNotHangOnWhereTheLastEvaluationEnded) {
   for (std::size_t k = 0; k < fresh.size(); ++k) EXPECT_NEAR(current[k], fresh[k], 1e-11);
 }
 
+// A shade that covers a whole substring leaves two kinds of cells, one that covers less of it
+// three: of the third the evaluation before knows nothing, whatever the memory of it held.
+TEST(LawTest, AKindOfCellsThatWasNotThereStartsLikeAFreshOne) {
+  const Readings readings = MadeReadings(DataKind::kUpDown, 60);
+  Law law;
+  law.effects = {FindEffect("shading")};
+  std::vector<double> two = OrdinaryCell(), three = OrdinaryCell();
+  for (const double value : {0.4, 0.3, 0.5, 1.0}) two.push_back(value);
+  for (const double value : {0.4, 0.3, 0.5, 0.5}) three.push_back(value);
+  std::vector<double> current(readings.points.size()), fresh = current;
+  LawWorkspace kept, new_one;
+  ASSERT_TRUE(EvaluateLaw(law, readings, two.data(), &kept, current.data(), nullptr));
+  ASSERT_TRUE(EvaluateLaw(law, readings, three.data(), &kept, current.data(), nullptr));
+  ASSERT_TRUE(EvaluateLaw(law, readings, three.data(), &new_one, fresh.data(), nullptr));
+  EXPECT_EQ(current, fresh);  // to the bit: both began from the same guess
+}
+
 }  // namespace
 }  // namespace lyrefit

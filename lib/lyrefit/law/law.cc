@@ -119,10 +119,14 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
 bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
                  const Cell<Pack>& cell, StringState* state) {
   constexpr int kLast = Block::kLanes - 1;
-  if (cell.kinds == 1 || std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
+  if (cell.kinds == 1 || !there.Fits(cell) ||
+      std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
       block.irradiance[0] != before.irradiance[kLast]) {
     return false;
   }
+  state->kinds = there.kinds;
+  state->parts = there.parts;
+  state->strings = there.strings;
   for (int g = 0; g < cell.kinds; ++g) {
     state->u[g] = Pack(there.u[g][kLast]);
     state->far[g] = Pack(there.far[g][kLast]);
@@ -301,10 +305,12 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     const bool kept = !state.strings.empty();
     StringState& at = kept ? state.strings[b] : unkept;
     const Pack& voltage = plain_cells.sky().voltage;
+    // Of another number of kinds the last evaluation says nothing.
+    const bool fresh = state.fresh || !at.Fits(cell);
     const bool follows =
-        state.fresh && b > 0 &&
+        fresh && b > 0 &&
         StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
-    if (!follows) Start(cell, limits, block, voltage, state.fresh, &at);
+    if (!follows) Start(cell, limits, block, voltage, fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at, state.give_up);
     if constexpr (!kDerivatives) {
       const Pack recorded =

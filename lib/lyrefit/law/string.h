@@ -29,6 +29,13 @@ struct StringState {
   Pack far[kMostKinds];
   Pack part_voltage[kMostKinds];
   Pack current[kMostKinds];
+  int kinds = 0;  // how many of each there are: what lies beyond has no value
+  int parts = 0;
+  int strings = 0;
+
+  bool Fits(const Cell<Pack>& cell) const {
+    return kinds == cell.kinds && parts == cell.parts && strings == cell.strings;
+  }
 };
 
 // Where exponentials begin to rule: steps beyond go by their logarithm.

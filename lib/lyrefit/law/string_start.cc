@@ -5,6 +5,9 @@ namespace lyrefit {
 
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state) {
+  state->kinds = cell.kinds;
+  state->parts = cell.parts;
+  state->strings = cell.strings;
   if (cell.kinds == 1) {
     state->u[0] = state->far[0] = Smaller(voltage + current * cell.resistance, limits.voltage);
     state->part_voltage[0] = voltage;

@@ -26,12 +26,13 @@ if [[ -n ${LYREFIT_FIELD_DATA:-} ]]; then
   done
 fi
 
-# The table in the project's README is the one that the study begins with.
+# The table of the page is the one that the study begins with.
+page=build/landscapes.md
 {
-  sed '/<!-- landscapes -->/q' README.md
+  sed '/<!-- landscapes -->/q' "$folder/README.md"
   echo
   awk '/^  problem / { on = 1 } on && /^$/ { exit } on { print "  " $0 }' "$folder/made.txt"
   echo
-  sed -n '/<!-- end of landscapes -->/,$p' README.md
-} > build/README.md
-cp build/README.md README.md
+  sed -n '/<!-- end of landscapes -->/,$p' "$folder/README.md"
+} > "$page"
+cp "$page" "$folder/README.md"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes the page of results anew: data/paper/README.md, its pictures and the tables of the README that
-# come from the same runs. Takes some minutes.
+# Writes the page of results anew: data/paper/README.md, its pictures and the tables of other pages that
+# come from the same runs (between <!-- NAME --> and <!-- end of NAME -->). Takes some minutes.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -9,5 +9,5 @@ cd -- "$LYREFIT_ROOT"
 Configure build
 Build build --target lyrefit_app
 
-Say "build/apps/lyrefit/lyrefit reproduce data/paper --update README.md"
-build/apps/lyrefit/lyrefit reproduce data/paper --update README.md
+Say "lyrefit reproduce data/paper"
+build/apps/lyrefit/lyrefit reproduce data/paper --update data/README.md --update data/landscapes/README.md

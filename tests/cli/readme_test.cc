@@ -1,11 +1,17 @@
-// Every command of the README that can be run with what ships is run. Left out are synopses (they
-// hold brackets or CAPITALS for what is to be filled in) and what the README itself says needs
-// other data or takes its time, in a comment on its line: "# needs ...", "# takes ...".
+// Every command of the README and of the pages it leads to that can be run with what ships is run,
+// and prints what stands below it. Left out are synopses (they hold brackets or CAPITALS for what
+// is to be filled in) and what a page itself says needs other data or takes its time, in a comment
+// on its line: "# needs ...", "# takes ...".
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,65 +20,184 @@
 namespace lyrefit {
 namespace {
 
+namespace fs = std::filesystem;
+
+// A command, and the lines below it that show what it prints, or part of that ("..." for the rest).
 struct ReadmeCommand {
   int line = 0;
   std::string arguments;
+  std::vector<std::string> shown;
 };
+
+fs::path Project() { return fs::path(LYREFIT_DATA_DIR).parent_path(); }
+
+bool StartsWith(const std::string& line, const std::string& start) {
+  return line.rfind(start, 0) == 0;
+}
 
 bool IsToBeRun(const std::string& command) {
   static const std::regex kFilledIn(
-      R"([\[\]|]|\.\.\.|\b(CURVE|SET|ROWS|FILE|FIT)\b|=[A-Z]\b| [A-Z]\b)");
+      R"([\[\]|]|\.\.\.|\b(CURVE|SET|ROWS|FILE|FIT|NAME)\b|=[A-Z]\b| [A-Z]\b)");
   static const std::regex kLeftOut("# (needs|takes) ");
   return !std::regex_search(command, kFilledIn) && !std::regex_search(command, kLeftOut);
 }
 
-std::vector<ReadmeCommand> CommandsOf(const std::string& path) {
-  static const std::string kStart = "    lyrefit ";
-  std::ifstream file(path);
+std::vector<ReadmeCommand> CommandsOf(std::istream& page) {
+  static const std::string kIndent = "    ";
+  static const std::string kStart = kIndent + "lyrefit ";
   std::vector<ReadmeCommand> commands;
+  bool shows = false;  // what is indented here belongs to the last command
   int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const int first = number;
-    for (std::string more; !line.empty() && line.back() == '\\' && std::getline(file, more);) {
+  for (std::string line; std::getline(page, line);) {
+    const int first = ++number;
+    for (std::string more; !line.empty() && line.back() == '\\' && std::getline(page, more);) {
       ++number;
       line.pop_back();
       line += more;
     }
-    const bool is_output = line.find("lyrefit 0.") != std::string::npos;
-    if (line.rfind(kStart, 0) != 0 || is_output || !IsToBeRun(line)) continue;
-    commands.push_back({first, line.substr(kStart.size(), line.find(" #") - kStart.size())});
+    if (line.empty()) continue;
+    if (!StartsWith(line, kIndent)) {
+      shows = false;
+    } else if (StartsWith(line, kStart) && !StartsWith(line, kStart + "0.")) {
+      shows = IsToBeRun(line);
+      if (!shows) continue;
+      commands.push_back({first, line.substr(kStart.size(), line.find(" #") - kStart.size()), {}});
+    } else if (shows && line != kIndent + "...") {
+      commands.back().shown.push_back(line);
+    }
   }
   return commands;
 }
 
-TEST(Readme, CommandsRunWithWhatShips) {
+std::vector<std::string> WordsOf(const std::string& line) {
+  std::istringstream words(line);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+// Numbers need not agree in their last digits, which are those of a processor and a compiler.
+bool IsTheSameWord(const std::string& one, const std::string& other) {
+  constexpr double kTolerance = 0.01;
+  char* end_of_one = nullptr;
+  char* end_of_other = nullptr;
+  const double a = std::strtod(one.c_str(), &end_of_one);
+  const double b = std::strtod(other.c_str(), &end_of_other);
+  if (*end_of_one != '\0' || *end_of_other != '\0') return one == other;
+  return std::abs(a - b) <= kTolerance * std::abs(a);
+}
+
+bool Prints(const std::string& output, const std::string& line) {
+  const std::vector<std::string> expected = WordsOf(line);
+  std::istringstream lines(output);
+  for (std::string printed; std::getline(lines, printed);) {
+    const std::vector<std::string> words = WordsOf(printed);
+    if (std::equal(words.begin(), words.end(), expected.begin(), expected.end(), IsTheSameWord)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+class Page : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Page, CommandsRunWithWhatShipsAndPrintWhatIsShown) {
   const TempFolder folder;
-  const std::filesystem::path project = std::filesystem::path(LYREFIT_DATA_DIR).parent_path();
-  std::filesystem::copy(project / "data", folder.Path("data"),
-                        std::filesystem::copy_options::recursive);
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.Path(""));
-  const std::vector<ReadmeCommand> commands = CommandsOf((project / "README.md").string());
-  EXPECT_GE(commands.size(), 8U);
+  fs::copy(Project() / "data", folder.Path("data"), fs::copy_options::recursive);
+  std::ifstream page(Project() / GetParam());
+  const std::vector<ReadmeCommand> commands = CommandsOf(page);
+  EXPECT_FALSE(commands.empty());
+  const auto before = fs::current_path();
+  fs::current_path(folder.Path(""));
   for (const ReadmeCommand& command : commands) {
     const AppResult result = RunApp(command.arguments);
     EXPECT_EQ(result.exit_code, 0)
-        << "README.md:" << command.line << ": " << command.arguments << '\n'
+        << GetParam() << ':' << command.line << ": " << command.arguments << '\n'
         << result.err;
+    for (const std::string& line : command.shown) {
+      EXPECT_TRUE(Prints(result.out, line))
+          << GetParam() << ':' << command.line << ": " << command.arguments << "\ndoes not print\n"
+          << line;
+    }
   }
-  std::filesystem::current_path(before);
+  fs::current_path(before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Readme, Page,
+    ::testing::Values("README.md", "data/README.md", "data/json.md", "data/diagnosis/README.md",
+                      "data/field/README.md", "data/formats/README.md",
+                      "lib/lyrefit/effects/README.md", "lib/lyrefit/family/README.md",
+                      "lib/lyrefit/fit/README.md"),
+    [](const ::testing::TestParamInfo<const char*>& page) {
+      std::string name = page.param;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+      return name;
+    });
+
+// The heading that "#how-it-works" leads to, as pages are shown on the web.
+bool HasHeading(const fs::path& page, const std::string& anchor) {
+  std::ifstream file(page);
+  for (std::string line; std::getline(file, line);) {
+    if (!StartsWith(line, "#")) continue;
+    std::string slug;
+    for (const char c : line.substr(line.find(' ') + 1)) {
+      if (std::isalnum(c) != 0) slug += static_cast<char>(std::tolower(c));
+      if (c == ' ' || c == '-') slug += '-';
+    }
+    if (slug == anchor) return true;
+  }
+  return false;
+}
+
+TEST(Readme, LinksOfEveryPageLeadSomewhere) {
+  static const std::regex kLink(R"(\]\(([^)#:\s]*)(?:#([^)\s]*))?\))");
+  int links = 0;
+  for (const char* part : {"README.md", "data", "lib", "tests"}) {
+    std::vector<fs::path> pages = {Project() / part};
+    if (fs::is_directory(pages[0])) {
+      pages.assign(fs::recursive_directory_iterator(pages[0]), {});
+    }
+    for (const fs::path& page : pages) {
+      if (page.extension() != ".md") continue;
+      const std::string text = FileText(page.string());
+      for (std::sregex_iterator link(text.begin(), text.end(), kLink);
+           link != std::sregex_iterator(); ++link, ++links) {
+        const std::string path = (*link)[1];
+        const std::string anchor = (*link)[2];
+        const fs::path target = path.empty() ? page : page.parent_path() / path;
+        EXPECT_TRUE(fs::exists(target)) << page << ": " << link->str();
+        EXPECT_TRUE(anchor.empty() || HasHeading(target, anchor)) << page << ": " << link->str();
+      }
+    }
+  }
+  EXPECT_GE(links, 40);
+}
+
+// The blocks that cmake/results.sh and cmake/landscapes.sh write anew.
+TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
+  const struct {
+    const char* page;
+    const char* block;
+  } kBlocks[] = {{"data/README.md", "certified"},
+                 {"data/landscapes/README.md", "ranked"},
+                 {"data/landscapes/README.md", "budget"},
+                 {"data/landscapes/README.md", "landscapes"}};
+  for (const auto& [page, block] : kBlocks) {
+    const std::string text = FileText((Project() / page).string());
+    const auto start = text.find(std::string("<!-- ") + block + " -->\n");
+    const auto end = text.find(std::string("<!-- end of ") + block + " -->\n");
+    ASSERT_NE(start, std::string::npos) << page << ": " << block;
+    ASSERT_NE(end, std::string::npos) << page << ": " << block;
+    EXPECT_GT(end, start + 500) << page << ": " << block;
+  }
 }
 
 TEST(Readme, ShowsTheEffectOfOnesOwnThatIsCompiled) {
-  const std::filesystem::path project = std::filesystem::path(LYREFIT_DATA_DIR).parent_path();
-  const auto text = [&](const char* file) {
-    std::ifstream stream(project / file);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-  };
-  const std::string example = text("tests/package/own_effect.cc");
+  const std::string example = FileText((Project() / "tests/package/own_effect.cc").string());
   EXPECT_GT(example.size(), 500U);
-  EXPECT_NE(text("README.md").find("```cpp\n" + example + "```"), std::string::npos);
+  EXPECT_NE(FileText((Project() / "lib/lyrefit/effects/README.md").string())
+                .find("```cpp\n" + example + "```"),
+            std::string::npos);
 }
 
 TEST(Readme, LeavesOutSynopsesAndWhatItSaysCannotBeRun) {
@@ -80,6 +205,21 @@ TEST(Readme, LeavesOutSynopsesAndWhatItSaysCannotBeRun) {
   EXPECT_FALSE(IsToBeRun("    lyrefit datasheet --isc A --voc V"));
   EXPECT_FALSE(IsToBeRun("    lyrefit fit case1.json --family free  # needs those sets"));
   EXPECT_TRUE(IsToBeRun("    lyrefit fit data/rtc_france --json fit.json"));
+}
+
+TEST(Readme, TellsWhatACommandPrintsFromTheNextOne) {
+  std::istringstream page(
+      "    lyrefit fit a \\\n        --model sd   # a comment\n\n    lyrefit 0.1.0: a\n    ...\n"
+      "      n1  1.4\n    lyrefit fit b\n\nText\n    not printed\n    lyrefit fit FILE\n    x\n");
+  const std::vector<ReadmeCommand> commands = CommandsOf(page);
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_EQ(WordsOf(commands[0].arguments), WordsOf("fit a --model sd"));
+  EXPECT_EQ(commands[0].shown, (std::vector<std::string>{"    lyrefit 0.1.0: a", "      n1  1.4"}));
+  EXPECT_EQ(commands[1].line, 7);
+  EXPECT_TRUE(commands[1].shown.empty());
+  EXPECT_TRUE(Prints("a\n  n1   1.40001\n", commands[0].shown[1]));
+  EXPECT_FALSE(Prints("a\n  n1   1.5\n", commands[0].shown[1]));
+  EXPECT_FALSE(Prints("a\n  n2   1.4\n", commands[0].shown[1]));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace lyrefit {
 // same, and why not. `remarks` holds a paragraph for each table, by its name ("Table 12").
 std::string PaperPage(const PaperStudy& study, const std::map<std::string, std::string>& remarks);
 
-// What the project's own README shows of it.
+// What other pages show of it.
 std::string CertifiedTable(const PaperStudy& study);
 std::string RankedTable(const PaperStudy& study);
 std::string BudgetSummary(const PaperStudy& study);

@@ -20,6 +20,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/random.h
   base/version.h
   certify/certify.h
+  certify/certify_options.h
   curve/check_readings.h
   curve/curve_files.h
   curve/curve_set.h
@@ -45,12 +46,16 @@ set(LYREFIT_PUBLIC_HEADERS
   law/term.h
   law/translation.h
   diagnose/diagnose.h
+  diagnose/diagnose_options.h
   diagnose/diagnosis.h
   diagnose/healthy.h
+  diagnose/healthy_comparison.h
+  diagnose/healthy_options.h
   diagnose/plan.h
   effects/catalogue.h
   family/coefficients.h
   family/data_sheet.h
+  family/family_options.h
   family/family_report.h
   family/fit_family.h
   family/fit_free.h
@@ -59,6 +64,7 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/bounds.h
   fit/error_spec.h
   fit/fit.h
+  fit/fit_options.h
   fit/fit_report.h
   fit/simulate.h
   fit/statistics.h
@@ -92,9 +98,17 @@ set(LYREFIT_PUBLIC_HEADERS
   report/text_report.h
   report/truth_text.h
   search/search.h
+  search/search_options.h
+  search/search_summary.h
   study/audit.h
+  study/audit_options.h
+  study/audit_report.h
   study/compare.h
+  study/compare_options.h
+  study/comparison.h
+  study/contenders.h
   study/coverage.h
+  study/coverage_options.h
   study/landscape.h
   study/pool.h
   study/pool_ranks.h

@@ -70,3 +70,4 @@
 #include "lyrefit/report/text_report.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/study/contenders.h"
 #include "lyrefit/study/summary.h"
 
 namespace lyrefit {

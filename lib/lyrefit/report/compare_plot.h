@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 
 namespace lyrefit {
 

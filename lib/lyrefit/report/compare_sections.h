@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 
 // What the texts on comparisons share. Sections end with a newline, or are empty where there is
 // nothing to say.

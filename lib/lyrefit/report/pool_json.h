@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 
 namespace lyrefit {
 

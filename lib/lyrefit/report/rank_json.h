@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 
 namespace lyrefit {
 

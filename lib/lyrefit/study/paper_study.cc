@@ -1,4 +1,5 @@
 #include "lyrefit/study/paper_study.h"
+#include "lyrefit/study/contenders.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -12,6 +13,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {

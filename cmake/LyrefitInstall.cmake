@@ -69,17 +69,9 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/simulate.h
   fit/statistics.h
   refine/error_terms.h
-  report/audit_csv.h
-  report/audit_json.h
-  report/audit_text.h
   report/certificate_json.h
   report/certificate_plot.h
   report/certificate_text.h
-  report/compare_csv.h
-  report/compare_json.h
-  report/compare_plot.h
-  report/compare_text.h
-  report/coverage_text.h
   report/data_sheet_json.h
   report/data_sheet_text.h
   report/diagnosis_json.h
@@ -96,10 +88,10 @@ set(LYREFIT_PUBLIC_HEADERS
   report/plot.h
   report/pvlib_json.h
   report/text_report.h
-  report/truth_text.h
   search/search.h
   search/search_options.h
-  search/search_summary.h
+  search/search_summary.h)
+set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/audit.h
   study/audit_options.h
   study/audit_report.h
@@ -115,15 +107,28 @@ set(LYREFIT_PUBLIC_HEADERS
   study/rank_tests.h
   study/read_audit_rows.h
   study/truth.h
-  study/verdict.h)
+  study/verdict.h
+  study/report/audit_csv.h
+  study/report/audit_json.h
+  study/report/audit_text.h
+  study/report/compare_csv.h
+  study/report/compare_json.h
+  study/report/compare_plot.h
+  study/report/compare_text.h
+  study/report/coverage_text.h
+  study/report/truth_text.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
+list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})
+target_sources(lyrefit_study PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
+                                    FILES ${LYREFIT_STUDY_PUBLIC_HEADERS})
+set_target_properties(lyrefit_study PROPERTIES EXPORT_NAME study)
 # Before 1.0 a new minor version may change the interface.
-set_target_properties(lyrefit PROPERTIES VERSION ${PROJECT_VERSION}
+set_target_properties(lyrefit lyrefit_study PROPERTIES VERSION ${PROJECT_VERSION}
                       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-install(TARGETS lyrefit EXPORT lyrefit-targets
+install(TARGETS lyrefit lyrefit_study EXPORT lyrefit-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -6,7 +6,7 @@
 
 #include "../temp_folder.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/report/compare_json.h"
+#include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/pool.h"
 #include "pooled_study.h"
 

@@ -59,6 +59,9 @@ function(check_file room)
     elseif(header MATCHES "^CLI/")
       complain("the library must build without the app's dependencies (<${header}>)")
     endif()
+    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/study[/.]")
+      complain("the core knows nothing of the studies (\"${header}\")")
+    endif()
     if(room IN_LIST ROOMS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
       check_own_include(${room} "${header}")
     endif()
@@ -78,7 +81,7 @@ foreach(FILE IN LISTS files)
     endif()
     check_file(${room})
   else()
-    check_file(top)  # lyrefit.h, the door to every room
+    check_file(top)  # lyrefit.h and study.h, the doors to every room
   endif()
 endforeach()
 

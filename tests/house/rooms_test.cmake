@@ -33,6 +33,8 @@ expect(lib/lyrefit/law/a.cc "  #  include <lyrefit/fit/fit.h>" "room law must no
 expect(lib/lyrefit/report/a.cc "#include \"lyrefit/refine/refine.h\"" "room report must not include room refine")
 expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/compare_text.h\"" "room report must not include room study")
 expect(lib/lyrefit/study/report/a.cc "#include \"lyrefit/diagnose/diagnose.h\"" "room study must not include room diagnose")
+expect(lib/lyrefit/lyrefit.h "#include \"lyrefit/study/compare.h\"" "the core knows nothing of the studies")
+expect(lib/lyrefit/study.h "#include \"lyrefit/study/compare.h\"" "")
 expect(lib/lyrefit/fit/a.cc "#include \"../report/plot.h\"" "includes start with")
 expect(lib/lyrefit/fit/a.cc "#include \"lyrefit/lyrefit.h\"" "which includes every room")
 expect(lib/lyrefit/refine/a.cc "#include <ceres/jet.h>" "only refine/solve.cc and refine/least_squares.cc include Ceres")

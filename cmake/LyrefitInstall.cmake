@@ -3,77 +3,55 @@
 include(CMakePackageConfigHelpers)
 set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 
-# Public is what stands in this list. Whatever a header here includes must stand here too: the test
-# `package` compiles each one alone from the installed tree, where the others are not.
+# Public is what stands in these lists; the other headers are closed and may change at any time. Whatever a header
+# here includes must stand here too: the test `package` compiles each one alone from the installed tree, where the
+# others are not.
 set(LYREFIT_PUBLIC_HEADERS
+  # doors
   lyrefit.h
-  base/constants.h
-  base/dual.h
-  base/enum_text.h
-  base/error.h
-  base/file.h
-  base/numbers.h
-  base/observer.h
-  base/option.h
-  base/parallel.h
-  base/portable_exp.h
-  base/random.h
-  base/version.h
   certify/certify.h
-  curve/check_readings.h
-  curve/curve_files.h
-  curve/curve_set.h
-  curve/iv_curve.h
-  curve/key_points.h
-  curve/nearest_curve.h
-  curve/read_curve.h
-  curve/write_curve.h
-  law/current.h
-  law/curve_shape.h
-  law/device.h
-  law/effect.h
-  law/extension.h
-  law/kernel.h
-  law/law.h
-  law/model_points.h
-  law/pack.h
-  law/pack.inc
-  law/parameter.h
-  law/reading.h
-  law/solve.h
-  law/string_layout.h
-  law/term.h
-  law/translation.h
   diagnose/diagnose.h
-  diagnose/diagnosis.h
   diagnose/healthy.h
-  diagnose/plan.h
   effects/catalogue.h
   family/coefficients.h
   family/data_sheet.h
-  family/family_report.h
   family/fit_family.h
   family/fit_free.h
   family/pvlib_parameters.h
-  family/read_pvlib.h
+  fit/fit.h
+  fit/simulate.h
+  law/kernel.h
+  search/search.h
+  # their options
+  certify/certify_options.h
+  diagnose/diagnose_options.h
+  diagnose/healthy_options.h
+  family/family_options.h
   fit/bounds.h
   fit/error_spec.h
-  fit/fit.h
+  fit/fit_options.h
+  search/search_options.h
+  # their records
+  curve/curve_set.h
+  curve/iv_curve.h
+  diagnose/diagnosis.h
+  diagnose/healthy_comparison.h
+  diagnose/plan.h
+  family/family_report.h
   fit/fit_report.h
-  fit/simulate.h
-  fit/statistics.h
   refine/error_terms.h
-  report/audit_csv.h
-  report/audit_json.h
-  report/audit_text.h
+  search/search_summary.h
+  # readers, and the writer of curves
+  curve/check_readings.h
+  curve/curve_files.h
+  curve/nearest_curve.h
+  curve/read_curve.h
+  curve/write_curve.h
+  family/read_pvlib.h
+  # writers of records
   report/certificate_json.h
   report/certificate_plot.h
   report/certificate_text.h
-  report/compare_csv.h
-  report/compare_json.h
-  report/compare_plot.h
-  report/compare_text.h
-  report/coverage_text.h
   report/data_sheet_json.h
   report/data_sheet_text.h
   report/diagnosis_json.h
@@ -90,26 +68,73 @@ set(LYREFIT_PUBLIC_HEADERS
   report/plot.h
   report/pvlib_json.h
   report/text_report.h
-  report/truth_text.h
-  search/search.h
+  # laws, and what an effect of one's own is written with
+  law/curve_shape.h
+  law/device.h
+  law/effect.h
+  law/extension.h
+  law/law.h
+  law/pack.h
+  law/pack.inc
+  law/parameter.h
+  law/reading.h
+  law/solve.h
+  law/string_layout.h
+  law/term.h
+  law/translation.h
+  curve/key_points.h
+  # what all of them speak
+  base/constants.h
+  base/dual.h
+  base/enum_text.h
+  base/error.h
+  base/file.h
+  base/numbers.h
+  base/observer.h
+  base/option.h
+  base/parallel.h
+  base/portable_exp.h
+  base/random.h
+  base/version.h)
+set(LYREFIT_STUDY_PUBLIC_HEADERS
+  study.h
   study/audit.h
+  study/audit_options.h
+  study/audit_report.h
   study/compare.h
+  study/compare_options.h
+  study/comparison.h
+  study/contenders.h
   study/coverage.h
+  study/coverage_options.h
   study/landscape.h
   study/pool.h
   study/pool_ranks.h
   study/rank_tests.h
   study/read_audit_rows.h
   study/truth.h
-  study/verdict.h)
+  study/verdict.h
+  study/report/audit_csv.h
+  study/report/audit_json.h
+  study/report/audit_text.h
+  study/report/compare_csv.h
+  study/report/compare_json.h
+  study/report/compare_plot.h
+  study/report/compare_text.h
+  study/report/coverage_text.h
+  study/report/truth_text.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
+list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})
+target_sources(lyrefit_study PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
+                                    FILES ${LYREFIT_STUDY_PUBLIC_HEADERS})
+set_target_properties(lyrefit_study PROPERTIES EXPORT_NAME study)
 # Before 1.0 a new minor version may change the interface.
-set_target_properties(lyrefit PROPERTIES VERSION ${PROJECT_VERSION}
+set_target_properties(lyrefit lyrefit_study PROPERTIES VERSION ${PROJECT_VERSION}
                       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-install(TARGETS lyrefit EXPORT lyrefit-targets
+install(TARGETS lyrefit lyrefit_study EXPORT lyrefit-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -4,10 +4,10 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-InstallPackages build peers
+InstallPackages build test peers
 cd -- "$LYREFIT_ROOT"
-Configure build
-Build build --target lyrefit_app
+Configure build -DLYREFIT_BUILD_TESTS=ON
+Build build --target lyrefit_paper
 
-Say "lyrefit reproduce data/paper"
-build/apps/lyrefit/lyrefit reproduce data/paper --update data/README.md --update data/landscapes/README.md
+Say "build/tests/paper/lyrefit_paper data/paper --update data/README.md --update data/landscapes/README.md"
+build/tests/paper/lyrefit_paper data/paper --update data/README.md --update data/landscapes/README.md

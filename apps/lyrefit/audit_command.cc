@@ -2,9 +2,9 @@
 
 #include "flags.h"
 #include "interrupt.h"
-#include "lyrefit/report/audit_csv.h"
-#include "lyrefit/report/audit_json.h"
-#include "lyrefit/report/audit_text.h"
+#include "lyrefit/study/report/audit_csv.h"
+#include "lyrefit/study/report/audit_json.h"
+#include "lyrefit/study/report/audit_text.h"
 #include "output.h"
 
 namespace lyrefit {

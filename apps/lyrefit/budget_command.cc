@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/report/compare_plot.h"
-#include "lyrefit/report/compare_text.h"
+#include "lyrefit/study/report/compare_plot.h"
+#include "lyrefit/study/report/compare_text.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/report/coverage_text.h"
+#include "lyrefit/study/report/coverage_text.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -34,17 +34,6 @@ struct Printed {
   double half_unit = 0;
 };
 
-double HalfUnit(const std::string& text) {
-  const std::size_t exponent_at = text.find_first_of("eE");
-  const std::string digits = text.substr(0, exponent_at);
-  const std::size_t point = digits.find('.');
-  const double decimals =
-      point == std::string::npos ? 0 : static_cast<double>(digits.size() - point - 1);
-  const double exponent =
-      exponent_at == std::string::npos ? 0 : ParseNumber(text.substr(exponent_at + 1)).value_or(0);
-  return 0.5 * std::pow(10, exponent - decimals);
-}
-
 // `text` given to `flag`; in percent of `whole` where a sign says so and `whole` is given.
 Expected<Printed> ParsePrinted(const char* flag, const std::string& text, double whole = 0) {
   const bool percent = whole != 0 && !text.empty() && text.back() == '%';

@@ -17,7 +17,6 @@
 #include "fit_command.h"
 #include "interrupt.h"
 #include "output.h"
-#include "reproduce_command.h"
 #include "sensitivity_command.h"
 #include "simulate_command.h"
 
@@ -62,8 +61,7 @@ int Main(int argc, char** argv) {
       MakeCommand<CertifyCommand>(&line),   MakeCommand<CompareCommand>(&line),
       MakeCommand<BudgetCommand>(&line),    MakeCommand<SensitivityCommand>(&line),
       MakeCommand<DataSheetCommand>(&line), MakeCommand<AuditCommand>(&line),
-      MakeCommand<ReproduceCommand>(&line), MakeCommand<CoverageCommand>(&line),
-      MakeCommand<DiagnoseCommand>(&line),
+      MakeCommand<CoverageCommand>(&line),  MakeCommand<DiagnoseCommand>(&line),
   };
   const Expected<std::string> asked = line.Parse(argc, argv);
   if (!asked) {

@@ -1,6 +1,6 @@
 #include "sensitivity_command.h"
 
-#include "lyrefit/report/compare_text.h"
+#include "lyrefit/study/report/compare_text.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "flags.h"
 #include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"
 
 namespace lyrefit {
 

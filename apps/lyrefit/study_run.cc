@@ -1,6 +1,6 @@
 #include "interrupt.h"
-#include "lyrefit/report/compare_csv.h"
-#include "lyrefit/report/compare_json.h"
+#include "lyrefit/study/report/compare_csv.h"
+#include "lyrefit/study/report/compare_json.h"
 #include "output.h"
 #include "study_flags.h"
 

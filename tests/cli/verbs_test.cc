@@ -56,19 +56,12 @@ TEST(Verbs, HelpThatCannotBeWrittenIsAnError) {
 TEST(Verbs, RefuseNumbersThatCountNothing) {
   const TempFolder folder;
   const std::string cases[] = {
-      "fit " + kRtc + "--threads -3",
-      "diagnose " + kRtc + "--threads -3",
-      "compare " + kRtc + "--threads -3",
-      "budget " + kRtc + "--threads 5000",
-      "sensitivity " + kRtc + "--threads -1",
-      "coverage --threads -3",
-      "reproduce '" + DataFolder("paper") + "' --threads -3",
-      "compare " + kRtc + "--runs -1",
-      "compare " + kRtc + "--runs 0",
-      "compare " + kRtc + "--seed -1",
-      "simulate --set Iph=1 --points -5",
-      "coverage --set Iph=8 --cells -3",
-      "fit " + kRtc + "--loss-scale -1",
+      "fit " + kRtc + "--threads -3",         "diagnose " + kRtc + "--threads -3",
+      "compare " + kRtc + "--threads -3",     "budget " + kRtc + "--threads 5000",
+      "sensitivity " + kRtc + "--threads -1", "coverage --threads -3",
+      "compare " + kRtc + "--runs -1",        "compare " + kRtc + "--runs 0",
+      "compare " + kRtc + "--seed -1",        "simulate --set Iph=1 --points -5",
+      "coverage --set Iph=8 --cells -3",      "fit " + kRtc + "--loss-scale -1",
       "certify " + kRtc + "--cells -1",
   };
   for (const std::string& arguments : cases) {
@@ -81,7 +74,7 @@ TEST(Verbs, RefuseNumbersThatCountNothing) {
 
 TEST(Verbs, ThatPrintAReportKnowQuiet) {
   for (const char* verb : {"fit", "certify", "diagnose", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "coverage", "reproduce"}) {
+                           "datasheet", "audit", "coverage"}) {
     EXPECT_THAT(RunApp(std::string(verb) + " --help").out, HasSubstr("--quiet")) << verb;
   }
   const AppResult audit = RunApp("audit '" + DataFolder("paper") + "/rows.csv' --quiet");

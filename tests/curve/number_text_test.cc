@@ -107,5 +107,12 @@ TEST(FirstInvalidUtf8Test, FindsTheFirstBadByte) {
   for (const auto& c : kCases) EXPECT_EQ(FirstInvalidUtf8(c.text), c.at);
 }
 
+TEST(HalfUnit, FollowsTheLastPrintedDigit) {
+  EXPECT_DOUBLE_EQ(HalfUnit("1.23"), 0.005);
+  EXPECT_DOUBLE_EQ(HalfUnit("9.82485E-04"), 0.5e-9);
+  EXPECT_DOUBLE_EQ(HalfUnit("0.0010078"), 0.5e-7);
+  EXPECT_DOUBLE_EQ(HalfUnit("100000"), 0.5);
+}
+
 }  // namespace
 }  // namespace lyrefit

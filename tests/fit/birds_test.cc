@@ -1,4 +1,5 @@
 #include "lyrefit/fit/birds.h"
+#include "lyrefit/fit/fit.h"
 
 #include <gtest/gtest.h>
 

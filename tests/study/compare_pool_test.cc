@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
-#include "lyrefit/report/compare_json.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/pool.h"
 #include "pooled_study.h"
 

@@ -1,4 +1,5 @@
 #include "lyrefit/study/compare.h"
+#include "lyrefit/fit/fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"
 
 namespace lyrefit {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_free.h"
 #include "lyrefit/study/truth.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"
 #include "lyrefit/study/landscape.h"
 
 namespace lyrefit {

@@ -1,4 +1,5 @@
 #include "lyrefit/study/reference.h"
+#include "lyrefit/study/compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

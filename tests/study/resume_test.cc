@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
-#include "lyrefit/report/compare_json.h"
+#include "lyrefit/study/report/compare_json.h"
 #include "small_study.h"
 
 namespace lyrefit {

@@ -7,6 +7,7 @@
 
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"
 
 namespace lyrefit {
 

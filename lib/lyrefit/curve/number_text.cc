@@ -90,6 +90,18 @@ bool IsMissingWord(std::string_view text) {
   return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 
+double HalfUnit(const std::string& printed) {
+  const std::size_t exponent_at = printed.find_first_of("eE");
+  const std::string mantissa = printed.substr(0, exponent_at);
+  const double exponent = exponent_at == std::string::npos
+                              ? 0
+                              : ParseNumber(printed.substr(exponent_at + 1)).value_or(0);
+  const std::size_t point = mantissa.find('.');
+  const double decimals =
+      point == std::string::npos ? 0 : static_cast<double>(mantissa.size() - point - 1);
+  return 0.5 * std::pow(10.0, exponent - decimals);
+}
+
 bool IsMissingReading(std::string_view text, bool decimal_comma) {
   if (TrimBlanks(text).empty() || IsMissingWord(TrimBlanks(text))) return true;
   const std::optional<double> number = ParseNumber(text, decimal_comma);

@@ -13,6 +13,9 @@ namespace lyrefit {
 // them in its own words.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
+// Half a unit of the last digit of a number as printed: 0.005 for "1.23", 5e-9 for "1.23E-06".
+double HalfUnit(const std::string& printed);
+
 // What instruments write for an overflow or for no value lies beyond this, what anybody measures
 // below.
 inline constexpr double kOverflowCode = 1e30;

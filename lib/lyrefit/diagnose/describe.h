@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {

@@ -1,67 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/fit/error_spec.h"
-#include "lyrefit/law/device.h"
 
 namespace lyrefit {
-
-struct Effect;  // law/effect.h
-
-struct DiagnoseOptions {
-  double level = 0.05;               // rate of false alarms over the whole catalogue
-  Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
-  std::vector<std::string> effects;  // ids to try; empty: every one the data allow
-  // Tried beside the catalogue's, their ids their own; the caller keeps them while the diagnosis
-  // runs. Each needs an id, parameters with finite bounds, a stage and probes.
-  std::vector<const Effect*> own_effects;
-  std::uint64_t seed = 1;
-  // White: a laboratory's. Field: beside it a rough path along the sweeps, light that wanders or a
-  // module that departs from the model. Stated: believed.
-  ErrorSpec noise = {ErrorKind::kField, {}, "field"};
-  // A cause is named where its effect is certainly larger than one of these: in parts of Isc (root
-  // mean square over the curve), in parts of Pmax. What is there below them is said apart.
-  double floor_current = 0.0025;
-  double floor_power = 0.005;
-  int draws = 2000;        // simulated nulls
-  int largest_causes = 4;  // at most so many are named
-  bool held_out = true;    // measure the gain on what was not fitted
-  int folds = 10;
-  bool plan = false;    // simulate what would tell the first cause from its equivalents
-  bool extend = false;  // search and polish the extended model as a FitReport
-  int threads = 0;
-};
-
-// For readings of little noise at a bench, of a device that is known to follow its model: white
-// noise, and whatever is there is named.
-inline DiagnoseOptions LaboratoryOptions() {
-  DiagnoseOptions options;
-  options.noise = ErrorSpec();
-  options.floor_current = options.floor_power = 0;
-  return options;
-}
-
-inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
-    {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
-     0.5},
-    {"seed", "", "seed of the simulated nulls and of the search", &DiagnoseOptions::seed, 0,
-     1.8446744073709552e19},
-    {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",
-     &DiagnoseOptions::floor_current, 0, 1},
-    {"floor-power", "", "smallest effect that is named, in parts of Pmax",
-     &DiagnoseOptions::floor_power, 0, 1},
-    {"draws", "", "simulated nulls that set the level", &DiagnoseOptions::draws, 200, 1e6},
-    {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
-    {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,
-     100},
-};
 
 // What the base model gets wrong in these data, why, and what allowing for it gains. The set holds
 // one curve (one sweep, or up and down), a lit and a dark curve (irradiance 0), or a family over

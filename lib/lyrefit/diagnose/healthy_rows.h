@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/expectation.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/healthy_comparison.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/law/effect.h"
 
 namespace lyrefit {

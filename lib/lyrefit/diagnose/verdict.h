@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 

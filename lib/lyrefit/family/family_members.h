@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/family_options.h"
+#include "lyrefit/family/family_report.h"
 #include "lyrefit/refine/joint.h"
 
 namespace lyrefit {

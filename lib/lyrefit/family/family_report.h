@@ -11,7 +11,8 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
 #include "lyrefit/refine/error_terms.h"
-#include "lyrefit/search/search.h"
+#include "lyrefit/search/search_options.h"
+#include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {
 

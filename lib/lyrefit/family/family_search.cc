@@ -7,6 +7,7 @@
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/search/search.h"
 
 namespace lyrefit {
 namespace {

@@ -10,6 +10,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/family/free_fits.h"
+#include "lyrefit/fit/fit.h"
 #include "lyrefit/law/quote.h"
 
 namespace lyrefit {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/family_options.h"
+#include "lyrefit/family/family_report.h"
 
 namespace lyrefit {
 

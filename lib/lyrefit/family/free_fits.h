@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "lyrefit/family/family_report.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_options.h"
+#include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
 

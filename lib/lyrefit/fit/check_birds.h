@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/search/search.h"
+#include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {
 

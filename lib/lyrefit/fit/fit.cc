@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
@@ -26,6 +27,7 @@
 #include "lyrefit/fit/weigh.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
+#include "lyrefit/search/search.h"
 
 namespace lyrefit {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_options.h"
+#include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
 

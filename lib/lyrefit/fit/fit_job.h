@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_options.h"
+#include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/law/forms.h"
 #include "lyrefit/refine/refine.h"

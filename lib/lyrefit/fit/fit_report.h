@@ -12,7 +12,8 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/refine/error_terms.h"
-#include "lyrefit/search/search.h"
+#include "lyrefit/search/search_options.h"
+#include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {
 

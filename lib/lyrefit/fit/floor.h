@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/certify/certify.h"
+#include "lyrefit/certify/certify_options.h"
 #include "lyrefit/law/parameter.h"
 
 namespace lyrefit {

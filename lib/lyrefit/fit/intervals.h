@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/error_model.h"

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_options.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {

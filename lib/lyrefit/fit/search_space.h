@@ -4,7 +4,7 @@
 
 #include "lyrefit/law/forms.h"
 #include "lyrefit/law/parameter.h"
-#include "lyrefit/search/search.h"
+#include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {
 

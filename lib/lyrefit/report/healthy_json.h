@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/healthy_comparison.h"
 
 namespace lyrefit {
 

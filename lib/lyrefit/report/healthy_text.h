@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/healthy_comparison.h"
 
 namespace lyrefit {
 

@@ -2,7 +2,8 @@
 
 #include <chrono>
 
-#include "lyrefit/search/search.h"
+#include "lyrefit/search/search_options.h"
+#include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {
 

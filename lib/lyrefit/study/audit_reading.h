@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/audit.h"
 #include "lyrefit/study/audit_curves.h"
+#include "lyrefit/study/audit_report.h"
 
 namespace lyrefit {
 

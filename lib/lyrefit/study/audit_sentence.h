@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lyrefit/study/audit.h"
+#include "lyrefit/study/audit_report.h"
 
 namespace lyrefit {
 

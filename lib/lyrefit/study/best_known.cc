@@ -4,6 +4,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/study/compare_run.h"
+#include "lyrefit/study/contenders.h"
 #include "lyrefit/study/pool.h"
 
 namespace lyrefit {

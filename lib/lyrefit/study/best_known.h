@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 #include "lyrefit/study/reference.h"
 
 namespace lyrefit {

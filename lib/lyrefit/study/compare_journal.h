@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/study/best_known.h"
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 #include "lyrefit/study/journal.h"
 #include "lyrefit/study/summary.h"
 

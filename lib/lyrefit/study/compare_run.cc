@@ -1,5 +1,7 @@
 #include "lyrefit/study/compare_run.h"
 
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/fit/fit.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
 
@@ -128,23 +130,6 @@ void NameParameters(const CompareCurve& subject, const CompareOptions& options,
 }
 
 }  // namespace
-
-CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds) {
-  CompareCurve subject;
-  subject.curve = std::move(curve);
-  subject.bounds = std::move(bounds);
-  return subject;
-}
-
-CompareCurve SubjectOf(LandscapeCase made) {
-  CompareCurve subject = MakeSubject(std::move(made.curve), std::move(made.bounds));
-  subject.problem = std::move(made.problem);
-  subject.model = made.model;
-  subject.with = std::move(made.with);
-  subject.set = std::move(made.set);
-  subject.family = std::move(made.family);
-  return subject;
-}
 
 ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
                               const CompareOptions& options) {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 #include "lyrefit/study/summary.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/contenders.h"
 
 namespace lyrefit {
 

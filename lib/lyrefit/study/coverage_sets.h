@@ -5,7 +5,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/law/translation.h"
-#include "lyrefit/study/coverage.h"
+#include "lyrefit/study/coverage_options.h"
 
 namespace lyrefit {
 

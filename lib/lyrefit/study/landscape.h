@@ -9,7 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/family_options.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/law/extension.h"
 

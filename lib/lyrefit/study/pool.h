@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 
 // Problems of many basins, where what counts is how often a search ends in the best one and what it
 // costs: all devices of a problem are summed up as one. All of it follows from the runs.

@@ -10,7 +10,6 @@
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/study/audit_columns.h"
-#include "lyrefit/study/published.h"
 
 namespace lyrefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/study/compare.h"
+#include "lyrefit/study/comparison.h"
 #include "lyrefit/study/reference.h"
 
 namespace lyrefit {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "lyrefit/base/option.h"
+
+namespace lyrefit {
+
+struct HealthyOptions {
+  double level = 0.01;  // rate of false alarms over all that is compared
+  int threads = 0;      // 0: all cores; never changes a result
+};
+
+inline constexpr OptionRow<HealthyOptions> kHealthyOptionRows[] = {
+    {"healthy-level", "", "rate of false alarms of the comparison with healthy sweeps",
+     &HealthyOptions::level, 1e-6, 0.5},
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/option.h"
+
+namespace lyrefit {
+
+// The four settings of the lyrebird optimizer, what is built on it, and two plain baselines.
+enum class Algorithm {
+  kMlo,       // modified lyrebird: both strategies
+  kLo,        // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
+  kLoMblss,   // with the memory-based learn search strategy only
+  kLoDmlss,   // with the diversity-maintenance learn search strategy only
+  kMloTuned,  // mlo that learns Pm and gamma from the moves that gained
+  kMloKnees,  // mlo whose first flock sits partly where the problem suggests
+  kRandom,    // uniform random points: the baseline every figure is printed beside
+  kDe,        // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
+};
+
+template <>
+struct EnumTable<Algorithm> {
+  static constexpr EnumText<Algorithm> kRows[] = {
+      {Algorithm::kMlo, "mlo"},
+      {Algorithm::kLo, "lo"},
+      {Algorithm::kLoMblss, "lo+mblss"},
+      {Algorithm::kLoDmlss, "lo+dmlss"},
+      {Algorithm::kMloTuned, "mlo+tuned"},
+      {Algorithm::kMloKnees, "mlo+knees"},
+      {Algorithm::kRandom, "random"},
+      {Algorithm::kDe, "de"},
+  };
+};
+
+struct SearchOptions {
+  Algorithm algorithm = Algorithm::kMlo;
+  std::uint64_t seed = 0;
+  std::uint64_t run = 0;               // number of the run: seed and run together name the stream
+  int population = 20;                 // birds
+  int iterations = 20;                 // one evaluation a bird each
+  double memory_rate = 0.5;            // Pm of MBLSS; 0 switches it off
+  double distance_coefficient = 0.25;  // gamma of DMLSS; 0 switches it off
+  double de_scale = 0.5;               // F of differential evolution
+  double de_crossover = 0.9;           // CR of differential evolution
+  std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
+  double target = -kInfinity;  // stop at or below this objective value
+  double time_limit_s = kInfinity;
+  int patience = 0;  // stop after so many iterations without a better best; 0: never
+  int elites = 4;    // how many distinct birds to return, the best included
+};
+
+inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
+    {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
+    {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
+    {"population", "birds", "number of birds", &SearchOptions::population, 4, 100000},
+    {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1,
+     1e8},
+    {"memory-rate", "", "Pm: rate of the memory-based strategy", &SearchOptions::memory_rate, 0, 1},
+    {"distance-coefficient", "", "gamma: reach of the diversity strategy",
+     &SearchOptions::distance_coefficient, 0, 1},
+    {"de-scale", "", "F of differential evolution", &SearchOptions::de_scale, 0, 2},
+    {"de-crossover", "", "CR of differential evolution", &SearchOptions::de_crossover, 0, 1},
+    {"max-evaluations", "", "stop after so many evaluations", &SearchOptions::max_evaluations, 4,
+     1e19},
+    {"target", "", "stop at or below this objective value", &SearchOptions::target, -kInfinity,
+     kInfinity},
+    {"time-limit", "s", "stop after so many seconds", &SearchOptions::time_limit_s, 0, kInfinity},
+    {"patience", "iterations", "stop after so many iterations without gain; 0: never",
+     &SearchOptions::patience, 0, 1e8},
+    {"elites", "birds", "distinct birds handed to the polish", &SearchOptions::elites, 1, 1000},
+}};
+
+}  // namespace lyrefit

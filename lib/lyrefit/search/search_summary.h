@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/search/search_options.h"
+
+namespace lyrefit {
+
+enum class SearchTermination {
+  kNotRun,
+  kIterations,   // all iterations done
+  kEvaluations,  // budget used up
+  kTarget,       // target reached
+  kTimeLimit,
+  kPatience,     // no gain for `patience` iterations
+  kInterrupted,  // the observer asked to stop
+};
+
+template <>
+struct EnumTable<SearchTermination> {
+  static constexpr EnumText<SearchTermination> kRows[] = {
+      {SearchTermination::kNotRun, "not run"},
+      {SearchTermination::kIterations, "iterations"},
+      {SearchTermination::kEvaluations, "evaluations"},
+      {SearchTermination::kTarget, "target"},
+      {SearchTermination::kTimeLimit, "time limit"},
+      {SearchTermination::kPatience, "patience"},
+      {SearchTermination::kInterrupted, "interrupted"},
+  };
+};
+
+// A point of the box and its objective value.
+struct Bird {
+  std::vector<double> x;
+  double objective = kInfinity;
+};
+
+// The best so far after an iteration (iteration 0: the first random birds).
+struct TracePoint {
+  std::int64_t iteration = 0;
+  std::int64_t evaluations = 0;
+  double best = kInfinity;
+};
+
+struct SearchSummary {
+  SearchTermination termination = SearchTermination::kNotRun;
+  std::string message;
+  Bird best;
+  std::vector<Bird> elites;  // distinct birds, best first; the first one is `best`
+  std::int64_t evaluations = 0;
+  std::int64_t iterations = 0;
+  double seconds = 0;
+  std::vector<TracePoint> trace;
+};
+
+struct Box {
+  std::vector<double> lower;
+  std::vector<double> upper;
+  // Places where a minimum may lie, best guess first; only kMloKnees looks at them. May be empty.
+  std::vector<std::vector<double>> suggested = {};
+};
+
+// The function to minimise: takes as many numbers as the box has sides. Must return the same value
+// for the same point; NaN counts as infinity.
+using ObjectiveFunction = std::function<double(const double*)>;
+
+// Any search with this signature can take the place of Search(): it must come back with the best
+// point, at least one elite, the trace and the count of evaluations, and the same for the same seed
+// and run.
+using SearchFunction = std::function<SearchSummary(const ObjectiveFunction&, const Box&,
+                                                   const SearchOptions&, const Observer&)>;
+
+}  // namespace lyrefit

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/study/compare_options.h"
+#include "lyrefit/study/rank_tests.h"
+
+namespace lyrefit {
+
+// RMSE in ampere, all of the objective compared. NaN: not asked for. Where effects have several
+// forms (law/forms.h) it is times FitReport::form_price, so that the best form has the lowest.
+struct RunRecord {
+  int run = 0;  // number of the run, which with the seed names its random stream
+  double searched_A = kUnknown;
+  double plain_polished_A = kUnknown;  // one bounded solve from the best bird
+  double own_polished_A = kUnknown;    // the best bird's own polish
+  double polished_A = kUnknown;        // the hybrid: best of all starts
+  std::int64_t evaluations = 0;
+  std::int64_t curve_evaluations = 0;  // that those cost; see FitReport
+  // Of the search alone, counted in whole iterations; -1: never reached.
+  std::int64_t evaluations_to_target = -1;
+  double search_seconds = 0;
+  double polish_seconds = 0;        // from all starts
+  double plain_seconds = kUnknown;  // of the best bird's plain solve
+  double own_seconds = kUnknown;    // of the best bird's own polish
+  // Of problems that are pooled: where the best bird's own polish and the hybrid ended, in the
+  // order of Reference::parameters. Empty: not kept.
+  std::vector<double> own_parameters;
+  std::vector<double> parameters;
+};
+
+struct Spread {
+  double min = kUnknown;
+  double mean = kUnknown;
+  double median = kUnknown;
+  double max = kUnknown;
+  double std = kUnknown;  // n - 1 in the denominator; 0 for one run
+  int within_1e9 = 0;     // runs no more than that far (relative) above the reference
+  int within_1e6 = 0;
+};
+
+// A point of the median course of the searches.
+struct MedianPoint {
+  std::int64_t evaluations = 0;
+  double best_A = kUnknown;  // median over the runs of the best so far
+};
+
+struct ContenderResult {
+  std::string name;
+  std::string algorithm;
+  SearchOptions search;
+  ContenderKind kind = ContenderKind::kSearch;
+  Birds birds = Birds::kAll;
+  std::int64_t budget = 0;
+  std::vector<RunRecord> runs;
+  Spread searched;
+  Spread plain_polished;
+  Spread own_polished;
+  Spread polished;
+  int target_hits = 0;                     // runs whose search reached the target
+  double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
+                                           // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit
+  double evaluations = 0;                  // mean of a run, as are the seconds
+  double curve_evaluations = 0;            // and this
+  double search_seconds = 0;
+  double polish_seconds = 0;
+  std::vector<MedianPoint> trace;  // about 60 points, evenly spaced in the logarithm
+};
+
+// What the runs are measured against.
+struct Reference {
+  double rmse_A = kUnknown;
+  bool certified = false;  // proved: no parameters within the bounds are lower by 1e-9 or more
+  double lower_bound_A = kUnknown;  // proved lower bound, NaN: none
+  double floor_A = kUnknown;        // what any number of diodes could reach, NaN: not known
+  std::string origin;               // in plain words
+  std::vector<double> parameters;   // in the device's order, effects in the units of reports
+  bool interrupted = false;         // before there was a proof
+  bool by_multistart = false;       // no run came within 1e-6 of the multistart's (best_known.h)
+  int points = 0;                   // random points that it polished
+  int visits = 0;                   // those that ended within 1e-6 (relative) of the reference
+};
+
+// Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
+struct Ranking {
+  Friedman friedman;
+  std::vector<RankPair> pairs;  // every pair of contenders
+  struct SignedRank {
+    int first = 0;
+    int second = 0;
+    Wilcoxon test;
+    double p_holm = 1;  // over all pairs
+  };
+  std::vector<SignedRank> signed_ranks;  // every pair
+};
+
+// One curve, or set of curves, with one model.
+struct ProblemResult {
+  std::string curve_name;
+  Model model = Model::kSingleDiode;
+  std::string bounds_name;
+  // What it is pooled under (pool.h): the subject's own, else, of a curve with effects, the
+  // curve's name. Empty: a plain problem on its own.
+  std::string problem;
+  Objective objective = Objective::kMeasuredCurrent;
+  std::vector<EffectUse> with;
+  bool family = false;
+  std::vector<std::string> parameters;  // names, in the order of Reference::parameters
+  int first_effect = -1;                // where those of the effects begin; -1: none
+  Reference reference;
+  std::vector<ContenderResult> contenders;
+  // Of the runs that every contender has done.
+  Ranking searched;
+  Ranking polished;  // the hybrid's figures; those within 1e-9 of each other count as equal
+  // False where runs, or the proof of the reference, were cut short: only what was done is there,
+  // and contenders without a single run are left out.
+  bool complete = true;
+};
+
+struct Comparison {
+  std::string version;
+  CompareOptions options;
+  std::vector<ProblemResult> problems;  // curves in the order given, each with all models; those
+                                        // without a single run are left out
+  std::vector<std::string> doubts;      // of the readings, before any run; see CheckReadings
+  double seconds = 0;
+  bool interrupted = false;          // some problem is not complete
+  std::vector<std::string> remarks;  // on the journal, in plain sentences
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "lyrefit/base/option.h"
+#include "lyrefit/family/family_options.h"
+
+namespace lyrefit {
+
+struct CoverageOptions {
+  int sets = 500;
+  std::uint64_t seed = 0;            // of everything that is drawn; set s has its own stream
+  int curves = 0;                    // of each set; 0: drawn from 5 to 30 for every set
+  int points = 40;                   // of each curve, even steps from 0 V to open circuit
+  double noise_relative = 1e-3;      // standard deviation of every current, of Isc at the reference
+  double temperature_error_K = 0;    // every sensor reads that much too high
+  double irradiance_error_W_m2 = 0;  // the same
+  std::map<std::string, double> module;  // shared parameters by symbol or name, all of them; empty:
+                                         // a module drawn for every set
+  int cells_in_series = 72;              // of that module
+  int threads = 0;                       // 0: all cores; never changes a result but the seconds
+  // A file that every finished set is written to, and that a study is taken up from; empty: none.
+  // `sets` and `threads` may be others than before.
+  std::string journal;
+  // Law, model, offsets and search of the fits. What costs time and says nothing here (fits of
+  // single curves, folds, random baseline) is switched off, and every fit has one thread.
+  FamilyOptions family;
+};
+
+inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
+    {"sets", "", "simulated sets", &CoverageOptions::sets, 1, 1e6},
+    {"seed", "", "seed of everything that is drawn; set s has its own stream",
+     &CoverageOptions::seed, 0, 1.8446744073709552e19},
+    {"curves", "", "curves of each set; 0: drawn from 5 to 30 for every set",
+     &CoverageOptions::curves, 0, 1000},
+    {"points", "", "points of each curve, from 0 V to open circuit", &CoverageOptions::points, 10,
+     1e5},
+    {"noise-relative", "", "standard deviation of every current, as a part of Isc at the reference",
+     &CoverageOptions::noise_relative, 1e-9, 0.1},
+    {"temperature-error", "K", "hidden: the temperatures read that much too high",
+     &CoverageOptions::temperature_error_K, -20, 20},
+    {"irradiance-error", "W/m2", "hidden: the irradiances read that much too high",
+     &CoverageOptions::irradiance_error_W_m2, -80, 80},
+}};
+
+}  // namespace lyrefit

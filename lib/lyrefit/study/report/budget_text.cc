@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/pool.h"
+
+namespace lyrefit {
+namespace {
+
+// How far a run is taken, and from where on it counts as a hit.
+struct Level {
+  const char* title;
+  const char* column;
+  Spread ContenderResult::*stage;
+  int Spread::*hits;
+};
+
+constexpr Level kLevels[] = {
+    {"Search alone, runs of {} within 1e-6", "search alone", &ContenderResult::searched,
+     &Spread::within_1e6},
+    {"One plain solve from the best bird, runs of {} within 1e-9", "plain solve",
+     &ContenderResult::plain_polished, &Spread::within_1e9},
+    {"The best bird's own polish, runs of {} within 1e-9", "best bird",
+     &ContenderResult::own_polished, &Spread::within_1e9},
+    {"All starts (hybrid), runs of {} within 1e-9", "all starts", &ContenderResult::polished,
+     &Spread::within_1e9},
+};
+
+// The contenders of one algorithm, by rising budget.
+struct SearchRow {
+  std::string algorithm;
+  std::vector<const ContenderResult*> cells;
+};
+
+std::vector<SearchRow> RowsOf(const ProblemResult& problem) {
+  std::vector<SearchRow> rows;
+  for (const ContenderResult& contender : problem.contenders) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const SearchRow& other) {
+      return other.algorithm == contender.algorithm;
+    });
+    if (row == rows.end()) row = rows.insert(rows.end(), {contender.algorithm, {}});
+    row->cells.push_back(&contender);
+  }
+  for (SearchRow& row : rows) {
+    std::stable_sort(row.cells.begin(), row.cells.end(), [](const auto* a, const auto* b) {
+      return a->search.max_evaluations < b->search.max_evaluations;
+    });
+  }
+  return rows;
+}
+
+bool HitsAll(const ContenderResult& cell, const Level& level) {
+  return (cell.*level.stage).*level.hits == static_cast<int>(cell.runs.size());
+}
+
+// The smallest budget from which on every run hits; none if even the largest leaves some out.
+std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) {
+  std::optional<std::int64_t> enough;
+  for (auto cell = row.cells.rbegin(); cell != row.cells.rend(); ++cell) {
+    if (!HitsAll(**cell, level)) break;
+    enough = (*cell)->search.max_evaluations;
+  }
+  return enough;
+}
+
+std::string HitTable(const std::vector<SearchRow>& rows, const Level& level) {
+  TextTable table("l" + std::string(rows[0].cells.size(), 'r'));
+  std::vector<std::string> head = {"algorithm"};
+  for (const ContenderResult* cell : rows[0].cells) {
+    head.push_back(std::to_string(cell->search.max_evaluations));
+  }
+  table.Add(head);
+  for (const SearchRow& row : rows) {
+    std::vector<std::string> line = {row.algorithm};
+    for (const ContenderResult* head_cell : rows[0].cells) {
+      const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
+        return other->search.max_evaluations == head_cell->search.max_evaluations;
+      });
+      const bool done = cell != row.cells.end();  // not where the study was cut short before it
+      line.push_back(done ? std::to_string(((*cell)->*level.stage).*level.hits) : "-");
+    }
+    table.Add(line);
+  }
+  return table.Text();
+}
+
+std::string EnoughTable(const std::vector<SearchRow>& rows) {
+  TextTable table("lrrrr");
+  std::vector<std::string> head = {"algorithm"};
+  for (const Level& level : kLevels) head.emplace_back(level.column);
+  table.Add(head);
+  for (const SearchRow& row : rows) {
+    std::vector<std::string> line = {row.algorithm};
+    for (const Level& level : kLevels) {
+      const auto enough = EnoughFor(row, level);
+      line.push_back(enough ? std::to_string(*enough) : "-");
+    }
+    table.Add(line);
+  }
+  return table.Text();
+}
+
+// "mlo and de from 1000, lo from 10000; not random"
+std::string WhoFromWhere(const std::vector<SearchRow>& rows, const Level& level) {
+  std::vector<std::pair<std::int64_t, std::string>> groups;
+  std::string never;
+  for (const SearchRow& row : rows) {
+    const auto enough = EnoughFor(row, level);
+    if (!enough) {
+      never += (never.empty() ? "" : ", ") + row.algorithm;
+      continue;
+    }
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& other) { return other.first == *enough; });
+    if (group == groups.end()) {
+      groups.emplace_back(*enough, row.algorithm);
+    } else {
+      group->second += ", " + row.algorithm;
+    }
+  }
+  if (groups.empty()) return "no algorithm hits in every run";
+  if (groups.size() == 1 && never.empty()) {
+    return fmt::format("every algorithm hits in every run from {} evaluations on", groups[0].first);
+  }
+  std::sort(groups.begin(), groups.end());
+  std::string text = "every run hits with ";
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    text += fmt::format("{}{} from {} evaluations on", g == 0 ? "" : ", with ", groups[g].second,
+                        groups[g].first);
+  }
+  return never.empty() ? text : text + fmt::format("; never with {}", never);
+}
+
+// Whether points drawn at random do as well as the best search, with all starts.
+std::string RandomVerdict(const std::vector<SearchRow>& rows) {
+  const Level& hybrid = kLevels[3];
+  std::optional<std::int64_t> random, best;
+  bool has_random = false, has_other = false;
+  for (const SearchRow& row : rows) {
+    const auto enough = EnoughFor(row, hybrid);
+    const bool is_random = row.algorithm == ToText(Algorithm::kRandom);
+    (is_random ? has_random : has_other) = true;
+    if (is_random) {
+      random = enough;
+    } else if (enough && (!best || *enough < *best)) {
+      best = enough;
+    }
+  }
+  if (!has_random || !has_other) return "";
+  if (!random && !best) return " Neither random points nor any search get there in every run.";
+  if (!random) return " Random points do not get there in every run.";
+  if (!best || *random <= *best) return " Random points do as well as any search.";
+  return fmt::format(" Random points need {} evaluations where the best search needs {}.", *random,
+                     *best);
+}
+
+std::string BudgetOf(const Comparison& comparison, const ProblemResult& problem) {
+  const std::vector<SearchRow> rows = RowsOf(problem);
+  const std::string objective = ToText(comparison.options.objective);
+  std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
+  for (const Level& level : kLevels) {
+    text += fmt::format("\n  {} ({})\n",
+                        fmt::format(fmt::runtime(level.title), RunsText(comparison, problem)),
+                        objective);
+    text += HitTable(rows, level);
+  }
+  text += fmt::format("\n  Evaluations from which on every run hits ({})\n", objective);
+  text += EnoughTable(rows) + "\n";
+  text += Wrap(
+      "  ", fmt::format("Search alone: {}. With all starts: {}.{}", WhoFromWhere(rows, kLevels[0]),
+                        WhoFromWhere(rows, kLevels[3]), RandomVerdict(rows)));
+  return text;
+}
+
+}  // namespace
+
+std::string BudgetText(const Comparison& comparison) {
+  const std::size_t pools = PoolProblems(comparison).size();
+  std::string where = Plural(comparison.problems.size(), pools > 0 ? "device" : "problem");
+  if (pools > 0) where += " of " + Plural(pools, "problem");
+  std::string text = InterruptedLine(comparison);
+  text += fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}\n",
+                      comparison.version, Plural(comparison.options.runs, "run"), where);
+  text += SetUpSection(comparison);
+  text += Field("budget",
+                "columns are evaluations of one search; its population is about their root, 4 to "
+                "100; the polish comes on top");
+  text += Field(
+      "hit", pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
+                         "have several forms, RMSEs count as BIC prices their parameters"
+                       : "a run within 1e-6 (search alone) or 1e-9 (polished) of the "
+                         "reference");
+  text += Field("time", Duration(comparison.seconds));
+  for (const ProblemResult& problem : comparison.problems) {
+    if (problem.problem.empty()) text += BudgetOf(comparison, problem);
+  }
+  return text + PoolSections(comparison);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,45 @@
+#include "lyrefit/study/report/compare_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "lyrefit/report/csv_parts.h"
+
+namespace lyrefit {
+std::string CompareCsv(const Comparison& comparison) {
+  std::string csv =
+      "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
+      "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,search_"
+      "seconds,"
+      "refine_seconds";
+  const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
+                                  [](const auto& problem) { return !problem.problem.empty(); });
+  csv += pooled ? ",problem,reference_A,plain_seconds,best_bird_seconds\n" : "\n";
+  for (const ProblemResult& problem : comparison.problems) {
+    const std::string begin =
+        fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),
+                    ToText(problem.objective), CsvField(problem.bounds_name));
+    for (const ContenderResult& contender : problem.contenders) {
+      for (const RunRecord& run : contender.runs) {
+        const std::int64_t to_target = run.evaluations_to_target;
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{},{}", begin,
+                       CsvField(contender.name), run.run, comparison.options.seed,
+                       CsvField(run.searched_A), CsvField(run.plain_polished_A),
+                       CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
+                       run.curve_evaluations, to_target < 0 ? "" : std::to_string(to_target),
+                       CsvField(run.search_seconds), CsvField(run.polish_seconds));
+        if (pooled) {
+          fmt::format_to(std::back_inserter(csv), ",{},{},{},{}", CsvField(problem.problem),
+                         CsvField(problem.reference.rmse_A), CsvField(run.plain_seconds),
+                         CsvField(run.own_seconds));
+        }
+        csv += '\n';
+      }
+    }
+  }
+  return csv;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/report/text_layout.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kSignificant = 0.05;
+
+std::string PText(double p) { return p < 1e-300 ? "below 1e-300" : fmt::format("{:.2g}", p); }
+
+using SignedRank = Ranking::SignedRank;
+
+// Which of the two is the better one of a pair that is told apart: the lower figures.
+bool FirstIsBetter(const SignedRank& pair) {
+  return pair.test.rank_sum_plus < pair.test.rank_sum_minus;
+}
+
+std::vector<std::string> NamesOf(const ProblemResult& problem) {
+  std::vector<std::string> names;
+  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
+  return names;
+}
+
+// "mlo 1.20, de 1.80, ...", the best first.
+std::string MeanRanks(const std::vector<std::string>& names, const Friedman& friedman) {
+  std::vector<int> order(friedman.mean_rank.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return friedman.mean_rank[a] < friedman.mean_rank[b]; });
+  std::string text;
+  for (const int c : order) {
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", names[c], friedman.mean_rank[c]);
+  }
+  const bool level = friedman.mean_rank[order.front()] == friedman.mean_rank[order.back()];
+  if (level) text = fmt::format("all {:.2f}", friedman.mean_rank[0]);
+  return text + fmt::format("; chi-square {:.4g} with {} degrees of freedom, p = {}",
+                            friedman.chi_square, friedman.contenders - 1, PText(friedman.p_value));
+}
+
+// Differences that are significant and mean nothing: both algorithms always end at the reference.
+std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
+  const auto always_there = [&](int c) {
+    const ContenderResult& contender = problem.contenders[c];
+    return contender.searched.within_1e9 == static_cast<int>(contender.runs.size());
+  };
+  const auto count = std::count_if(
+      ranking.signed_ranks.begin(), ranking.signed_ranks.end(), [&](const SignedRank& pair) {
+        return pair.p_holm < kSignificant && always_there(pair.first) && always_there(pair.second);
+      });
+  if (count == 0) return "";
+  return Wrap("    ",
+              fmt::format("{} of these differences {} rounding: all runs of both are within "
+                          "1e-9 of the reference",
+                          count, count == 1 ? "is" : "are"));
+}
+
+// "50", or "3 to 50" where pairs of contenders differ in that.
+struct Differing {
+  int fewest = std::numeric_limits<int>::max();
+  int most = 0;
+  void Add(const SignedRank& pair) {
+    fewest = std::min(fewest, pair.test.pairs);
+    most = std::max(most, pair.test.pairs);
+  }
+  std::string Text() const {
+    return fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  }
+};
+
+// The pairs that chance explains, and how many of their runs differ at all.
+std::string Undecided(const ProblemResult& problem, const Ranking& ranking) {
+  if (ranking.friedman.contenders == 0) return "";
+  const int runs = ranking.friedman.blocks;
+  std::string text;
+  Differing differing;
+  double smallest_p = 1;
+  bool all = true;
+  for (int c = 0; c < static_cast<int>(problem.contenders.size()); ++c) {
+    std::string like;
+    double smallest_here = 1;
+    Differing here;
+    for (const SignedRank& pair : ranking.signed_ranks) {
+      if (pair.first != c) continue;
+      all = all && pair.p_holm >= kSignificant;
+      if (pair.p_holm < kSignificant) continue;
+      like += (like.empty() ? "" : ", ") + problem.contenders[pair.second].name;
+      smallest_here = std::min(smallest_here, pair.p_holm);
+      here.Add(pair);
+      differing.Add(pair);
+    }
+    smallest_p = std::min(smallest_p, smallest_here);
+    if (like.empty()) continue;
+    text += Wrap("    ", fmt::format("{} not told from {} (p at least {}; {} of {} runs differ)",
+                                     problem.contenders[c].name, like, PText(smallest_here),
+                                     here.Text(), runs));
+  }
+  if (!all) return text;
+  if (differing.most == 0) return "    no pair differs: all runs of all algorithms are equal\n";
+  return Wrap("    ", fmt::format("no pair is told apart (p at least {}; {} of {} runs differ)",
+                                  PText(smallest_p), differing.Text(), runs));
+}
+
+std::string TestsOf(const ProblemResult& problem, const Ranking& ranking, const char* stage) {
+  if (ranking.friedman.contenders == 0) return "";
+  const int runs = ranking.friedman.blocks;
+  const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
+  std::string text = fmt::format("  Ranks, {}: Friedman over {} runs\n", stage, runs);
+  text += Wrap("    ", MeanRanks(NamesOf(problem), ranking.friedman));
+  text += fmt::format(
+      "  Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} apart)\n",
+      stage, ranking.signed_ranks.size(),
+      std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart));
+  return text + WinnersText(NamesOf(problem), ranking);
+}
+
+}  // namespace
+
+std::string WinnersText(const std::vector<std::string>& names, const Ranking& ranking) {
+  std::string text;
+  for (int c = 0; c < static_cast<int>(names.size()); ++c) {
+    std::string losers;
+    double largest_p = 0;
+    for (const SignedRank& pair : ranking.signed_ranks) {
+      const int winner = FirstIsBetter(pair) ? pair.first : pair.second;
+      if (pair.p_holm >= kSignificant || winner != c) continue;
+      const int loser = pair.first + pair.second - winner;
+      losers += (losers.empty() ? "" : ", ") + names[loser];
+      largest_p = std::max(largest_p, pair.p_holm);
+    }
+    if (losers.empty()) continue;
+    text +=
+        Wrap("    ", fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
+  }
+  return text;
+}
+
+std::string RankSection(const ProblemResult& problem) {
+  return TestsOf(problem, problem.searched, "search alone") +
+         RoundingNote(problem, problem.searched) + Undecided(problem, problem.searched) +
+         TestsOf(problem, problem.polished, "polished") + Undecided(problem, problem.polished);
+}
+
+std::string PolishVerdict(const ProblemResult& problem) {
+  if (std::isnan(problem.contenders[0].polished.min)) return "";
+  std::size_t runs = 0, hits = 0;
+  std::string missing;
+  for (const ContenderResult& contender : problem.contenders) {
+    runs += contender.runs.size();
+    hits += contender.polished.within_1e9;
+    const std::size_t missed = contender.runs.size() - contender.polished.within_1e9;
+    if (missed == 0) continue;
+    missing += fmt::format("{}{} {}", missing.empty() ? "" : ", ", contender.name, missed);
+  }
+  const std::string where = fmt::format("{} of {} runs end within 1e-9 of {} A", hits, runs,
+                                        Scientific(problem.reference.rmse_A, 10));
+  if (missing.empty()) {
+    const std::size_t count = problem.contenders.size();
+    const std::string who = count == 1   ? problem.contenders[0].name + " always gets there"
+                            : count == 2 ? std::string("both algorithms tie")
+                                         : fmt::format("all {} algorithms tie", count);
+    return Wrap("  ", fmt::format("After the polish {}: {}.", who, where));
+  }
+  std::string text = fmt::format("After the polish {}; runs that do not: {}.", where, missing);
+  const auto& pairs = problem.polished.signed_ranks;
+  if (!pairs.empty()) {
+    const auto differ = std::count_if(pairs.begin(), pairs.end(), [](const SignedRank& pair) {
+      return pair.p_holm < kSignificant;
+    });
+    text += fmt::format(" Of the ranking {} of {} pairs are left.",
+                        differ == 0 ? "none" : std::to_string(differ), pairs.size());
+  }
+  return Wrap("  ", text);
+}
+
+}  // namespace lyrefit

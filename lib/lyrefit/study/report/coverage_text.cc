@@ -1,0 +1,91 @@
+#include "lyrefit/study/report/coverage_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+std::string PercentText(double share, int digits = 1) {
+  return std::isnan(share) ? "-" : fmt::format("{:.{}f} %", 100 * share, digits);
+}
+
+std::string Promise(const ParameterCoverage& p, bool any_fit) {
+  constexpr double kPromised = 0.95;
+  if (p.counted == 0) return p.fitted == 0 && any_fit ? "held" : "-";
+  if (p.high_95 < kPromised) return "too narrow";
+  return p.low_95 > kPromised ? "too wide" : "as promised";
+}
+
+std::string ParameterTable(const CoverageReport& report) {
+  TextTable table("lrlrrrl");
+  table.Add({"parameter", "coverage", "95 % range", "sets", "half-width", "not identifiable", ""});
+  const bool any_fit = report.failed < static_cast<int>(report.sets.size());
+  for (const ParameterCoverage& p : report.parameters) {
+    const bool any = p.counted > 0;
+    const std::string width =
+        p.offset ? Significant(p.median_half_width, 2) : PercentText(p.median_half_width, 2);
+    const double lost = p.fitted > 0 ? static_cast<double>(p.not_identifiable) / p.fitted : NAN;
+    table.Add({p.info.symbol, PercentText(p.coverage),
+               any ? PercentText(p.low_95) + " .. " + PercentText(p.high_95) : "-",
+               std::to_string(p.counted), any ? width : "-", PercentText(lost),
+               Promise(p, any_fit)});
+  }
+  return table.Text();
+}
+
+std::string DeviceText(const CoverageOptions& options) {
+  const std::string law =
+      fmt::format("{} law, {} model", ToText(options.family.law), ModelTitle(options.family.model));
+  if (options.module.empty()) return law + ", a module drawn for every set";
+  return law + fmt::format(", one module of {}", Plural(options.cells_in_series, "cell"));
+}
+
+std::string SensorText(const CoverageOptions& options) {
+  const auto one = [](double error, const char* unit, bool fitted) {
+    return fmt::format("{:+g} {}, offset {}", error, unit, fitted ? "fitted" : "not fitted");
+  };
+  return "temperature reads " +
+         one(options.temperature_error_K, "K", options.family.temperature_offset) +
+         "; irradiance reads " +
+         one(options.irradiance_error_W_m2, "W/m2", options.family.irradiance_offset);
+}
+
+// Offsets have half-widths in their own unit.
+std::string HowToRead(const CoverageReport& report) {
+  std::string text =
+      "Coverage: how often the 95 % interval holds the truth, over the sets where the parameter is "
+      "fitted and identifiable, with Wilson's 95 % range of that share. Half-width: median, "
+      "relative to the truth";
+  const bool offsets =
+      report.options.family.temperature_offset || report.options.family.irradiance_offset;
+  return text + (offsets ? "; of offsets (dT in K, dG in W/m2) in their own unit." : ".");
+}
+
+}  // namespace
+
+std::string CoverageText(const CoverageReport& report) {
+  const CoverageOptions& o = report.options;
+  std::string text;
+  if (report.interrupted) text += "INTERRUPTED: only the sets that were done are counted.\n";
+  text += fmt::format("lyrefit {}: coverage of the 95 % intervals of joint fits, {}\n",
+                      report.version, Plural(report.sets.size(), "simulated set"));
+  text += Field("device", DeviceText(o));
+  text +=
+      Field("sets", fmt::format("{} of {} points each, noise {:g} of Isc at the reference, seed {}",
+                                o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves",
+                                o.points, o.noise_relative, o.seed));
+  text += Field("sensors", SensorText(o));
+  if (report.failed > 0) {
+    text += Field("failed", fmt::format("{} without a usable fit", Plural(report.failed, "set")));
+  }
+  text += Field("time", Duration(report.seconds));
+  text += "\n" + ParameterTable(report) + "\n" + Wrap("  ", HowToRead(report));
+  return text;
+}
+
+}  // namespace lyrefit

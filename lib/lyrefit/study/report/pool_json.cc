@@ -1,0 +1,101 @@
+#include "lyrefit/study/report/pool_json.h"
+
+#include "lyrefit/study/report/pool_verdict.h"
+#include "lyrefit/study/report/rank_json.h"
+#include "lyrefit/study/pool_ranks.h"
+
+namespace lyrefit {
+namespace {
+
+Json FailuresJson(const Failures& failures) {
+  return {{"runs", failures.runs},
+          {"basins", failures.basins},
+          {"commonest",
+           {{"runs", failures.commonest},
+            {"device", failures.commonest_device},
+            {"excess", Number(failures.commonest_excess)}}},
+          {"excess",
+           {{"median", Number(failures.median_excess)}, {"max", Number(failures.worst_excess)}}},
+          {"deviation",
+           {{"median", Number(failures.median_deviation)},
+            {"max", Number(failures.worst_deviation)},
+            {"parameter", failures.worst_parameter}}}};
+}
+
+// Null where the contender has no such level.
+Json LevelJson(const std::optional<PooledLevel>& level) {
+  if (!level) return nullptr;
+  const Spread& excess = level->excess;
+  Json json = {{"runs", level->runs},
+               {"hits", level->hits},
+               {"excess",
+                {{"min", Number(excess.min)},
+                 {"mean", Number(excess.mean)},
+                 {"median", Number(excess.median)},
+                 {"max", Number(excess.max)},
+                 {"std", Number(excess.std)}}},
+               {"seconds", Number(level->seconds)}};
+  if (level->failures.runs > 0) json["failures"] = FailuresJson(level->failures);
+  return json;
+}
+
+Json ContenderJson(const PooledContender& contender) {
+  return {{"name", contender.name},
+          {"algorithm", contender.algorithm},
+          {"kind", ToText(contender.kind)},
+          {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
+          {"evaluations", Number(contender.evaluations)},
+          {"curve_evaluations", Number(contender.curve_evaluations)},
+          {"searched", LevelJson(contender.At(PolishLevel::kSearch))},
+          {"plain_polished", LevelJson(contender.At(PolishLevel::kPlain))},
+          {"best_bird_polished", LevelJson(contender.At(PolishLevel::kOwn))},
+          {"refined", LevelJson(contender.At(PolishLevel::kHybrid))}};
+}
+
+Json AnswerJson(const PooledProblem& pool) {
+  const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
+  Json answer = {{"sentence", VerdictText(pool)}};
+  if (!ratio || !ratio->peer) return answer;
+  answer["peer"] = {{"name", ratio->peer->contender->name},
+                    {"hits", ratio->peer->figures().hits},
+                    {"repeats", ratio->repeats},
+                    {"times_faster", Number(ratio->times)},
+                    {"sentence", PeerText(pool)}};
+  return answer;
+}
+
+Json RankingsJson(const std::vector<PooledProblem>& pools) {
+  Json list = Json::array();
+  for (const PooledRanking& ranking : RankPools(pools)) {
+    list.push_back({{"problem", ranking.problem.empty() ? Json() : Json(ranking.problem)},
+                    {"budget", ranking.budget},
+                    {"algorithms", ranking.names},
+                    {"searched", RankingJson(ranking.names, ranking.searched)},
+                    {"best_bird_polished", RankingJson(ranking.names, ranking.own)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Json PoolsJson(const Comparison& comparison) {
+  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  if (pools.empty()) return Json::object();
+  Json problems = Json::array();
+  for (const PooledProblem& pool : pools) {
+    Json contenders = Json::array();
+    for (const PooledContender& contender : pool.contenders) {
+      contenders.push_back(ContenderJson(contender));
+    }
+    problems.push_back({{"problem", pool.name},
+                        {"objective", ToText(pool.devices[0]->objective)},
+                        {"devices", pool.devices.size()},
+                        {"certified", pool.certified},
+                        {"hit_within", kPoolHit},
+                        {"answer", {{"seconds", AnswerJson(pool)}}},
+                        {"contenders", std::move(contenders)}});
+  }
+  return {{"problems", std::move(problems)}, {"rankings", RankingsJson(pools)}};
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,275 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/study/report/pool_verdict.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/pool_ranks.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kColumns = 6;  // budgets beside each other
+
+std::string Percent(double share) { return std::isnan(share) ? "-" : Significant(100 * share, 3); }
+
+// Every budget, 0 first where there are contenders without one.
+std::vector<std::int64_t> BudgetsOf(const PooledProblem& pool) {
+  std::set<std::int64_t> budgets;
+  for (const PooledContender& contender : pool.contenders) budgets.insert(contender.budget);
+  return {budgets.begin(), budgets.end()};
+}
+
+std::vector<std::string> AlgorithmsOf(const PooledProblem& pool) {
+  std::vector<std::string> names;
+  for (const PooledContender& contender : pool.contenders) {
+    if (std::find(names.begin(), names.end(), contender.algorithm) == names.end()) {
+      names.push_back(contender.algorithm);
+    }
+  }
+  return names;
+}
+
+const PooledLevel* Cell(const PooledProblem& pool, const std::string& algorithm,
+                        std::int64_t budget, PolishLevel level) {
+  for (const PooledContender& contender : pool.contenders) {
+    if (contender.algorithm != algorithm || contender.budget != budget) continue;
+    if (contender.At(level)) return &*contender.At(level);
+  }
+  return nullptr;
+}
+
+// Hits and median time of a run, some budgets.
+std::string HitTable(const PooledProblem& pool, PolishLevel level,
+                     const std::vector<std::int64_t>& budgets) {
+  TextTable table("l" + std::string(budgets.size(), 'r'));
+  std::vector<std::string> head = {"algorithm"};
+  for (const std::int64_t budget : budgets) {
+    head.push_back(budget == 0 ? "as it is" : std::to_string(budget));
+  }
+  table.Add(head);
+  for (const std::string& algorithm : AlgorithmsOf(pool)) {
+    std::vector<std::string> line = {algorithm};
+    bool any = false;
+    for (const std::int64_t budget : budgets) {
+      const PooledLevel* cell = Cell(pool, algorithm, budget, level);
+      any = any || cell;
+      line.push_back(cell ? fmt::format("{} ({})", cell->hits, Duration(cell->seconds)) : "");
+    }
+    if (any) table.Add(line);
+  }
+  return table.Text();
+}
+
+std::string HitTables(const PooledProblem& pool, PolishLevel level) {
+  const std::vector<std::int64_t> budgets = BudgetsOf(pool);
+  std::string text;
+  for (std::size_t begin = 0; begin < budgets.size(); begin += kColumns) {
+    const auto from = budgets.begin() + static_cast<std::ptrdiff_t>(begin);
+    const std::size_t count = std::min(kColumns, budgets.size() - begin);
+    text += HitTable(pool, level, {from, from + static_cast<std::ptrdiff_t>(count)});
+  }
+  return text;
+}
+
+// Of each algorithm its largest budget.
+bool IsLargest(const PooledProblem& pool, const PooledContender& contender) {
+  return std::none_of(
+      pool.contenders.begin(), pool.contenders.end(), [&](const PooledContender& other) {
+        return other.algorithm == contender.algorithm && other.budget > contender.budget;
+      });
+}
+
+std::string FailureTable(const PooledProblem& pool) {
+  TextTable table("llrrrrrrrr");
+  table.Add({"contender", "level", "missed", "basins", "most", "% above", "median", "worst",
+             "% wrong", "worst"});
+  bool any = false;
+  for (const PooledContender& contender : pool.contenders) {
+    if (!IsLargest(pool, contender)) continue;
+    for (const PolishLevel level : {PolishLevel::kOwn, PolishLevel::kHybrid}) {
+      if (!contender.At(level) || contender.At(level)->failures.runs == 0) continue;
+      const Failures& failures = contender.At(level)->failures;
+      any = true;
+      table.Add({contender.name, ToText(level), std::to_string(failures.runs),
+                 std::to_string(failures.basins), std::to_string(failures.commonest),
+                 Percent(failures.commonest_excess), Percent(failures.median_excess),
+                 Percent(failures.worst_excess), Percent(failures.median_deviation),
+                 Percent(failures.worst_deviation)});
+    }
+  }
+  if (!any) return "";
+  return "\n" +
+         Wrap("  ",
+              "Cost of failure, largest budgets: runs that missed, the wrong basins they ended in, "
+              "runs in the commonest and how far its RMSE is above the best known one (%); median "
+              "and worst of that over all that missed; and median and worst of how far their most "
+              "deviating parameter is from its value there (%)") +
+         table.Text();
+}
+
+std::string EffectsOfPool(const PooledProblem& pool) {
+  std::string text;
+  for (const EffectUse& use : pool.devices[0]->with) text += ", with " + DescribeUse(use);
+  return text;
+}
+
+std::string ReferenceText(const PooledProblem& pool) {
+  if (pool.devices.size() == 1) return pool.devices[0]->reference.origin;
+  int multistart = 0;
+  std::int64_t points = 0, visits = 0;
+  for (const ProblemResult* device : pool.devices) {
+    multistart += device->reference.by_multistart;
+    points += device->reference.points;
+    visits += device->reference.visits;
+  }
+  std::string text =
+      fmt::format("of each device its best known optimum, {} certified", pool.certified);
+  if (points == 0) return text;
+  return text +
+         fmt::format(
+             "; {} that only a multistart found, of whose {} random points {} % end in the "
+             "best known optimum of their device",
+             multistart, points,
+             Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
+}
+
+std::string PoolText(const PooledProblem& pool) {
+  const ProblemResult& first = *pool.devices[0];
+  std::string text =
+      "\n" + Wrap("", fmt::format("{}, {} model{}, {}{}", pool.name, ModelTitle(first.model),
+                                  first.family ? " of a family" : "",
+                                  Plural(pool.devices.size(), "device"), EffectsOfPool(pool)));
+  text += Field("objective", ToText(first.objective));
+  if (first.family) {
+    text += Field("search", "sees some of the curves; its figures are of its best bird on all");
+  }
+  text += Field("reference", ReferenceText(pool));
+  for (const PolishLevel level : kPolishLevels) {
+    const std::string table = HitTables(pool, level);
+    int runs = 0;
+    for (const PooledContender& contender : pool.contenders) {
+      if (contender.At(level)) runs = std::max(runs, contender.At(level)->runs);
+    }
+    if (runs == 0) continue;
+    text += fmt::format("\n  {}: hits of {}, median time of a run ({})\n", ToText(level),
+                        Plural(runs, "run"), ToText(first.objective));
+    text += table;
+  }
+  return text + FailureTable(pool);
+}
+
+// "1.83", "-" where nothing was ranked.
+std::string MeanRank(const Ranking& ranking, std::size_t c) {
+  return ranking.friedman.contenders == 0 ? "-"
+                                          : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
+}
+
+std::string FriedmanP(const Ranking& ranking) {
+  return ranking.friedman.contenders == 0 ? "-" : fmt::format("{:.1g}", ranking.friedman.p_value);
+}
+
+// Mean ranks, a column a budget.
+std::string RankTable(const std::vector<PooledRanking>& rankings) {
+  TextTable table("l" + std::string(rankings.size(), 'r'));
+  std::vector<std::string> head = {"algorithm"}, last = {"p"};
+  std::vector<std::string> names;
+  for (const PooledRanking& ranking : rankings) {
+    head.push_back(std::to_string(ranking.budget));
+    last.push_back(FriedmanP(ranking.searched) + " / " + FriedmanP(ranking.own));
+    for (const std::string& name : ranking.names) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  table.Add(head);
+  for (const std::string& name : names) {
+    std::vector<std::string> line = {name};
+    for (const PooledRanking& ranking : rankings) {
+      const auto at = std::find(ranking.names.begin(), ranking.names.end(), name);
+      const auto c = static_cast<std::size_t>(at - ranking.names.begin());
+      const bool there = at != ranking.names.end();
+      line.push_back(there ? MeanRank(ranking.searched, c) + " / " + MeanRank(ranking.own, c) : "");
+    }
+    table.Add(line);
+  }
+  table.Add(last);
+  return table.Text();
+}
+
+// Which are better than others beyond chance, by the best bird's polish and by the search alone.
+std::string PairLines(const PooledRanking& ranking) {
+  std::string text;
+  for (const bool own : {false, true}) {
+    const std::string winners = WinnersText(ranking.names, own ? ranking.own : ranking.searched);
+    text += fmt::format("  {} evaluations, {}:{}\n", ranking.budget,
+                        own ? "best bird's polish" : "search alone",
+                        winners.empty() ? " no pair is told apart" : "");
+    text += winners;
+  }
+  return text;
+}
+
+std::string RanksText(const std::vector<PooledProblem>& pools) {
+  const std::vector<PooledRanking> rankings = RankPools(pools);
+  if (rankings.empty()) return "";
+  std::string text =
+      "\n" + Wrap("",
+                  "Mean ranks of RMSE / reference, search alone / best bird's polish, and p of "
+                  "Friedman's test; blocks are device and run, figures within 1e-6 of each "
+                  "other equal; pairs by Wilcoxon's test, Holm-corrected");
+  for (auto first = rankings.begin(); first != rankings.end();) {
+    const auto next = std::find_if(first, rankings.end(), [&](const PooledRanking& other) {
+      return other.problem != first->problem;
+    });
+    const bool all = first->problem.empty();
+    text += fmt::format("\n{}, {} blocks\n", all ? "All problems" : first->problem,
+                        first->searched.friedman.blocks);
+    for (auto begin = first; begin < next;) {
+      const auto end = begin + std::min<std::ptrdiff_t>(kColumns, next - begin);
+      text += RankTable({begin, end});
+      begin = end;
+    }
+    for (auto ranking = first; (all || pools.size() == 1) && ranking != next; ++ranking) {
+      text += PairLines(*ranking);
+    }
+    first = next;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string PoolSections(const Comparison& comparison) {
+  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  if (pools.empty()) return "";
+  std::string text =
+      "\n" +
+      Wrap("",
+           "Hits and median time of a run: of starts from the curve's shape alone, of the default "
+           "fit, of the fastest search that is enough or else of the one with the most hits, of "
+           "random points likewise, and of the peer that is sure to hit the soonest") +
+      VerdictTable(pools) + "\nWhich search, from which budget, or none\n";
+  for (const PooledProblem& pool : pools) text += Wrap("  ", VerdictText(pool) + ".");
+  std::string peers;
+  for (const PooledProblem& pool : pools) {
+    const std::string peer = PeerText(pool);
+    if (!peer.empty()) peers += Wrap("  ", pool.name + ": " + peer + ".");
+  }
+  if (!peers.empty()) {
+    text +=
+        "\n" +
+        Wrap("", fmt::format("The default fit against the best peer of equal success: by pagmo2, "
+                             "with the best bird's own polish, run as often as it takes to hit "
+                             "with a probability of {} %",
+                             100 * kEnoughShare)) +
+        peers;
+  }
+  for (const PooledProblem& pool : pools) text += PoolText(pool);
+  return text + RanksText(pools);
+}
+
+}  // namespace lyrefit

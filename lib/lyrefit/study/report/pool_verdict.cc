@@ -1,0 +1,131 @@
+#include "lyrefit/study/report/pool_verdict.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/text_layout.h"
+
+namespace lyrefit {
+namespace {
+
+std::string LevelPhrase(PolishLevel level) {
+  switch (level) {
+    case PolishLevel::kSearch:
+      return "by itself";
+    case PolishLevel::kPlain:
+      return "with one plain solve";
+    case PolishLevel::kOwn:
+      return "with the best bird's own polish";
+    case PolishLevel::kHybrid:
+      return "with all starts";
+  }
+  return "";
+}
+
+// "48 of 50"
+std::string HitsText(const Way& way) {
+  return fmt::format("{} of {}", way.figures().hits, way.figures().runs);
+}
+
+// "with the best bird's own polish from 1000 evaluations (310 ms)"
+std::string HowText(const Way& way, const char* from) {
+  return fmt::format("{} {} {} evaluations ({})", LevelPhrase(way.level), from,
+                     way.contender->budget, Duration(way.figures().seconds));
+}
+
+std::string ShapeText(const Way& shape) {
+  return fmt::format("starts from the curve's shape alone hit {} ({})", HitsText(shape),
+                     Duration(shape.figures().seconds));
+}
+
+std::string SearchText(const SearchVerdict& verdict) {
+  if (verdict.search) {
+    return fmt::format("of the searches {} reaches {} {}", verdict.search->contender->algorithm,
+                       HitsText(*verdict.search), HowText(*verdict.search, "from"));
+  }
+  const int runs = verdict.best->figures().runs;
+  if (verdict.best->figures().hits == 0) return "the searches never hit";
+  return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
+                     verdict.needed, runs, verdict.best->contender->algorithm,
+                     verdict.best->figures().hits, HowText(*verdict.best, "at"));
+}
+
+std::string RandomText(const Way& random) {
+  if (random.IsEnough()) {
+    return fmt::format("random points reach {} {}", HitsText(random), HowText(random, "from"));
+  }
+  if (random.figures().hits == 0) return "random points hit in none";
+  return fmt::format("random points do not: at most {}, {}", HitsText(random),
+                     HowText(random, "at"));
+}
+
+// "50 (12 ms)", of a search "lo@3000 49 (299 ms)"
+std::string WayText(const std::optional<Way>& way, bool named) {
+  if (!way) return "-";
+  const PooledLevel& figures = way->figures();
+  return (named ? way->contender->name + " " : "") +
+         fmt::format("{} ({})", figures.hits, Duration(figures.seconds));
+}
+
+std::string Headline(const SearchVerdict& verdict) {
+  if (verdict.shape_wins) return "no search is needed";
+  if (!verdict.search) return "nothing is enough";
+  const std::string& name = verdict.search->contender->algorithm;
+  return name == ToText(Algorithm::kRandom) ? "random points will do" : name + " will do";
+}
+
+}  // namespace
+
+std::string VerdictText(const PooledProblem& pool) {
+  const SearchVerdict verdict = JudgePool(pool);
+  std::string text = fmt::format("{}: {}", pool.name, Headline(verdict));
+  const char* separator = ": ";
+  const auto add = [&](const std::string& part) {
+    text += separator + part;
+    separator = "; ";
+  };
+  if (verdict.shape) add(ShapeText(*verdict.shape));
+  if (verdict.search || verdict.best) add(SearchText(verdict));
+  if (verdict.random) add(RandomText(*verdict.random));
+  return text;
+}
+
+std::string VerdictTable(const std::vector<PooledProblem>& pools) {
+  TextTable table("lrrrrrr");
+  table.Add({"problem", "runs", "shape", "default", "search", "random", "peer"});
+  for (const PooledProblem& pool : pools) {
+    const SearchVerdict verdict = JudgePool(pool);
+    const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
+    const std::optional<Way>& search = verdict.search ? verdict.search : verdict.best;
+    int runs = 0;
+    for (const std::optional<Way>& way : {verdict.shape, search}) {
+      if (way) runs = way->figures().runs;
+    }
+    table.Add({pool.name, std::to_string(runs), WayText(verdict.shape, false),
+               WayText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
+               WayText(search, true), WayText(verdict.random, true),
+               WayText(ratio ? ratio->peer : std::nullopt, true)});
+  }
+  return table.Text();
+}
+
+std::string PeerText(const PooledProblem& pool) {
+  const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
+  if (!ratio || !ratio->peer) return "";
+  const auto brief = [](const Way& way) {
+    return fmt::format("{} ({}, {})", way.contender->name, HitsText(way),
+                       Duration(way.figures().seconds));
+  };
+  if (ratio->repeats == 0) return brief(ratio->self) + ": no peer ever hits";
+  if (std::isnan(ratio->times)) {
+    return fmt::format("{} never hits; {} does", brief(ratio->self), brief(*ratio->peer));
+  }
+  const std::string repeats =
+      ratio->repeats == 1 ? "" : fmt::format(", run {} times", ratio->repeats);
+  return fmt::format("{} is {:.3g} times {} than {}{}", brief(ratio->self),
+                     ratio->times >= 1 ? ratio->times : 1 / ratio->times,
+                     ratio->times >= 1 ? "faster" : "slower", brief(*ratio->peer), repeats);
+}
+
+}  // namespace lyrefit

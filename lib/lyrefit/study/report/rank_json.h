@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/report/json_parts.h"
+#include "lyrefit/study/comparison.h"
+
+namespace lyrefit {
+
+// Friedman's test and every pair of the contenders with these names. Null where nothing was ranked.
+Json RankingJson(const std::vector<std::string>& names, const Ranking& ranking);
+
+}  // namespace lyrefit

@@ -1,0 +1,140 @@
+#include "lyrefit/study/report/compare_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "../temp_folder.h"
+#include "lyrefit/study/report/compare_script.h"
+#include "sample_comparison.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string FileText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Comparison BudgetComparison() {
+  return SampleComparison(BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {10, 100}));
+}
+
+// Opening and closing tags balance.
+void ExpectSoundSvg(const std::string& svg) {
+  EXPECT_THAT(svg, HasSubstr("<svg"));
+  EXPECT_THAT(svg, EndsWith("</svg>\n\n"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  int depth = 0;
+  for (std::size_t i = svg.find("<svg"); i != std::string::npos; i = svg.find('<', i + 1)) {
+    const std::size_t end = svg.find('>', i);
+    ASSERT_NE(end, std::string::npos);
+    if (svg[i + 1] == '!' || svg[i + 1] == '?') continue;
+    if (svg[i + 1] == '/') {
+      --depth;
+    } else if (svg[end - 1] != '/') {
+      ++depth;
+    }
+    ASSERT_GE(depth, 0);
+  }
+  EXPECT_EQ(depth, 0);
+}
+
+TEST(ComparePlots, AreSoundSvg) {
+  const TempFolder folder;
+  ASSERT_TRUE(PlotBoxes(SampleComparison(), folder.Path("box.svg")));
+  ASSERT_TRUE(PlotConvergence(SampleComparison(), folder.Path("course.svg")));
+  ASSERT_TRUE(PlotBudget(BudgetComparison(), folder.Path("budget.SVG")));
+  for (const char* name : {"box.svg", "course.svg", "budget.SVG"}) {
+    SCOPED_TRACE(name);
+    ExpectSoundSvg(FileText(folder.Path(name)));
+  }
+}
+
+TEST(ComparePlots, AreDrawnAsPngToo) {
+  const TempFolder folder;
+  ASSERT_TRUE(PlotBoxes(SampleComparison(), folder.Path("box.png")));
+  EXPECT_THAT(FileText(folder.Path("box.png")), StartsWith("\x89PNG"));
+}
+
+TEST(ComparePlots, NameAxesPanelsAndAlgorithms) {
+  const TempFolder folder;
+  ASSERT_TRUE(PlotBoxes(SampleComparison(), folder.Path("box.svg")));
+  ASSERT_TRUE(PlotConvergence(SampleComparison(), folder.Path("course.svg")));
+  for (const char* name : {"box.svg", "course.svg"}) {
+    const std::string svg = FileText(folder.Path(name));
+    for (const char* text : {"sample_cell, single diode", "sample_cell, double diode", "random",
+                             "RMSE above reference (A, measured-current)"}) {
+      EXPECT_THAT(svg, HasSubstr(text)) << name;
+    }
+  }
+  EXPECT_THAT(FileText(folder.Path("box.svg")), HasSubstr("after the polish"));
+  EXPECT_THAT(FileText(folder.Path("course.svg")), HasSubstr("Evaluations of the objective"));
+  ASSERT_TRUE(PlotBudget(BudgetComparison(), folder.Path("budget.svg")));
+  const std::string budget = FileText(folder.Path("budget.svg"));
+  EXPECT_THAT(budget, HasSubstr("sample_cell DD: all starts"));
+  EXPECT_THAT(budget, HasSubstr("Runs that hit (%)"));
+  EXPECT_THAT(budget, Not(HasSubstr("@10")));
+}
+
+TEST(ComparePlots, TakeRunsThatAreAllEqualOrEndless) {
+  const TempFolder folder;
+  Comparison comparison = SampleComparison();
+  for (ProblemResult& problem : comparison.problems) {
+    for (ContenderResult& contender : problem.contenders) {
+      for (RunRecord& run : contender.runs) run.searched_A = run.polished_A = 1e-3;
+      contender.trace = {{10, 1e-3}};
+    }
+    problem.reference.rmse_A = 1e-3;
+  }
+  comparison.problems[0].contenders[0].runs[0].searched_A = kInfinity;
+  EXPECT_TRUE(PlotBoxes(comparison, folder.Path("box.svg")));
+  EXPECT_TRUE(PlotConvergence(comparison, folder.Path("course.svg")));
+}
+
+TEST(ComparePlots, DoWithoutAPolish) {
+  const TempFolder folder;
+  Comparison comparison = SampleComparison();
+  comparison.options.polish = false;
+  ASSERT_TRUE(PlotBoxes(comparison, folder.Path("box.svg")));
+  EXPECT_THAT(FileText(folder.Path("box.svg")), Not(HasSubstr("after the polish")));
+}
+
+TEST(ComparePlots, QuoteNamesForGnuplot) {
+  Comparison comparison = SampleComparison();
+  comparison.problems[0].curve_name = "it's\n_a^b{c}";
+  comparison.problems[0].contenders[0].name = "x_{y}'";
+  const TempFolder folder;
+  const auto drawn = PlotConvergence(comparison, folder.Path("course.svg"));
+  ASSERT_TRUE(drawn) << drawn.error().ToString();
+  EXPECT_THAT(FileText(folder.Path("course.svg")), HasSubstr("_a^b{c}, single diode"));
+}
+
+TEST(ComparePlots, RefuseOtherExtensionsAndEmptyComparisons) {
+  const TempFolder folder;
+  const auto gif = PlotBoxes(SampleComparison(), folder.Path("box.gif"));
+  ASSERT_FALSE(gif);
+  EXPECT_THAT(gif.error().message, HasSubstr(".svg or .png"));
+  Comparison none = SampleComparison();
+  none.problems.clear();
+  const auto empty = PlotBoxes(none, folder.Path("box.svg"));
+  ASSERT_FALSE(empty);
+  EXPECT_THAT(empty.error().message, HasSubstr("nothing to draw"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.Path("")));
+}
+
+TEST(ComparePlots, KeepTheirLowestLineOffZero) {
+  // A logarithmic axis has no place for runs that end on the reference itself.
+  EXPECT_THAT(BoxScript(SampleComparison(), "svg"), Not(HasSubstr("\n0 0\n")));
+}
+
+}  // namespace
+}  // namespace lyrefit

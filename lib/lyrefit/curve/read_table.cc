@@ -317,8 +317,8 @@ Expected<Table> ReadTable(std::string_view text, const std::string& file,
   if (table) {
     table->curve.assumptions.insert(table->curve.assumptions.begin(),
                                     "one line of five numbers a reading (voltage, current, "
-                                    "resistance, time, status), as source "
-                                    "meters send their buffer: taken apart");
+                                    "resistance, time, status), as source meters send their "
+                                    "buffer: taken apart");
   }
   return table;
 }

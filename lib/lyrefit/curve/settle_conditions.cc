@@ -35,8 +35,8 @@ std::optional<double> Settle(const Source& source, std::vector<std::string>* ass
   const bool varies = *high - *low > 2 * source.tolerance;
   if (varies) {
     assumptions->push_back(
-        fmt::format("the column of the {} varies from {:.6g} to {:.6g} {}: its "
-                    "mean {:.6g} {} counts for the whole curve",
+        fmt::format("the column of the {} varies from {:.6g} to {:.6g} {}: its mean {:.6g} {} "
+                    "counts for the whole curve",
                     source.name, *low, *high, source.unit, mean, source.unit));
   }
   if (!source.sidecar) return mean;

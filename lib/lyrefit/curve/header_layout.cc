@@ -126,12 +126,12 @@ void SayWhatWasAssumed(TableLayout* layout) {
     }
   }
   const char* const current_unit = layout->per_area() ? "mA/cm2" : "A";
-  for (const auto& [index, unit] :
-       {std::pair(layout->voltage, "V"), {layout->current, current_unit}}) {
+  for (const auto& [index, unit, about] : {std::tuple(layout->voltage, "V", About::kReading),
+                                           {layout->current, current_unit, About::kCurrentUnit}}) {
     const Column& column = layout->columns[index];
     if (!column.unit.empty() || column.label.empty()) continue;
-    layout->assumptions.push_back(
-        fmt::format("column {} names no unit: taken as {}", Quoted(column.label), unit));
+    layout->assumptions.emplace_back(
+        fmt::format("column {} names no unit: taken as {}", Quoted(column.label), unit), about);
   }
   if (!unused.empty()) {
     layout->assumptions.push_back(

@@ -108,7 +108,7 @@ class IvCurvesReader {
   Expected<void> ReadConditions(const json& entry, IvCurve* curve) const {
     const json cells = Setting(entry, "cells_in_series");
     if (cells.is_null()) {
-      curve->assumptions.push_back(kCellsAssumed);
+      curve->assumptions.emplace_back(kCellsAssumed, About::kCells);
       curve->cells_known = false;
     } else {
       const auto number = NumberOrText(cells);
@@ -119,7 +119,7 @@ class IvCurvesReader {
     }
     const json temperature = Setting(entry, "Temperature");
     if (temperature.is_null()) {
-      curve->assumptions.push_back(kTemperatureAssumed);
+      curve->assumptions.emplace_back(kTemperatureAssumed, About::kTemperature);
       curve->temperature_known = false;
     } else {
       const auto kelvin = NumberOrText(temperature);
@@ -130,7 +130,7 @@ class IvCurvesReader {
     }
     const json irradiance = Setting(entry, "Irradiance");
     if (irradiance.is_null()) {
-      curve->assumptions.push_back(kIrradianceAssumed);
+      curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
       curve->irradiance_known = false;
     } else {
       const auto value = NumberOrText(irradiance);

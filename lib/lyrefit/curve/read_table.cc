@@ -259,12 +259,11 @@ class TableReader {
     for (double& current : curve.current_A) current *= stated->factor;
     curve.current_unit_known = true;
     table_.per_area = stated->kind == ColumnKind::kCurrentDensity;
-    const std::string taken = fmt::format("column {} names no unit", Quoted(column.label));
-    auto& sentences = curve.assumptions;
-    sentences.erase(std::remove(sentences.begin(), sentences.end(), taken + ": taken as A"),
-                    sentences.end());
-    sentences.push_back(
-        fmt::format("{}: taken in that of {}, with which it agrees", taken, stated->source));
+    Forget(About::kCurrentUnit, &curve.assumptions);
+    curve.assumptions.emplace_back(
+        fmt::format("column {} names no unit: taken in that of {}, with which it agrees",
+                    Quoted(column.label), stated->source),
+        About::kCurrentUnit);
   }
 
   // Several tables without a sweep column are sweeps 1, 2, ...; where their heads state conditions

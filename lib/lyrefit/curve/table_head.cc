@@ -106,13 +106,21 @@ std::optional<double> AsCompliance(const Statement& statement) {
 
 // Fills what nobody has stated yet.
 template <class T>
-bool TakeFirst(const std::optional<T>& value, const char* what, const char* unit,
+bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
                const std::string& source, std::optional<T>* target, TableHead* head) {
   if (!value || *target) return false;
   *target = value;
-  head->assumptions.push_back(
-      fmt::format("{} {:.6g}{} taken from {}", what, static_cast<double>(*value), unit, source));
+  head->assumptions.emplace_back(fmt::format("{} {:.6g}{} taken from {}", what.sentence,
+                                             static_cast<double>(*value), unit, source),
+                                 what.about);
   return true;
+}
+
+// The same of a condition.
+template <class T>
+bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
+               const std::string& source, std::optional<T>* target, TableHead* head) {
+  return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head);
 }
 
 // Remembered, but not understood: the readings say it better.
@@ -134,12 +142,11 @@ bool Take(const Statement& statement, const std::string& source, TableHead* head
     return true;
   }
   if (IsAboutOtherThings(statement)) return false;
-  return TakeFirst(AsIrradiance(statement), "irradiance", " W/m2", source, &said->irradiance_W_m2,
-                   head) ||
-         TakeFirst(AsTemperature(statement), "cell temperature", " C", source, &said->temperature_C,
-                   head) ||
-         TakeFirst(AsCells(statement), "cells in series", "", source, &said->cells_in_series,
-                   head) ||
+  return TakeFirst(AsIrradiance(statement), About::kIrradiance, " W/m2", source,
+                   &said->irradiance_W_m2, head) ||
+         TakeFirst(AsTemperature(statement), About::kTemperature, " C", source,
+                   &said->temperature_C, head) ||
+         TakeFirst(AsCells(statement), About::kCells, "", source, &said->cells_in_series, head) ||
          TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
 }
 
@@ -327,8 +334,8 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
   return Take(Understand(SplitLabel(label), value, ""), source, head);
 }
 
-std::vector<std::string> HeadSentences(const TableHead& head) {
-  std::vector<std::string> sentences = head.assumptions;
+std::vector<Assumption> HeadSentences(const TableHead& head) {
+  std::vector<Assumption> sentences = head.assumptions;
   if (head.left.empty()) return sentences;
   std::string list;
   for (std::size_t i = 0; i < head.left.size() && i < kShownLines; ++i) {
@@ -337,7 +344,7 @@ std::vector<std::string> HeadSentences(const TableHead& head) {
   if (head.left.size() > kShownLines) {
     list += fmt::format(" and {} more", head.left.size() - kShownLines);
   }
-  sentences.push_back("not understood, and not used: " + list);
+  sentences.emplace_back("not understood, and not used: " + list);
   return sentences;
 }
 

@@ -198,12 +198,12 @@ class LayoutSearch {
     layout->first_row_offset = offset;
     layout->first_row_line = lines_before;
     layout->head = head_;
-    std::vector<std::string> about_head;
+    std::vector<Assumption> about_head;
     if (skipped_ > 0) {
       about_head.push_back(fmt::format("{} line{} before the header in line {} skipped", skipped_,
                                        skipped_ == 1 ? "" : "s", lines_.number()));
     }
-    const std::vector<std::string> sentences = HeadSentences(head_);
+    const std::vector<Assumption> sentences = HeadSentences(head_);
     about_head.insert(about_head.end(), sentences.begin(), sentences.end());
     layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
     return layout;

@@ -191,7 +191,7 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   diagnosis.cells_in_series = measurement.readings.scale.cells;
   EchoOptions(options, &diagnosis.non_default_options);
   for (const IvCurve& curve : set.curves) {
-    for (const std::string& sentence : curve.assumptions) {
+    for (const std::string& sentence : SentencesOf(curve.assumptions)) {
       auto& all = diagnosis.assumptions;
       if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
     }

@@ -226,7 +226,7 @@ FamilyReport Head(const Job& job) {
   report.objective = job.options.objective;
   report.cells_in_series = job.family.translation.spec.cells_in_series;
   report.rejected = job.set.rejected;
-  report.assumptions = job.set.assumptions;
+  report.assumptions = SentencesOf(job.set.assumptions);
   report.assumptions.insert(report.assumptions.end(), job.family.notes.begin(),
                             job.family.notes.end());
   report.search_options = job.options.search;

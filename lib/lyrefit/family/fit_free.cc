@@ -88,7 +88,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.objective = options.objective;
   report.translation.spec.model = options.model;
   report.rejected = set.rejected;
-  report.assumptions = set.assumptions;
+  report.assumptions = SentencesOf(set.assumptions);
   report.search_options = options.search;
   report.termination = "not run";
   FitOptions fit;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "lyrefit/base/seconds.h"
@@ -48,7 +47,7 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlac
 
 // Runs the search; returns the elites.
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   BirdPlaces few(*job, job->few), all(*job, job->problem);
   if (auto sound = few.Check(); !sound) return tl::unexpected(sound.error());
   if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
@@ -138,11 +137,11 @@ void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
   RefineOptions how;
   how.stop = job->watch.stop();
   how.impatient = true;
-  auto begin = std::chrono::steady_clock::now();
+  Instant begin = Now();
   const RefineEnd plain = RefinePlainly(problem, bird.p, how);
   report->plain_seconds = SecondsSince(begin);
   report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
-  begin = std::chrono::steady_clock::now();
+  begin = Now();
   report->best_bird_polished = extended
                                    ? Refine(problem, bird.p, how).p
                                    : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;
@@ -189,14 +188,13 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
         "the fit is not usable: around parameters of a curve that the model does not describe no "
         "interval means anything";
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   for (FitPoint& other : polish.ends) OrderAlike(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
-  report->interval_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report->interval_seconds = SecondsSince(begin);
 }
 
 }  // namespace

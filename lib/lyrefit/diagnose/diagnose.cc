@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
@@ -294,8 +295,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   diagnosis.extended =
       ExtendedReport(set, shown, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;
-  diagnosis.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  diagnosis.seconds = SecondsSince(begin);
   return diagnosis;
 }
 

@@ -340,7 +340,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   const double isc = job.family.curves.reference_current_A;
   const double solved = report.rmse.refined.solved_current_A;
   report.usable = std::isfinite(solved) && solved < 0.2 * isc;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = SecondsSince(begin);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
@@ -86,13 +87,12 @@ class IndexReader {
       : layout_(layout), ids_(ids), row_(layout.columns, layout.delimiter, path) {}
 
   Expected<void> Read(std::string_view line, int number) {
-    if (auto taken = row_.Take(line, number); !taken) return taken;
-    const Expected<std::string> id = Id();
-    if (!id) return tl::unexpected(id.error());
+    TRY(row_.Take(line, number));
+    TRY(const std::string id, Id());
     IndexRow row;
     row.missing =
         row_.Refuse(fmt::format("expected rows of curves that are there, found one of curve {}",
-                                Quoted(*id)),
+                                Quoted(id)),
                     layout_.id)
             .value();
     const auto irradiance = Number(layout_.irradiance);
@@ -101,12 +101,10 @@ class IndexReader {
     if (irradiance->value_or(0) < -kLargestDarkOffset_W_m2) {
       return row_.RefuseField(layout_.irradiance, "an irradiance from 0 W/m2 up");
     }
-    const auto temperature = Number(layout_.temperature);
-    if (!temperature) return tl::unexpected(temperature.error());
-    row.temperature_C = *temperature;
-    if (!index_.rows.try_emplace(*id, std::move(row)).second) {
+    TRY(row.temperature_C, Number(layout_.temperature));
+    if (!index_.rows.try_emplace(id, std::move(row)).second) {
       return row_.Refuse(
-          fmt::format("expected one row a curve, found a second one of curve {}", Quoted(*id)),
+          fmt::format("expected one row a curve, found a second one of curve {}", Quoted(id)),
           layout_.id);
     }
     return {};
@@ -135,9 +133,8 @@ class IndexReader {
     const std::string_view text = row_[layout_.id];
     if (text.empty()) return row_.RefuseField(layout_.id, "the id of a curve");
     if (ids_ == IndexIds::kNumbers) {
-      const Expected<int> number = row_.WholeNumber(layout_.id);
-      if (!number) return tl::unexpected(number.error());
-      return std::to_string(*number);
+      TRY(const int number, row_.WholeNumber(layout_.id));
+      return std::to_string(number);
     }
     const std::filesystem::path file{std::string(text)};
     return IsTable(file) ? file.stem().string() : std::string(text);
@@ -145,9 +142,8 @@ class IndexReader {
 
   Expected<std::optional<double>> Number(int field) {
     if (field == kNoColumn || row_[field].empty()) return std::optional<double>();
-    const Expected<double> value = row_.Value(field);
-    if (!value) return tl::unexpected(value.error());
-    return std::optional<double>(*value);
+    TRY(const double value, row_.Value(field));
+    return std::optional<double>(value);
   }
 
   const IndexLayout& layout_;
@@ -160,18 +156,16 @@ class IndexReader {
 
 Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
                                     const ReadOptions& options) {
-  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  LineReader lines(text->text);
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  LineReader lines(text.text);
   std::string_view line;
   if (!lines.NextContent(&line)) {
     return Fail("the file holds no data, only blank lines and comments", path);
   }
-  const Expected<IndexLayout> layout = FindIndexLayout(line, lines.number(), path, ids);
-  if (!layout) return tl::unexpected(layout.error());
-  IndexReader reader(*layout, path, ids);
+  TRY(const IndexLayout layout, FindIndexLayout(line, lines.number(), path, ids));
+  IndexReader reader(layout, path, ids);
   while (lines.NextContent(&line)) {
-    if (auto read = reader.Read(line, lines.number()); !read) return tl::unexpected(read.error());
+    TRY(reader.Read(line, lines.number()));
   }
   return reader.Finish();
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
 
@@ -62,18 +63,15 @@ CurveSetBuilder::CurveSetBuilder(std::string name, std::string source, const Rea
 
 Expected<void> CurveSetBuilder::ReadCommon(const std::string& path, SidecarOf of) {
   if (!IsFile(path)) return {};
-  Expected<Sidecar> common = ReadSidecar(path, options_.largest_file_bytes, of);
-  if (!common) return tl::unexpected(common.error());
-  common_ = std::move(*common);
+  TRY(common_, ReadSidecar(path, options_.largest_file_bytes, of));
   return {};
 }
 
 Expected<void> CurveSetBuilder::ReadIndex(const std::string& path, IndexIds ids) {
   if (!IsFile(path)) return {};
-  Expected<CurveIndex> index = ReadCurveIndex(path, ids, options_);
-  if (!index) return tl::unexpected(index.error());
-  Assume(index->assumptions);
-  index_ = std::move(*index);
+  TRY(CurveIndex index, ReadCurveIndex(path, ids, options_));
+  Assume(index.assumptions);
+  index_ = std::move(index);
   return {};
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
@@ -134,18 +135,15 @@ class JsonCurveFinder {
       around = Merge(Numbers(node, id, nomad), around);
     }
     for (const JsonTable& table : TablesOf(node)) {
-      const Expected<bool> taken = Take(table, id, around);
-      if (!taken) return tl::unexpected(taken.error());
-      if (*taken) return {};
+      TRY(const bool taken, Take(table, id, around));
+      if (taken) return {};
     }
     if (!node.is_structured()) return {};
     std::size_t place = 0;
     for (auto item = node.begin(); item != node.end(); ++item, ++place) {
       if (!item->is_structured()) continue;
       const std::string key = node.is_object() ? item.key() : std::to_string(place);
-      if (auto visited = Visit(*item, NameOf(*item, Below(id, key)), around, nomad); !visited) {
-        return visited;
-      }
+      TRY(Visit(*item, NameOf(*item, Below(id, key)), around, nomad));
     }
     return {};
   }
@@ -195,9 +193,7 @@ class JsonCurveFinder {
       chosen = {*one};
     }
     for (const Channel& channel : chosen) {
-      if (auto applied = ApplyUnitWishes(options_, channel, &columns); !applied) {
-        return tl::unexpected(applied.error());
-      }
+      TRY(ApplyUnitWishes(options_, channel, &columns));
       const std::string& label = columns[channel.current].label;
       const std::string own = Below(id, label);
       RawCurve raw;
@@ -205,9 +201,7 @@ class JsonCurveFinder {
       raw.per_area = columns[channel.current].kind == ColumnKind::kCurrentDensity;
       JsonTable rows = table;
       const std::size_t skipped = options_.skip_missing ? DropMissing(channel, &rows) : 0;
-      if (auto filled = Fill(rows, columns, channel, &raw.curve); !filled) {
-        return tl::unexpected(filled.error());
-      }
+      TRY(Fill(rows, columns, channel, &raw.curve));
       if (skipped > 0) {
         raw.curve.assumptions.push_back(fmt::format("{} of {} rows without a reading left out",
                                                     skipped, skipped + raw.curve.size()));
@@ -298,9 +292,7 @@ Expected<std::vector<RawCurve>> FindJsonCurves(const json& document, const std::
   JsonCurveFinder finder(path, options);
   Sidecar around;
   if (IsReport(document)) around = ReportedConditions(document, path).value_or(Sidecar{});
-  if (auto visited = finder.Visit(document, "", around, false); !visited) {
-    return tl::unexpected(visited.error());
-  }
+  TRY(finder.Visit(document, "", around, false));
   std::vector<RawCurve> curves = finder.Finish();
   if (curves.empty()) {
     return Fail(

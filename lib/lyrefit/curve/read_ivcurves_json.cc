@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
@@ -55,16 +56,16 @@ class IvCurvesReader {
     if (!entry.is_object()) return Refuse(fmt::format("an object in {}", place_));
     IvCurve curve;
     curve.source = path_;
-    if (auto read = ReadIndex(entry, &curve); !read) return tl::unexpected(read.error());
+    TRY(ReadIndex(entry, &curve));
     for (const auto& [key, values] :
          {std::pair("Voltages", &curve.voltage_V), std::pair("Currents", &curve.current_A)}) {
-      if (auto read = ReadList(entry, key, values); !read) return tl::unexpected(read.error());
+      TRY(ReadList(entry, key, values));
     }
     if (curve.voltage_V.size() != curve.current_A.size()) {
       return Refuse(fmt::format("as many Currents as Voltages in {}, found {} and {}", place_,
                                 curve.current_A.size(), curve.voltage_V.size()));
     }
-    if (auto read = ReadConditions(entry, &curve); !read) return tl::unexpected(read.error());
+    TRY(ReadConditions(entry, &curve));
     TurnLoadSign(&curve);
     if (auto valid = Validate(curve); !valid) {
       return Fail(place_ + ": " + valid.error().message, path_);
@@ -156,9 +157,8 @@ bool IsIvCurves(const json& document) {
 }
 
 Expected<json> ReadJsonFile(const std::string& path, const ReadOptions& options) {
-  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  return ParseJson(text->text, path);
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  return ParseJson(text.text, path);
 }
 
 Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const json& document,
@@ -168,12 +168,10 @@ Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const json& document,
 
 Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
                                                 const ReadOptions& options) {
-  const Expected<json> document = ReadJsonFile(path, options);
-  if (!document) return tl::unexpected(document.error());
-  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(*document, path);
-  if (!entries) return tl::unexpected(entries.error());
+  TRY(const json document, ReadJsonFile(path, options));
+  TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
   std::vector<IvCurve> curves;
-  for (IvCurvesEntry& entry : *entries) {
+  for (IvCurvesEntry& entry : entries) {
     if (!entry.curve) return tl::unexpected(entry.curve.error());
     curves.push_back(std::move(*entry.curve));
   }

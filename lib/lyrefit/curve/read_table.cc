@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/source_meter_trace.h"
 #include "lyrefit/curve/table_header.h"
@@ -47,20 +48,18 @@ class RowReader {
   // Appends the row, or nothing of it: one without a reading may be left out.
   Expected<void> Read(std::string_view line, int number) {
     if (layout_.channels.size() > 1 && IsPastEnd(line)) return {};
-    if (auto taken = row_.Take(line, number); !taken) return taken;
+    TRY(row_.Take(line, number));
     if (skip_missing_ && (IsMissing(layout_.voltage) || IsMissing(layout_.current))) {
       table_->skipped.push_back(number);
       return {};
     }
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-      const Expected<double> value = row_.Value(slots_[i].field);
-      if (!value) return tl::unexpected(value.error());
-      values_[i] = *value;
+      TRY(const double value, row_.Value(slots_[i].field));
+      values_[i] = value;
     }
     if (layout_.sweep != kNoColumn) {
-      const Expected<int> sweep = row_.WholeNumber(layout_.sweep);
-      if (!sweep) return tl::unexpected(sweep.error());
-      table_->curve.sweep.push_back(*sweep);
+      TRY(const int sweep, row_.WholeNumber(layout_.sweep));
+      table_->curve.sweep.push_back(sweep);
     }
     for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].values->push_back(values_[i]);
     table_->lines.push_back(number);
@@ -141,7 +140,7 @@ class TableReader {
       Expected<std::optional<TableLayout>> next = ReadRows(*layout);
       if (!next) return tl::unexpected(next.error());
       if (!*next) break;
-      if (auto taken = BeginNext(*layout, **next); !taken) return tl::unexpected(taken.error());
+      TRY(BeginNext(*layout, **next));
       *layout = std::move(**next);
     }
     if (table_.curve.size() == 0 && table_.broken.empty()) {
@@ -309,7 +308,7 @@ class TableReader {
 
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options, BrokenRows broken_rows) {
-  if (auto checked = CheckUtf8(text, file); !checked) return tl::unexpected(checked.error());
+  TRY(CheckUtf8(text, file));
   const std::string rows = RowsOfTrace(text);
   if (rows.empty()) return TableReader(text, file, options, broken_rows).Read();
   auto table = TableReader(rows, file, options, broken_rows).Read();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/text_encoding.h"
@@ -175,9 +176,8 @@ class SidecarReader {
 
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
                               SidecarOf of) {
-  const Expected<DecodedText> decoded = ReadDecodedFile(path, largest_file_bytes);
-  if (!decoded) return tl::unexpected(decoded.error());
-  const Expected<json> object = ParseJson(decoded->text, path);
+  TRY(const DecodedText decoded, ReadDecodedFile(path, largest_file_bytes));
+  const Expected<json> object = ParseJson(decoded.text, path);
   if (!object) return tl::unexpected(object.error());
   if (!object->is_object())
     return Fail("expected a JSON object with keys such as cells_in_series", path, 1, 1);
@@ -188,7 +188,7 @@ Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_fi
         "curve: move it to another name",
         path);
   }
-  Expected<Sidecar> sidecar = SidecarReader(*object, decoded->text, path, of).Read();
+  Expected<Sidecar> sidecar = SidecarReader(*object, decoded.text, path, of).Read();
   const bool known = std::any_of(std::begin(kKnownKeys), std::end(kKnownKeys),
                                  [&](const char* key) { return object->contains(key); });
   if (sidecar && !known) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/header_layout.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_header.h"
@@ -246,22 +247,21 @@ Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const 
                                                    const ReadOptions& options) {
   ReadOptions any = options;
   if (any.column.empty()) any.column = "1";
-  const Expected<TableLayout> layout = FindTableLayout(text, file, any);
-  if (!layout) return tl::unexpected(layout.error());
+  TRY(const TableLayout layout, FindTableLayout(text, file, any));
   std::vector<ColumnNote> notes;
-  for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(layout.columns.size()); ++i) {
     std::string use;
-    const bool several = layout->channels.size() > 1;
-    for (std::size_t k = 0; k < layout->channels.size(); ++k) {
-      const Channel& channel = layout->channels[k];
+    const bool several = layout.channels.size() > 1;
+    for (std::size_t k = 0; k < layout.channels.size(); ++k) {
+      const Channel& channel = layout.channels[k];
       const std::string pair = several ? fmt::format(" {}", k + 1) : "";
-      if (channel.current == i) use = (layout->per_area() ? "current density" : "current") + pair;
+      if (channel.current == i) use = (layout.per_area() ? "current density" : "current") + pair;
       if (channel.voltage != i || !use.empty()) continue;
-      const bool shared = several && layout->channels[0].voltage == layout->channels[1].voltage;
+      const bool shared = several && layout.channels[0].voltage == layout.channels[1].voltage;
       use = "voltage" + (shared ? "" : pair);
     }
-    if (use.empty()) use = IsUsed(*layout, i) ? NameOf(layout->columns[i].kind) : "not used";
-    notes.push_back({i + 1, layout->columns[i].label, use});
+    if (use.empty()) use = IsUsed(layout, i) ? NameOf(layout.columns[i].kind) : "not used";
+    notes.push_back({i + 1, layout.columns[i].label, use});
   }
   return notes;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
@@ -49,7 +50,7 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlac
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   const Instant begin = Now();
   BirdPlaces few(*job, job->few), all(*job, job->problem);
-  if (auto sound = few.Check(); !sound) return tl::unexpected(sound.error());
+  TRY(few.Check());
   if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
   const double getting_ready = SecondsSince(begin);
   const Box& box = few.box();
@@ -202,7 +203,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
   FitJob job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
-  if (auto ready = PrepareFit(&job, &report); !ready) return tl::unexpected(ready.error());
+  TRY(PrepareFit(&job, &report));
   report.version = Version();
   report.curve = curve;
   report.model = options.model;
@@ -212,16 +213,15 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   EchoOptions(options, &report);
 
-  const auto birds = RunSearch(&job, &report);
-  if (!birds) return tl::unexpected(birds.error());
-  const PolishStart& best = birds->front();
+  TRY(const auto birds, RunSearch(&job, &report));
+  const PolishStart& best = birds.front();
   report.searched = report.refined = best.p;
   OrderAlike(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
   if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, *birds, CompleteSpace(job), &report);
+    PolishAndJudge(&job, birds, CompleteSpace(job), &report);
   } else {
     if (extended) SettleForm(best.form, best.p, &job, &report);
     report.refined = report.searched;

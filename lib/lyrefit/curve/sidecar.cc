@@ -213,7 +213,7 @@ std::optional<Sidecar> ReportedConditions(const json& report, const std::string&
   const auto found = curve->find("conditions");
   if (found == curve->end() || !found->is_object()) return std::nullopt;
   const auto assumptions = curve->value("assumptions", json::array());
-  // What the report had to assume itself, it does not know.
+  // What the report had to assume itself, it does not know; its file says so in sentences only.
   const auto number = [&](const char* key, const char* assumed) -> std::optional<double> {
     const auto value = found->find(key);
     const bool guess =

@@ -20,6 +20,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/random.h
   base/version.h
   certify/certify.h
+  curve/assumption.h
   curve/check_readings.h
   curve/curve_files.h
   curve/curve_set.h

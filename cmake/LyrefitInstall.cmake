@@ -42,6 +42,7 @@ set(LYREFIT_PUBLIC_HEADERS
   refine/error_terms.h
   search/search_summary.h
   # readers, and the writer of curves
+  curve/assumption.h
   curve/check_readings.h
   curve/curve_files.h
   curve/nearest_curve.h

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 
 namespace lyrefit {
 namespace {
@@ -37,8 +38,7 @@ class Watch {
     progress.stage = "fit";
     progress.iteration = done_;
     progress.iterations = files_;
-    progress.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    progress.seconds = SecondsSince(begin_);
     stopped_ = StopRequested(observer_, progress) || stopped_;
     return stopped_;
   }

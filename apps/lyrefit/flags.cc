@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
@@ -53,21 +51,6 @@ Expected<void> CheckConditionFlags(const ConditionFlags& flags) {
                             NumberText(*flags.irradiance_W_m2)));
   }
   return {};
-}
-
-// Drops the sentences about a condition that now is given.
-void ForgetAssumptions(const char* about, std::vector<std::string>* sentences) {
-  const auto begins_with = [about](const std::string& sentence, const char* start) {
-    return sentence.rfind(std::string(start) + about, 0) == 0;
-  };
-  sentences->erase(std::remove_if(sentences->begin(), sentences->end(),
-                                  [&](const std::string& sentence) {
-                                    return begins_with(sentence, "") ||
-                                           begins_with(sentence, "the ") ||
-                                           begins_with(sentence, "number of ") ||
-                                           begins_with(sentence, "the column of the ");
-                                  }),
-                   sentences->end());
 }
 
 }  // namespace
@@ -191,17 +174,17 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) 
   if (flags.cells) {
     curve->conditions.cells_in_series = *flags.cells;
     curve->cells_known = true;
-    ForgetAssumptions("cells in series", &curve->assumptions);
+    Forget(About::kCells, &curve->assumptions);
   }
   if (flags.temperature_C) {
     curve->conditions.cell_temperature_K = *flags.temperature_C + kZeroCelsius_K;
     curve->temperature_known = true;
-    ForgetAssumptions("cell temperature", &curve->assumptions);
+    Forget(About::kTemperature, &curve->assumptions);
   }
   if (flags.irradiance_W_m2) {
     curve->conditions.irradiance_W_m2 = *flags.irradiance_W_m2;
     curve->irradiance_known = true;
-    ForgetAssumptions("irradiance", &curve->assumptions);
+    Forget(About::kIrradiance, &curve->assumptions);
   }
   return {};
 }
@@ -210,7 +193,7 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
   for (IvCurve& curve : set->curves) {
     if (auto applied = ApplyConditionFlags(flags, &curve); !applied) return applied;
   }
-  IvCurve common;  // carries the sentences that hold for the whole set
+  IvCurve common;  // carries the assumptions that hold for the whole set
   common.assumptions = set->assumptions;
   if (auto applied = ApplyConditionFlags(flags, &common); !applied) return applied;
   set->assumptions = common.assumptions;

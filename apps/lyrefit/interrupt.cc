@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "lyrefit/base/seconds.h"
 #include "output.h"
 #include "progress_text.h"
 
@@ -76,7 +77,7 @@ class ProgressDisplay {
   }
 
  private:
-  double Seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  double Seconds() const { return SecondsSince(begin_); }
 
   void Draw() {
     const bool terminal = OnTerminal();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/seconds.h"
+
 namespace lyrefit {
 namespace {
 
@@ -66,8 +68,7 @@ void Recorder::Keep(const double* unit, double value) {
 }
 
 void Recorder::EndIteration() {
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  const double seconds = SecondsSince(begin_);
   const std::int64_t t = static_cast<std::int64_t>(summary_.trace.size());
   const double best = elites_.empty() ? kInfinity : elites_.front().value;
   summary_.trace.push_back({t, summary_.evaluations, best});
@@ -96,8 +97,7 @@ SearchSummary Recorder::Finish() {
     summary_.termination = budget_ < options_.max_evaluations ? SearchTermination::kIterations
                                                               : SearchTermination::kEvaluations;
   }
-  summary_.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  summary_.seconds = SecondsSince(begin_);
   return std::move(summary_);
 }
 

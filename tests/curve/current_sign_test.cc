@@ -87,7 +87,8 @@ TEST(TurnLoadSignTest, TurnsCurrentsAndSaysSo) {
   TurnLoadSign(&load);
   EXPECT_EQ(load.current_A, generator.current_A);
   EXPECT_EQ(load.voltage_V, generator.voltage_V);
-  EXPECT_THAT(load.assumptions, ::testing::ElementsAre(::testing::HasSubstr("load sign")));
+  EXPECT_THAT(SentencesOf(load.assumptions),
+              ::testing::ElementsAre(::testing::HasSubstr("load sign")));
 }
 
 TEST(TurnLoadSignTest, LeavesUnclearCurvesAsWrittenAndSaysSo) {
@@ -97,7 +98,8 @@ TEST(TurnLoadSignTest, LeavesUnclearCurvesAsWrittenAndSaysSo) {
   TurnLoadSign(&curve);
   EXPECT_EQ(curve.current_A, before.current_A);
   EXPECT_EQ(curve.voltage_V, before.voltage_V);
-  EXPECT_THAT(curve.assumptions, ::testing::ElementsAre(::testing::HasSubstr("left as written")));
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              ::testing::ElementsAre(::testing::HasSubstr("left as written")));
 }
 
 TEST(TurnLoadSignTest, ZeroStaysPositiveZero) {

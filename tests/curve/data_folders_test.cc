@@ -81,7 +81,7 @@ TEST(DataFoldersTest, EveryFolderSaysAllTheReaderNeeds) {
     const auto curve = ReadCurve(folder.string());
     ASSERT_TRUE(curve) << curve.error().ToString();
     EXPECT_EQ(curve->name, folder.filename().string());
-    EXPECT_THAT(curve->assumptions, ::testing::IsEmpty());
+    EXPECT_THAT(SentencesOf(curve->assumptions), ::testing::IsEmpty());
     EXPECT_TRUE(fs::exists(folder / "about.md"));
   }
 }

@@ -138,7 +138,7 @@ TEST(FormatsTest, MissingReadingsAreRefusedOrCounted) {
     options.skip_missing = true;
     const auto curve = ReadCurve(path, options);
     ASSERT_TRUE(curve) << curve.error().ToString();
-    EXPECT_THAT(curve->assumptions, ::testing::Contains(sentence)) << file;
+    EXPECT_THAT(SentencesOf(curve->assumptions), ::testing::Contains(sentence)) << file;
   }
 }
 

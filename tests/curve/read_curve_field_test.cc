@@ -32,9 +32,9 @@ std::vector<fs::path> TablesUnder(const fs::path& folder) {
 }
 
 bool SaysThatTheSignWasTurned(const IvCurve& curve) {
-  return std::any_of(
-      curve.assumptions.begin(), curve.assumptions.end(),
-      [](const std::string& text) { return text.find("sign") != std::string::npos; });
+  return std::any_of(curve.assumptions.begin(), curve.assumptions.end(), [](const Assumption& one) {
+    return one.sentence.find("sign") != std::string::npos;
+  });
 }
 
 TEST(FieldDataTest, EverySingleCurveIsReadWithItsSign) {

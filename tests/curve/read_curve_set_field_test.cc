@@ -45,7 +45,7 @@ TEST(FieldSetTest, FoldersOfManyCurvesAreRead) {
       EXPECT_EQ(curve.conditions.cells_in_series, expected.cells);
       EXPECT_EQ(curve.irradiance_known, expected.irradiance_known) << curve.name;
       EXPECT_EQ(curve.temperature_known, expected.temperature_known) << curve.name;
-      for (const std::string& sentence : curve.assumptions) {
+      for (const std::string& sentence : SentencesOf(curve.assumptions)) {
         EXPECT_EQ(sentence.find("load sign"), std::string::npos) << curve.name;
       }
     }
@@ -87,7 +87,7 @@ TEST(FieldSetTest, EveryPanelFamilyIsASetOfItsSweeps) {
       EXPECT_TRUE(curve.temperature_known);
       EXPECT_NEAR(curve.conditions.irradiance_W_m2, curve.irradiance_W_m2.front(),
                   0.02 * curve.irradiance_W_m2.front());
-      EXPECT_TRUE(curve.assumptions.empty()) << curve.assumptions.front();
+      EXPECT_TRUE(curve.assumptions.empty()) << curve.assumptions.front().sentence;
     }
   }
   EXPECT_EQ(families, 35);

@@ -44,13 +44,14 @@ TEST(ReadCurveSetTest, FolderOfOneTableWithIndexAndDataset) {
     EXPECT_EQ(set->source, path);
     EXPECT_THAT(Ids(*set), ElementsAre("7", "3", "12"));
     EXPECT_THAT(set->rejected, IsEmpty());
-    EXPECT_THAT(set->assumptions, IsEmpty());
+    EXPECT_THAT(SentencesOf(set->assumptions), IsEmpty());
     const IvCurve& unknown = set->curves[0];
     EXPECT_EQ(unknown.source, table);
     EXPECT_FALSE(unknown.irradiance_known);
     EXPECT_FALSE(unknown.temperature_known);
-    EXPECT_THAT(unknown.assumptions, ElementsAre("cell temperature not given: assumed 25 C",
-                                                 "irradiance not given: assumed 1000 W/m2"));
+    EXPECT_THAT(SentencesOf(unknown.assumptions),
+                ElementsAre("cell temperature not given: assumed 25 C",
+                            "irradiance not given: assumed 1000 W/m2"));
     const IvCurve& noon = set->curves[1];
     EXPECT_TRUE(noon.irradiance_known);
     EXPECT_TRUE(noon.temperature_known);
@@ -59,7 +60,7 @@ TEST(ReadCurveSetTest, FolderOfOneTableWithIndexAndDataset) {
     EXPECT_EQ(noon.conditions.cells_in_series, 36);
     EXPECT_EQ(noon.notes.isc_tempco_A_per_K, 0.0054);
     EXPECT_THAT(noon.current_A, ElementsAre(2, 1.8, 0));
-    EXPECT_THAT(noon.assumptions, IsEmpty());
+    EXPECT_THAT(SentencesOf(noon.assumptions), IsEmpty());
     EXPECT_EQ(set->curves[2].conditions.irradiance_W_m2, 0);
     EXPECT_TRUE(set->curves[2].irradiance_known);
   }
@@ -75,8 +76,9 @@ TEST(ReadCurveSetTest, ModuleTemperatureAndKelvinInTheIndexAreTakenAndSaid) {
   ASSERT_TRUE(set) << set.error().ToString();
   EXPECT_DOUBLE_EQ(set->curves[0].conditions.cell_temperature_K, 310.15);
   EXPECT_EQ(set->curves[0].conditions.irradiance_W_m2, 600);
-  EXPECT_THAT(set->assumptions, Contains(HasSubstr("converted from kelvin")));
-  EXPECT_THAT(set->assumptions, Contains(HasSubstr("taken as the temperature of the cells")));
+  EXPECT_THAT(SentencesOf(set->assumptions), Contains(HasSubstr("converted from kelvin")));
+  EXPECT_THAT(SentencesOf(set->assumptions),
+              Contains(HasSubstr("taken as the temperature of the cells")));
 }
 
 TEST(ReadCurveSetTest, CommonSentencesAreSaidOnce) {
@@ -84,10 +86,11 @@ TEST(ReadCurveSetTest, CommonSentencesAreSaidOnce) {
   const auto set = ReadCurveSet(folder.Write("a.csv", kThree));
   ASSERT_TRUE(set) << set.error().ToString();
   EXPECT_EQ(set->name, "a");
-  EXPECT_THAT(set->assumptions, ElementsAre(HasSubstr("cells in series"), HasSubstr("assumed 25 C"),
-                                            HasSubstr("assumed 1000 W/m2")));
+  EXPECT_THAT(SentencesOf(set->assumptions),
+              ElementsAre(HasSubstr("cells in series"), HasSubstr("assumed 25 C"),
+                          HasSubstr("assumed 1000 W/m2")));
   for (const IvCurve& curve : set->curves) {
-    EXPECT_THAT(curve.assumptions, IsEmpty());
+    EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
     EXPECT_FALSE(curve.irradiance_known);
     EXPECT_FALSE(curve.temperature_known);
   }
@@ -113,7 +116,7 @@ TEST(ReadCurveSetTest, ConditionsPerRowGoBeforeTheNominalOnes) {
     EXPECT_EQ(curve.notes.isc_tempco_per_K, 0.0005);
     EXPECT_TRUE(curve.irradiance_known);
     EXPECT_TRUE(curve.temperature_known);
-    EXPECT_THAT(curve.assumptions, Not(Contains(HasSubstr("differs"))));
+    EXPECT_THAT(SentencesOf(curve.assumptions), Not(Contains(HasSubstr("differs"))));
   }
 }
 
@@ -145,7 +148,8 @@ TEST(ReadCurveSetTest, FolderOfTablesTakesSidecarsIndexAndDataset) {
   ASSERT_TRUE(set) << set.error().ToString();
   EXPECT_THAT(Ids(*set), ElementsAre("a", "b"));
   EXPECT_EQ(set->curves[0].conditions.irradiance_W_m2, 300);
-  EXPECT_THAT(set->curves[0].assumptions, Contains(HasSubstr("in the index (400 W/m2) differs")));
+  EXPECT_THAT(SentencesOf(set->curves[0].assumptions),
+              Contains(HasSubstr("in the index (400 W/m2) differs")));
   EXPECT_EQ(set->curves[1].conditions.irradiance_W_m2, 500);
   EXPECT_EQ(set->curves[1].source, folder.Path("f/b.tsv"));
   for (const IvCurve& curve : set->curves) {
@@ -242,9 +246,10 @@ TEST(ReadCurveSetTest, ACurveWithoutARowOfTheIndexIsReadAndSaysSo) {
   ASSERT_TRUE(set) << set.error().ToString();
   EXPECT_FALSE(set->curves[0].irradiance_known);
   EXPECT_TRUE(set->curves[0].temperature_known);
-  EXPECT_THAT(set->curves[0].assumptions, Contains("the index has no row for this curve"));
+  EXPECT_THAT(SentencesOf(set->curves[0].assumptions),
+              Contains("the index has no row for this curve"));
   EXPECT_TRUE(set->curves[1].irradiance_known);
-  EXPECT_THAT(set->curves[1].assumptions, IsEmpty());
+  EXPECT_THAT(SentencesOf(set->curves[1].assumptions), IsEmpty());
 }
 
 TEST(ReadCurveSetTest, ErrorsInTheIndexNameTheirPlace) {

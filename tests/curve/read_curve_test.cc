@@ -32,7 +32,7 @@ TEST(ReadCurveTest, SidecarBesideTheTableCounts) {
   EXPECT_EQ(curve->conditions.cells_in_series, 36);
   EXPECT_EQ(curve->conditions.cell_temperature_K, 318.15);
   EXPECT_EQ(curve->conditions.irradiance_W_m2, 900);
-  EXPECT_THAT(curve->assumptions, IsEmpty());
+  EXPECT_THAT(SentencesOf(curve->assumptions), IsEmpty());
 }
 
 TEST(ReadCurveTest, WithoutSidecarTheAssumptionsAreSaid) {
@@ -40,7 +40,7 @@ TEST(ReadCurveTest, WithoutSidecarTheAssumptionsAreSaid) {
   const auto curve = ReadCurve(folder.Write("a.txt", kTable));
   ASSERT_TRUE(curve);
   EXPECT_THAT(
-      curve->assumptions,
+      SentencesOf(curve->assumptions),
       ElementsAre("number of cells in series not given: assumed 1; n is then the ideality of "
                   "the whole module",
                   "cell temperature not given: assumed 25 C",
@@ -64,7 +64,7 @@ TEST(ReadCurveTest, LoadSignIsTurnedAndSaid) {
   ASSERT_TRUE(curve);
   EXPECT_THAT(curve->current_A, ElementsAre(0, 0.9, 1));
   EXPECT_THAT(curve->voltage_V, ElementsAre(0.6, 0.5, 0));
-  EXPECT_THAT(curve->assumptions, Contains(HasSubstr("load sign")));
+  EXPECT_THAT(SentencesOf(curve->assumptions), Contains(HasSubstr("load sign")));
 }
 
 TEST(ReadCurveTest, IvSwingerFileIsRead) {
@@ -77,7 +77,7 @@ TEST(ReadCurveTest, IvSwingerFileIsRead) {
   ASSERT_TRUE(curve) << curve.error().ToString();
   EXPECT_THAT(curve->voltage_V, ElementsAre(0, 20.1, 24.5));
   EXPECT_THAT(curve->current_A, ElementsAre(5.1, 4.7, 0));
-  EXPECT_THAT(curve->assumptions, Contains("columns not used: 'Watts', 'Ohms'"));
+  EXPECT_THAT(SentencesOf(curve->assumptions), Contains("columns not used: 'Watts', 'Ohms'"));
 }
 
 TEST(ReadCurveTest, SweepOfAFamilyHasItsOwnConditions) {

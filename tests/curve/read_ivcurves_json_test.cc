@@ -31,13 +31,14 @@ TEST(ReadIvCurvesJsonTest, ReadsAllCurvesInFileOrder) {
   EXPECT_THAT(first.current_A, ElementsAre(1, 0.9, 0));
   EXPECT_EQ(first.conditions.cells_in_series, 72);
   EXPECT_EQ(first.conditions.cell_temperature_K, 298.15);
-  EXPECT_THAT(first.assumptions, ElementsAre("irradiance not given: assumed 1000 W/m2"));
+  EXPECT_THAT(SentencesOf(first.assumptions),
+              ElementsAre("irradiance not given: assumed 1000 W/m2"));
   const IvCurve& second = curves->back();
   EXPECT_EQ(second.name, "set_5");
   EXPECT_EQ(second.conditions.cells_in_series, 60);
   EXPECT_EQ(second.conditions.irradiance_W_m2, 800);
   EXPECT_THAT(second.current_A, ElementsAre(2, 1.9, 0));
-  EXPECT_THAT(second.assumptions, ElementsAre(HasSubstr("load sign")));
+  EXPECT_THAT(SentencesOf(second.assumptions), ElementsAre(HasSubstr("load sign")));
 }
 
 TEST(ReadIvCurvesJsonTest, ReadCurvePicksByIndex) {
@@ -64,7 +65,8 @@ TEST(ReadIvCurvesJsonTest, SingleCurveNeedsNoIndex) {
       "one.JSON", R"({"IV Curves": [{"Index": 3, "Voltages": [0, 1], "Currents": [1, 0]}]})"));
   ASSERT_TRUE(curve) << curve.error().ToString();
   EXPECT_EQ(curve->assumptions.size(), 3U);
-  EXPECT_THAT(curve->assumptions, Contains(HasSubstr("number of cells in series not given")));
+  EXPECT_THAT(SentencesOf(curve->assumptions),
+              Contains(HasSubstr("number of cells in series not given")));
 }
 
 TEST(ReadIvCurvesJsonTest, ErrorsSayWhereAndWhatWasExpected) {

@@ -54,7 +54,8 @@ TEST(ReadTableTest, ReadsTheOptionalColumns) {
   EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(800));
   EXPECT_THAT(table->curve.temperature_C, ElementsAre(25));
   EXPECT_FALSE(table->holds_curves);
-  EXPECT_THAT(table->curve.assumptions, ::testing::Contains(HasSubstr("converted from kelvin")));
+  EXPECT_THAT(SentencesOf(table->curve.assumptions),
+              ::testing::Contains(HasSubstr("converted from kelvin")));
 }
 
 TEST(ReadTableTest, ColumnNamedCurveTellsCurvesApart) {
@@ -126,7 +127,7 @@ TEST(ReadTableTest, ASecondTableBelowIsASecondSweep) {
   EXPECT_THAT(table->curve.sweep, ElementsAre(1, 1, 2, 2));
   EXPECT_THAT(table->curve.current_A, ElementsAre(2, 1, 1, 0));
   EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(1000, 1000, 500, 500));
-  EXPECT_THAT(table->curve.assumptions, Contains(HasSubstr("read as sweeps 1 to 2")));
+  EXPECT_THAT(SentencesOf(table->curve.assumptions), Contains(HasSubstr("read as sweeps 1 to 2")));
   EXPECT_FALSE(ReadTable("V,I\n0,2\n0.5,1\nV,I,t\n0,1,0\n", "f"));
 }
 
@@ -137,7 +138,7 @@ TEST(ReadTableTest, TextBelowTheTableIsLeftAndSaid) {
     ASSERT_TRUE(table) << table.error().ToString();
     EXPECT_EQ(table->curve.size(), 2U);
     EXPECT_THAT(
-        table->curve.assumptions,
+        SentencesOf(table->curve.assumptions),
         Contains(AllOf(HasSubstr("2 lines of text below the table"), HasSubstr("'Isc,8.9'"))));
   }
 }

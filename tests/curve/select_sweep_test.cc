@@ -22,7 +22,7 @@ TEST(SelectSweepTest, UpAndDownStayTogetherAndAreSaid) {
   IvCurve curve = UpAndDown();
   ASSERT_TRUE(SelectSweep({}, false, &curve));
   EXPECT_EQ(curve.size(), 6U);
-  EXPECT_THAT(curve.assumptions, ElementsAre(HasSubstr("2 sweeps up and down")));
+  EXPECT_THAT(SentencesOf(curve.assumptions), ElementsAre(HasSubstr("2 sweeps up and down")));
 }
 
 TEST(SelectSweepTest, WishPicksTheRowsOfEveryColumn) {

@@ -16,7 +16,7 @@ TEST(SettleConditionsTest, SaysEverythingItHasToAssume) {
   EXPECT_EQ(curve.conditions.cells_in_series, 1);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 298.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
-  EXPECT_THAT(curve.assumptions,
+  EXPECT_THAT(SentencesOf(curve.assumptions),
               ElementsAre(kCellsAssumed, kTemperatureAssumed, kIrradianceAssumed));
   EXPECT_FALSE(curve.temperature_known);
   EXPECT_FALSE(curve.irradiance_known);
@@ -39,7 +39,7 @@ TEST(SettleConditionsTest, TakesTheSidecarAsItIs) {
   EXPECT_EQ(curve.conditions.cell_temperature_K, 318.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
   EXPECT_EQ(curve.notes.technology, "CdTe");
-  EXPECT_THAT(curve.assumptions, IsEmpty());
+  EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
 }
 
 TEST(SettleConditionsTest, ColumnsStandInForAMissingSidecar) {
@@ -49,7 +49,7 @@ TEST(SettleConditionsTest, ColumnsStandInForAMissingSidecar) {
   SettleConditions({}, &curve);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 303.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 800);
-  EXPECT_THAT(curve.assumptions, ElementsAre(kCellsAssumed));
+  EXPECT_THAT(SentencesOf(curve.assumptions), ElementsAre(kCellsAssumed));
 }
 
 TEST(SettleConditionsTest, ColumnThatAgreesLeavesTheRoundFigure) {
@@ -63,7 +63,7 @@ TEST(SettleConditionsTest, ColumnThatAgreesLeavesTheRoundFigure) {
   SettleConditions(sidecar, &curve);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 298.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
-  EXPECT_THAT(curve.assumptions, IsEmpty());
+  EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
 }
 
 TEST(SettleConditionsTest, ColumnThatDiffersCountsAndIsSaid) {
@@ -77,7 +77,7 @@ TEST(SettleConditionsTest, ColumnThatDiffersCountsAndIsSaid) {
   SettleConditions(sidecar, &curve);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 328.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
-  EXPECT_THAT(curve.assumptions,
+  EXPECT_THAT(SentencesOf(curve.assumptions),
               ElementsAre(HasSubstr("the cell temperature in the table (55 C) differs"),
                           HasSubstr("the irradiance in the table (0 W/m2) differs")));
 }
@@ -87,7 +87,7 @@ TEST(SettleConditionsTest, ColumnThatVariesIsSaid) {
   curve.irradiance_W_m2 = {900, 1000};
   SettleConditions({}, &curve);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 950);
-  EXPECT_THAT(curve.assumptions,
+  EXPECT_THAT(SentencesOf(curve.assumptions),
               ::testing::Contains(HasSubstr("irradiance varies from 900 to 1000 W/m2")));
 }
 

@@ -147,7 +147,7 @@ TEST(ReadSidecarTest, AReportInItsPlaceGivesItsConditions) {
   EXPECT_EQ(sidecar->cells_in_series, 36);
   EXPECT_EQ(sidecar->temperature_C, 51);
   EXPECT_FALSE(sidecar->irradiance_W_m2);  // the report had to assume it
-  EXPECT_THAT(sidecar->assumptions,
+  EXPECT_THAT(SentencesOf(sidecar->assumptions),
               ::testing::ElementsAre(HasSubstr("module.json is a report of lyrefit")));
 }
 
@@ -163,7 +163,7 @@ TEST(ReadSidecarTest, NoKnownKeyIsSaid) {
   const TempFolder folder;
   const auto sidecar = ReadSidecar(folder.Write("a.json", R"({"cells": 60})"), kLimit);
   ASSERT_TRUE(sidecar);
-  EXPECT_THAT(sidecar->assumptions,
+  EXPECT_THAT(SentencesOf(sidecar->assumptions),
               ::testing::ElementsAre(HasSubstr("a.json has none of the keys of a sidecar")));
 }
 

@@ -48,7 +48,7 @@ TEST(ReadHeadLineTest, LeavesWhatIsNotClear) {
         "Cells in parallel: 2", "Isc 8.90 Voc 36.0", "Area: 4", "Temperature: 320",
         "Irradiance (W/m2): -5", "Number of cells: 2.5", "Light: 1"}) {
     const TableHead head = Head(line);
-    EXPECT_THAT(head.assumptions, IsEmpty()) << line;
+    EXPECT_THAT(SentencesOf(head.assumptions), IsEmpty()) << line;
     EXPECT_THAT(head.left, ElementsAre(HasSubstr("line 3 '"))) << line;
   }
   for (const char* line :

@@ -23,21 +23,22 @@ TEST(FindTableLayoutTest, ColumnsMayStandInAnyOrder) {
   EXPECT_EQ(layout->irradiance, 5);
   EXPECT_EQ(layout->temperature, 6);
   EXPECT_EQ(layout->first_row_line, 1);
-  EXPECT_THAT(layout->assumptions, IsEmpty());
+  EXPECT_THAT(SentencesOf(layout->assumptions), IsEmpty());
 }
 
 TEST(FindTableLayoutTest, UsableColumnGoesBeforeRefusedOne) {
   const auto layout = FindTableLayout("V,J (mA/cm2),I (% of Isc),I_A\n0,1,2,3\n", "");
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->current, 3);
-  EXPECT_THAT(layout->assumptions, Contains(HasSubstr("columns not used: 'J (mA/cm2)'")));
+  EXPECT_THAT(SentencesOf(layout->assumptions),
+              Contains(HasSubstr("columns not used: 'J (mA/cm2)'")));
 }
 
 TEST(FindTableLayoutTest, TimeOfDayIsNotUsed) {
   const auto layout = FindTableLayout("Time,voltage_V,current_A\n12:00:01,0,1\n", "");
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->time, kNoColumn);
-  EXPECT_THAT(layout->assumptions, ElementsAre("column not used: 'Time'"));
+  EXPECT_THAT(SentencesOf(layout->assumptions), ElementsAre("column not used: 'Time'"));
 }
 
 TEST(FindTableLayoutTest, SkipsThePreambleOfATracer) {
@@ -48,7 +49,7 @@ TEST(FindTableLayoutTest, SkipsThePreambleOfATracer) {
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->delimiter, ';');
   EXPECT_EQ(layout->first_row_line, 6);
-  EXPECT_THAT(layout->assumptions,
+  EXPECT_THAT(SentencesOf(layout->assumptions),
               ElementsAre("4 lines before the header in line 6 skipped",
                           "cell temperature 25 C taken from line 4 'Temperature;25'",
                           "not understood, and not used: line 1 'Tracer 5'"));
@@ -70,7 +71,7 @@ TEST(FindTableLayoutTest, WithoutHeaderTheFirstTwoColumnsCount) {
   EXPECT_EQ(layout->voltage, 0);
   EXPECT_EQ(layout->current, 1);
   EXPECT_EQ(layout->first_row_line, 1);
-  EXPECT_THAT(layout->assumptions,
+  EXPECT_THAT(SentencesOf(layout->assumptions),
               ElementsAre(HasSubstr("no header line"), HasSubstr("1 further columns not used")));
 }
 
@@ -80,7 +81,7 @@ TEST(FindTableLayoutTest, HeaderMayHideInAComment) {
   EXPECT_EQ(layout->current, 0);
   EXPECT_EQ(layout->voltage, 1);
   EXPECT_EQ(layout->columns[1].factor, 1e-3);
-  EXPECT_THAT(layout->assumptions, Contains(HasSubstr("comment above the numbers")));
+  EXPECT_THAT(SentencesOf(layout->assumptions), Contains(HasSubstr("comment above the numbers")));
 }
 
 TEST(FindTableLayoutTest, UnknownNamesAreGuessedByLetterOrUnitWhereUnique) {

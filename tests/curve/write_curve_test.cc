@@ -54,7 +54,7 @@ TEST(CurveToCsvTest, ReadsBackToTheSameBits) {
     EXPECT_EQ(back->conditions.irradiance_W_m2, curve.conditions.irradiance_W_m2);
     EXPECT_EQ(back->conditions.cells_in_series, 3);
     EXPECT_EQ(back->conditions.strings_in_parallel, 2);
-    EXPECT_THAT(back->assumptions, ::testing::IsEmpty());
+    EXPECT_THAT(SentencesOf(back->assumptions), ::testing::IsEmpty());
   }
 }
 

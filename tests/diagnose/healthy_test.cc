@@ -121,7 +121,7 @@ TEST(CompareWithHealthy, TakesOffWhatAllMissAlike) {
   EXPECT_GT(c.common, 5e-4);
   EXPECT_NEAR(after, kNoise_A / 7.5, 0.2 * kNoise_A / 7.5);
   EXPECT_GT(before, 1.2 * after);
-  EXPECT_THAT(c.without_common.assumptions, Contains(HasSubstr("miss alike")));
+  EXPECT_THAT(SentencesOf(c.without_common.assumptions), Contains(HasSubstr("miss alike")));
 }
 
 TEST(CompareWithHealthy, LeavesOddReferencesAndTheSweepItselfOut) {

@@ -29,7 +29,7 @@ Effect Lamp() {
   lamp.title = "flicker of the lamp";
   lamp.where = Where::kSweep;
   lamp.sentence = "the lamp flickers";
-  lamp.parameters = {{"a", "amplitude", "", "part of the light", -0.2, 0.2, 0}};
+  lamp.parameters = {Parameter("a", "amplitude", "part of the light").Between(-0.2, 0.2)};
   lamp.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * Flicker(reading.x));
   };

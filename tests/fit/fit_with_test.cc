@@ -125,7 +125,10 @@ Effect SquareShunt() {
   Effect e;
   e.id = "square_shunt";
   e.title = "shunt that grows with the voltage";
-  e.parameters = {{"s", "strength", "A/V2", "current at 1 V of a cell", 0, 1, 0, false, 1, 1}};
+  e.parameters = {Parameter("s", "strength", "current at 1 V of a cell")
+                      .Unit("A/V2")
+                      .Between(0, 1)
+                      .CurrentPower(1)};
   e.junction = [](const auto* p, const auto&, const auto&, const auto& voltage) {
     return -(abs(voltage) * voltage) * p[0];
   };

@@ -2,11 +2,12 @@
 #include <iostream>
 
 // A shunt that grows with the square of the voltage. Every stage of an effect is written once, over
-// its number type; lower, upper and neutral value of a parameter follow its unit and description.
+// its number type; a parameter has bounds; at 0, unless it says otherwise, no effect is there.
 lyrefit::Effect SquareShunt() {
   lyrefit::Effect e;
   e.id = "square_shunt";
-  e.parameters = {{"s", "strength", "", "current at 1 V, in parts of Isc", 0, 1, 0}};
+  e.parameters = {
+      lyrefit::Parameter("s", "strength", "current at 1 V, in parts of Isc").Between(0, 1)};
   e.junction = [](const auto* p, const auto&, const auto&, const auto& voltage) {
     return -(abs(voltage) * voltage) * p[0];
   };

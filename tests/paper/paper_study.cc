@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
@@ -70,8 +71,7 @@ class PaperRun {
       study_.values.insert(study_.values.end(), checked.begin(), checked.end());
     }
     study_.s75_values = CheckPublished(*published, study_.s75, study_.options.batch);
-    study_.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    study_.seconds = SecondsSince(begin);
     return std::move(study_);
   }
 

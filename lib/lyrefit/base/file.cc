@@ -11,6 +11,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -70,7 +72,7 @@ Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t large
   Expected<std::string> text = ReadFileBytes(path, largest_bytes);
   if (!text) return text;
   if (StartsWith(*text, "\xef\xbb\xbf")) text->erase(0, 3);
-  if (auto checked = CheckIsText(*text, path); !checked) return tl::unexpected(checked.error());
+  TRY(CheckIsText(*text, path));
   return text;
 }
 

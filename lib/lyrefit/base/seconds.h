@@ -4,8 +4,13 @@
 
 namespace lyrefit {
 
-inline double SecondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+// The one stopwatch: const Instant begin = Now(); ... SecondsSince(begin).
+using Instant = std::chrono::steady_clock::time_point;
+
+inline Instant Now() { return std::chrono::steady_clock::now(); }
+
+inline double SecondsSince(Instant begin) {
+  return std::chrono::duration<double>(Now() - begin).count();
 }
 
 }  // namespace lyrefit

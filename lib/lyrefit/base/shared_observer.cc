@@ -1,11 +1,10 @@
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/seconds.h"
 
 namespace lyrefit {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::milliseconds kPeriod(50);  // between calls from inside jobs
+constexpr double kPeriod_s = 0.05;  // between calls from inside jobs
 
 }  // namespace
 
@@ -39,7 +38,7 @@ void SharedObserver::FinishJob(double work, std::int64_t evaluations) {
 bool SharedObserver::Stopped() {
   if (stopped_ || !observer_) return stopped_;
   const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
-  if (lock.owns_lock() && Clock::now() - told_ >= kPeriod) Tell();
+  if (lock.owns_lock() && SecondsSince(told_) >= kPeriod_s) Tell();
   return stopped_;
 }
 
@@ -56,8 +55,8 @@ std::function<bool()> SharedObserver::Proceed() {
 }
 
 void SharedObserver::Tell() {
-  told_ = Clock::now();
-  progress_.seconds = std::chrono::duration<double>(told_ - begin_).count();
+  told_ = Now();
+  progress_.seconds = SecondsSince(begin_);
   if (!stopped_ && StopRequested(observer_, progress_)) stopped_ = true;
 }
 

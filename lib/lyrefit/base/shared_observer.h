@@ -1,13 +1,13 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string_view>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/seconds.h"
 
 namespace lyrefit {
 
@@ -40,10 +40,10 @@ class SharedObserver {
 
   const Observer& observer_;
   const double work_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const Instant begin_ = Now();
   std::atomic<bool> stopped_{false};
   std::mutex mutex_;  // of what follows
-  std::chrono::steady_clock::time_point told_;
+  Instant told_;
   Progress progress_;
   double work_done_ = 0;
 };

@@ -15,6 +15,8 @@
 
 #include "lyrefit/base/file.h"
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -164,8 +166,7 @@ Expected<bool> Name(const Descriptor& file, const fs::path& target, const std::s
   if (link(target.string())) return true;
   const std::string temporary = TemporaryName(target);
   if (errno != EEXIST || !link(temporary)) return false;
-  const Expected<void> replaced = Replace(temporary, target, path);
-  if (!replaced) return tl::unexpected(replaced.error());
+  TRY(Replace(temporary, target, path));
   return true;
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/attain.h"
 #include "lyrefit/certify/beyond.h"
@@ -186,10 +186,8 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
 
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
                               const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  const Instant begin = Now();
+  const auto seconds = [&] { return SecondsSince(begin); };
   Proof proof{curve, options, observer, {}, {}, {}};
   if (auto ready = Prepare(&proof); !ready) return tl::unexpected(ready.error());
   const char* stage = "floor";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
@@ -283,7 +284,7 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
 }
 
 Expected<std::vector<std::string>> JudgeReadings(const IvCurve& curve) {
-  if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
+  TRY(Validate(curve));
   std::vector<std::string> doubts;
   for (const ReadingFinding& finding : CheckReadings(curve)) {
     if (finding.always) return Fail(finding.sentence, curve.source);

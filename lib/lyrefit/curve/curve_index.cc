@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
@@ -80,100 +81,91 @@ Expected<IndexLayout> FindIndexLayout(std::string_view header, int line, const s
               path, line, 1);
 }
 
-class IndexReader {
- public:
-  IndexReader(const IndexLayout& layout, const std::string& path, IndexIds ids)
-      : layout_(layout), ids_(ids), row_(layout.columns, layout.delimiter, path) {}
-
-  Expected<void> Read(std::string_view line, int number) {
-    if (auto taken = row_.Take(line, number); !taken) return taken;
-    const Expected<std::string> id = Id();
-    if (!id) return tl::unexpected(id.error());
-    IndexRow row;
-    row.missing =
-        row_.Refuse(fmt::format("expected rows of curves that are there, found one of curve {}",
-                                Quoted(*id)),
-                    layout_.id)
-            .value();
-    const auto irradiance = Number(layout_.irradiance);
-    if (!irradiance) return tl::unexpected(irradiance.error());
-    row.irradiance_W_m2 = *irradiance;
-    if (irradiance->value_or(0) < -kLargestDarkOffset_W_m2) {
-      return row_.RefuseField(layout_.irradiance, "an irradiance from 0 W/m2 up");
-    }
-    const auto temperature = Number(layout_.temperature);
-    if (!temperature) return tl::unexpected(temperature.error());
-    row.temperature_C = *temperature;
-    if (!index_.rows.try_emplace(*id, std::move(row)).second) {
-      return row_.Refuse(
-          fmt::format("expected one row a curve, found a second one of curve {}", Quoted(*id)),
-          layout_.id);
-    }
-    return {};
-  }
-
-  CurveIndex Finish() {
-    index_.states_irradiance = layout_.irradiance != kNoColumn;
-    index_.states_temperature = layout_.temperature != kNoColumn;
-    for (const int used : {layout_.irradiance, layout_.temperature}) {
-      if (used == kNoColumn) continue;
-      const std::string& label = layout_.columns[used].label;
-      if (layout_.columns[used].offset != 0) {
-        index_.assumptions.push_back(fmt::format(
-            "column {} of the index converted from kelvin to degrees Celsius", Quoted(label)));
-      }
-      if (Contains(label, "module") && used == layout_.temperature) {
-        index_.assumptions.push_back(fmt::format(
-            "column {} of the index taken as the temperature of the cells", Quoted(label)));
-      }
-    }
-    return std::move(index_);
-  }
-
- private:
-  Expected<std::string> Id() {
-    const std::string_view text = row_[layout_.id];
-    if (text.empty()) return row_.RefuseField(layout_.id, "the id of a curve");
-    if (ids_ == IndexIds::kNumbers) {
-      const Expected<int> number = row_.WholeNumber(layout_.id);
-      if (!number) return tl::unexpected(number.error());
-      return std::to_string(*number);
-    }
-    const std::filesystem::path file{std::string(text)};
-    return IsTable(file) ? file.stem().string() : std::string(text);
-  }
-
-  Expected<std::optional<double>> Number(int field) {
-    if (field == kNoColumn || row_[field].empty()) return std::optional<double>();
-    const Expected<double> value = row_.Value(field);
-    if (!value) return tl::unexpected(value.error());
-    return std::optional<double>(*value);
-  }
-
-  const IndexLayout& layout_;
-  IndexIds ids_;
-  TableRow row_;
-  CurveIndex index_;
+// The rows of an index.
+struct IndexRows {
+  const IndexLayout& layout;
+  IndexIds ids;
+  TableRow row;
+  CurveIndex index;
 };
+
+Expected<std::string> IdOfRow(IndexRows* rows) {
+  const std::string_view text = rows->row[rows->layout.id];
+  if (text.empty()) return rows->row.RefuseField(rows->layout.id, "the id of a curve");
+  if (rows->ids == IndexIds::kNumbers) {
+    TRY(const int number, rows->row.WholeNumber(rows->layout.id));
+    return std::to_string(number);
+  }
+  const std::filesystem::path file{std::string(text)};
+  return IsTable(file) ? file.stem().string() : std::string(text);
+}
+
+Expected<std::optional<double>> NumberOfRow(IndexRows* rows, int field) {
+  if (field == kNoColumn || rows->row[field].empty()) return std::optional<double>();
+  TRY(const double value, rows->row.Value(field));
+  return std::optional<double>(value);
+}
+
+Expected<void> ReadIndexRow(IndexRows* rows, std::string_view line, int number) {
+  TRY(rows->row.Take(line, number));
+  TRY(const std::string id, IdOfRow(rows));
+  IndexRow row;
+  row.missing =
+      rows->row
+          .Refuse(fmt::format("expected rows of curves that are there, found one of curve {}",
+                              Quoted(id)),
+                  rows->layout.id)
+          .value();
+  const auto irradiance = NumberOfRow(rows, rows->layout.irradiance);
+  if (!irradiance) return tl::unexpected(irradiance.error());
+  row.irradiance_W_m2 = *irradiance;
+  if (irradiance->value_or(0) < -kLargestDarkOffset_W_m2) {
+    return rows->row.RefuseField(rows->layout.irradiance, "an irradiance from 0 W/m2 up");
+  }
+  TRY(row.temperature_C, NumberOfRow(rows, rows->layout.temperature));
+  if (!rows->index.rows.try_emplace(id, std::move(row)).second) {
+    return rows->row.Refuse(
+        fmt::format("expected one row a curve, found a second one of curve {}", Quoted(id)),
+        rows->layout.id);
+  }
+  return {};
+}
+
+// What the header says besides.
+void DescribeColumns(const IndexLayout& layout, CurveIndex* index) {
+  index->states_irradiance = layout.irradiance != kNoColumn;
+  index->states_temperature = layout.temperature != kNoColumn;
+  for (const int used : {layout.irradiance, layout.temperature}) {
+    if (used == kNoColumn) continue;
+    const std::string& label = layout.columns[used].label;
+    if (layout.columns[used].offset != 0) {
+      index->assumptions.push_back(fmt::format(
+          "column {} of the index converted from kelvin to degrees Celsius", Quoted(label)));
+    }
+    if (Contains(label, "module") && used == layout.temperature) {
+      index->assumptions.push_back(fmt::format(
+          "column {} of the index taken as the temperature of the cells", Quoted(label)));
+    }
+  }
+}
 
 }  // namespace
 
 Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
                                     const ReadOptions& options) {
-  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  LineReader lines(text->text);
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  LineReader lines(text.text);
   std::string_view line;
   if (!lines.NextContent(&line)) {
     return Fail("the file holds no data, only blank lines and comments", path);
   }
-  const Expected<IndexLayout> layout = FindIndexLayout(line, lines.number(), path, ids);
-  if (!layout) return tl::unexpected(layout.error());
-  IndexReader reader(*layout, path, ids);
+  TRY(const IndexLayout layout, FindIndexLayout(line, lines.number(), path, ids));
+  IndexRows rows{layout, ids, TableRow(layout.columns, layout.delimiter, path), {}};
   while (lines.NextContent(&line)) {
-    if (auto read = reader.Read(line, lines.number()); !read) return tl::unexpected(read.error());
+    TRY(ReadIndexRow(&rows, line, lines.number()));
   }
-  return reader.Finish();
+  DescribeColumns(layout, &rows.index);
+  return std::move(rows.index);
 }
 
 }  // namespace lyrefit

@@ -21,7 +21,7 @@ struct CurveIndex {
   std::map<std::string, IndexRow> rows;  // by the id of the curve
   bool states_irradiance = false;        // there is such a column
   bool states_temperature = false;
-  std::vector<std::string> assumptions;
+  std::vector<Assumption> assumptions;
 };
 
 enum class IndexIds {

@@ -21,8 +21,8 @@ struct CurveSet {
   std::string name;    // "sandia_pvue125"
   std::string source;  // file or folder
   std::vector<IvCurve> curves;
-  std::vector<RejectedCurve> rejected;   // the others are there nevertheless
-  std::vector<std::string> assumptions;  // what holds for every curve, in plain sentences
+  std::vector<RejectedCurve> rejected;  // the others are there nevertheless
+  std::vector<Assumption> assumptions;  // what holds for every curve
 };
 
 // Reads a set from

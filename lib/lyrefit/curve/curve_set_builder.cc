@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/table_curve.h"
 
@@ -23,26 +24,28 @@ Expected<void> CheckIrradiance(const std::vector<double>& column) {
       fmt::format("expected an irradiance from 0 W/m2 up, found a mean of {:.6g} W/m2", mean));
 }
 
-void SayWhereTheyDiffer(const char* what, const char* unit, const std::optional<double>& own,
+void SayWhereTheyDiffer(About about, const char* unit, const std::optional<double>& own,
                         const std::optional<double>& index, double tolerance, IvCurve* curve) {
   if (!own || !index || std::abs(*own - *index) <= tolerance) return;
-  curve->assumptions.push_back(
+  curve->assumptions.emplace_back(
       fmt::format("the {} in the index ({:.6g} {}) differs from the one in the file beside the "
                   "curve ({:.6g} {}): the latter counts",
-                  what, *index, unit, *own, unit));
+                  ToText(about), *index, unit, *own, unit),
+      about);
 }
 
 // Moves the sentences that every curve has to the set.
 void GatherAssumptions(CurveSet* set) {
   std::map<std::string, std::size_t> curves_saying;
   for (const IvCurve& curve : set->curves) {
-    const std::set<std::string> sentences(curve.assumptions.begin(), curve.assumptions.end());
+    std::set<std::string> sentences;
+    for (const Assumption& one : curve.assumptions) sentences.insert(one.sentence);
     for (const std::string& sentence : sentences) ++curves_saying[sentence];
   }
-  const auto common = [&](const std::string& sentence) {
-    return curves_saying[sentence] == set->curves.size();
+  const auto common = [&](const Assumption& one) {
+    return curves_saying[one.sentence] == set->curves.size();
   };
-  const std::vector<std::string> first = set->curves.front().assumptions;
+  const std::vector<Assumption> first = set->curves.front().assumptions;
   std::copy_if(first.begin(), first.end(), std::back_inserter(set->assumptions), common);
   for (IvCurve& curve : set->curves) {
     auto& own = curve.assumptions;
@@ -60,18 +63,15 @@ CurveSetBuilder::CurveSetBuilder(std::string name, std::string source, const Rea
 
 Expected<void> CurveSetBuilder::ReadCommon(const std::string& path, SidecarOf of) {
   if (!IsFile(path)) return {};
-  Expected<Sidecar> common = ReadSidecar(path, options_.largest_file_bytes, of);
-  if (!common) return tl::unexpected(common.error());
-  common_ = std::move(*common);
+  TRY(common_, ReadSidecar(path, options_.largest_file_bytes, of));
   return {};
 }
 
 Expected<void> CurveSetBuilder::ReadIndex(const std::string& path, IndexIds ids) {
   if (!IsFile(path)) return {};
-  Expected<CurveIndex> index = ReadCurveIndex(path, ids, options_);
-  if (!index) return tl::unexpected(index.error());
-  Assume(index->assumptions);
-  index_ = std::move(*index);
+  TRY(CurveIndex index, ReadCurveIndex(path, ids, options_));
+  Assume(index.assumptions);
+  index_ = std::move(index);
   return {};
 }
 
@@ -99,9 +99,9 @@ void CurveSetBuilder::ApplyIndex(const Sidecar& own, Sidecar* stated, IvCurve* c
   const IndexRow& row = found->second;
   if (index_->states_irradiance) stated->irradiance_W_m2 = row.irradiance_W_m2;
   if (index_->states_temperature) stated->temperature_C = row.temperature_C;
-  SayWhereTheyDiffer("irradiance", "W/m2", own.irradiance_W_m2, row.irradiance_W_m2,
+  SayWhereTheyDiffer(About::kIrradiance, "W/m2", own.irradiance_W_m2, row.irradiance_W_m2,
                      0.02 * own.irradiance_W_m2.value_or(0), curve);
-  SayWhereTheyDiffer("cell temperature", "C", own.temperature_C, row.temperature_C, 1, curve);
+  SayWhereTheyDiffer(About::kTemperature, "C", own.temperature_C, row.temperature_C, 1, curve);
 }
 
 void CurveSetBuilder::TakeHead(const Sidecar& head) {
@@ -131,8 +131,8 @@ void CurveSetBuilder::Reject(std::string id, Error error) {
   set_.rejected.push_back({std::move(id), std::move(error)});
 }
 
-void CurveSetBuilder::Assume(const std::vector<std::string>& sentences) {
-  set_.assumptions.insert(set_.assumptions.end(), sentences.begin(), sentences.end());
+void CurveSetBuilder::Assume(const std::vector<Assumption>& assumptions) {
+  set_.assumptions.insert(set_.assumptions.end(), assumptions.begin(), assumptions.end());
 }
 
 Expected<CurveSet> CurveSetBuilder::Finish() {

@@ -40,7 +40,7 @@ class CurveSetBuilder {
   void Reject(std::string id, Error error);
 
   // What holds for every curve.
-  void Assume(const std::vector<std::string>& sentences);
+  void Assume(const std::vector<Assumption>& assumptions);
 
   Expected<CurveSet> Finish();
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_columns.h"
 
@@ -54,8 +55,7 @@ tl::unexpected<Error> NoChannel(const TableLayout& layout, const ReadOptions& op
   }
   for (const ColumnKind kind :
        {ColumnKind::kVoltage, ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
-    const Expected<int> picked = PickColumn(layout, kind, place);
-    if (!picked) return tl::unexpected(picked.error());
+    TRY(PickColumn(layout, kind, place));
   }
   return place.Refuse("expected a voltage and a current that belong together", 0);
 }
@@ -74,7 +74,7 @@ Expected<void> PickChannel(const ReadOptions& options, const HeaderPlace& place,
     const std::size_t blamed = options.column.empty() ? 1 : 0;
     return place.Refuse(chosen.error().message, layout->channels[blamed].current);
   }
-  if (auto applied = ApplyUnitWishes(options, *chosen, &layout->columns); !applied) return applied;
+  TRY(ApplyUnitWishes(options, *chosen, &layout->columns));
   layout->voltage = chosen->voltage;
   layout->current = chosen->current;
   return {};
@@ -82,16 +82,14 @@ Expected<void> PickChannel(const ReadOptions& options, const HeaderPlace& place,
 
 Expected<void> PickColumns(const ReadOptions& options, const HeaderPlace& place,
                            TableLayout* layout) {
-  if (auto picked = PickChannel(options, place, layout); !picked) return picked;
+  TRY(PickChannel(options, place, layout));
   const std::pair<ColumnKind, int*> wanted[] = {{ColumnKind::kSigma, &layout->sigma},
                                                 {ColumnKind::kTime, &layout->time},
                                                 {ColumnKind::kSweep, &layout->sweep},
                                                 {ColumnKind::kIrradiance, &layout->irradiance},
                                                 {ColumnKind::kTemperature, &layout->temperature}};
   for (const auto& [kind, index] : wanted) {
-    const Expected<int> picked = PickColumn(*layout, kind, place);
-    if (!picked) return tl::unexpected(picked.error());
-    *index = *picked;
+    TRY(*index, PickColumn(*layout, kind, place));
   }
   if (layout->sweep == kNoColumn) layout->sweep = *PickColumn(*layout, ColumnKind::kCurve, place);
   return {};
@@ -126,12 +124,12 @@ void SayWhatWasAssumed(TableLayout* layout) {
     }
   }
   const char* const current_unit = layout->per_area() ? "mA/cm2" : "A";
-  for (const auto& [index, unit] :
-       {std::pair(layout->voltage, "V"), {layout->current, current_unit}}) {
+  for (const auto& [index, unit, about] : {std::tuple(layout->voltage, "V", About::kReading),
+                                           {layout->current, current_unit, About::kCurrentUnit}}) {
     const Column& column = layout->columns[index];
     if (!column.unit.empty() || column.label.empty()) continue;
-    layout->assumptions.push_back(
-        fmt::format("column {} names no unit: taken as {}", Quoted(column.label), unit));
+    layout->assumptions.emplace_back(
+        fmt::format("column {} names no unit: taken as {}", Quoted(column.label), unit), about);
   }
   if (!unused.empty()) {
     layout->assumptions.push_back(
@@ -183,9 +181,7 @@ Expected<TableLayout> LayoutOfHeader(const TableLine& header, const HeaderPlace&
   TableLayout layout;
   layout.delimiter = header.delimiter;
   layout.columns = header.columns;
-  if (auto picked = PickColumns(options, place, &layout); !picked) {
-    return tl::unexpected(picked.error());
-  }
+  TRY(PickColumns(options, place, &layout));
   DropTextColumns(next_line, &layout);
   SayWhatWasAssumed(&layout);
   return layout;
@@ -208,14 +204,11 @@ Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlac
   TableLayout layout;
   layout.delimiter = row.delimiter;
   layout.columns.resize(row.fields.size());
-  const Expected<Channel> channel = PlacesWithoutHeader(layout.columns, place, options);
-  if (!channel) return tl::unexpected(channel.error());
-  if (auto applied = ApplyUnitWishes(options, *channel, &layout.columns); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  layout.channels = {*channel};
-  layout.voltage = channel->voltage;
-  layout.current = channel->current;
+  TRY(const Channel channel, PlacesWithoutHeader(layout.columns, place, options));
+  TRY(ApplyUnitWishes(options, channel, &layout.columns));
+  layout.channels = {channel};
+  layout.voltage = channel.voltage;
+  layout.current = channel.current;
   layout.assumptions.push_back(fmt::format(
       "no header line: column {} taken as the voltage in {}, column {} as the current in {}",
       layout.voltage + 1, options.voltage_unit.empty() ? "V" : options.voltage_unit,

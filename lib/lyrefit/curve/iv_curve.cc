@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -57,8 +59,7 @@ Expected<void> Validate(const IvCurve& curve) {
                  {"irradiance", curve.irradiance_W_m2, true},
                  {"temperature", curve.temperature_C, true}};
   for (const auto& column : columns) {
-    auto checked = CheckColumn(column.name, column.values, points, column.optional);
-    if (!checked) return checked;
+    TRY(CheckColumn(column.name, column.values, points, column.optional));
   }
   if (!curve.sweep.empty() && curve.sweep.size() != points) {
     return Fail(fmt::format("expected {} values of sweep, found {}", points, curve.sweep.size()));

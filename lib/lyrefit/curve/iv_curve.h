@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/assumption.h"
 
 namespace lyrefit {
 
@@ -54,8 +55,8 @@ struct IvCurve {
   std::vector<int> sweep;
   std::vector<double> irradiance_W_m2;
   std::vector<double> temperature_C;
-  std::vector<std::string> assumptions;  // plain sentences: what the reader had to assume
-  bool irradiance_known = true;          // false: nobody stated it, the conditions hold a default
+  std::vector<Assumption> assumptions;  // what the reader had to assume
+  bool irradiance_known = true;         // false: nobody stated it, the conditions hold a default
   bool temperature_known = true;
   bool cells_known = true;         // false: conditions.cells_in_series is a guess
   bool current_unit_known = true;  // false: ampere was assumed

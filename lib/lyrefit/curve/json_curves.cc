@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
@@ -123,192 +124,178 @@ std::size_t DropMissing(const Channel& channel, JsonTable* table) {
   return std::count(missing.begin(), missing.end(), true);
 }
 
-class JsonCurveFinder {
- public:
-  JsonCurveFinder(const std::string& path, const ReadOptions& options)
-      : path_(path), options_(options) {}
-
-  Expected<void> Visit(const json& node, const std::string& id, Sidecar around, bool nomad) {
-    if (node.is_object()) {
-      nomad = nomad || node.contains("jv_curve");
-      around = Merge(Numbers(node, id, nomad), around);
-    }
-    for (const JsonTable& table : TablesOf(node)) {
-      const Expected<bool> taken = Take(table, id, around);
-      if (!taken) return tl::unexpected(taken.error());
-      if (*taken) return {};
-    }
-    if (!node.is_structured()) return {};
-    std::size_t place = 0;
-    for (auto item = node.begin(); item != node.end(); ++item, ++place) {
-      if (!item->is_structured()) continue;
-      const std::string key = node.is_object() ? item.key() : std::to_string(place);
-      if (auto visited = Visit(*item, NameOf(*item, Below(id, key)), around, nomad); !visited) {
-        return visited;
-      }
-    }
-    return {};
-  }
-
-  std::vector<RawCurve> Finish() { return std::move(curves_); }
-
- private:
-  static std::vector<JsonTable> TablesOf(const json& node) {
-    if (node.is_array()) return {FromRecords(node)};
-    if (node.is_object()) return {FromLists(node), FromSplit(node), FromRecords(node)};
-    return {};
-  }
-
-  // Curves may have names of their own.
-  static std::string NameOf(const json& node, const std::string& otherwise) {
-    for (const char* key : {"cell_name", "name", "id"}) {
-      if (!node.is_object()) break;
-      const auto found = node.find(key);
-      if (found != node.end() && found->is_string()) return found->get<std::string>();
-    }
-    return otherwise;
-  }
-
-  static Sidecar Numbers(const json& object, const std::string& id, bool nomad) {
-    TableHead head;
-    for (const auto& [key, value] : object.items()) {
-      const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
-      if (!number) continue;
-      const std::string label = nomad ? LabelInNomad(key) : key;
-      TakeStatement(label, *number, Quoted(Below(id, key)), &head);
-    }
-    head.said.assumptions = HeadSentences(head);
-    return head.said;
-  }
-
-  // False if the table holds no voltage and current.
-  Expected<bool> Take(const JsonTable& table, const std::string& id, const Sidecar& around) {
-    std::vector<Column> columns;
-    for (const std::string& name : table.names) columns.push_back(RecogniseColumn(name));
-    ApplyColumnWishes(options_, &columns);
-    const std::vector<Channel> channels = FindChannels(columns);
-    if (channels.empty()) return false;
-    std::vector<Channel> chosen = channels;
-    if (!options_.column.empty()) {
-      const Expected<Channel> one = ChooseChannel(columns, channels, options_.column);
-      if (!one) return Fail(one.error().message, path_);
-      chosen = {*one};
-    }
-    for (const Channel& channel : chosen) {
-      if (auto applied = ApplyUnitWishes(options_, channel, &columns); !applied) {
-        return tl::unexpected(applied.error());
-      }
-      const std::string& label = columns[channel.current].label;
-      const std::string own = Below(id, label);
-      RawCurve raw;
-      raw.stated = around;
-      raw.per_area = columns[channel.current].kind == ColumnKind::kCurrentDensity;
-      JsonTable rows = table;
-      const std::size_t skipped = options_.skip_missing ? DropMissing(channel, &rows) : 0;
-      if (auto filled = Fill(rows, columns, channel, &raw.curve); !filled) {
-        return tl::unexpected(filled.error());
-      }
-      if (skipped > 0) {
-        raw.curve.assumptions.push_back(fmt::format("{} of {} rows without a reading left out",
-                                                    skipped, skipped + raw.curve.size()));
-      }
-      raw.curve.name = Unique(channels.size() > 1 ? own : id);
-      raw.curve.source = path_;
-      TurnLoadSign(&raw.curve);
-      curves_.push_back(std::move(raw));
-    }
-    return true;
-  }
-
-  Expected<void> Fill(const JsonTable& table, const std::vector<Column>& columns,
-                      const Channel& channel, IvCurve* curve) const {
-    std::vector<std::pair<int, std::vector<double>*>> wanted = {
-        {channel.voltage, &curve->voltage_V}, {channel.current, &curve->current_A}};
-    const std::pair<ColumnKind, std::vector<double>*> optional[] = {
-        {ColumnKind::kSigma, &curve->sigma_A},
-        {ColumnKind::kTime, &curve->time_s},
-        {ColumnKind::kIrradiance, &curve->irradiance_W_m2},
-        {ColumnKind::kTemperature, &curve->temperature_C}};
-    const std::size_t points = table.columns[channel.voltage].size();
-    for (const auto& [kind, values] : optional) {
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const bool usable = columns[i].kind == kind && columns[i].refusal.empty() &&
-                            table.columns[i].size() == points && AllNumbers(table.columns[i]);
-        if (usable && values->empty()) wanted.emplace_back(static_cast<int>(i), values);
-      }
-    }
-    for (const auto& [place, values] : wanted) {
-      const Column& column = columns[place];
-      for (std::size_t i = 0; i < table.columns[place].size(); ++i) {
-        const auto number = NumberOrText(*table.columns[place][i]);
-        const double value = number ? *number * column.factor + column.offset : 0;
-        if (!number) {
-          return Fail(
-              fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
-                          "missing, leave them out with --skip-missing",
-                          column.label, i,
-                          Quoted(table.columns[place][i]->dump(-1, ' ', false,
-                                                               json::error_handler_t::replace))),
-              path_);
-        }
-        values->push_back(value);
-      }
-    }
-    if (curve->voltage_V.size() != curve->current_A.size()) {
-      return Fail(fmt::format("expected as many values in \"{}\" as in \"{}\", found {} and {}",
-                              columns[channel.current].label, columns[channel.voltage].label,
-                              curve->current_A.size(), curve->voltage_V.size()),
-                  path_);
-    }
-    SayUnits(columns[channel.voltage], columns[channel.current], curve);
-    return {};
-  }
-
-  static bool AllNumbers(const std::vector<const json*>& values) {
-    return std::all_of(values.begin(), values.end(),
-                       [](const json* value) { return NumberOrText(*value).has_value(); });
-  }
-
-  static void SayUnits(const Column& voltage, const Column& current, IvCurve* curve) {
-    const bool density = current.kind == ColumnKind::kCurrentDensity;
-    for (const auto& [column, unit] :
-         {std::pair(&voltage, "V"), std::pair(&current, density ? "mA/cm2" : "A")}) {
-      if (!column->unit.empty()) continue;
-      curve->assumptions.push_back(
-          fmt::format("{} names no unit: taken as {}", Quoted(column->label), unit));
-    }
-  }
-
-  std::string Unique(const std::string& id) {
-    std::string unique = id;
-    for (int i = 2; !ids_.insert(unique).second; ++i) unique = fmt::format("{} ({})", id, i);
-    return unique;
-  }
-
-  const std::string& path_;
-  const ReadOptions& options_;
-  std::vector<RawCurve> curves_;
-  std::set<std::string> ids_;
+// The curves of a document, as they are found.
+struct FoundCurves {
+  const std::string& path;
+  const ReadOptions& options;
+  std::vector<RawCurve> curves;
+  std::set<std::string> ids;
 };
+
+std::vector<JsonTable> TablesOf(const json& node) {
+  if (node.is_array()) return {FromRecords(node)};
+  if (node.is_object()) return {FromLists(node), FromSplit(node), FromRecords(node)};
+  return {};
+}
+
+// Curves may have names of their own.
+std::string NameOf(const json& node, const std::string& otherwise) {
+  for (const char* key : {"cell_name", "name", "id"}) {
+    if (!node.is_object()) break;
+    const auto found = node.find(key);
+    if (found != node.end() && found->is_string()) return found->get<std::string>();
+  }
+  return otherwise;
+}
+
+Sidecar StatedNumbers(const json& object, const std::string& id, bool nomad) {
+  TableHead head;
+  for (const auto& [key, value] : object.items()) {
+    const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
+    if (!number) continue;
+    const std::string label = nomad ? LabelInNomad(key) : key;
+    TakeStatement(label, *number, Quoted(Below(id, key)), &head);
+  }
+  head.said.assumptions = HeadSentences(head);
+  return head.said;
+}
+
+bool AllNumbers(const std::vector<const json*>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](const json* value) { return NumberOrText(*value).has_value(); });
+}
+
+void SayUnits(const Column& voltage, const Column& current, IvCurve* curve) {
+  const bool density = current.kind == ColumnKind::kCurrentDensity;
+  for (const auto& [column, unit] :
+       {std::pair(&voltage, "V"), std::pair(&current, density ? "mA/cm2" : "A")}) {
+    if (!column->unit.empty()) continue;
+    curve->assumptions.push_back(
+        fmt::format("{} names no unit: taken as {}", Quoted(column->label), unit));
+  }
+}
+
+Expected<void> FillCurve(const std::string& path, const JsonTable& table,
+                         const std::vector<Column>& columns, const Channel& channel,
+                         IvCurve* curve) {
+  std::vector<std::pair<int, std::vector<double>*>> wanted = {{channel.voltage, &curve->voltage_V},
+                                                              {channel.current, &curve->current_A}};
+  const std::pair<ColumnKind, std::vector<double>*> optional[] = {
+      {ColumnKind::kSigma, &curve->sigma_A},
+      {ColumnKind::kTime, &curve->time_s},
+      {ColumnKind::kIrradiance, &curve->irradiance_W_m2},
+      {ColumnKind::kTemperature, &curve->temperature_C}};
+  const std::size_t points = table.columns[channel.voltage].size();
+  for (const auto& [kind, values] : optional) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const bool usable = columns[i].kind == kind && columns[i].refusal.empty() &&
+                          table.columns[i].size() == points && AllNumbers(table.columns[i]);
+      if (usable && values->empty()) wanted.emplace_back(static_cast<int>(i), values);
+    }
+  }
+  for (const auto& [place, values] : wanted) {
+    const Column& column = columns[place];
+    for (std::size_t i = 0; i < table.columns[place].size(); ++i) {
+      const auto number = NumberOrText(*table.columns[place][i]);
+      const double value = number ? *number * column.factor + column.offset : 0;
+      if (!number) {
+        return Fail(fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
+                                "missing, leave them out with --skip-missing",
+                                column.label, i,
+                                Quoted(table.columns[place][i]->dump(
+                                    -1, ' ', false, json::error_handler_t::replace))),
+                    path);
+      }
+      values->push_back(value);
+    }
+  }
+  if (curve->voltage_V.size() != curve->current_A.size()) {
+    return Fail(fmt::format("expected as many values in \"{}\" as in \"{}\", found {} and {}",
+                            columns[channel.current].label, columns[channel.voltage].label,
+                            curve->current_A.size(), curve->voltage_V.size()),
+                path);
+  }
+  SayUnits(columns[channel.voltage], columns[channel.current], curve);
+  return {};
+}
+
+std::string UniqueId(FoundCurves* found, const std::string& id) {
+  std::string unique = id;
+  for (int i = 2; !found->ids.insert(unique).second; ++i) unique = fmt::format("{} ({})", id, i);
+  return unique;
+}
+
+// False if the table holds no voltage and current.
+Expected<bool> TakeTable(FoundCurves* found, const JsonTable& table, const std::string& id,
+                         const Sidecar& around) {
+  std::vector<Column> columns;
+  for (const std::string& name : table.names) columns.push_back(RecogniseColumn(name));
+  ApplyColumnWishes(found->options, &columns);
+  const std::vector<Channel> channels = FindChannels(columns);
+  if (channels.empty()) return false;
+  std::vector<Channel> chosen = channels;
+  if (!found->options.column.empty()) {
+    const Expected<Channel> one = ChooseChannel(columns, channels, found->options.column);
+    if (!one) return Fail(one.error().message, found->path);
+    chosen = {*one};
+  }
+  for (const Channel& channel : chosen) {
+    TRY(ApplyUnitWishes(found->options, channel, &columns));
+    const std::string& label = columns[channel.current].label;
+    const std::string own = Below(id, label);
+    RawCurve raw;
+    raw.stated = around;
+    raw.per_area = columns[channel.current].kind == ColumnKind::kCurrentDensity;
+    JsonTable rows = table;
+    const std::size_t skipped = found->options.skip_missing ? DropMissing(channel, &rows) : 0;
+    TRY(FillCurve(found->path, rows, columns, channel, &raw.curve));
+    if (skipped > 0) {
+      raw.curve.assumptions.push_back(fmt::format("{} of {} rows without a reading left out",
+                                                  skipped, skipped + raw.curve.size()));
+    }
+    raw.curve.name = UniqueId(found, channels.size() > 1 ? own : id);
+    raw.curve.source = found->path;
+    TurnLoadSign(&raw.curve);
+    found->curves.push_back(std::move(raw));
+  }
+  return true;
+}
+
+Expected<void> FindCurvesIn(FoundCurves* found, const json& node, const std::string& id,
+                            Sidecar around, bool nomad) {
+  if (node.is_object()) {
+    nomad = nomad || node.contains("jv_curve");
+    around = Merge(StatedNumbers(node, id, nomad), around);
+  }
+  for (const JsonTable& table : TablesOf(node)) {
+    TRY(const bool taken, TakeTable(found, table, id, around));
+    if (taken) return {};
+  }
+  if (!node.is_structured()) return {};
+  std::size_t place = 0;
+  for (auto item = node.begin(); item != node.end(); ++item, ++place) {
+    if (!item->is_structured()) continue;
+    const std::string key = node.is_object() ? item.key() : std::to_string(place);
+    TRY(FindCurvesIn(found, *item, NameOf(*item, Below(id, key)), around, nomad));
+  }
+  return {};
+}
 
 }  // namespace
 
 Expected<std::vector<RawCurve>> FindJsonCurves(const json& document, const std::string& path,
                                                const ReadOptions& options) {
-  JsonCurveFinder finder(path, options);
+  FoundCurves found{path, options, {}, {}};
   Sidecar around;
   if (IsReport(document)) around = ReportedConditions(document, path).value_or(Sidecar{});
-  if (auto visited = finder.Visit(document, "", around, false); !visited) {
-    return tl::unexpected(visited.error());
-  }
-  std::vector<RawCurve> curves = finder.Finish();
-  if (curves.empty()) {
+  TRY(FindCurvesIn(&found, document, "", around, false));
+  if (found.curves.empty()) {
     return Fail(
         "expected an ivcurves file (a JSON object with the key \"IV Curves\") or lists of numbers "
         "under names of a voltage and a current, such as \"voltage_V\" and \"current_A\"",
         path);
   }
-  return curves;
+  return std::move(found.curves);
 }
 
 }  // namespace lyrefit

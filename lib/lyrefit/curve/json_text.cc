@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
@@ -103,14 +104,13 @@ Expected<std::optional<double>> JsonFields::Number(std::initializer_list<const c
 
 Expected<std::optional<int>> JsonFields::WholeNumber(
     std::initializer_list<const char*> keys) const {
-  const auto number = Number(keys);
-  if (!number) return tl::unexpected(number.error());
-  if (!*number) return std::optional<int>();
+  TRY(const auto number, Number(keys));
+  if (!number) return std::optional<int>();
   std::string key;
   Find(keys, &key);
-  if (**number != std::floor(**number)) return Refuse(key, "a whole number");
-  if (std::abs(**number) > 1e6) return Refuse(key, "at most a million");
-  return std::optional<int>(static_cast<int>(**number));
+  if (*number != std::floor(*number)) return Refuse(key, "a whole number");
+  if (std::abs(*number) > 1e6) return Refuse(key, "at most a million");
+  return std::optional<int>(static_cast<int>(*number));
 }
 
 Expected<std::optional<std::string>> JsonFields::Text(const char* key) const {

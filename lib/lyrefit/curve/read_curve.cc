@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
@@ -30,20 +31,18 @@ Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::s
                                               const ReadOptions& options) {
   std::vector<NumberedCurve> numbered;
   if (IsIvCurves(document)) {
-    Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(document, path);
-    if (!entries) return tl::unexpected(entries.error());
-    for (IvCurvesEntry& entry : *entries) {
+    TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
+    for (IvCurvesEntry& entry : entries) {
       if (!entry.curve) return tl::unexpected(entry.curve.error());
       numbered.push_back({entry.id, {std::move(*entry.curve), {}, false}, true});
     }
     return numbered;
   }
-  Expected<std::vector<RawCurve>> curves = FindJsonCurves(document, path, options);
-  if (!curves) return tl::unexpected(curves.error());
-  for (RawCurve& raw : *curves) {
+  TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
+  for (RawCurve& raw : curves) {
     const std::string id = raw.curve.name;
     raw.curve.name = fs::path(path).stem().string();
-    if (curves->size() > 1 && !id.empty()) raw.curve.name += "_" + id;
+    if (curves.size() > 1 && !id.empty()) raw.curve.name += "_" + id;
     numbered.push_back({std::to_string(numbered.size() + 1), std::move(raw), false});
   }
   return numbered;
@@ -88,9 +87,8 @@ Expected<IvCurve> ReadFromJson(const std::string& path, const ReadOptions& optio
 }
 
 Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& options) {
-  Expected<RawCurve> raw = ReadTableCurve(path, options);
-  if (!raw) return tl::unexpected(raw.error());
-  Expected<IvCurve> curve = FinishCurve(std::move(*raw), options);
+  TRY(RawCurve raw, ReadTableCurve(path, options));
+  Expected<IvCurve> curve = FinishCurve(std::move(raw), options);
   if (curve && options.curve) curve->name += "_" + std::to_string(*options.curve);
   return curve;
 }
@@ -113,24 +111,21 @@ Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options)
 
 Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
                                 const ReadOptions& options) {
-  const Expected<DecodedText> decoded = DecodeText(std::move(text), name);
-  if (!decoded) return tl::unexpected(decoded.error());
-  const Expected<json> document = ParseJson(decoded->text, name);
+  TRY(const DecodedText decoded, DecodeText(std::move(text), name));
+  const Expected<json> document = ParseJson(decoded.text, name);
   const bool is_json = document && (document->is_object() || document->is_array());
   if (is_json) return FromDocument(*document, name, options);
-  Expected<RawCurve> raw = TableCurveFromText(*decoded, name, options);
-  if (!raw) return tl::unexpected(raw.error());
-  raw->curve.name = name;
-  raw->curve.source = name;
-  return FinishCurve(std::move(*raw), options);
+  TRY(RawCurve raw, TableCurveFromText(decoded, name, options));
+  raw.curve.name = name;
+  raw.curve.source = name;
+  return FinishCurve(std::move(raw), options);
 }
 
 Expected<std::vector<ColumnNote>> ListColumns(const std::string& path, const ReadOptions& options) {
   const fs::path inside = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
   if (inside.empty()) return Fail("expected a file, found a folder", path);
-  const Expected<DecodedText> text = ReadDecodedFile(inside.string(), options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  return ListTableColumns(text->text, inside.string(), options);
+  TRY(const DecodedText text, ReadDecodedFile(inside.string(), options.largest_file_bytes));
+  return ListTableColumns(text.text, inside.string(), options);
 }
 
 }  // namespace lyrefit

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/curve_set_builder.h"
@@ -63,9 +64,8 @@ Expected<std::size_t> CountChannels(std::string_view text, const std::string& pa
                                     const ReadOptions& options) {
   ReadOptions first = options;
   if (first.column.empty()) first.column = "1";
-  const Expected<TableLayout> layout = FindTableLayout(text, path, first);
-  if (!layout) return tl::unexpected(layout.error());
-  return layout->channels.size();
+  TRY(const TableLayout layout, FindTableLayout(text, path, first));
+  return layout.channels.size();
 }
 
 // Every pair is a curve, named by its current.
@@ -75,13 +75,12 @@ Expected<void> AddChannels(std::string_view text, const std::string& path, std::
   for (std::size_t i = 1; i <= channels; ++i) {
     ReadOptions one = options;
     one.column = std::to_string(i);
-    Expected<Table> table = ReadTable(text, path, one);
-    if (!table) return tl::unexpected(table.error());
-    RawCurve raw{std::move(table->curve), table->head, table->per_area};
+    TRY(Table table, ReadTable(text, path, one));
+    RawCurve raw{std::move(table.curve), table.head, table.per_area};
     raw.curve.source = path;
-    raw.curve.name = table->current_label;
+    raw.curve.name = table.current_label;
     if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i);
-    if (auto whole = SelectSweep(std::nullopt, table->holds_curves, &raw.curve); !whole) {
+    if (auto whole = SelectSweep(std::nullopt, table.holds_curves, &raw.curve); !whole) {
       builder->Reject(raw.curve.name, {whole.error().message, path});
       continue;
     }
@@ -94,22 +93,21 @@ Expected<void> AddChannels(std::string_view text, const std::string& path, std::
 // Every number in the column curve or sweep is a curve, and so is every table below another.
 Expected<void> AddSweeps(std::string_view text, const std::string& path, const fs::path& index,
                          const ReadOptions& options, CurveSetBuilder* builder) {
-  const Expected<Table> table = ReadTable(text, path, options, BrokenRows::kSetAside);
-  if (!table) return tl::unexpected(table.error());
-  if (table->curve.sweep.empty() && table->broken.empty()) {
+  TRY(const Table table, ReadTable(text, path, options, BrokenRows::kSetAside));
+  if (table.curve.sweep.empty() && table.broken.empty()) {
     return Fail("expected a column curve or sweep that tells several curves apart, found none",
                 path);
   }
-  builder->Assume(table->curve.assumptions);
-  builder->TakeHead(table->head);
-  if (auto read = builder->ReadIndex(index.string(), IndexIds::kNumbers); !read) return read;
+  builder->Assume(table.curve.assumptions);
+  builder->TakeHead(table.head);
+  TRY(builder->ReadIndex(index.string(), IndexIds::kNumbers));
   std::set<std::string> ids;
-  for (TablePart& part : SplitTable(*table, path)) {
+  for (TablePart& part : SplitTable(table, path)) {
     ids.insert(part.curve.name);
     TurnLoadSign(&part.curve);
-    builder->Add({std::move(part.curve), {}, table->per_area}, part.line);
+    builder->Add({std::move(part.curve), {}, table.per_area}, part.line);
   }
-  for (const auto& [number, error] : table->broken) {
+  for (const auto& [number, error] : table.broken) {
     ids.insert(std::to_string(number));
     builder->Reject(std::to_string(number), error);
   }
@@ -129,12 +127,10 @@ Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& 
   const fs::path common =
       in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
   const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
-  const Expected<std::size_t> channels = CountChannels(text->text, path, options);
-  if (!channels) return tl::unexpected(channels.error());
-  auto read = builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve);
-  if (!read) return tl::unexpected(read.error());
-  auto added = *channels > 1 && options.column.empty()
-                   ? AddChannels(text->text, path, *channels, options, &builder)
+  TRY(const std::size_t channels, CountChannels(text->text, path, options));
+  TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
+  auto added = channels > 1 && options.column.empty()
+                   ? AddChannels(text->text, path, channels, options, &builder)
                    : AddSweeps(text->text, path, index, options, &builder);
   if (!added) return tl::unexpected(added.error());
   return builder.Finish();
@@ -142,10 +138,9 @@ Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& 
 
 Expected<void> AddFromFile(const fs::path& table, const std::string& id, const ReadOptions& options,
                            CurveSetBuilder* builder) {
-  Expected<RawCurve> raw = ReadTableCurve(table.string(), options);
-  if (!raw) return tl::unexpected(raw.error());
-  raw->curve.name = id;
-  builder->Add(std::move(*raw), 0);
+  TRY(RawCurve raw, ReadTableCurve(table.string(), options));
+  raw.curve.name = id;
+  builder->Add(std::move(raw), 0);
   return {};
 }
 
@@ -176,7 +171,7 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
           table.string());
     }
   }
-  if (auto checked = builder.CheckIndex(ids); !checked) return tl::unexpected(checked.error());
+  TRY(builder.CheckIndex(ids));
   for (const fs::path& table : tables) {
     const std::string id = table.stem().string();
     const auto added = AddFromFile(table, id, options, &builder);
@@ -186,18 +181,15 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
 }
 
 Expected<CurveSet> ReadSetFromJson(const std::string& path, const ReadOptions& options) {
-  const Expected<nlohmann::json> document = ReadJsonFile(path, options);
-  if (!document) return tl::unexpected(document.error());
+  TRY(const nlohmann::json document, ReadJsonFile(path, options));
   CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
-  if (!IsIvCurves(*document)) {
-    Expected<std::vector<RawCurve>> curves = FindJsonCurves(*document, path, options);
-    if (!curves) return tl::unexpected(curves.error());
-    for (RawCurve& raw : *curves) builder.Add(std::move(raw), 0);
+  if (!IsIvCurves(document)) {
+    TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
+    for (RawCurve& raw : curves) builder.Add(std::move(raw), 0);
     return builder.Finish();
   }
-  Expected<std::vector<IvCurvesEntry>> entries = ReadIvCurvesEntries(*document, path);
-  if (!entries) return tl::unexpected(entries.error());
-  for (IvCurvesEntry& entry : *entries) {
+  TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
+  for (IvCurvesEntry& entry : entries) {
     if (entry.curve) {
       entry.curve->name = entry.id;
       builder.AddSettled(std::move(*entry.curve));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/source_meter_trace.h"
 #include "lyrefit/curve/table_header.h"
@@ -47,20 +48,18 @@ class RowReader {
   // Appends the row, or nothing of it: one without a reading may be left out.
   Expected<void> Read(std::string_view line, int number) {
     if (layout_.channels.size() > 1 && IsPastEnd(line)) return {};
-    if (auto taken = row_.Take(line, number); !taken) return taken;
+    TRY(row_.Take(line, number));
     if (skip_missing_ && (IsMissing(layout_.voltage) || IsMissing(layout_.current))) {
       table_->skipped.push_back(number);
       return {};
     }
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-      const Expected<double> value = row_.Value(slots_[i].field);
-      if (!value) return tl::unexpected(value.error());
-      values_[i] = *value;
+      TRY(const double value, row_.Value(slots_[i].field));
+      values_[i] = value;
     }
     if (layout_.sweep != kNoColumn) {
-      const Expected<int> sweep = row_.WholeNumber(layout_.sweep);
-      if (!sweep) return tl::unexpected(sweep.error());
-      table_->curve.sweep.push_back(*sweep);
+      TRY(const int sweep, row_.WholeNumber(layout_.sweep));
+      table_->curve.sweep.push_back(sweep);
     }
     for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].values->push_back(values_[i]);
     table_->lines.push_back(number);
@@ -119,206 +118,201 @@ bool IsText(std::string_view line, const TableLayout& layout) {
   return voltage >= fields->size() || !ParseNumber((*fields)[voltage], decimal_comma);
 }
 
-// Reads the rows of a table, and of the tables below it.
-class TableReader {
- public:
-  TableReader(std::string_view text, const std::string& file, const ReadOptions& options,
-              BrokenRows broken_rows)
-      : text_(text), file_(file), options_(options), broken_rows_(broken_rows) {}
-
-  Expected<Table> Read() {
-    Expected<TableLayout> layout = FindTableLayout(text_, file_, options_);
-    if (!layout) return tl::unexpected(layout.error());
-    table_.curve.assumptions = layout->assumptions;
-    table_.curve.voltage_unit_known = !layout->columns[layout->voltage].unit.empty();
-    table_.curve.current_unit_known = !layout->columns[layout->current].unit.empty();
-    table_.head = layout->head.said;
-    table_.per_area = layout->per_area();
-    table_.current_label = layout->columns[layout->current].label;
-    table_.holds_curves =
-        layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
-    while (true) {
-      Expected<std::optional<TableLayout>> next = ReadRows(*layout);
-      if (!next) return tl::unexpected(next.error());
-      if (!*next) break;
-      if (auto taken = BeginNext(*layout, **next); !taken) return tl::unexpected(taken.error());
-      *layout = std::move(**next);
-    }
-    if (table_.curve.size() == 0 && table_.broken.empty()) {
-      return Fail("expected rows of numbers below the header, found none", file_,
-                  layout->first_row_line);
-    }
-    SayWhatWasSkipped();
-    TakeUnitOfShortCircuit(*layout);
-    NumberTables();
-    return std::move(table_);
-  }
-
- private:
-  // Until the text ends, or the next table begins.
-  Expected<std::optional<TableLayout>> ReadRows(const TableLayout& layout) {
-    RowReader reader(layout, file_, options_.skip_missing, &table_);
-    LineReader lines(text_, layout.first_row_offset, layout.first_row_line);
-    std::size_t offset = lines.offset();
-    for (std::string_view line; lines.NextContent(&line, &offset);) {
-      if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
-      const auto read = reader.Read(line, lines.number());
-      if (read) continue;
-      const bool aside = broken_rows_ == BrokenRows::kSetAside &&
-                         reader.SetAside(line, lines.number(), read.error());
-      if (aside) continue;
-      lines.StepBack(offset);
-      const Expected<TableLayout> next = FindNextLayout(lines, file_, options_);
-      if (next && OnlyText(lines, next->first_row_line, layout)) {
-        return std::optional<TableLayout>(*next);
-      }
-      const bool last = table_.curve.size() > 0 && OnlyText(lines, 0, layout);
-      if (!last) return tl::unexpected(read.error());
-      SayWhatWasLeft(lines);
-      break;
-    }
-    return std::optional<TableLayout>();
-  }
-
-  // Whether what follows, up to the line `before` (0: the end), holds no row of the table.
-  static bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
-    for (std::string_view line; lines.NextContent(&line);) {
-      if (before != 0 && lines.number() >= before) return true;
-      if (!IsText(line, layout)) return false;
-    }
-    return true;
-  }
-
-  void SayWhatWasSkipped() {
-    constexpr std::size_t kShown = 10;
-    const std::vector<int>& skipped = table_.skipped;
-    if (skipped.empty()) return;
-    std::string shown;
-    for (std::size_t i = 0; i < skipped.size() && i < kShown; ++i) {
-      shown += fmt::format("{}{}", i == 0 ? "" : ", ", skipped[i]);
-    }
-    table_.curve.assumptions.push_back(
-        fmt::format("{} of {} rows without a reading left out: line{} {}{}", skipped.size(),
-                    skipped.size() + table_.curve.size(), skipped.size() == 1 ? "" : "s", shown,
-                    skipped.size() > kShown ? ", ..." : ""));
-  }
-
-  void SayWhatWasLeft(LineReader lines) {
-    constexpr int kShown = 3;
-    int count = 0;
-    std::string shown;
-    int first = 0;
-    for (std::string_view line; lines.NextContent(&line);) {
-      if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
-      if (count++ == 0) first = lines.number();
-      if (count <= kShown) shown += (count == 1 ? "" : ", ") + Quoted(line);
-    }
-    if (count == 0) return;
-    table_.curve.assumptions.push_back(
-        fmt::format("{} line{} of text below the table left aside, from line {} on: {}{}", count,
-                    count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : ""));
-  }
-
-  // Its columns have to be those of the table above.
-  Expected<void> BeginNext(const TableLayout& above, const TableLayout& next) {
-    const auto has = [](const TableLayout& layout, int TableLayout::*column) {
-      return layout.*column != kNoColumn;
-    };
-    bool same = above.per_area() == next.per_area();
-    for (int TableLayout::*column : {&TableLayout::sigma, &TableLayout::time, &TableLayout::sweep,
-                                     &TableLayout::irradiance, &TableLayout::temperature}) {
-      same = same && has(above, column) == has(next, column);
-    }
-    if (!same) {
-      return Fail(
-          "expected the columns of the table above in the second table, found others: "
-          "split the file",
-          file_, next.first_row_line);
-    }
-    starts_.push_back(table_.curve.size());
-    heads_.push_back(next.head.said);
-    return {};
-  }
-
-  // A column of currents that names no unit is in the one in which the head states the current at
-  // zero volt, if it shows that very number there.
-  void TakeUnitOfShortCircuit(const TableLayout& layout) {
-    constexpr double kAgrees = 0.02;
-    const std::optional<StatedCurrent>& stated = layout.head.short_circuit;
-    IvCurve& curve = table_.curve;
-    const Column& column = layout.columns[layout.current];
-    if (!stated || stated->factor == 1 || !column.unit.empty() || table_.per_area) return;
-    if (curve.size() == 0) return;
-    const auto nearest =
-        std::min_element(curve.voltage_V.begin(), curve.voltage_V.end(),
-                         [](double a, double b) { return std::abs(a) < std::abs(b); });
-    const double shown = curve.current_A[nearest - curve.voltage_V.begin()];
-    if (std::abs(std::abs(shown) - std::abs(stated->value)) > kAgrees * std::abs(stated->value)) {
-      return;
-    }
-    for (double& current : curve.current_A) current *= stated->factor;
-    curve.current_unit_known = true;
-    table_.per_area = stated->kind == ColumnKind::kCurrentDensity;
-    const std::string taken = fmt::format("column {} names no unit", Quoted(column.label));
-    auto& sentences = curve.assumptions;
-    sentences.erase(std::remove(sentences.begin(), sentences.end(), taken + ": taken as A"),
-                    sentences.end());
-    sentences.push_back(
-        fmt::format("{}: taken in that of {}, with which it agrees", taken, stated->source));
-  }
-
-  // Several tables without a sweep column are sweeps 1, 2, ...; where their heads state conditions
-  // these become columns.
-  void NumberTables() {
-    IvCurve& curve = table_.curve;
-    if (starts_.empty() || !curve.sweep.empty()) return;
-    starts_.push_back(curve.size());
-    heads_.insert(heads_.begin(), table_.head);
-    curve.assumptions.push_back(fmt::format("{} tables one below the other read as sweeps 1 to {}",
-                                            heads_.size(), heads_.size()));
-    SpreadCondition(&Sidecar::irradiance_W_m2, &curve.irradiance_W_m2);
-    SpreadCondition(&Sidecar::temperature_C, &curve.temperature_C);
-    for (std::size_t i = 0; i < starts_.size(); ++i) {
-      curve.sweep.resize(starts_[i], static_cast<int>(i) + 1);
-    }
-  }
-
-  // A head that says nothing leaves what the one above said.
-  void SpreadCondition(std::optional<double> Sidecar::*condition, std::vector<double>* column) {
-    std::optional<double> value = heads_.front().*condition;
-    bool differs = false;
-    for (const Sidecar& head : heads_)
-      differs = differs || (head.*condition && head.*condition != value);
-    if (!value || !differs || !column->empty()) return;
-    for (std::size_t i = 0; i < heads_.size(); ++i) {
-      if (heads_[i].*condition) value = heads_[i].*condition;
-      column->resize(starts_[i], *value);
-    }
-    (table_.head.*condition).reset();
-  }
-
-  std::string_view text_;
-  const std::string& file_;
-  const ReadOptions& options_;
-  BrokenRows broken_rows_;
-  Table table_;
-  std::vector<std::size_t> starts_;  // of the second table and so on, by their rows
-  std::vector<Sidecar> heads_;
+// A table and the tables below it, while they are read.
+struct TablesBelow {
+  std::string_view text;
+  const std::string& file;
+  const ReadOptions& options;
+  BrokenRows broken_rows;
+  Table table;
+  std::vector<std::size_t> starts;  // of the second table and so on, by their rows
+  std::vector<Sidecar> heads;
 };
+
+// Whether what follows, up to the line `before` (0: the end), holds no row of the table.
+bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
+  for (std::string_view line; lines.NextContent(&line);) {
+    if (before != 0 && lines.number() >= before) return true;
+    if (!IsText(line, layout)) return false;
+  }
+  return true;
+}
+
+void SayWhatWasLeft(Table* table, LineReader lines) {
+  constexpr int kShown = 3;
+  int count = 0;
+  std::string shown;
+  int first = 0;
+  for (std::string_view line; lines.NextContent(&line);) {
+    if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+    if (count++ == 0) first = lines.number();
+    if (count <= kShown) shown += (count == 1 ? "" : ", ") + Quoted(line);
+  }
+  if (count == 0) return;
+  table->curve.assumptions.push_back(
+      fmt::format("{} line{} of text below the table left aside, from line {} on: {}{}", count,
+                  count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : ""));
+}
+
+// Until the text ends, or the next table begins.
+Expected<std::optional<TableLayout>> ReadRows(TablesBelow* rows, const TableLayout& layout) {
+  RowReader reader(layout, rows->file, rows->options.skip_missing, &rows->table);
+  LineReader lines(rows->text, layout.first_row_offset, layout.first_row_line);
+  std::size_t offset = lines.offset();
+  for (std::string_view line; lines.NextContent(&line, &offset);) {
+    if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+    const auto read = reader.Read(line, lines.number());
+    if (read) continue;
+    const bool aside = rows->broken_rows == BrokenRows::kSetAside &&
+                       reader.SetAside(line, lines.number(), read.error());
+    if (aside) continue;
+    lines.StepBack(offset);
+    const Expected<TableLayout> next = FindNextLayout(lines, rows->file, rows->options);
+    if (next && OnlyText(lines, next->first_row_line, layout)) {
+      return std::optional<TableLayout>(*next);
+    }
+    const bool last = rows->table.curve.size() > 0 && OnlyText(lines, 0, layout);
+    if (!last) return tl::unexpected(read.error());
+    SayWhatWasLeft(&rows->table, lines);
+    break;
+  }
+  return std::optional<TableLayout>();
+}
+
+void SayWhatWasSkipped(Table* table) {
+  constexpr std::size_t kShown = 10;
+  const std::vector<int>& skipped = table->skipped;
+  if (skipped.empty()) return;
+  std::string shown;
+  for (std::size_t i = 0; i < skipped.size() && i < kShown; ++i) {
+    shown += fmt::format("{}{}", i == 0 ? "" : ", ", skipped[i]);
+  }
+  table->curve.assumptions.push_back(
+      fmt::format("{} of {} rows without a reading left out: line{} {}{}", skipped.size(),
+                  skipped.size() + table->curve.size(), skipped.size() == 1 ? "" : "s", shown,
+                  skipped.size() > kShown ? ", ..." : ""));
+}
+
+// Its columns have to be those of the table above.
+Expected<void> BeginNextTable(TablesBelow* rows, const TableLayout& above,
+                              const TableLayout& next) {
+  const auto has = [](const TableLayout& layout, int TableLayout::*column) {
+    return layout.*column != kNoColumn;
+  };
+  bool same = above.per_area() == next.per_area();
+  for (int TableLayout::*column : {&TableLayout::sigma, &TableLayout::time, &TableLayout::sweep,
+                                   &TableLayout::irradiance, &TableLayout::temperature}) {
+    same = same && has(above, column) == has(next, column);
+  }
+  if (!same) {
+    return Fail(
+        "expected the columns of the table above in the second table, found others: "
+        "split the file",
+        rows->file, next.first_row_line);
+  }
+  rows->starts.push_back(rows->table.curve.size());
+  rows->heads.push_back(next.head.said);
+  return {};
+}
+
+// A column of currents that names no unit is in the one in which the head states the current at
+// zero volt, if it shows that very number there.
+void TakeUnitOfShortCircuit(Table* table, const TableLayout& layout) {
+  constexpr double kAgrees = 0.02;
+  const std::optional<StatedCurrent>& stated = layout.head.short_circuit;
+  IvCurve& curve = table->curve;
+  const Column& column = layout.columns[layout.current];
+  if (!stated || stated->factor == 1 || !column.unit.empty() || table->per_area) return;
+  if (curve.size() == 0) return;
+  const auto nearest =
+      std::min_element(curve.voltage_V.begin(), curve.voltage_V.end(),
+                       [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const double shown = curve.current_A[nearest - curve.voltage_V.begin()];
+  if (std::abs(std::abs(shown) - std::abs(stated->value)) > kAgrees * std::abs(stated->value)) {
+    return;
+  }
+  for (double& current : curve.current_A) current *= stated->factor;
+  curve.current_unit_known = true;
+  table->per_area = stated->kind == ColumnKind::kCurrentDensity;
+  Forget(About::kCurrentUnit, &curve.assumptions);
+  curve.assumptions.emplace_back(
+      fmt::format("column {} names no unit: taken in that of {}, with which it agrees",
+                  Quoted(column.label), stated->source),
+      About::kCurrentUnit);
+}
+
+// A head that says nothing leaves what the one above said.
+void SpreadCondition(TablesBelow* rows, std::optional<double> Sidecar::*condition,
+                     std::vector<double>* column) {
+  std::optional<double> value = rows->heads.front().*condition;
+  bool differs = false;
+  for (const Sidecar& head : rows->heads)
+    differs = differs || (head.*condition && head.*condition != value);
+  if (!value || !differs || !column->empty()) return;
+  for (std::size_t i = 0; i < rows->heads.size(); ++i) {
+    if (rows->heads[i].*condition) value = rows->heads[i].*condition;
+    column->resize(rows->starts[i], *value);
+  }
+  (rows->table.head.*condition).reset();
+}
+
+// Several tables without a sweep column are sweeps 1, 2, ...; where their heads state conditions
+// these become columns.
+void NumberTables(TablesBelow* rows) {
+  IvCurve& curve = rows->table.curve;
+  if (rows->starts.empty() || !curve.sweep.empty()) return;
+  rows->starts.push_back(curve.size());
+  rows->heads.insert(rows->heads.begin(), rows->table.head);
+  curve.assumptions.push_back(fmt::format("{} tables one below the other read as sweeps 1 to {}",
+                                          rows->heads.size(), rows->heads.size()));
+  SpreadCondition(rows, &Sidecar::irradiance_W_m2, &curve.irradiance_W_m2);
+  SpreadCondition(rows, &Sidecar::temperature_C, &curve.temperature_C);
+  for (std::size_t i = 0; i < rows->starts.size(); ++i) {
+    curve.sweep.resize(rows->starts[i], static_cast<int>(i) + 1);
+  }
+}
+
+Expected<Table> ReadTables(TablesBelow* rows) {
+  Expected<TableLayout> layout = FindTableLayout(rows->text, rows->file, rows->options);
+  if (!layout) return tl::unexpected(layout.error());
+  rows->table.curve.assumptions = layout->assumptions;
+  rows->table.curve.voltage_unit_known = !layout->columns[layout->voltage].unit.empty();
+  rows->table.curve.current_unit_known = !layout->columns[layout->current].unit.empty();
+  rows->table.head = layout->head.said;
+  rows->table.per_area = layout->per_area();
+  rows->table.current_label = layout->columns[layout->current].label;
+  rows->table.holds_curves =
+      layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
+  while (true) {
+    Expected<std::optional<TableLayout>> next = ReadRows(rows, *layout);
+    if (!next) return tl::unexpected(next.error());
+    if (!*next) break;
+    TRY(BeginNextTable(rows, *layout, **next));
+    *layout = std::move(**next);
+  }
+  if (rows->table.curve.size() == 0 && rows->table.broken.empty()) {
+    return Fail("expected rows of numbers below the header, found none", rows->file,
+                layout->first_row_line);
+  }
+  SayWhatWasSkipped(&rows->table);
+  TakeUnitOfShortCircuit(&rows->table, *layout);
+  NumberTables(rows);
+  return std::move(rows->table);
+}
 
 }  // namespace
 
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options, BrokenRows broken_rows) {
-  if (auto checked = CheckUtf8(text, file); !checked) return tl::unexpected(checked.error());
+  TRY(CheckUtf8(text, file));
   const std::string rows = RowsOfTrace(text);
-  if (rows.empty()) return TableReader(text, file, options, broken_rows).Read();
-  auto table = TableReader(rows, file, options, broken_rows).Read();
-  if (table) {
-    table->curve.assumptions.insert(table->curve.assumptions.begin(),
-                                    "one line of five numbers a reading (voltage, current, "
-                                    "resistance, time, status), as source "
-                                    "meters send their buffer: taken apart");
+  TablesBelow below{rows.empty() ? text : rows, file, options, broken_rows, {}, {}, {}};
+  TRY(Table table, ReadTables(&below));
+  if (!rows.empty()) {
+    table.curve.assumptions.insert(table.curve.assumptions.begin(),
+                                   "one line of five numbers a reading (voltage, current, "
+                                   "resistance, time, status), as source meters send their "
+                                   "buffer: taken apart");
   }
   return table;
 }

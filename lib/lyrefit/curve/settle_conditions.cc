@@ -12,7 +12,7 @@ namespace {
 
 // One condition: what the file beside the table and the column in it say.
 struct Source {
-  const char* name;
+  About about;
   const char* unit;
   std::optional<double> sidecar;
   const std::vector<double>& column;
@@ -28,23 +28,25 @@ double Mean(const std::vector<double>& values) {
   return mean;
 }
 
-std::optional<double> Settle(const Source& source, std::vector<std::string>* assumptions) {
+std::optional<double> Settle(const Source& source, std::vector<Assumption>* assumptions) {
   if (source.column.empty()) return source.sidecar;
   const double mean = Mean(source.column);
   const auto [low, high] = std::minmax_element(source.column.begin(), source.column.end());
   const bool varies = *high - *low > 2 * source.tolerance;
   if (varies) {
-    assumptions->push_back(
-        fmt::format("the column of the {} varies from {:.6g} to {:.6g} {}: its "
-                    "mean {:.6g} {} counts for the whole curve",
-                    source.name, *low, *high, source.unit, mean, source.unit));
+    assumptions->emplace_back(
+        fmt::format("the column of the {} varies from {:.6g} to {:.6g} {}: its mean {:.6g} {} "
+                    "counts for the whole curve",
+                    ToText(source.about), *low, *high, source.unit, mean, source.unit),
+        source.about);
   }
   if (!source.sidecar) return mean;
   if (std::abs(mean - *source.sidecar) <= source.tolerance) return source.sidecar;
-  assumptions->push_back(fmt::format(
-      "the {} in the table ({:.6g} {}) differs from the one in the file beside it ({:.6g} {}): the "
-      "table counts",
-      source.name, mean, source.unit, *source.sidecar, source.unit));
+  assumptions->emplace_back(
+      fmt::format("the {} in the table ({:.6g} {}) differs from the one in the file beside it "
+                  "({:.6g} {}): the table counts",
+                  ToText(source.about), mean, source.unit, *source.sidecar, source.unit),
+      source.about);
   return mean;
 }
 
@@ -64,22 +66,22 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
   conditions.cells_in_series = sidecar.cells_in_series.value_or(1);
   curve->cells_known = sidecar.cells_in_series.has_value();
-  if (!curve->cells_known) curve->assumptions.push_back(kCellsAssumed);
+  if (!curve->cells_known) curve->assumptions.emplace_back(kCellsAssumed, About::kCells);
 
   const auto temperature_C =
-      Settle({"cell temperature", "C", sidecar.temperature_C, curve->temperature_C, 1},
+      Settle({About::kTemperature, "C", sidecar.temperature_C, curve->temperature_C, 1},
              &curve->assumptions);
-  if (!temperature_C) curve->assumptions.push_back(kTemperatureAssumed);
+  if (!temperature_C) curve->assumptions.emplace_back(kTemperatureAssumed, About::kTemperature);
   curve->temperature_known = temperature_C.has_value();
   conditions.cell_temperature_K = temperature_C.value_or(25) + kZeroCelsius_K;
 
   double brightest = sidecar.irradiance_W_m2.value_or(0);
   for (const double irradiance : curve->irradiance_W_m2)
     brightest = std::max(brightest, irradiance);
-  const auto irradiance = Settle(
-      {"irradiance", "W/m2", sidecar.irradiance_W_m2, curve->irradiance_W_m2, 0.02 * brightest},
-      &curve->assumptions);
-  if (!irradiance) curve->assumptions.push_back(kIrradianceAssumed);
+  const auto irradiance = Settle({About::kIrradiance, "W/m2", sidecar.irradiance_W_m2,
+                                  curve->irradiance_W_m2, 0.02 * brightest},
+                                 &curve->assumptions);
+  if (!irradiance) curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
   curve->irradiance_known = irradiance.has_value();
   // A sensor in the dark may show a little less than nothing.
   conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
@@ -104,21 +106,23 @@ Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, Iv
 }
 
 Sidecar MergeHead(Sidecar beside, const Sidecar& head) {
-  const auto compare = [&](const char* what, const char* unit, double tolerance,
+  const auto compare = [&](const Assumption& what, const char* unit, double tolerance,
                            const std::optional<double>& own, const std::optional<double>& other) {
     if (!own || !other || std::abs(*own - *other) <= tolerance) return;
-    beside.assumptions.push_back(
+    beside.assumptions.emplace_back(
         fmt::format("the {} in the head of the table ({:.6g}{}) differs from the one in the file "
                     "beside it ({:.6g}{}): the latter counts",
-                    what, *other, unit, *own, unit));
+                    what.sentence, *other, unit, *own, unit),
+        what.about);
   };
+  const auto condition = [](About about) { return Assumption(ToText(about), about); };
   const auto as_number = [](const std::optional<int>& count) {
     return count ? std::optional<double>(*count) : std::nullopt;
   };
-  compare("irradiance", " W/m2", 0.02 * beside.irradiance_W_m2.value_or(0), beside.irradiance_W_m2,
-          head.irradiance_W_m2);
-  compare("cell temperature", " C", 1, beside.temperature_C, head.temperature_C);
-  compare("cells in series", "", 0, as_number(beside.cells_in_series),
+  compare(condition(About::kIrradiance), " W/m2", 0.02 * beside.irradiance_W_m2.value_or(0),
+          beside.irradiance_W_m2, head.irradiance_W_m2);
+  compare(condition(About::kTemperature), " C", 1, beside.temperature_C, head.temperature_C);
+  compare(condition(About::kCells), "", 0, as_number(beside.cells_in_series),
           as_number(head.cells_in_series));
   compare("area", " cm2", 1e-9, beside.notes.area_cm2, head.notes.area_cm2);
   return Merge(std::move(beside), head);

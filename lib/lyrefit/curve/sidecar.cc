@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/text_encoding.h"
@@ -40,144 +41,144 @@ constexpr const char* kKnownKeys[] = {"name",
 // The word that says an entry has no single value.
 constexpr const char* kVaried = "varied";
 
-class SidecarReader {
- public:
-  SidecarReader(const json& object, const std::string& text, const std::string& path, SidecarOf of)
-      : fields_(object, text, path), text_(text), path_(path), of_(of) {}
+enum class Sign { kAny, kNotNegative, kPositive };
 
-  Expected<Sidecar> Read() {
-    ReadText("name", &sidecar_.name);
-    ReadText("technology", &sidecar_.notes.technology);
-    ReadConditions();
-    DeviceNotes& notes = sidecar_.notes;
-    ReadWhole({"bypass_diodes"}, 0, "a number from 0 up", &notes.bypass_diodes);
-    ReadNumber({"bandgap_eV"}, Sign::kPositive, &notes.bandgap_eV);
-    ReadNumber({"bandgap_slope_per_K"}, Sign::kAny, &notes.bandgap_slope_per_K);
-    ReadNumber({"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
-    ReadNumber({"isc_tempco_A_per_K", "alpha_Isc_A_per_K"}, Sign::kAny, &notes.isc_tempco_A_per_K);
-    ReadNumber({"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
-    ReadNumber({"area_cm2"}, Sign::kPositive, &notes.area_cm2);
-    ReadNumber({"compliance_A"}, Sign::kPositive, &notes.compliance_A);
-    ReadText("date", &notes.date);
-    ReadNoise();
-    if (failed_) return tl::unexpected(error_);
-    return sidecar_;
-  }
-
- private:
-  enum class Sign { kAny, kNotNegative, kPositive };
-
-  void Fail(const Error& error) {
-    if (!failed_) error_ = error;
-    failed_ = true;
-  }
-
-  void ReadText(const char* key, std::string* target) {
-    const auto text = fields_.Text(key);
-    if (!text) return Fail(text.error());
-    if (*text) *target = **text;
-  }
-
-  // A text that begins like a number ("25 C") is rather a mistake.
-  static bool IsRemark(const json& value) {
-    if (!value.is_string()) return false;
-    const auto& text = value.get_ref<const std::string&>();
-    return !text.empty() && text.find_first_of("+-.0123456789 ") != 0;
-  }
-
-  // The first of `keys` that is given, in a set without those that are remarks.
-  void ReadCondition(std::initializer_list<const char*> keys, Sign sign,
-                     std::optional<double>* target) {
-    for (const char* key : keys) {
-      std::string name;
-      const json* value = fields_.Find({key}, &name);
-      if (value == nullptr || (of_ == SidecarOf::kSet && IsRemark(*value))) continue;
-      return ReadNumber(fields_, {key}, sign, target);
-    }
-  }
-
-  void ReadNumber(const JsonFields& fields, std::initializer_list<const char*> keys, Sign sign,
-                  std::optional<double>* target) {
-    std::string key;
-    const json* value = fields.Find(keys, &key);
-    if (value == nullptr) return;
-    if (value->is_string() && value->get_ref<const std::string&>() == kVaried) return;
-    const auto number = fields.Number(keys);
-    if (!number) return Fail(number.error());
-    if (sign == Sign::kPositive && !(**number > 0)) {
-      return Fail(fields.Refuse(key, "a positive number").value());
-    }
-    if (sign == Sign::kNotNegative && !(**number >= 0)) {
-      return Fail(fields.Refuse(key, "a number from 0 up").value());
-    }
-    *target = *number;
-  }
-
-  void ReadNumber(std::initializer_list<const char*> keys, Sign sign,
-                  std::optional<double>* target) {
-    ReadNumber(fields_, keys, sign, target);
-  }
-
-  void ReadWhole(std::initializer_list<const char*> keys, int smallest, const char* expected,
-                 std::optional<int>* target) {
-    const auto number = fields_.WholeNumber(keys);
-    if (!number) return Fail(number.error());
-    if (!*number) return;
-    std::string key;
-    fields_.Find(keys, &key);
-    if (**number < smallest) return Fail(fields_.Refuse(key, expected).value());
-    *target = *number;
-  }
-
-  void ReadConditions() {
-    const auto temperature_keys = {"cell_temperature_C", "temperature_C", "nominal_temperature_C"};
-    ReadCondition(temperature_keys, Sign::kAny, &sidecar_.temperature_C);
-    const double temperature_C = sidecar_.temperature_C.value_or(25);
-    if (temperature_C > 150 || temperature_C < -100) {
-      std::string key;
-      fields_.Find(temperature_keys, &key);
-      Fail(fields_
-               .Refuse(key, temperature_C > 150
-                                ? "degrees Celsius from -100 to 150 (it looks like kelvin)"
-                                : "degrees Celsius from -100 to 150")
-               .value());
-    }
-    ReadCondition(
-        {"irradiance_W_m2", "irradiance_Wm2", "nominal_irradiance_Wm2", "nominal_irradiance_W_m2"},
-        Sign::kNotNegative, &sidecar_.irradiance_W_m2);
-    ReadWhole({"cells_in_series"}, 1, "at least 1", &sidecar_.cells_in_series);
-    ReadWhole({"strings_in_parallel"}, 1, "at least 1", &sidecar_.strings_in_parallel);
-  }
-
-  void ReadNoise() {
-    std::string key;
-    const json* noise = fields_.Find({"current_noise"}, &key);
-    if (noise == nullptr) return;
-    if (!noise->is_object()) {
-      return Fail(fields_.Refuse(key, "an object of constant_A and relative").value());
-    }
-    const JsonFields fields(*noise, text_, path_);
-    ReadNumber(fields, {"constant_A"}, Sign::kNotNegative,
-               &sidecar_.notes.current_noise_constant_A);
-    ReadNumber(fields, {"relative"}, Sign::kNotNegative, &sidecar_.notes.current_noise_relative);
-  }
-
-  JsonFields fields_;
-  const std::string& text_;
-  const std::string& path_;
-  SidecarOf of_;
-  Sidecar sidecar_;
-  bool failed_ = false;
-  Error error_;
+// A sidecar while it is read; of several errors the first is told.
+struct SidecarReading {
+  JsonFields fields;
+  const std::string& text;
+  const std::string& path;
+  SidecarOf of;
+  Sidecar sidecar;
+  bool failed = false;
+  Error error;
 };
+
+void Refuse(SidecarReading* reading, const Error& error) {
+  if (!reading->failed) reading->error = error;
+  reading->failed = true;
+}
+
+void ReadText(SidecarReading* reading, const char* key, std::string* target) {
+  const auto text = reading->fields.Text(key);
+  if (!text) return Refuse(reading, text.error());
+  if (*text) *target = **text;
+}
+
+void ReadNumber(SidecarReading* reading, const JsonFields& fields,
+                std::initializer_list<const char*> keys, Sign sign, std::optional<double>* target) {
+  std::string key;
+  const json* value = fields.Find(keys, &key);
+  if (value == nullptr) return;
+  if (value->is_string() && value->get_ref<const std::string&>() == kVaried) return;
+  const auto number = fields.Number(keys);
+  if (!number) return Refuse(reading, number.error());
+  if (sign == Sign::kPositive && !(**number > 0)) {
+    return Refuse(reading, fields.Refuse(key, "a positive number").value());
+  }
+  if (sign == Sign::kNotNegative && !(**number >= 0)) {
+    return Refuse(reading, fields.Refuse(key, "a number from 0 up").value());
+  }
+  *target = *number;
+}
+
+void ReadNumber(SidecarReading* reading, std::initializer_list<const char*> keys, Sign sign,
+                std::optional<double>* target) {
+  ReadNumber(reading, reading->fields, keys, sign, target);
+}
+
+void ReadWhole(SidecarReading* reading, std::initializer_list<const char*> keys, int smallest,
+               const char* expected, std::optional<int>* target) {
+  const auto number = reading->fields.WholeNumber(keys);
+  if (!number) return Refuse(reading, number.error());
+  if (!*number) return;
+  std::string key;
+  reading->fields.Find(keys, &key);
+  if (**number < smallest) return Refuse(reading, reading->fields.Refuse(key, expected).value());
+  *target = *number;
+}
+
+// A text that begins like a number ("25 C") is rather a mistake.
+bool IsRemark(const json& value) {
+  if (!value.is_string()) return false;
+  const auto& text = value.get_ref<const std::string&>();
+  return !text.empty() && text.find_first_of("+-.0123456789 ") != 0;
+}
+
+// The first of `keys` that is given, in a set without those that are remarks.
+void ReadCondition(SidecarReading* reading, std::initializer_list<const char*> keys, Sign sign,
+                   std::optional<double>* target) {
+  for (const char* key : keys) {
+    std::string name;
+    const json* value = reading->fields.Find({key}, &name);
+    if (value == nullptr || (reading->of == SidecarOf::kSet && IsRemark(*value))) continue;
+    return ReadNumber(reading, reading->fields, {key}, sign, target);
+  }
+}
+
+void ReadConditionKeys(SidecarReading* reading) {
+  const auto temperature_keys = {"cell_temperature_C", "temperature_C", "nominal_temperature_C"};
+  ReadCondition(reading, temperature_keys, Sign::kAny, &reading->sidecar.temperature_C);
+  const double temperature_C = reading->sidecar.temperature_C.value_or(25);
+  if (temperature_C > 150 || temperature_C < -100) {
+    std::string key;
+    reading->fields.Find(temperature_keys, &key);
+    Refuse(reading, reading->fields
+                        .Refuse(key, temperature_C > 150
+                                         ? "degrees Celsius from -100 to 150 (it looks like kelvin)"
+                                         : "degrees Celsius from -100 to 150")
+                        .value());
+  }
+  ReadCondition(
+      reading,
+      {"irradiance_W_m2", "irradiance_Wm2", "nominal_irradiance_Wm2", "nominal_irradiance_W_m2"},
+      Sign::kNotNegative, &reading->sidecar.irradiance_W_m2);
+  ReadWhole(reading, {"cells_in_series"}, 1, "at least 1", &reading->sidecar.cells_in_series);
+  ReadWhole(reading, {"strings_in_parallel"}, 1, "at least 1",
+            &reading->sidecar.strings_in_parallel);
+}
+
+void ReadNoise(SidecarReading* reading) {
+  std::string key;
+  const json* noise = reading->fields.Find({"current_noise"}, &key);
+  if (noise == nullptr) return;
+  if (!noise->is_object()) {
+    return Refuse(reading,
+                  reading->fields.Refuse(key, "an object of constant_A and relative").value());
+  }
+  const JsonFields fields(*noise, reading->text, reading->path);
+  ReadNumber(reading, fields, {"constant_A"}, Sign::kNotNegative,
+             &reading->sidecar.notes.current_noise_constant_A);
+  ReadNumber(reading, fields, {"relative"}, Sign::kNotNegative,
+             &reading->sidecar.notes.current_noise_relative);
+}
+
+Expected<Sidecar> ReadKeys(SidecarReading* reading) {
+  ReadText(reading, "name", &reading->sidecar.name);
+  ReadText(reading, "technology", &reading->sidecar.notes.technology);
+  ReadConditionKeys(reading);
+  DeviceNotes& notes = reading->sidecar.notes;
+  ReadWhole(reading, {"bypass_diodes"}, 0, "a number from 0 up", &notes.bypass_diodes);
+  ReadNumber(reading, {"bandgap_eV"}, Sign::kPositive, &notes.bandgap_eV);
+  ReadNumber(reading, {"bandgap_slope_per_K"}, Sign::kAny, &notes.bandgap_slope_per_K);
+  ReadNumber(reading, {"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
+  ReadNumber(reading, {"isc_tempco_A_per_K", "alpha_Isc_A_per_K"}, Sign::kAny,
+             &notes.isc_tempco_A_per_K);
+  ReadNumber(reading, {"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
+  ReadNumber(reading, {"area_cm2"}, Sign::kPositive, &notes.area_cm2);
+  ReadNumber(reading, {"compliance_A"}, Sign::kPositive, &notes.compliance_A);
+  ReadText(reading, "date", &notes.date);
+  ReadNoise(reading);
+  if (reading->failed) return tl::unexpected(reading->error);
+  return reading->sidecar;
+}
 
 }  // namespace
 
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
                               SidecarOf of) {
-  const Expected<DecodedText> decoded = ReadDecodedFile(path, largest_file_bytes);
-  if (!decoded) return tl::unexpected(decoded.error());
-  const Expected<json> object = ParseJson(decoded->text, path);
+  TRY(const DecodedText decoded, ReadDecodedFile(path, largest_file_bytes));
+  const Expected<json> object = ParseJson(decoded.text, path);
   if (!object) return tl::unexpected(object.error());
   if (!object->is_object())
     return Fail("expected a JSON object with keys such as cells_in_series", path, 1, 1);
@@ -188,7 +189,9 @@ Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_fi
         "curve: move it to another name",
         path);
   }
-  Expected<Sidecar> sidecar = SidecarReader(*object, decoded->text, path, of).Read();
+  SidecarReading reading{
+      JsonFields(*object, decoded.text, path), decoded.text, path, of, {}, false, {}};
+  Expected<Sidecar> sidecar = ReadKeys(&reading);
   const bool known = std::any_of(std::begin(kKnownKeys), std::end(kKnownKeys),
                                  [&](const char* key) { return object->contains(key); });
   if (sidecar && !known) {
@@ -210,7 +213,7 @@ std::optional<Sidecar> ReportedConditions(const json& report, const std::string&
   const auto found = curve->find("conditions");
   if (found == curve->end() || !found->is_object()) return std::nullopt;
   const auto assumptions = curve->value("assumptions", json::array());
-  // What the report had to assume itself, it does not know.
+  // What the report had to assume itself, it does not know; its file says so in sentences only.
   const auto number = [&](const char* key, const char* assumed) -> std::optional<double> {
     const auto value = found->find(key);
     const bool guess =

@@ -18,7 +18,7 @@ struct Sidecar {
   std::optional<int> cells_in_series;
   std::optional<int> strings_in_parallel;
   DeviceNotes notes;
-  std::vector<std::string> assumptions;  // plain sentences on how it was read
+  std::vector<Assumption> assumptions;  // plain sentences on how it was read
 };
 
 enum class SidecarOf {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_table.h"
@@ -70,16 +71,15 @@ std::vector<fs::path> TablesIn(const fs::path& folder) {
 
 Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,
                                       const ReadOptions& options) {
-  Expected<Table> table = ReadTable(text.text, path, options);
-  if (!table) return tl::unexpected(table.error());
+  TRY(Table table, ReadTable(text.text, path, options));
   RawCurve raw;
-  raw.curve = std::move(table->curve);
-  raw.stated = std::move(table->head);
-  raw.per_area = table->per_area;
+  raw.curve = std::move(table.curve);
+  raw.stated = std::move(table.head);
+  raw.per_area = table.per_area;
   if (!text.remark.empty()) {
     raw.curve.assumptions.insert(raw.curve.assumptions.begin(), text.remark);
   }
-  if (auto selected = SelectSweep(options.curve, table->holds_curves, &raw.curve); !selected) {
+  if (auto selected = SelectSweep(options.curve, table.holds_curves, &raw.curve); !selected) {
     return Fail(selected.error().message, path);
   }
   TurnLoadSign(&raw.curve);
@@ -87,18 +87,16 @@ Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string
 }
 
 Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options) {
-  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
-  Expected<RawCurve> raw = TableCurveFromText(*text, path, options);
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  Expected<RawCurve> raw = TableCurveFromText(text, path, options);
   if (!raw) return raw;
   raw->curve.source = path;
   // "curve.csv" is named after its folder.
   const fs::path file(path);
   const std::string folder = file.filename() == "curve.csv" ? FolderNameOf(file) : "";
   raw->curve.name = folder.empty() ? file.stem().string() : folder;
-  Expected<Sidecar> beside = ReadSidecarBeside(path, options);
-  if (!beside) return tl::unexpected(beside.error());
-  raw->stated = MergeHead(std::move(*beside), raw->stated);
+  TRY(Sidecar beside, ReadSidecarBeside(path, options));
+  raw->stated = MergeHead(std::move(beside), raw->stated);
   return raw;
 }
 

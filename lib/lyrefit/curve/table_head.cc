@@ -106,13 +106,21 @@ std::optional<double> AsCompliance(const Statement& statement) {
 
 // Fills what nobody has stated yet.
 template <class T>
-bool TakeFirst(const std::optional<T>& value, const char* what, const char* unit,
+bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
                const std::string& source, std::optional<T>* target, TableHead* head) {
   if (!value || *target) return false;
   *target = value;
-  head->assumptions.push_back(
-      fmt::format("{} {:.6g}{} taken from {}", what, static_cast<double>(*value), unit, source));
+  head->assumptions.emplace_back(fmt::format("{} {:.6g}{} taken from {}", what.sentence,
+                                             static_cast<double>(*value), unit, source),
+                                 what.about);
   return true;
+}
+
+// The same of a condition.
+template <class T>
+bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
+               const std::string& source, std::optional<T>* target, TableHead* head) {
+  return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head);
 }
 
 // Remembered, but not understood: the readings say it better.
@@ -134,12 +142,11 @@ bool Take(const Statement& statement, const std::string& source, TableHead* head
     return true;
   }
   if (IsAboutOtherThings(statement)) return false;
-  return TakeFirst(AsIrradiance(statement), "irradiance", " W/m2", source, &said->irradiance_W_m2,
-                   head) ||
-         TakeFirst(AsTemperature(statement), "cell temperature", " C", source, &said->temperature_C,
-                   head) ||
-         TakeFirst(AsCells(statement), "cells in series", "", source, &said->cells_in_series,
-                   head) ||
+  return TakeFirst(AsIrradiance(statement), About::kIrradiance, " W/m2", source,
+                   &said->irradiance_W_m2, head) ||
+         TakeFirst(AsTemperature(statement), About::kTemperature, " C", source,
+                   &said->temperature_C, head) ||
+         TakeFirst(AsCells(statement), About::kCells, "", source, &said->cells_in_series, head) ||
          TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
 }
 
@@ -208,106 +215,99 @@ std::optional<Quantity> AsQuantity(std::string_view text) {
   return Quantity{*value, text.substr(digits)};
 }
 
-// Reads one line, or the part of it between two delimiters.
-class LineParser {
- public:
-  LineParser(const std::string& source, TableHead* head) : source_(source), head_(head) {}
-
-  void Read(std::string_view line) {
-    for (const char delimiter : {'\t', ';', ','}) {
-      const auto fields = SplitFields(line, delimiter);
-      if (!fields || fields->size() < 2) continue;
-      return ReadFields(*fields);
-    }
-    if (!ReadPart(line)) ReadWords(line);
-  }
-
-  bool understood() const { return understood_; }
-  bool holds_number() const { return holds_number_; }
-
- private:
-  void ReadFields(const Fields& fields) {
-    std::string label;
-    std::vector<Quantity> quantities;
-    bool parts = false;
-    for (const std::string& field : fields) {
-      if (ReadPart(field)) {
-        parts = true;
-      } else if (const auto quantity = AsQuantity(field)) {
-        quantities.push_back(*quantity);
-      } else {
-        if (IsDate(label) && quantities.empty()) TakeDate(field);
-        label += (label.empty() ? "" : " ") + field;
-      }
-    }
-    if (parts && quantities.empty()) return;
-    // A unit may have a field of its own: "Irradiance;912;W/m2". Its words mark it.
-    if (quantities.size() == 1) State(label, quantities[0]);
-    if (quantities.size() > 1) holds_number_ = true;
-  }
-
-  // "Label: 47.3 C" or "Label = 47.3"
-  bool ReadPart(std::string_view text) {
-    const std::size_t at = text.find_first_of(":=");
-    if (at == std::string_view::npos || at == 0) return false;
-    const std::string_view value = TrimMarks(text.substr(at + 1));
-    if (value.empty()) return false;
-    if (IsDate(text.substr(0, at))) {
-      TakeDate(value);
-      return true;
-    }
-    const auto quantity = AsQuantity(value);
-    if (quantity) State(text.substr(0, at), *quantity);
-    return quantity.has_value();
-  }
-
-  // "POA 912 W/m2": one number between words.
-  void ReadWords(std::string_view text) {
-    const auto words = SplitFields(text, ' ');
-    if (!words) return;
-    std::size_t numbers = 0;
-    std::size_t place = 0;
-    for (std::size_t i = 0; i < words->size(); ++i) {
-      if (!ParseNumber((*words)[i], true)) continue;
-      ++numbers;
-      place = i;
-    }
-    holds_number_ = holds_number_ || numbers > 0;
-    if (numbers != 1 || place == 0) return;
-    std::string label;
-    std::string rest;
-    for (std::size_t i = 0; i < words->size(); ++i) {
-      if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
-    }
-    State(label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
-  }
-
-  void State(std::string_view label, const Quantity& quantity) {
-    holds_number_ = true;
-    const Statement statement = Understand(SplitLabel(label), quantity.value, quantity.unit);
-    understood_ = Take(statement, source_, head_) || understood_;
-  }
-
-  static bool IsDate(std::string_view label) {
-    const std::vector<LabelWord> words = SplitLabel(label);
-    return !words.empty() && words.size() <= 2 &&
-           (words[0].text == "date" || words[0].text == "datum");
-  }
-
-  void TakeDate(std::string_view text) {
-    const std::string_view date = TrimMarks(text);
-    constexpr std::size_t kLongest = 40;
-    if (!head_->said.notes.date.empty() || date.size() > kLongest) return;
-    if (date.find_first_of("0123456789") == std::string_view::npos) return;
-    head_->said.notes.date = std::string(date);
-    understood_ = true;
-  }
-
-  const std::string& source_;
-  TableHead* head_;
-  bool understood_ = false;
-  bool holds_number_ = false;
+// What reading one line, or the part of it between two delimiters, has come to.
+struct HeadLineState {
+  const std::string& source;
+  TableHead* head;
+  bool understood = false;
+  bool holds_number = false;
 };
+
+void TakeQuantity(HeadLineState* state, std::string_view label, const Quantity& quantity) {
+  state->holds_number = true;
+  const Statement statement = Understand(SplitLabel(label), quantity.value, quantity.unit);
+  state->understood = Take(statement, state->source, state->head) || state->understood;
+}
+
+bool IsDate(std::string_view label) {
+  const std::vector<LabelWord> words = SplitLabel(label);
+  return !words.empty() && words.size() <= 2 &&
+         (words[0].text == "date" || words[0].text == "datum");
+}
+
+void TakeDate(HeadLineState* state, std::string_view text) {
+  const std::string_view date = TrimMarks(text);
+  constexpr std::size_t kLongest = 40;
+  if (!state->head->said.notes.date.empty() || date.size() > kLongest) return;
+  if (date.find_first_of("0123456789") == std::string_view::npos) return;
+  state->head->said.notes.date = std::string(date);
+  state->understood = true;
+}
+
+// "Label: 47.3 C" or "Label = 47.3"
+bool ReadPart(HeadLineState* state, std::string_view text) {
+  const std::size_t at = text.find_first_of(":=");
+  if (at == std::string_view::npos || at == 0) return false;
+  const std::string_view value = TrimMarks(text.substr(at + 1));
+  if (value.empty()) return false;
+  if (IsDate(text.substr(0, at))) {
+    TakeDate(state, value);
+    return true;
+  }
+  const auto quantity = AsQuantity(value);
+  if (quantity) TakeQuantity(state, text.substr(0, at), *quantity);
+  return quantity.has_value();
+}
+
+void ReadFields(HeadLineState* state, const Fields& fields) {
+  std::string label;
+  std::vector<Quantity> quantities;
+  bool parts = false;
+  for (const std::string& field : fields) {
+    if (ReadPart(state, field)) {
+      parts = true;
+    } else if (const auto quantity = AsQuantity(field)) {
+      quantities.push_back(*quantity);
+    } else {
+      if (IsDate(label) && quantities.empty()) TakeDate(state, field);
+      label += (label.empty() ? "" : " ") + field;
+    }
+  }
+  if (parts && quantities.empty()) return;
+  // A unit may have a field of its own: "Irradiance;912;W/m2". Its words mark it.
+  if (quantities.size() == 1) TakeQuantity(state, label, quantities[0]);
+  if (quantities.size() > 1) state->holds_number = true;
+}
+
+// "POA 912 W/m2": one number between words.
+void ReadWords(HeadLineState* state, std::string_view text) {
+  const auto words = SplitFields(text, ' ');
+  if (!words) return;
+  std::size_t numbers = 0;
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    if (!ParseNumber((*words)[i], true)) continue;
+    ++numbers;
+    place = i;
+  }
+  state->holds_number = state->holds_number || numbers > 0;
+  if (numbers != 1 || place == 0) return;
+  std::string label;
+  std::string rest;
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
+  }
+  TakeQuantity(state, label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
+}
+
+void ReadLine(HeadLineState* state, std::string_view line) {
+  for (const char delimiter : {'\t', ';', ','}) {
+    const auto fields = SplitFields(line, delimiter);
+    if (!fields || fields->size() < 2) continue;
+    return ReadFields(state, *fields);
+  }
+  if (!ReadPart(state, line)) ReadWords(state, line);
+}
 
 }  // namespace
 
@@ -315,9 +315,9 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
   constexpr std::size_t kLongestLine = 1000;
   if (line.size() > kLongestLine) return;  // no statement
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
-  LineParser parser(source, head);
-  parser.Read(TrimMarks(line));
-  if (kind == HeadLine::kText && parser.holds_number() && !parser.understood()) {
+  HeadLineState state{source, head};
+  ReadLine(&state, TrimMarks(line));
+  if (kind == HeadLine::kText && state.holds_number && !state.understood) {
     head->left.push_back(source);
   }
 }
@@ -327,8 +327,8 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
   return Take(Understand(SplitLabel(label), value, ""), source, head);
 }
 
-std::vector<std::string> HeadSentences(const TableHead& head) {
-  std::vector<std::string> sentences = head.assumptions;
+std::vector<Assumption> HeadSentences(const TableHead& head) {
+  std::vector<Assumption> sentences = head.assumptions;
   if (head.left.empty()) return sentences;
   std::string list;
   for (std::size_t i = 0; i < head.left.size() && i < kShownLines; ++i) {
@@ -337,7 +337,7 @@ std::vector<std::string> HeadSentences(const TableHead& head) {
   if (head.left.size() > kShownLines) {
     list += fmt::format(" and {} more", head.left.size() - kShownLines);
   }
-  sentences.push_back("not understood, and not used: " + list);
+  sentences.emplace_back("not understood, and not used: " + list);
   return sentences;
 }
 

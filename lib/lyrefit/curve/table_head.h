@@ -22,8 +22,8 @@ struct StatedCurrent {
 // What the lines before the header of a table state.
 struct TableHead {
   Sidecar said;
-  std::vector<std::string> assumptions;  // what was taken from where
-  std::vector<std::string> left;         // lines that hold a number nobody understood
+  std::vector<Assumption> assumptions;  // what was taken from where
+  std::vector<std::string> left;        // lines that hold a number nobody understood
   std::optional<StatedCurrent> short_circuit;
 };
 
@@ -42,6 +42,6 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
                    TableHead* head);
 
 // The sentences about the head: what was taken, and some of the lines that were left.
-std::vector<std::string> HeadSentences(const TableHead& head);
+std::vector<Assumption> HeadSentences(const TableHead& head);
 
 }  // namespace lyrefit

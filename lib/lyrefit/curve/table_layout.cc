@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/header_layout.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_header.h"
@@ -76,192 +77,193 @@ Error NoLayout(std::string_view line, int number, const std::string& file) {
                file, number, 1};
 }
 
-// The search for the first line that is a header or, without one, the first row.
-class LayoutSearch {
- public:
-  LayoutSearch(LineReader lines, const std::string& file, const HeaderRules& rules)
-      : lines_(lines), file_(file), rules_(rules) {}
-
-  // Only a header with numbers below it counts.
-  void DemandHeader() { demand_header_ = true; }
-
-  Expected<TableLayout> Run() {
-    std::size_t offset = 0;
-    while (skipped_ <= kLargestPreamble && NextContent(&offset)) {
-      if (auto header = TryHeader()) return *header;
-      const TableLine row = AsRow(line_);
-      if (const TableLine header = HeaderOfNames(names_, row, rules_); header.delimiter != 0) {
-        Expected<TableLayout> layout =
-            LayoutOfHeader(header, PlaceOf(header), line_, rules_.options);
-        if (layout) {
-          layout->assumptions.push_back("column names taken from the lines that number them");
-        }
-        return Finish(std::move(layout), offset, lines_.number() - 1);
-      }
-      if (row.delimiter != 0 && !row_after_text_ && !demand_header_) {
-        if (skipped_ == 0 || WishesArePlaces()) {
-          return Finish(FromRow(row), offset, lines_.number() - 1);
-        }
-        // A header may still follow: numbers may stand in what a tracer writes before it.
-        row_after_text_ = true;
-        text_before_row_ = last_text_;
-      }
-      Skip();
-    }
-    if (second_best_ && !demand_header_) return *second_best_;
-    const Text& shown = row_after_text_ ? text_before_row_ : first_text_;
-    return tl::unexpected(NoLayout(shown.line, shown.number, file_));
-  }
-
- private:
-  struct Text {
-    std::string_view line;
-    int number = 0;
-  };
-
-  HeaderPlace PlaceOf(const TableLine& found) const {
-    return {file_, lines_.number(), line_, found.delimiter};
-  }
-
-  // Whether columns are named by their places, so that no header is needed.
-  bool WishesArePlaces() const {
-    return ParseNumber(rules_.options.voltage_column) && ParseNumber(rules_.options.current_column);
-  }
-
-  // The line as a header, alone or with a line of units below it. One without numbers below is kept
-  // in mind: it is still better than none, its rows tell what is wrong.
-  std::optional<Expected<TableLayout>> TryHeader() {
-    if (auto with_units = TryUnits()) return with_units;
-    std::string_view next_line;
-    LineReader ahead = lines_;
-    ahead.NextContent(&next_line);
-    const TableLine header = AsHeader(line_, next_line, rules_);
-    if (header.delimiter == 0 || (!header.fits && second_best_)) return std::nullopt;
-    auto layout = Finish(LayoutOfHeader(header, PlaceOf(header), next_line, rules_.options),
-                         lines_.offset(), lines_.number());
-    if (header.fits) return layout;
-    second_best_ = std::move(layout);
-    return std::nullopt;
-  }
-
-  std::optional<Expected<TableLayout>> TryUnits() {
-    LineReader ahead = lines_;
-    std::string_view units;
-    do {
-      if (!ahead.Next(&units)) return std::nullopt;
-    } while (units.find_first_not_of(" \t") == std::string_view::npos);
-    const std::string joined = WithUnits(line_, units);
-    if (joined.empty()) return std::nullopt;
-    const LineReader below = ahead;
-    std::string_view next_line;
-    ahead.NextContent(&next_line);
-    const TableLine header = AsHeader(joined, next_line, rules_);
-    if (header.delimiter == 0 || !header.fits) return std::nullopt;
-    auto layout = LayoutOfHeader(header, PlaceOf(header), next_line, rules_.options);
-    lines_ = below;
-    return Finish(std::move(layout), lines_.offset(), lines_.number());
-  }
-
-  // Like LineReader's, but remembers comments and where the line began.
-  bool NextContent(std::size_t* offset) {
-    while (true) {
-      *offset = lines_.offset();
-      if (!lines_.Next(&line_)) return false;
-      const std::size_t first = line_.find_first_not_of(" \t");
-      if (first == std::string_view::npos) continue;
-      if (!BeginsComment(line_[first])) return true;
-      comment_ = line_;
-      ReadHeadLine(line_, lines_.number(), HeadLine::kComment, &head_);
-    }
-  }
-
-  void Skip() {
-    last_text_ = {line_, lines_.number()};
-    if (skipped_++ == 0) first_text_ = last_text_;
-    TakeColumnName(line_, &names_);
-    ReadHeadLine(line_, lines_.number(), HeadLine::kText, &head_);
-  }
-
-  Expected<TableLayout> FromRow(const TableLine& row) const {
-    const TableLine header = HeaderInComment(comment_, line_, rules_);
-    if (header.delimiter == 0) return LayoutWithoutHeader(row, PlaceOf(row), rules_.options);
-    Expected<TableLayout> layout = LayoutOfHeader(header, PlaceOf(header), line_, rules_.options);
-    if (layout) {
-      layout->assumptions.push_back("column names taken from the comment above the numbers");
-    }
-    return layout;
-  }
-
-  Expected<TableLayout> Finish(Expected<TableLayout> layout, std::size_t offset,
-                               int lines_before) const {
-    if (!layout) return layout;
-    layout->first_row_offset = offset;
-    layout->first_row_line = lines_before;
-    layout->head = head_;
-    std::vector<std::string> about_head;
-    if (skipped_ > 0) {
-      about_head.push_back(fmt::format("{} line{} before the header in line {} skipped", skipped_,
-                                       skipped_ == 1 ? "" : "s", lines_.number()));
-    }
-    const std::vector<std::string> sentences = HeadSentences(head_);
-    about_head.insert(about_head.end(), sentences.begin(), sentences.end());
-    layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
-    return layout;
-  }
-
-  LineReader lines_;
-  const std::string& file_;
-  HeaderRules rules_;
-  std::string_view line_;
-  std::string_view comment_;
-  Fields names_;  // of columns, given one a line
-  Text first_text_;
-  Text last_text_;
-  Text text_before_row_;
-  bool row_after_text_ = false;
-  bool demand_header_ = false;
-  std::optional<Expected<TableLayout>> second_best_;
-  TableHead head_;
-  int skipped_ = 0;  // lines of text, not counting comments
+struct SkippedLine {
+  std::string_view line;
+  int number = 0;
 };
+
+// The search for the first line that is a header or, without one, the first row.
+struct LayoutSearch {
+  LineReader lines;
+  const std::string& file;
+  HeaderRules rules;
+  std::string_view line = {};
+  std::string_view comment = {};
+  Fields names = {};  // of columns, given one a line
+  SkippedLine first_text = {};
+  SkippedLine last_text = {};
+  SkippedLine text_before_row = {};
+  bool row_after_text = false;
+  bool demand_header = false;  // only a header with numbers below it counts
+  std::optional<Expected<TableLayout>> second_best = {};
+  TableHead head = {};
+  int skipped = 0;  // lines of text, not counting comments
+};
+
+HeaderPlace PlaceOfHeader(const LayoutSearch& search, const TableLine& found) {
+  return {search.file, search.lines.number(), search.line, found.delimiter};
+}
+
+// Whether columns are named by their places, so that no header is needed.
+bool WishesArePlaces(const LayoutSearch& search) {
+  return ParseNumber(search.rules.options.voltage_column) &&
+         ParseNumber(search.rules.options.current_column);
+}
+
+Expected<TableLayout> Finished(const LayoutSearch& search, Expected<TableLayout> layout,
+                               std::size_t offset, int lines_before) {
+  if (!layout) return layout;
+  layout->first_row_offset = offset;
+  layout->first_row_line = lines_before;
+  layout->head = search.head;
+  std::vector<Assumption> about_head;
+  if (search.skipped > 0) {
+    about_head.push_back(fmt::format("{} line{} before the header in line {} skipped",
+                                     search.skipped, search.skipped == 1 ? "" : "s",
+                                     search.lines.number()));
+  }
+  const std::vector<Assumption> sentences = HeadSentences(search.head);
+  about_head.insert(about_head.end(), sentences.begin(), sentences.end());
+  layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
+  return layout;
+}
+
+std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
+  LineReader ahead = search->lines;
+  std::string_view units;
+  do {
+    if (!ahead.Next(&units)) return std::nullopt;
+  } while (units.find_first_not_of(" \t") == std::string_view::npos);
+  const std::string joined = WithUnits(search->line, units);
+  if (joined.empty()) return std::nullopt;
+  const LineReader below = ahead;
+  std::string_view next_line;
+  ahead.NextContent(&next_line);
+  const TableLine header = AsHeader(joined, next_line, search->rules);
+  if (header.delimiter == 0 || !header.fits) return std::nullopt;
+  auto layout =
+      LayoutOfHeader(header, PlaceOfHeader(*search, header), next_line, search->rules.options);
+  search->lines = below;
+  return Finished(*search, std::move(layout), search->lines.offset(), search->lines.number());
+}
+
+// The line as a header, alone or with a line of units below it. One without numbers below is kept
+// in mind: it is still better than none, its rows tell what is wrong.
+std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
+  if (auto with_units = TryHeaderWithUnits(search)) return with_units;
+  std::string_view next_line;
+  LineReader ahead = search->lines;
+  ahead.NextContent(&next_line);
+  const TableLine header = AsHeader(search->line, next_line, search->rules);
+  if (header.delimiter == 0 || (!header.fits && search->second_best)) return std::nullopt;
+  auto layout = Finished(
+      *search,
+      LayoutOfHeader(header, PlaceOfHeader(*search, header), next_line, search->rules.options),
+      search->lines.offset(), search->lines.number());
+  if (header.fits) return layout;
+  search->second_best = std::move(layout);
+  return std::nullopt;
+}
+
+// Like LineReader's, but remembers comments and where the line began.
+bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
+  while (true) {
+    *offset = search->lines.offset();
+    if (!search->lines.Next(&search->line)) return false;
+    const std::size_t first = search->line.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    if (!BeginsComment(search->line[first])) return true;
+    search->comment = search->line;
+    ReadHeadLine(search->line, search->lines.number(), HeadLine::kComment, &search->head);
+  }
+}
+
+void SkipLine(LayoutSearch* search) {
+  search->last_text = {search->line, search->lines.number()};
+  if (search->skipped++ == 0) search->first_text = search->last_text;
+  TakeColumnName(search->line, &search->names);
+  ReadHeadLine(search->line, search->lines.number(), HeadLine::kText, &search->head);
+}
+
+Expected<TableLayout> LayoutFromRow(const LayoutSearch& search, const TableLine& row) {
+  const TableLine header = HeaderInComment(search.comment, search.line, search.rules);
+  if (header.delimiter == 0)
+    return LayoutWithoutHeader(row, PlaceOfHeader(search, row), search.rules.options);
+  Expected<TableLayout> layout =
+      LayoutOfHeader(header, PlaceOfHeader(search, header), search.line, search.rules.options);
+  if (layout) {
+    layout->assumptions.push_back("column names taken from the comment above the numbers");
+  }
+  return layout;
+}
+
+Expected<TableLayout> FindLayout(LayoutSearch* search) {
+  std::size_t offset = 0;
+  while (search->skipped <= kLargestPreamble && NextLineOf(search, &offset)) {
+    if (auto header = TryHeader(search)) return *header;
+    const TableLine row = AsRow(search->line);
+    if (const TableLine header = HeaderOfNames(search->names, row, search->rules);
+        header.delimiter != 0) {
+      Expected<TableLayout> layout = LayoutOfHeader(header, PlaceOfHeader(*search, header),
+                                                    search->line, search->rules.options);
+      if (layout) {
+        layout->assumptions.push_back("column names taken from the lines that number them");
+      }
+      return Finished(*search, std::move(layout), offset, search->lines.number() - 1);
+    }
+    if (row.delimiter != 0 && !search->row_after_text && !search->demand_header) {
+      if (search->skipped == 0 || WishesArePlaces(*search)) {
+        return Finished(*search, LayoutFromRow(*search, row), offset, search->lines.number() - 1);
+      }
+      // A header may still follow: numbers may stand in what a tracer writes before it.
+      search->row_after_text = true;
+      search->text_before_row = search->last_text;
+    }
+    SkipLine(search);
+  }
+  if (search->second_best && !search->demand_header) return *search->second_best;
+  const SkippedLine& shown = search->row_after_text ? search->text_before_row : search->first_text;
+  return tl::unexpected(NoLayout(shown.line, shown.number, search->file));
+}
 
 }  // namespace
 
 Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
                                       const ReadOptions& options) {
-  Expected<TableLayout> known = LayoutSearch(LineReader(text), file, {options, false}).Run();
-  if (known) return known;
-  Expected<TableLayout> guessed = LayoutSearch(LineReader(text), file, {options, true}).Run();
-  return guessed ? guessed : known;
+  LayoutSearch known{LineReader(text), file, {options, false}};
+  Expected<TableLayout> layout = FindLayout(&known);
+  if (layout) return layout;
+  LayoutSearch guessed{LineReader(text), file, {options, true}};
+  Expected<TableLayout> guess = FindLayout(&guessed);
+  return guess ? guess : layout;
 }
 
 Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
                                      const ReadOptions& options) {
-  LayoutSearch search(lines, file, {options, false});
-  search.DemandHeader();
-  return search.Run();
+  LayoutSearch search{lines, file, {options, false}};
+  search.demand_header = true;
+  return FindLayout(&search);
 }
 
 Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
                                                    const ReadOptions& options) {
   ReadOptions any = options;
   if (any.column.empty()) any.column = "1";
-  const Expected<TableLayout> layout = FindTableLayout(text, file, any);
-  if (!layout) return tl::unexpected(layout.error());
+  TRY(const TableLayout layout, FindTableLayout(text, file, any));
   std::vector<ColumnNote> notes;
-  for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(layout.columns.size()); ++i) {
     std::string use;
-    const bool several = layout->channels.size() > 1;
-    for (std::size_t k = 0; k < layout->channels.size(); ++k) {
-      const Channel& channel = layout->channels[k];
+    const bool several = layout.channels.size() > 1;
+    for (std::size_t k = 0; k < layout.channels.size(); ++k) {
+      const Channel& channel = layout.channels[k];
       const std::string pair = several ? fmt::format(" {}", k + 1) : "";
-      if (channel.current == i) use = (layout->per_area() ? "current density" : "current") + pair;
+      if (channel.current == i) use = (layout.per_area() ? "current density" : "current") + pair;
       if (channel.voltage != i || !use.empty()) continue;
-      const bool shared = several && layout->channels[0].voltage == layout->channels[1].voltage;
+      const bool shared = several && layout.channels[0].voltage == layout.channels[1].voltage;
       use = "voltage" + (shared ? "" : pair);
     }
-    if (use.empty()) use = IsUsed(*layout, i) ? NameOf(layout->columns[i].kind) : "not used";
-    notes.push_back({i + 1, layout->columns[i].label, use});
+    if (use.empty()) use = IsUsed(layout, i) ? NameOf(layout.columns[i].kind) : "not used";
+    notes.push_back({i + 1, layout.columns[i].label, use});
   }
   return notes;
 }

@@ -32,7 +32,7 @@ struct TableLayout {
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
   TableHead head;  // what the lines before the header state
-  std::vector<std::string> assumptions;
+  std::vector<Assumption> assumptions;
 
   bool per_area() const { return columns[current].kind == ColumnKind::kCurrentDensity; }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
@@ -66,9 +67,7 @@ Expected<double> TableRow::Value(int field) {
   }
   if (!number) return RefuseField(field, "a number");
   if (!std::isfinite(*number)) return RefuseMissing(field, "a finite number");
-  if (auto checked = CheckSeparator(field, text); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(CheckSeparator(field, text));
   const Column& column = columns_[field];
   const double value = *number * column.factor + column.offset;
   if (!std::isfinite(value)) return RefuseField(field, "a finite number");
@@ -86,11 +85,10 @@ Expected<double> TableRow::Value(int field) {
 }
 
 Expected<int> TableRow::WholeNumber(int field) {
-  const Expected<double> value = Value(field);
-  if (!value) return tl::unexpected(value.error());
-  const bool whole = *value == std::floor(*value) && std::abs(*value) <= 1e9;
+  TRY(const double value, Value(field));
+  const bool whole = value == std::floor(value) && std::abs(value) <= 1e9;
   if (!whole) return RefuseField(field, "a whole number");
-  return static_cast<int>(*value);
+  return static_cast<int>(value);
 }
 
 // "1,234" beside "0.5" is a thousands separator, not a decimal comma.

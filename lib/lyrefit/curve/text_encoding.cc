@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
@@ -128,9 +129,8 @@ Expected<DecodedText> DecodeText(std::string bytes, const std::string& path) {
 }
 
 Expected<DecodedText> ReadDecodedFile(const std::string& path, std::uintmax_t largest_bytes) {
-  Expected<std::string> bytes = ReadFileBytes(path, largest_bytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return DecodeText(std::move(*bytes), path);
+  TRY(std::string bytes, ReadFileBytes(path, largest_bytes));
+  return DecodeText(std::move(bytes), path);
 }
 
 }  // namespace lyrefit

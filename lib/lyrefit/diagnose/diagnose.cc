@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
@@ -191,7 +192,7 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   diagnosis.cells_in_series = measurement.readings.scale.cells;
   EchoOptions(options, &diagnosis.non_default_options);
   for (const IvCurve& curve : set.curves) {
-    for (const std::string& sentence : curve.assumptions) {
+    for (const std::string& sentence : SentencesOf(curve.assumptions)) {
       auto& all = diagnosis.assumptions;
       if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
     }
@@ -294,8 +295,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   diagnosis.extended =
       ExtendedReport(set, shown, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;
-  diagnosis.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  diagnosis.seconds = SecondsSince(begin);
   return diagnosis;
 }
 

@@ -15,8 +15,10 @@ Effect BackContact() {
   e.acts = "at open circuit and beyond";
   e.confused_with = {"rs_current", "transient"};
   e.separate_by = "points further beyond open circuit, or another irradiance";
-  e.parameters = {{"1/Ib", "barrier", "1/A", "inverse saturation current of the barrier", 0, 60, 0,
-                   false, 1, -1}};
+  e.parameters = {Parameter("1/Ib", "barrier", "inverse saturation current of the barrier")
+                      .Unit("1/A")
+                      .Between(0, 60)
+                      .CurrentPower(-1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     constexpr double kSmallest = 1e-2;  // below it the tangent goes on
     const auto inside = 1.0 + current * p[0];

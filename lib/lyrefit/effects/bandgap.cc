@@ -15,7 +15,8 @@ Effect Bandgap() {
   e.acts = "open-circuit voltage against temperature";
   e.confused_with = {"temp_offset", "voltage_offset", "temp_gradient"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
-  e.parameters = {{"c", "bandgap_error", "eV", "true minus stated", -0.5, 0.5, 0}};
+  e.parameters = {
+      Parameter("c", "bandgap_error", "true minus stated").Unit("eV").Between(-0.5, 0.5)};
   e.sky = [](const auto* p, const auto&, auto* sky) { sky->bandgap_eV = sky->bandgap_eV + p[0]; };
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (auto why = NeedsTemperatures(traits)) return why;

@@ -17,15 +17,22 @@ Effect Breakdown() {
   e.acts = "at the most negative voltages";
   e.confused_with = {"nonohmic_shunt"};
   e.separate_by = "reverse bias closer to breakdown, or another irradiance";
-  e.parameters = {
-      {"a", "breakdown_factor", "S", "conductance of a cell at 0 V", 0, 3, 0, false, 1, 1},
-      {"Vbr", "breakdown_voltage", "V", "breakdown voltage of a cell", 0.15, 0.97, 0.6}};
   // Inside: the current at the most negative reading, and that voltage as a part of Vbr.
-  e.parameters[0].convert = [](const double* p, const ReadingScale& scale) {
-    return std::pow(1 - p[1], 3.4) / scale.reach_V;
-  };
-  e.parameters[1].convert = [](const double* p, const ReadingScale& scale) {
-    return -scale.reach_V / (p[1] * p[1]);
+  e.parameters = {
+      Parameter("a", "breakdown_factor", "conductance of a cell at 0 V")
+          .Unit("S")
+          .Between(0, 3)
+          .CurrentPower(1)
+          .Convert([](const double* p, const ReadingScale& scale) {
+            return std::pow(1 - p[1], 3.4) / scale.reach_V;
+          }),
+      Parameter("Vbr", "breakdown_voltage", "breakdown voltage of a cell")
+          .Unit("V")
+          .Between(0.15, 0.97)
+          .From(0.6)
+          .Convert([](const double* p, const ReadingScale& scale) {
+            return -scale.reach_V / (p[1] * p[1]);
+          }),
   };
   e.junction = [](const auto* p, const auto& cell, const auto&, const auto& voltage) {
     const auto v = voltage * (1.0 / cell.reach);

@@ -23,13 +23,21 @@ Effect BypassOpen() {
   e.confused_with = {"mismatch", "weak_cell", "scatter"};
   e.separate_by = "cover one substring after the other: a good diode leaves a step";
   e.parameters = {
-      {"d", "light_deficit", "", "part of the light that the substring misses", 0, 0.999, 0},
-      {"w", "shaded_share", "", "part of the cells in it", 0.01, 0.99, 1.0 / 3, true},
-      {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 60, 3.2},
-      {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4}};
-  e.parameters[0].scatter = kSubstringScatter;
-  e.parameters[1].whole = Whole::kSubstrings;
-  e.parameters[2].held = e.parameters[3].held = true;
+      Parameter("d", "light_deficit", "part of the light that the substring misses")
+          .Between(0, 0.999)
+          .Scatter(kSubstringScatter),
+      Parameter("w", "shaded_share", "part of the cells in it")
+          .Between(0.01, 0.99)
+          .From(1.0 / 3)
+          .Searched()
+          .Only(Whole::kSubstrings),
+      Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph")
+          .Unit("V")
+          .Between(0.5, 60)
+          .From(3.2)
+          .Held(),
+      Parameter("m", "reverse_exponent", "of the soft reverse law").Between(1, 8).From(3.4).Held(),
+  };
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = 2;
     cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};

@@ -19,9 +19,17 @@ Effect Capacitance() {
   e.separate_by =
       "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
   e.parameters = {
-      {"C0", "capacitance", "F", "of the whole device", 0, 0.3, 0, false, 1, 1, -1, -1},
-      {"tau", "lifetime", "s", "diffusion capacitance over the conductance of the diode", 0, 0.3, 0,
-       false, 1, 0, 0, -1}};
+      Parameter("C0", "capacitance", "of the whole device")
+          .Unit("F")
+          .Between(0, 0.3)
+          .CurrentPower(1)
+          .CellsPower(-1)
+          .RatePower(-1),
+      Parameter("tau", "lifetime", "diffusion capacitance over the conductance of the diode")
+          .Unit("s")
+          .Between(0, 0.3)
+          .RatePower(-1),
+  };
   e.instrument = [](const auto* p, const auto& reading, auto* solved) {
     const auto divider = 1.0 + solved->resistance * solved->conductance;
     const auto charge = p[0] + p[1] * solved->diode_conductance;

@@ -18,12 +18,21 @@ Effect Clip() {
   e.acts = "at the largest or smallest currents, or at the largest voltages";
   e.confused_with = {"transient", "collection"};
   e.separate_by = "repeat with a larger range or compliance";
-  e.parameters = {{"Ic", "limit", "A", "largest current that is recorded", 0.05, kNoUpperLimit, 1.3,
-                   false, 1, 1},
-                  {"Il", "lower_limit", "A", "smallest current that is recorded", kNoLowerLimit,
-                   0.9, kNoLowerLimit, true, 1, 1}};
-  e.parameters[0].absent_at = kNoUpperLimit;
-  e.parameters[1].absent_at = kNoLowerLimit;
+  e.parameters = {
+      Parameter("Ic", "limit", "largest current that is recorded")
+          .Unit("A")
+          .Between(0.05, kNoUpperLimit)
+          .From(1.3)
+          .CurrentPower(1)
+          .AbsentAt(kNoUpperLimit),
+      Parameter("Il", "lower_limit", "smallest current that is recorded")
+          .Unit("A")
+          .Between(kNoLowerLimit, 0.9)
+          .From(kNoLowerLimit)
+          .Searched()
+          .CurrentPower(1)
+          .AbsentAt(kNoLowerLimit),
+  };
   e.instrument = [](const auto* p, const auto&, auto* solved) {
     const auto above = (p[0] < solved->current) & (p[0] < kNoUpperLimit);
     solved->current = Choose(above, p[0], solved->current);

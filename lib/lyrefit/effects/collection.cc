@@ -15,7 +15,8 @@ Effect Collection() {
   e.acts = "between short circuit and the knee, in proportion to light";
   e.confused_with = {"nonohmic_shunt", "photoshunt", "second_diode"};
   e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
-  e.parameters = {{"chi", "d2mutau", "V", "loss parameter of a cell", 0, 0.3, 0}};
+  e.parameters = {
+      Parameter("chi", "d2mutau", "loss parameter of a cell").Unit("V").Between(0, 0.3)};
   e.junction = [](const auto* p, const auto&, const auto& photocurrent, const auto& voltage) {
     constexpr double kBuiltIn = 0.9;
     constexpr double kClosest = 0.03;  // beyond it the tangent goes on

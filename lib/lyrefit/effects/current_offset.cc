@@ -15,8 +15,10 @@ Effect CurrentOffset() {
   e.acts = "everywhere alike";
   e.confused_with = {"sensor_offset", "voltage_offset"};
   e.separate_by = "a reading with open leads; a dark curve; the sensor covered";
-  e.parameters = {
-      {"c", "current_offset", "A", "what the instrument adds", -0.1, 0.1, 0, false, 1, 1}};
+  e.parameters = {Parameter("c", "current_offset", "what the instrument adds")
+                      .Unit("A")
+                      .Between(-0.1, 0.1)
+                      .CurrentPower(1)};
   e.instrument = [](const auto* p, const auto&, auto* solved) {
     solved->current = solved->current + p[0];
   };

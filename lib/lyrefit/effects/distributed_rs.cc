@@ -19,8 +19,11 @@ Effect DistributedRs() {
   e.acts = "from the knee to open circuit";
   e.confused_with = {"rs_current", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
-  e.parameters = {{"Rlat", "resistance_lateral", "ohm", "between the halves of the cells", 0, 2, 0,
-                   false, 1, -1, 1}};
+  e.parameters = {Parameter("Rlat", "resistance_lateral", "between the halves of the cells")
+                      .Unit("ohm")
+                      .Between(0, 2)
+                      .CurrentPower(-1)
+                      .CellsPower(1)};
   e.cell = [](const auto* p, auto* cell) {
     cell->halved = true;
     cell->lateral = p[0];

@@ -16,8 +16,8 @@ Effect Drift() {
   e.acts = "everywhere that light counts, in the order of time";
   e.confused_with = {"temp_drift", "irr_step", "collection"};
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
-  e.parameters = {
-      {"d", "relative_change", "", "change of the light over the measurement", -0.5, 0.5, 0}};
+  e.parameters = {Parameter("d", "relative_change", "change of the light over the measurement")
+                      .Between(-0.5, 0.5)};
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * reading.x);
   };

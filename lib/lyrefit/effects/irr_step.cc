@@ -18,8 +18,11 @@ Effect IrradianceStep() {
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
   e.parameters = {
-      {"s", "relative_step", "", "jump of the light", -0.5, 0.5, 0},
-      {"x0", "step_time", "", "when, -1/2 .. 1/2 over the measurement", -0.5, 0.5, 0, true}};
+      Parameter("s", "relative_step", "jump of the light").Between(-0.5, 0.5),
+      Parameter("x0", "step_time", "when, -1/2 .. 1/2 over the measurement")
+          .Between(-0.5, 0.5)
+          .Searched(),
+  };
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
     const auto changed = sky->irradiance * (1.0 + p[0]);
     sky->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, sky->irradiance);

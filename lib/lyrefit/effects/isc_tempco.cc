@@ -15,7 +15,9 @@ Effect IscTemperatureCoefficient() {
   e.acts = "short-circuit current against temperature";
   e.confused_with = {"sensor_nonlin"};
   e.separate_by = "a measurement of the coefficient at constant light";
-  e.parameters = {{"c", "tempco_error", "1/K", "true minus stated, relative", -0.01, 0.01, 0}};
+  e.parameters = {Parameter("c", "tempco_error", "true minus stated, relative")
+                      .Unit("1/K")
+                      .Between(-0.01, 0.01)};
   e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->isc_tempco_per_K = sky->isc_tempco_per_K + p[0];
   };

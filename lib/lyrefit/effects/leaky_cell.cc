@@ -17,15 +17,24 @@ Effect LeakyCell() {
   e.acts = "before the knee";
   e.confused_with = {"weak_cell", "mismatch", "nonohmic_shunt"};
   e.separate_by = "a second irradiance: a leak does not follow the light; a thermal image";
-  e.parameters = {{"g", "leak", "S", "conductance of the cell beside that of the others", 0, 50, 0,
-                   false, 1, 1},
-                  {"cells", "leaky_cells", "", "how many they are, all in one substring", 1, 24, 1},
-                  {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
-                  kChains};
-  for (int k = 1; k < e.size(); ++k) e.parameters[k].held = true;
-  e.parameters.back().absent_at = 1;
-  e.parameters[1].whole = e.parameters[3].whole = Whole::kCount;
-  e.parameters[1].below_upper = true;
+  e.parameters = {
+      Parameter("g", "leak", "conductance of the cell beside that of the others")
+          .Unit("S")
+          .Between(0, 50)
+          .CurrentPower(1),
+      Parameter("cells", "leaky_cells", "how many they are, all in one substring")
+          .Between(1, 24)
+          .From(1)
+          .Held()
+          .Only(Whole::kCount)
+          .BelowUpper(),
+      Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
+          .Unit("V")
+          .Between(0.1, 1.2)
+          .From(0.5)
+          .Held(),
+      kChains,
+  };
   e.cell = [](const auto* p, auto* cell) {
     SetOddCells(p[1], p[0] * 0.0, p[0], p[3], cell);
     cell->bypass = p[2];

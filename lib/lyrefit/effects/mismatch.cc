@@ -16,8 +16,12 @@ Effect Mismatch() {
   e.confused_with = {"shading", "transient", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or an electroluminescence image";
   e.parameters = {
-      {"d", "current_deficit", "", "part of the current that the weaker cells miss", 0, 0.9, 0},
-      {"w", "weaker_share", "", "part of the cells that is weaker", 0.005, 0.95, 0.3}};
+      Parameter("d", "current_deficit", "part of the current that the weaker cells miss")
+          .Between(0, 0.9),
+      Parameter("w", "weaker_share", "part of the cells that is weaker")
+          .Between(0.005, 0.95)
+          .From(0.3),
+  };
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = 2;
     cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};

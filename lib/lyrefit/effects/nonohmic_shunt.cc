@@ -17,12 +17,16 @@ Effect NonohmicShunt() {
   e.acts = "where |V| is large, also in reverse";
   e.confused_with = {"collection", "breakdown", "second_diode"};
   e.separate_by = "a dark curve or points in reverse bias: this part does not scale with light";
-  e.parameters = {
-      {"k", "shunt_strength", "A/V^m", "current at 1 V of a cell", 0, 3, 0, false, 1, 1},
-      {"m", "shunt_exponent", "", "exponent", 1.3, 5, 2}};
   // Inside, the strength is the current at the largest voltage of the readings.
-  e.parameters[0].convert = [](const double* p, const ReadingScale& scale) {
-    return std::pow(scale.reach_V, -p[1]);
+  e.parameters = {
+      Parameter("k", "shunt_strength", "current at 1 V of a cell")
+          .Unit("A/V^m")
+          .Between(0, 3)
+          .CurrentPower(1)
+          .Convert([](const double* p, const ReadingScale& scale) {
+            return std::pow(scale.reach_V, -p[1]);
+          }),
+      Parameter("m", "shunt_exponent", "exponent").Between(1.3, 5).From(2),
   };
   e.junction = [](const auto* p, const auto& cell, const auto&, const auto& voltage) {
     const auto size = abs(voltage) * (1.0 / cell.reach) + 1e-9;

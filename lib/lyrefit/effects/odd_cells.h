@@ -4,9 +4,13 @@
 
 namespace lyrefit {
 
-constexpr EffectParameter kChains = {
-    "chains", "chains_side_by_side", "", "that share a bypass diode: two in half-cut modules", 1, 2,
-    1};
+constexpr EffectParameter kChains =
+    Parameter("chains", "chains_side_by_side", "that share a bypass diode: two in half-cut modules")
+        .Between(1, 2)
+        .From(1)
+        .Held()
+        .AbsentAt(1)
+        .Only(Whole::kCount);
 
 // A few cells of one substring have a light and a leak of their own. Other substrings are never in
 // reverse; where all cells are one substring it has no bypass diode. `deficit`: what the substring

@@ -22,8 +22,13 @@ Effect Photoshunt() {
   e.confused_with = {"collection"};
   e.separate_by = "a wide range of irradiance with little noise near the knee";
   e.parameters = {
-      {"Gph", "photoconductance", "S", "conductance that 1000 W/m2 adds", 0, 3, 0, false, 1, 1, -1},
-      {"law", "law", "", "0 linear, 1 exponential", 0, 1, 0, true}};
+      Parameter("Gph", "photoconductance", "conductance that 1000 W/m2 adds")
+          .Unit("S")
+          .Between(0, 3)
+          .CurrentPower(1)
+          .CellsPower(-1),
+      Parameter("law", "law", "0 linear, 1 exponential").Between(0, 1).Searched(),
+  };
   e.cell = [](const auto* p, auto* cell) {
     const auto linear = cell->conductance + p[0] * cell->irradiance;
     // PVsyst: Rsh = base + (Rdark - base) exp(-5.5 g), from 1 / Gsh in the dark.

@@ -18,8 +18,15 @@ Effect RangeSwitch() {
   e.confused_with = {"irr_step", "shading", "transient"};
   e.separate_by = "repeat the sweep in one fixed range, or read a resistor in both ranges";
   e.parameters = {
-      {"g", "relative_gain", "", "of the range of small currents over the other", -0.2, 0.2, 0},
-      {"Ir", "range_end", "A", "current at which the range changes", 0.02, 0.98, 0.5, true, 1, 1}};
+      Parameter("g", "relative_gain", "of the range of small currents over the other")
+          .Between(-0.2, 0.2),
+      Parameter("Ir", "range_end", "current at which the range changes")
+          .Unit("A")
+          .Between(0.02, 0.98)
+          .From(0.5)
+          .Searched()
+          .CurrentPower(1),
+  };
   e.instrument = [](const auto* p, const auto&, auto* solved) {
     const auto changed = solved->current * (1.0 + p[0]);
     solved->current = Choose(ValueOf(solved->current) < ValueOf(p[1]), changed, solved->current);

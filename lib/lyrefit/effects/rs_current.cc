@@ -17,8 +17,11 @@ Effect RsCurrent() {
   e.acts = "from the knee to open circuit";
   e.confused_with = {"distributed_rs", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
-  e.parameters = {{"Rs1", "resistance_per_current", "ohm/A", "change of Rs with current", -0.2, 0.2,
-                   0, false, 1, -2, 1}};
+  e.parameters = {Parameter("Rs1", "resistance_per_current", "change of Rs with current")
+                      .Unit("ohm/A")
+                      .Between(-0.2, 0.2)
+                      .CurrentPower(-2)
+                      .CellsPower(1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     const auto size = abs(current);
     // No cell's resistance falls below 0: where Rs + 2 Rs1 |I| would, the tangent goes on.

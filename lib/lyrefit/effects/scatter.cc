@@ -69,6 +69,55 @@ void SetScatter(const S* p, Cell<S>* cell) {
   cell->reverse_exponent = p[kScatterExponent];
 }
 
+std::vector<EffectParameter> ScatterParameters() {
+  return {
+      Parameter("s", "light_width", "standard deviation of the cells' light").Between(0, 0.08),
+      Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph")
+          .Unit("V")
+          .Between(0.5, 30)
+          .From(3.2)
+          .Held(),
+      Parameter("m", "reverse_exponent", "of the soft reverse law").Between(1, 8).From(3.4).Held(),
+      Parameter("q", "lopsidedness", "0: normal; 1: few cells far below the others")
+          .Between(0, 1)
+          .Held()
+          .AbsentAt(0),
+      Parameter("t", "dimmest_beyond", "widths that the dimmest cell lies below its usual place")
+          .Between(-2.5, 2.5)
+          .Held()
+          .AbsentAt(0)
+          .BelowUpper(),  // farther below it is a weak cell
+      Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
+          .Unit("V")
+          .Between(0.1, 1.2)
+          .From(0.5)
+          .Held(),
+  };
+}
+
+std::vector<ShapeStart> ScatterStarts(const CurveShape& shape) {
+  std::vector<ShapeStart> starts;
+  constexpr double kLeastHalfway = 0.85;
+  if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
+  // The dimmest cell decides where the current bends: each side of its place is a valley of its
+  // own, and so are cells that conduct in reverse and cells that do not.
+  for (const double lopsided : {0.0, 1.0}) {
+    for (const double width : {0.015, 0.04}) {
+      starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
+      starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
+      starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
+      for (const double beyond : {-1.0, 0.0, 1.0}) {
+        starts.push_back(
+            {{width, 15, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
+      }
+      for (const double beyond : {-1.0, 1.0}) {
+        starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});
+      }
+    }
+  }
+  return starts;
+}
+
 }  // namespace
 
 Effect Scatter() {
@@ -78,8 +127,7 @@ Effect Scatter() {
   e.where = Where::kDevice;
   e.equation =
       "lights of the cells have width s, normal or lopsided towards an exponential by q; the "
-      "dimmest, "
-      "t widths beyond its place, and others lie in the substrings in turn; in reverse "
+      "dimmest, t widths beyond its place, and others lie in the substrings in turn; in reverse "
       "I = ... + Iph (-Vj / A)^m";
   e.reference = "Bucciarelli 1979, doi:10.1016/0038-092X(79)90117-9";
   e.sentence = "no two cells deliver the same current, and the weaker ones limit the others";
@@ -87,17 +135,7 @@ Effect Scatter() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"mismatch", "weak_cell", "distributed_rs"};
   e.separate_by = "an electroluminescence image";
-  e.parameters = {
-      {"s", "light_width", "", "standard deviation of the cells' light", 0, 0.08, 0},
-      {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph", 0.5, 30, 3.2},
-      {"m", "reverse_exponent", "", "of the soft reverse law", 1, 8, 3.4},
-      {"q", "lopsidedness", "", "0: normal; 1: few cells far below the others", 0, 1, 0},
-      {"t", "dimmest_beyond", "", "widths that the dimmest cell lies below its usual place", -2.5,
-       2.5, 0},
-      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5}};
-  for (int k = kScatterSoft; k < e.size(); ++k) e.parameters[k].held = true;
-  e.parameters[kScatterDimmest].below_upper = true;  // farther below it is a weak cell
-  e.parameters[kScatterLopsided].absent_at = e.parameters[kScatterDimmest].absent_at = 0;
+  e.parameters = ScatterParameters();
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;
   e.why_not = NeedsModule;
@@ -107,26 +145,7 @@ Effect Scatter() {
     return probes;
   };
   e.starts = [](const CurveShape& shape, const DataTraits&, const auto&) {
-    std::vector<ShapeStart> starts;
-    constexpr double kLeastHalfway = 0.85;
-    if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
-    // The dimmest cell decides where the current bends: each side of its place is a valley of its
-    // own, and so are cells that conduct in reverse and cells that do not.
-    for (const double lopsided : {0.0, 1.0}) {
-      for (const double width : {0.015, 0.04}) {
-        starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-        starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-        starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
-        for (const double beyond : {-1.0, 0.0, 1.0}) {
-          starts.push_back(
-              {{width, 15, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
-        }
-        for (const double beyond : {-1.0, 1.0}) {
-          starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});
-        }
-      }
-    }
-    return starts;
+    return ScatterStarts(shape);
   };
   return e;
 }

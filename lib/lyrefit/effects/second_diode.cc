@@ -15,11 +15,13 @@ Effect SecondDiode() {
   e.acts = "below the maximum power point";
   e.confused_with = {"nonohmic_shunt", "temp_gradient", "collection"};
   e.separate_by = "a dark curve, or curves at low irradiance";
-  e.parameters = {{"Is2", "saturation_current_2", "A", "saturation current of the diode with n = 2",
-                   0, 3, 0, false, 1, 1}};
-  e.parameters[0].convert = [](const double*, const ReadingScale& scale) {
-    return scale.saturation_2_unit;
-  };
+  e.parameters = {
+      Parameter("Is2", "saturation_current_2", "saturation current of the diode with n = 2")
+          .Unit("A")
+          .Between(0, 3)
+          .CurrentPower(1)
+          .Convert(
+              [](const double*, const ReadingScale& scale) { return scale.saturation_2_unit; })};
   e.cell = [](const auto* p, auto* cell) {
     cell->diode[cell->diodes++] = {p[0] * cell->saturation_2_unit, 0.5 / cell->thermal_voltage};
   };

@@ -15,7 +15,8 @@ Effect SensorNonlinearity() {
   e.acts = "short-circuit current against irradiance is bent";
   e.confused_with = {"sensor_offset", "current_offset"};
   e.separate_by = "a second sensor; two-lamp linearity test";
-  e.parameters = {{"c", "nonlinearity", "", "relative error per 1000 W/m2", -0.4, 0.4, 0}};
+  e.parameters = {
+      Parameter("c", "nonlinearity", "relative error per 1000 W/m2").Between(-0.4, 0.4)};
   e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->irradiance = sky->irradiance * (1.0 + p[0] * (sky->irradiance - 1.0));
   };

@@ -15,8 +15,10 @@ Effect SensorOffset() {
   e.acts = "short-circuit current against irradiance misses the origin";
   e.confused_with = {"current_offset", "voltage_offset", "sensor_nonlin"};
   e.separate_by = "the sensor covered; a dark curve";
-  e.parameters = {
-      {"c", "irradiance_offset", "W/m2", "true minus shown", -0.1, 0.1, 0, false, 1000}};
+  e.parameters = {Parameter("c", "irradiance_offset", "true minus shown")
+                      .Unit("W/m2")
+                      .Between(-0.1, 0.1)
+                      .Times(1000)};
   e.sky = [](const auto* p, const auto&, auto* sky) { sky->irradiance = sky->irradiance + p[0]; };
   e.why_not = NeedsIrradiances;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };

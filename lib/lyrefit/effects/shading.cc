@@ -19,6 +19,43 @@ std::vector<double> Shares(const DataTraits& traits) {
   return shares;
 }
 
+std::vector<ShapeStart> ShadingStarts(const CurveShape& shape, const DataTraits& traits) {
+  constexpr double kMiddle = 0.36, kEnd = 0.3;  // of a substring's part of the voltage
+  std::vector<ShapeStart> starts;
+  for (const double share : Shares(traits)) {
+    const double full = shape.At(kMiddle * (1 - share));
+    if (!(full > 0)) continue;
+    const double light = shape.At(1 - share + kEnd * share) / full;
+    const double depth = std::clamp(1 - light, 0.01, 0.98);
+    starts.push_back({{depth, share, 0.5, 1}, {}});
+    starts.push_back({{depth, share, 0.5, 0.3}, {3}});
+  }
+  return starts;
+}
+
+std::vector<EffectParameter> ShadingParameters() {
+  return {
+      Parameter("d", "shading_depth", "part of the light that the shaded cells miss")
+          .Between(0, 0.999)
+          .Scatter(kSubstringScatter),
+      Parameter("w", "shaded_share", "part of the cells that is shaded")
+          .Between(0.01, 0.99)
+          .From(0.3)
+          .Searched()
+          .Only(Whole::kSubstrings),
+      Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
+          .Unit("V")
+          .Between(0.1, 1.2)
+          .From(0.5),
+      Parameter("c", "covered_part",
+                "part of the cells of a shaded substring that the shade covers")
+          .Between(0.03, 1)
+          .From(1)
+          .Held()
+          .AbsentAt(1),
+  };
+}
+
 }  // namespace
 
 Effect Shading() {
@@ -35,16 +72,7 @@ Effect Shading() {
   e.acts = "at a step of the current, at a fixed voltage";
   e.confused_with = {"irr_step", "transient", "mismatch"};
   e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
-  e.parameters = {
-      {"d", "shading_depth", "", "part of the light that the shaded cells miss", 0, 0.999, 0},
-      {"w", "shaded_share", "", "part of the cells that is shaded", 0.01, 0.99, 0.3, true},
-      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
-      {"c", "covered_part", "", "part of the cells of a shaded substring that the shade covers",
-       0.03, 1, 1}};
-  e.parameters[0].scatter = kSubstringScatter;
-  e.parameters[1].whole = Whole::kSubstrings;
-  e.parameters[3].held = true;
-  e.parameters[3].absent_at = 1;
+  e.parameters = ShadingParameters();
   e.cell = [](const auto* p, auto* cell) {
     cell->kinds = cell->parts = 2;
     cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
@@ -69,17 +97,7 @@ Effect Shading() {
     return probes;
   };
   e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
-    constexpr double kMiddle = 0.36, kEnd = 0.3;  // of a substring's part of the voltage
-    std::vector<ShapeStart> starts;
-    for (const double share : Shares(traits)) {
-      const double full = shape.At(kMiddle * (1 - share));
-      if (!(full > 0)) continue;
-      const double light = shape.At(1 - share + kEnd * share) / full;
-      const double depth = std::clamp(1 - light, 0.01, 0.98);
-      starts.push_back({{depth, share, 0.5, 1}, {}});
-      starts.push_back({{depth, share, 0.5, 0.3}, {3}});
-    }
-    return starts;
+    return ShadingStarts(shape, traits);
   };
   return e;
 }

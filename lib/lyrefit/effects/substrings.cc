@@ -102,6 +102,92 @@ std::vector<ShapeStart> AskedStarts(const CurveShape& shape, const DataTraits& t
   return starts;
 }
 
+std::vector<EffectParameter> SubstringParameters() {
+  static const char* const kNames[kGroups][4] = {{"d1", "light_deficit_1", "w1", "share_1"},
+                                                 {"d2", "light_deficit_2", "w2", "share_2"},
+                                                 {"d3", "light_deficit_3", "w3", "share_3"},
+                                                 {"d4", "light_deficit_4", "w4", "share_4"}};
+  std::vector<EffectParameter> parameters;
+  for (const auto& [deficit, deficit_name, share, share_name] : kNames) {
+    parameters.push_back(Parameter(deficit, deficit_name, "part of the light that the group misses")
+                             .Between(0, 0.999)
+                             .Scatter(kSubstringScatter)
+                             .Held());
+    parameters.push_back(Parameter(share, share_name, "part of the cells in it; 0: no such group")
+                             .Between(0, 0.99)
+                             .AbsentAt(0)
+                             .Held()
+                             .Only(Whole::kSubstrings));
+  }
+  parameters.push_back(Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
+                           .Unit("V")
+                           .Between(0.1, 1.2)
+                           .From(0.5));
+  parameters.push_back(Parameter("c", "covered_part",
+                                 "part of the cells of a darker group that have its light; the "
+                                 "others have the brightest's. Of up to three groups")
+                           .Between(0.03, 1)
+                           .From(1)
+                           .Held()
+                           .AbsentAt(1));
+  return parameters;
+}
+
+template <class S>
+void SetSubstrings(const S* p, Cell<S>* cell) {
+  // All lanes have the same parameters.
+  const auto there = [&](int k) { return ValueOf(p[2 * k + 1])[0] > 0; };
+  int groups = 0;
+  for (int k = 0; k < kGroups; ++k) groups += there(k) ? 1 : 0;
+  const bool partly = groups < kGroups && ValueOf(p[kCovered])[0] < 1;
+  int kinds = 1, parts = 1;
+  auto rest = 1.0 - p[1] * 0.0;
+  for (int k = 0; k < kGroups; ++k) {
+    if (!there(k)) continue;
+    const auto& share = p[2 * k + 1];
+    const auto dark = partly ? share * p[kCovered] : share;
+    cell->kind[kinds++] = {dark, 1.0 - p[2 * k], 0.0, parts};
+    if (partly) cell->kind[kinds++] = {share - dark, 1.0, 0.0, parts};
+    cell->part[parts++] = {true, cell->substring_cells, 0};
+    rest = rest - share;
+  }
+  cell->kind[0] = {rest, 1.0, 0.0, 0};
+  cell->part[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
+  cell->kinds = kinds;
+  cell->parts = parts;
+  cell->bypass = p[kDrop];
+}
+
+bool SubstringsCovered(double* p, int which, int groups) {
+  int darkest_first[kGroups];
+  std::iota(darkest_first, darkest_first + kGroups, 0);
+  std::stable_sort(darkest_first, darkest_first + kGroups,
+                   [p](int a, int b) { return p[2 * a] > p[2 * b]; });
+  double before = 0, left = 0;
+  for (const int k : darkest_first) {
+    double& share = p[2 * k + 1];
+    const int first = static_cast<int>(std::lround(before * groups));
+    before += share;
+    share = ShareLeft(share, which, groups, first);
+    if (share < 1e-3) share = 0;
+    left += share;
+  }
+  constexpr double kMost = 0.999;
+  for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
+  return left > 0;
+}
+
+std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTraits& traits,
+                                        const std::vector<ParameterBounds>& asked) {
+  if (!asked.empty()) return AskedStarts(shape, traits, asked);
+  std::vector<ShapeStart> starts;
+  const int known = traits.substrings;
+  for (int k = 3; k <= 4; ++k) {  // with two substrings it is the shade of one
+    if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
+  }
+  return starts;
+}
+
 }  // namespace
 
 Effect Substrings() {
@@ -118,82 +204,12 @@ Effect Substrings() {
   e.acts = "at steps of the current, at fixed voltages";
   e.confused_with = {"shading", "irr_step"};
   e.separate_by = "repeat the sweep: shading stays at the same voltages, a cloud does not";
-  static const char* const kNames[kGroups][4] = {{"d1", "light_deficit_1", "w1", "share_1"},
-                                                 {"d2", "light_deficit_2", "w2", "share_2"},
-                                                 {"d3", "light_deficit_3", "w3", "share_3"},
-                                                 {"d4", "light_deficit_4", "w4", "share_4"}};
-  for (const auto& names : kNames) {
-    EffectParameter deficit = {names[0], names[1], "", "part of the light that the group misses",
-                               0,        0.999,    0};
-    EffectParameter share = {names[2], names[3], "", "part of the cells in it; 0: no such group",
-                             0,        0.99,     0};
-    share.absent_at = 0;
-    deficit.scatter = kSubstringScatter;
-    deficit.held = share.held = true;
-    share.whole = Whole::kSubstrings;
-    e.alike.push_back({e.size(), e.size() + 1});
-    e.parameters.push_back(deficit);
-    e.parameters.push_back(share);
-  }
-  e.parameters.push_back(
-      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5});
-  e.parameters.push_back({"c", "covered_part", "",
-                          "part of the cells of a darker group that have its light; the others "
-                          "have the brightest's. Of up to three groups",
-                          0.03, 1, 1});
-  e.parameters.back().held = true;
-  e.parameters.back().absent_at = 1;
-  e.cell = [](const auto* p, auto* cell) {
-    // All lanes have the same parameters.
-    const auto there = [&](int k) { return ValueOf(p[2 * k + 1])[0] > 0; };
-    int groups = 0;
-    for (int k = 0; k < kGroups; ++k) groups += there(k) ? 1 : 0;
-    const bool partly = groups < kGroups && ValueOf(p[kCovered])[0] < 1;
-    int kinds = 1, parts = 1;
-    auto rest = 1.0 - p[1] * 0.0;
-    for (int k = 0; k < kGroups; ++k) {
-      if (!there(k)) continue;
-      const auto& share = p[2 * k + 1];
-      const auto dark = partly ? share * p[kCovered] : share;
-      cell->kind[kinds++] = {dark, 1.0 - p[2 * k], 0.0, parts};
-      if (partly) cell->kind[kinds++] = {share - dark, 1.0, 0.0, parts};
-      cell->part[parts++] = {true, cell->substring_cells, 0};
-      rest = rest - share;
-    }
-    cell->kind[0] = {rest, 1.0, 0.0, 0};
-    cell->part[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
-    cell->kinds = kinds;
-    cell->parts = parts;
-    cell->bypass = p[kDrop];
-  };
+  e.parameters = SubstringParameters();
+  for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
+  e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };
   e.groups = true;
-  e.covered = [](double* p, int which, int groups) {
-    int darkest_first[kGroups];
-    std::iota(darkest_first, darkest_first + kGroups, 0);
-    std::stable_sort(darkest_first, darkest_first + kGroups,
-                     [p](int a, int b) { return p[2 * a] > p[2 * b]; });
-    double before = 0, left = 0;
-    for (const int k : darkest_first) {
-      double& share = p[2 * k + 1];
-      const int first = static_cast<int>(std::lround(before * groups));
-      before += share;
-      share = ShareLeft(share, which, groups, first);
-      if (share < 1e-3) share = 0;
-      left += share;
-    }
-    constexpr double kMost = 0.999;
-    for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
-    return left > 0;
-  };
-  e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto& asked) {
-    if (!asked.empty()) return AskedStarts(shape, traits, asked);
-    std::vector<ShapeStart> starts;
-    const int known = traits.substrings;
-    for (int k = 3; k <= 4; ++k) {  // with two substrings it is the shade of one
-      if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
-    }
-    return starts;
-  };
+  e.covered = SubstringsCovered;
+  e.starts = SubstringStarts;
   e.why_not = [](const DataTraits& traits) {
     auto why = NeedsBypassedModule(traits);
     return why ? why : NeedsBypassDiodes(traits);

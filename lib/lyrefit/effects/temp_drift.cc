@@ -15,7 +15,9 @@ Effect TemperatureDrift() {
   e.acts = "near open circuit, in the order of time";
   e.confused_with = {"drift", "timing_skew", "capacitance"};
   e.separate_by = "a sweep up and down; a shorter sweep";
-  e.parameters = {{"r", "temperature_change", "K", "warming over the measurement", -30, 30, 0}};
+  e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
+                      .Unit("K")
+                      .Between(-30, 30)};
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0] * reading.x;
   };

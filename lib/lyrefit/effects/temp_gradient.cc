@@ -16,7 +16,8 @@ Effect TemperatureGradient() {
   e.acts = "open-circuit voltage at high irradiance";
   e.confused_with = {"second_diode", "back_contact", "bandgap"};
   e.separate_by = "flashes of different length; a thermometer on the cell; a dark curve";
-  e.parameters = {{"c", "temperature_gradient", "K", "warmer at 1000 W/m2", -5, 25, 0}};
+  e.parameters = {
+      Parameter("c", "temperature_gradient", "warmer at 1000 W/m2").Unit("K").Between(-5, 25)};
   e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0] * sky->irradiance;
   };

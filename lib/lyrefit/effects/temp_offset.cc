@@ -15,7 +15,8 @@ Effect TemperatureOffset() {
   e.acts = "open-circuit voltage against temperature";
   e.confused_with = {"bandgap", "voltage_offset", "second_diode"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
-  e.parameters = {{"c", "temperature_offset", "K", "true minus shown", -25, 25, 0}};
+  e.parameters = {
+      Parameter("c", "temperature_offset", "true minus shown").Unit("K").Between(-25, 25)};
   e.sky = [](const auto* p, const auto&, auto* sky) {
     sky->temperature_K = sky->temperature_K + p[0];
   };

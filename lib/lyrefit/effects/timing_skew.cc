@@ -15,8 +15,10 @@ Effect TimingSkew() {
   e.acts = "between the sweeps up and down, where the curve is steep";
   e.confused_with = {"capacitance", "temp_drift"};
   e.separate_by = "two sweep speeds and two irradiances; a resistor in the place of the device";
-  e.parameters = {{"ts", "skew", "s", "from the reading of the current to that of the voltage",
-                   -0.05, 0.05, 0, false, 1, 0, 0, -1}};
+  e.parameters = {Parameter("ts", "skew", "from the reading of the current to that of the voltage")
+                      .Unit("s")
+                      .Between(-0.05, 0.05)
+                      .RatePower(-1)};
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
     sky->voltage = sky->voltage - p[0] * reading.rate;
   };

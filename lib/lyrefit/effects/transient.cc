@@ -20,15 +20,23 @@ Effect Transient() {
   e.acts = "around one moment, in the order of time";
   e.confused_with = {"shading", "back_contact", "rs_current", "nonohmic_shunt"};
   e.separate_by = "repeat the sweep; a reference cell beside the module";
-  e.parameters = {{"a", "relative_depth", "", "how much light was missing", -0.8, 0.8, 0},
-                  {"c", "centre", "", "when, -1/2 .. 1/2 over the measurement", -0.45, 0.45, 0},
-                  {"w", "width", "", "how long, part of the measurement", 0.01, 0.13, 0.05},
-                  {"k", "skew", "", "how much slower it goes than it comes", -0.7, 0.7, 0},
-                  {"q", "flatness", "", "2: a bell, more: flat with steep sides", 1, 6, 2}};
-  // Clouds have any shape: which, is asked once a dip is there.
-  e.parameters[3].held = e.parameters[4].held = true;
-  e.parameters[1].above_lower = e.parameters[1].below_upper = true;
-  e.parameters[2].below_upper = true;
+  e.parameters = {
+      Parameter("a", "relative_depth", "how much light was missing").Between(-0.8, 0.8),
+      Parameter("c", "centre", "when, -1/2 .. 1/2 over the measurement")
+          .Between(-0.45, 0.45)
+          .AboveLower()
+          .BelowUpper(),
+      Parameter("w", "width", "how long, part of the measurement")
+          .Between(0.01, 0.13)
+          .From(0.05)
+          .BelowUpper(),
+      // Clouds have any shape: which, is asked once a dip is there.
+      Parameter("k", "skew", "how much slower it goes than it comes").Between(-0.7, 0.7).Held(),
+      Parameter("q", "flatness", "2: a bell, more: flat with steep sides")
+          .Between(1, 6)
+          .From(2)
+          .Held(),
+  };
   e.sky = [](const auto* p, const auto& reading, auto* sky) {
     const auto from = reading.x - p[1];
     const auto side = Choose(ValueOf(p[1]) < reading.x, 1.0 + p[3], 1.0 - p[3]);

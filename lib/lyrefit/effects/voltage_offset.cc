@@ -16,8 +16,10 @@ Effect VoltageOffset() {
   e.confused_with = {"current_offset", "bandgap", "temp_offset"};
   e.separate_by =
       "a reading with shorted leads; a dark curve through the origin at high resolution";
-  e.parameters = {{"c", "voltage_offset", "V", "what the instrument adds, whole device", -0.1, 0.1,
-                   0, false, 1, 0, 1}};
+  e.parameters = {Parameter("c", "voltage_offset", "what the instrument adds, whole device")
+                      .Unit("V")
+                      .Between(-0.1, 0.1)
+                      .CellsPower(1)};
   e.sky = [](const auto* p, const auto&, auto* sky) { sky->voltage = sky->voltage - p[0]; };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };

@@ -10,6 +10,78 @@ namespace {
 
 enum { kDeficit, kCells, kLeak, kBypass, kFactor, kBreakdown, kExponent, kSoft, kSideBySide };
 
+std::vector<EffectParameter> WeakCellParameters() {
+  return {
+      Parameter("d", "light_deficit",
+                "part of the substring's light that is missing because of them: in half-cut "
+                "modules half of what the cells themselves miss, at most 0.5")
+          .Between(0, 0.999)
+          .Scatter(kCellScatter),
+      Parameter("cells", "weak_cells", "how many they are, all in one substring")
+          .Between(1, 24)
+          .From(1)
+          .Held()
+          .Only(Whole::kCount),
+      Parameter("g", "leak", "conductance of each beside that of the others")
+          .Unit("S")
+          .Between(0, 5)
+          .CurrentPower(1)
+          .Held(),
+      Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
+          .Unit("V")
+          .Between(0.1, 1.2)
+          .From(0.5)
+          .Held(),
+      Parameter("a", "breakdown_factor", "of reverse breakdown").Between(0, 10).From(0.1).Held(),
+      // Towards no breakdown at all, and an exponent towards 1, it is a leak.
+      Parameter("Vbr", "breakdown_voltage", "of a cell, its size")
+          .Unit("V")
+          .Between(3, 60)
+          .From(15)
+          .Held()
+          .BelowUpper(),
+      Parameter("m", "breakdown_exponent", "of reverse breakdown")
+          .Between(1.5, 8)
+          .From(3.4)
+          .Held()
+          .AboveLower(),
+      Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph; 0: Bishop's law")
+          .Unit("V")
+          .Between(0, 30)
+          .Held()
+          .AbsentAt(0),
+      kChains,
+  };
+}
+
+// `asked`: a fit of it by name looks further.
+std::vector<ShapeStart> WeakCellStarts(const CurveShape& shape, bool asked) {
+  std::vector<ShapeStart> starts;
+  // Cells that hardly conduct in reverse are far from those that do.
+  std::vector<double> soft = {3.2};
+  if (asked) soft.push_back(10);
+  const double full = shape.At(0.05);
+  if (!(full > 0)) return starts;
+  std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
+  // A plateau before the knee, or a tail towards open circuit where the cell conducts in reverse.
+  for (const double place : {0.75, 0.95}) {
+    deficits.push_back(std::clamp(1 - shape.At(place) / full, 0.01, 0.97));
+  }
+  for (const double deficit : deficits) {
+    for (const double chains : {1.0, 2.0}) {
+      if (deficit * chains > 0.97) continue;
+      for (const double voltage : soft) {
+        starts.push_back(
+            {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, voltage, chains}, {kBypass, kExponent, kSoft}});
+      }
+      starts.push_back(
+          {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0, chains}, {kBypass, kFactor, kBreakdown}});
+      starts.push_back({{deficit, 1, 0, 0.5, 0, 15, 3.4, 0, chains}, {kBypass}});
+    }
+  }
+  return starts;
+}
+
 }  // namespace
 
 Effect WeakCell() {
@@ -26,27 +98,7 @@ Effect WeakCell() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"mismatch", "shading", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or a thermal image under load";
-  e.parameters = {
-      {"d", "light_deficit", "",
-       "part of the substring's light that is missing because of them: in half-cut modules half of "
-       "what the cells themselves miss, at most 0.5",
-       0, 0.999, 0},
-      {"cells", "weak_cells", "", "how many they are, all in one substring", 1, 24, 1},
-      {"g", "leak", "S", "conductance of each beside that of the others", 0, 5, 0, false, 1, 1},
-      {"Vb", "bypass_voltage", "V", "drop of a bypass diode at Isc", 0.1, 1.2, 0.5},
-      {"a", "breakdown_factor", "", "of reverse breakdown", 0, 10, 0.1},
-      {"Vbr", "breakdown_voltage", "V", "of a cell, its size", 3, 60, 15},
-      {"m", "breakdown_exponent", "", "of reverse breakdown", 1.5, 8, 3.4},
-      {"A", "soft_voltage", "V", "at which a cell in reverse carries Iph; 0: Bishop's law", 0, 30,
-       0},
-      kChains};
-  for (int k = kCells; k < e.size(); ++k) e.parameters[k].held = true;
-  e.parameters[kDeficit].scatter = kCellScatter;
-  e.parameters[kCells].whole = e.parameters[kSideBySide].whole = Whole::kCount;
-  // Towards 1, and towards no breakdown at all, it is a leak.
-  e.parameters[kExponent].above_lower = e.parameters[kBreakdown].below_upper = true;
-  e.parameters[kSoft].absent_at = 0;
-  e.parameters[kSideBySide].absent_at = 1;
+  e.parameters = WeakCellParameters();
   e.cell = [](const auto* p, auto* cell) {
     SetOddCells(p[kCells], p[kDeficit], p[kLeak], p[kSideBySide], cell);
     cell->bypass = p[3];
@@ -67,30 +119,7 @@ Effect WeakCell() {
     return probes;
   };
   e.starts = [](const CurveShape& shape, const DataTraits&, const auto& asked) {
-    std::vector<ShapeStart> starts;
-    // Cells that hardly conduct in reverse are far from those that do.
-    std::vector<double> soft = {3.2};
-    if (!asked.empty()) soft.push_back(10);
-    const double full = shape.At(0.05);
-    if (!(full > 0)) return starts;
-    std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
-    // A plateau before the knee, or a tail towards open circuit where the cell conducts in reverse.
-    for (const double place : {0.75, 0.95}) {
-      deficits.push_back(std::clamp(1 - shape.At(place) / full, 0.01, 0.97));
-    }
-    for (const double deficit : deficits) {
-      for (const double chains : {1.0, 2.0}) {
-        if (deficit * chains > 0.97) continue;
-        for (const double voltage : soft) {
-          starts.push_back(
-              {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, voltage, chains}, {kBypass, kExponent, kSoft}});
-        }
-        starts.push_back(
-            {{deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0, chains}, {kBypass, kFactor, kBreakdown}});
-        starts.push_back({{deficit, 1, 0, 0.5, 0, 15, 3.4, 0, chains}, {kBypass}});
-      }
-    }
-    return starts;
+    return WeakCellStarts(shape, !asked.empty());
   };
   return e;
 }

@@ -226,7 +226,7 @@ FamilyReport Head(const Job& job) {
   report.objective = job.options.objective;
   report.cells_in_series = job.family.translation.spec.cells_in_series;
   report.rejected = job.set.rejected;
-  report.assumptions = job.set.assumptions;
+  report.assumptions = SentencesOf(job.set.assumptions);
   report.assumptions.insert(report.assumptions.end(), job.family.notes.begin(),
                             job.family.notes.end());
   report.search_options = job.options.search;
@@ -340,7 +340,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   const double isc = job.family.curves.reference_current_A;
   const double solved = report.rmse.refined.solved_current_A;
   report.usable = std::isfinite(solved) && solved < 0.2 * isc;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = SecondsSince(begin);
   return report;
 }
 

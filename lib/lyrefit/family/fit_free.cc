@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
@@ -18,15 +18,11 @@ namespace {
 
 constexpr double kCorrelated = 0.01;  // p-value of the runs test
 
-double Seconds(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 }  // namespace
 
 FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   FreeFits fits;
   fits.reports.resize(curves.size());
   SharedObserver watch(observer, "curves", static_cast<std::int64_t>(curves.size()));
@@ -39,7 +35,7 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
     watch.FinishJob();
   });
   fits.interrupted = watch.Stopped();
-  fits.seconds = Seconds(begin);
+  fits.seconds = SecondsSince(begin);
   return fits;
 }
 
@@ -89,7 +85,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.objective = options.objective;
   report.translation.spec.model = options.model;
   report.rejected = set.rejected;
-  report.assumptions = set.assumptions;
+  report.assumptions = SentencesOf(set.assumptions);
   report.search_options = options.search;
   report.termination = "not run";
   FitOptions fit;

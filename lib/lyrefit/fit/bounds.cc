@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/key_points.h"
 
@@ -128,9 +129,7 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
   } else {
     // A table may speak of diodes that this model lacks: one file serves every model.
     const Device largest = MakeDevice(Model::kTripleDiode, curve.conditions);
-    if (auto checked = CheckTable(spec.table, largest, true); !checked) {
-      return tl::unexpected(checked.error());
-    }
+    TRY(CheckTable(spec.table, largest, true));
     for (const ParameterInfo& info : device.parameters) {
       const auto* range = Lookup(spec.table, info);
       if (range == nullptr) {
@@ -139,9 +138,7 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
       bounds.push_back(Linear(range->first, range->second));
     }
   }
-  if (auto checked = CheckTable(spec.overrides, device, true); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(CheckTable(spec.overrides, device, true));
   for (int i = 0; i < device.size(); ++i) {
     const auto* range = Lookup(spec.overrides, device.parameters[i]);
     if (range != nullptr) bounds[i] = Linear(range->first, range->second);
@@ -151,16 +148,15 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
 
 Expected<BoundsSpec> ReadBoundsFile(const std::string& path) {
   constexpr std::uintmax_t kLargestFile = 1U << 20;
-  const auto text = ReadTextFile(path, kLargestFile);
-  if (!text) return tl::unexpected(text.error());
-  const auto json = ParseJson(*text, path);
+  TRY(const auto text, ReadTextFile(path, kLargestFile));
+  const auto json = ParseJson(text, path);
   if (!json) return tl::unexpected(json.error());
   if (!json->is_object() || json->empty()) {
     return Fail(R"(expected bounds as an object like {"Iph":[0,2],"n":[1,2]})", path, 1, 1);
   }
   BoundsSpec spec;
   spec.name = path;
-  const JsonFields fields(*json, *text, path);
+  const JsonFields fields(*json, text, path);
   for (const auto& [key, value] : json->items()) {
     if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
       return fields.Refuse(key, "[lower, upper], two numbers,");

@@ -17,8 +17,7 @@ namespace lyrefit {
 //                resistance V_max / I_max. A diode may vanish and the shunt may be perfect.
 //   wide         the same with n in [0.5, 10]: wrong temperature or cell count, odd devices
 //   a table      symbol -> [lower, upper], as published: linear in every parameter. "Is" and "n"
-//   hold
-//                for every diode unless "Is1", "n2" ... are given.
+//                hold for every diode unless "Is1", "n2" ... are given.
 // `overrides` replace single ranges of any of these.
 struct BoundsSpec {
   using Table = std::map<std::string, std::pair<double, double>>;

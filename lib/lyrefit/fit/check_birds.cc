@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -40,10 +42,10 @@ Expected<void> CheckBirds(const ObjectiveFunction& objective, const Box& box,
   }
   if (summary->best.x.empty()) summary->best = summary->elites.front();
   if (summary->elites.empty()) summary->elites = {summary->best};
-  if (auto valid = CheckBird("best bird", box, &summary->best); !valid) return valid;
+  TRY(CheckBird("best bird", box, &summary->best));
   for (std::size_t e = 0; e < summary->elites.size(); ++e) {
     const std::string name = fmt::format("elite {}", e + 1);
-    if (auto valid = CheckBird(name, box, &summary->elites[e]); !valid) return valid;
+    TRY(CheckBird(name, box, &summary->elites[e]));
     summary->elites[e].objective = objective(summary->elites[e].x.data());
   }
   summary->best.objective = objective(summary->best.x.data());

@@ -7,22 +7,22 @@
 #include <utility>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 
 namespace lyrefit {
 
 Expected<ErrorSpec> ReadErrorFile(const std::string& path) {
   constexpr std::uintmax_t kLargestFile = 1U << 16;
-  const auto text = ReadTextFile(path, kLargestFile);
-  if (!text) return tl::unexpected(text.error());
-  const auto json = ParseJson(*text, path);
+  TRY(const auto text, ReadTextFile(path, kLargestFile));
+  const auto json = ParseJson(text, path);
   if (!json) return tl::unexpected(json.error());
   constexpr char kLike[] =
       R"({"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012})";
   if (!json->is_object()) {
     return Fail(fmt::format("expected sizes of errors as an object like {}", kLike), path, 1, 1);
   }
-  const JsonFields fields(*json, *text, path);
+  const JsonFields fields(*json, text, path);
   ErrorSpec spec{ErrorKind::kStated, {}, path};
   const std::pair<const char*, double ErrorSizes::*> keys[] = {
       {"current_noise_A", &ErrorSizes::current_A},

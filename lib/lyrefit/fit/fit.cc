@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/basin_starts.h"
@@ -50,9 +50,9 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlac
 
 // Runs the search; returns the elites.
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   BirdPlaces few(*job, job->few), all(*job, job->problem);
-  if (auto sound = few.Check(); !sound) return tl::unexpected(sound.error());
+  TRY(few.Check());
   if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
   const double getting_ready = SecondsSince(begin);
   const Box& box = few.box();
@@ -140,11 +140,11 @@ void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
   RefineOptions how;
   how.stop = job->watch.stop();
   how.impatient = true;
-  auto begin = std::chrono::steady_clock::now();
+  Instant begin = Now();
   const RefineEnd plain = RefinePlainly(problem, bird.p, how);
   report->plain_seconds = SecondsSince(begin);
   report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
-  begin = std::chrono::steady_clock::now();
+  begin = Now();
   report->best_bird_polished = extended
                                    ? Refine(problem, bird.p, how).p
                                    : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;
@@ -191,14 +191,13 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
         "the fit is not usable: around parameters of a curve that the model does not describe no "
         "interval means anything";
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   for (FitPoint& other : polish.ends) OrderAlike(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
   if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
-  report->interval_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report->interval_seconds = SecondsSince(begin);
 }
 
 }  // namespace
@@ -206,7 +205,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
   FitJob job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
-  if (auto ready = PrepareFit(&job, &report); !ready) return tl::unexpected(ready.error());
+  TRY(PrepareFit(&job, &report));
   report.version = Version();
   report.curve = curve;
   report.model = options.model;
@@ -216,16 +215,15 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   EchoOptions(options, &report);
 
-  const auto birds = RunSearch(&job, &report);
-  if (!birds) return tl::unexpected(birds.error());
-  const PolishStart& best = birds->front();
+  TRY(const auto birds, RunSearch(&job, &report));
+  const PolishStart& best = birds.front();
   report.searched = report.refined = best.p;
   OrderAlike(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
   if (extended) report.best_bird_price = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, *birds, CompleteSpace(job), &report);
+    PolishAndJudge(&job, birds, CompleteSpace(job), &report);
   } else {
     if (extended) SettleForm(best.form, best.p, &job, &report);
     report.refined = report.searched;

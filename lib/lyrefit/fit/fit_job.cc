@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fixed_values.h"
@@ -27,11 +28,10 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
         "right-hand side for the measured one");
   }
   if (options.floor) return Fail("a floor is that of diodes alone: leave out the effects or it");
-  auto device = Extend(report->device, options.model, options.constants, job->curve, options.with,
-                       options.force_effects);
-  if (!device) return tl::unexpected(device.error());
-  if (auto fine = CheckFitRanges(*device->extension); !fine) return fine;
-  report->device = std::move(*device);
+  TRY(auto device, Extend(report->device, options.model, options.constants, job->curve,
+                          options.with, options.force_effects));
+  TRY(CheckFitRanges(*device.extension));
+  report->device = std::move(device);
   job->forms = FormsOf(*report->device.extension);
   // The freest form asks for the most points.
   const Form& freest =
@@ -63,22 +63,18 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
 Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   const IvCurve& curve = job->curve;
   const FitOptions& options = job->options;
-  if (auto valid = Validate(curve); !valid) return valid;
-  auto doubts = JudgeReadings(curve);
-  if (!doubts) return tl::unexpected(doubts.error());
-  report->doubts = std::move(*doubts);
-  if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
-  if (auto valid = ValidateThreads(options.threads); !valid) return valid;
+  TRY(Validate(curve));
+  TRY(report->doubts, JudgeReadings(curve));
+  TRY(ValidateOptions(options.search, kSearchOptionTable));
+  TRY(ValidateThreads(options.threads));
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");
-  if (auto fine = CheckErrorSpec(options); !fine) return fine;
+  TRY(CheckErrorSpec(options));
   report->device = MakeDevice(options.model, curve.conditions, options.constants);
-  auto bounds = MakeBounds(options.bounds, report->device, curve);
-  if (!bounds) return tl::unexpected(bounds.error());
-  auto fixed = FixedValues(options.fixed, report->device);
-  if (!fixed) return tl::unexpected(fixed.error());
-  job->bounds = std::move(*bounds);
-  job->fixed = std::move(*fixed);
-  if (auto extended = AddEffects(job, report); !extended) return extended;
+  TRY(auto bounds, MakeBounds(options.bounds, report->device, curve));
+  TRY(auto fixed, FixedValues(options.fixed, report->device));
+  job->bounds = std::move(bounds);
+  job->fixed = std::move(fixed);
+  TRY(AddEffects(job, report));
   std::vector<double> lower, upper;
   for (int i = 0; i < report->device.size(); ++i) {
     ParameterBounds& b = job->bounds[i];

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string_view>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/seconds.h"
 
 namespace lyrefit {
 
@@ -22,7 +22,7 @@ class FitWatch {
     progress_ = {};
     progress_.stage = stage;
     progress_.iterations = planned;
-    begin_ = std::chrono::steady_clock::now();
+    begin_ = Now();
   }
 
   // One more step begins. True: stop.
@@ -39,8 +39,7 @@ class FitWatch {
   bool Ask(int steps) {
     const std::lock_guard<std::mutex> lock(asking_);
     progress_.iteration += steps;
-    progress_.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    progress_.seconds = SecondsSince(begin_);
     if (!stopped_ && StopRequested(observer_, progress_)) stopped_ = true;
     return stopped_;
   }
@@ -48,7 +47,7 @@ class FitWatch {
   const Observer& observer_;
   std::mutex asking_;
   Progress progress_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Instant begin_ = Now();
   bool stopped_ = false;
 };
 

@@ -1,9 +1,9 @@
 #include "lyrefit/fit/polish.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
@@ -151,8 +151,7 @@ void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& 
 }  // namespace
 
 PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                        std::vector<RefineEnd> ends, int winner, bool stopped,
-                        std::chrono::steady_clock::time_point begin) {
+                        std::vector<RefineEnd> ends, int winner, bool stopped, Instant begin) {
   PolishResult result;
   RefineReport& report = result.report;
   for (std::size_t s = 0; s < ends.size(); ++s) {
@@ -179,7 +178,7 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
   report.message = stopped     ? "not every start was polished"
                    : converged ? "bounds settled and least squares converged"
                                : "least squares stopped before its tolerance was reached";
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = SecondsSince(begin);
   return result;
 }
 
@@ -202,7 +201,7 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
 
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
                           const std::vector<PolishStart>& starts, FitWatch* watch) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   watch->Begin("polish", static_cast<std::int64_t>(starts.size()));
   RefineOptions how;
   how.stop = watch->stop();

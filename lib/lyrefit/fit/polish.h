@@ -1,9 +1,9 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/refine.h"
@@ -32,8 +32,7 @@ constexpr double kBetter = 1e-12;  // relative, of RMSE: one end is better than 
 // What came of the first so many starts, each with its end. `winner`: index of the best end; below
 // 0: the lowest.
 PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
-                        std::vector<RefineEnd> ends, int winner, bool stopped,
-                        std::chrono::steady_clock::time_point begin);
+                        std::vector<RefineEnd> ends, int winner, bool stopped, Instant begin);
 
 // Separable descent from one start after the other, until three (of a single diode: two) have come
 // to the same best curve or no start is left; then one bounded least-squares solve for each curve

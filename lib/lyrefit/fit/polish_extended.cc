@@ -1,11 +1,11 @@
 #include "lyrefit/fit/polish_extended.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/probe_starts.h"
 #include "lyrefit/fit/statistics.h"
@@ -144,7 +144,7 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
 
 PolishResult PolishExtended(const std::vector<PolishStart>& birds, const SearchSpace& space,
                             FitJob* job, FitReport* report) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   job->watch.Begin("polish", 0);
   Basins basins(job->problem, job->forms, &job->watch);
   TryStarts(birds, space, *job, &basins);

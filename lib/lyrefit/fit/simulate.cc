@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
@@ -43,9 +44,7 @@ Expected<std::vector<double>> ParameterVector(const Device& device,
     if (!index) {
       return Fail(fmt::format("the model has no parameter {}: expected {}", name, Symbols(device)));
     }
-    if (auto checked = CheckValue(device.parameters[*index], value); !checked) {
-      return tl::unexpected(checked.error());
-    }
+    TRY(CheckValue(device.parameters[*index], value));
     values[*index] = value;
     given[*index] = true;
   }
@@ -110,7 +109,7 @@ Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
   for (EffectUse& use : uses) {
     const std::vector<EffectParameter>& infos = use.effect->parameters;
     for (const auto& [key, range] : use.ranges) {
-      if (auto known = CheckParameter(use, key); !known) return tl::unexpected(known.error());
+      TRY(CheckParameter(use, key));
       if (range.first == range.second) continue;
       return Fail(fmt::format("{}: a simulation needs one value of {}, found {:g}:{:g}",
                               use.effect->id, key, range.first, range.second));
@@ -129,12 +128,9 @@ Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
 // The device with its effects, and the parameters of both.
 Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const IvCurve& taken,
                                          std::vector<double> p, Device* device) {
-  auto uses = SettledUses(options);
-  if (!uses) return tl::unexpected(uses.error());
-  auto extended = Extend(*device, options.model, options.constants, taken, *uses,
-                         options.force_effects, options.layout);
-  if (!extended) return tl::unexpected(extended.error());
-  *device = std::move(*extended);
+  TRY(auto uses, SettledUses(options));
+  TRY(*device, Extend(*device, options.model, options.constants, taken, uses, options.force_effects,
+                      options.layout));
   const std::vector<double>& usual = device->extension->usual;
   p.insert(p.end(), usual.begin(), usual.end());
   return p;
@@ -155,32 +151,30 @@ Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
   SharedLaw shared = *options.shared;
   IvCurve& taken = shared.set.curves[shared.curve];
   taken.conditions = options.conditions;
-  auto uses = SettledUses(options);
-  if (!uses) return tl::unexpected(uses.error());
+  TRY(auto uses, SettledUses(options));
   Conditions reference = options.conditions;
   reference.cell_temperature_K = shared.reference_K;
-  const auto device = ExtendSet(MakeDevice(options.model, reference, options.constants), shared.law,
-                                shared.set, shared.reference_K, *uses, /*force=*/true);
-  if (!device) return tl::unexpected(device.error());
-  Device base = *device;
-  base.parameters.resize(device->extension->law.base_size());
-  auto p = ParameterVector(base, options.parameters);
-  if (!p) return tl::unexpected(p.error());
-  p->insert(p->end(), device->extension->usual.begin(), device->extension->usual.end());
-  const Device one = OfCurve(*device, shared.curve);
+  TRY(const Device device,
+      ExtendSet(MakeDevice(options.model, reference, options.constants), shared.law, shared.set,
+                shared.reference_K, uses, /*force=*/true));
+  Device base = device;
+  base.parameters.resize(device.extension->law.base_size());
+  TRY(auto p, ParameterVector(base, options.parameters));
+  p.insert(p.end(), device.extension->usual.begin(), device.extension->usual.end());
+  const Device one = OfCurve(device, shared.curve);
   IvCurve curve = taken;
   curve.name = options.name;
   if (options.voltage_V.empty()) {
-    curve.current_A = SolveCurrents(one, p->data(), MakePointSet(curve.voltage_V, curve.current_A));
+    curve.current_A = SolveCurrents(one, p.data(), MakePointSet(curve.voltage_V, curve.current_A));
   } else {
     curve = IvCurve();
     curve.name = options.name;
     curve.conditions = options.conditions;
     curve.notes = taken.notes;
     curve.voltage_V = options.voltage_V;
-    curve.current_A = SolveCurrents(one, p->data(), curve.voltage_V);
+    curve.current_A = SolveCurrents(one, p.data(), curve.voltage_V);
   }
-  if (auto fine = CheckCurrents(curve); !fine) return tl::unexpected(fine.error());
+  TRY(CheckCurrents(curve));
   AddNoise(options, &curve);
   return curve;
 }
@@ -188,7 +182,7 @@ Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
 }  // namespace
 
 Expected<IvCurve> Simulate(const SimulateOptions& options) {
-  if (auto checked = CheckOptions(options); !checked) return tl::unexpected(checked.error());
+  TRY(CheckOptions(options));
   if (options.shared) return SimulateShared(options);
   Device device = MakeDevice(options.model, options.conditions, options.constants);
   Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
@@ -203,7 +197,7 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
   curve.conditions = options.conditions;
   curve.voltage_V = std::move(*voltages);
   curve.current_A.assign(curve.voltage_V.size(), 0);
-  if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
+  TRY(Validate(curve));
   curve.current_A = SolveCurrents(device, parameters->data(), curve.voltage_V);
   if (!options.with.empty() || options.layout != nullptr) {
     parameters = AddEffects(options, options.taken.value_or(curve), *parameters, &device);
@@ -212,7 +206,7 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
     curve.current_A = own ? SolveCurrents(device, parameters->data(),
                                           MakePointSet(curve.voltage_V, curve.current_A))
                           : SolveCurrents(device, parameters->data(), curve.voltage_V);
-    if (auto fine = CheckCurrents(curve); !fine) return tl::unexpected(fine.error());
+    TRY(CheckCurrents(curve));
   }
   AddNoise(options, &curve);
   return curve;

@@ -105,8 +105,7 @@ void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
   if (worst <= kNoises * noise || worst <= kVisible * largest) return;
   out->push_back(
       fmt::format("the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive "
-                  "device does: the "
-                  "light or the instrument changed during the sweep",
+                  "device does: the light or the instrument changed during the sweep",
                   worst, at));
 }
 

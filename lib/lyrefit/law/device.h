@@ -27,8 +27,8 @@ struct EnumTable<Model> {
 
 // Which residual is squared (they have different optima, and figures of one kind must never be
 // compared with figures of the other):
-//   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at the measured
-//   current solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
+//   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at what was measured
+//   solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
 enum class Objective { kMeasuredCurrent, kSolvedCurrent };
 
 template <>

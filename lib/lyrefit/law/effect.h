@@ -186,7 +186,8 @@ enum class Whole {
 
 // A parameter of an effect, in the units of Reading. What a person reads is the value times
 // factor x current_A^current x cells^cells x rate^rate of the measurement's scale, or `convert` of
-// it, in `unit`.
+// it, in `unit`. The catalogue makes them field by field, by name:
+//   Parameter("a", "factor", "conductance of a cell at 0 V").Unit("S").Between(0, 3).From(1)
 struct EffectParameter {
   const char* symbol = "";  // "k"
   const char* name = "";    // "shunt_strength"
@@ -215,7 +216,35 @@ struct EffectParameter {
   Whole whole = Whole::kNo;  // where a fit of it by name searches among these
 
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
+
+  constexpr EffectParameter& Unit(const char* text) { return unit = text, *this; }
+  constexpr EffectParameter& Between(double low, double high) {
+    return lower = low, upper = high, *this;
+  }
+  constexpr EffectParameter& From(double value) { return neutral = value, *this; }
+  constexpr EffectParameter& Searched() { return searched = true, *this; }
+  constexpr EffectParameter& Times(double value) { return factor = value, *this; }
+  constexpr EffectParameter& CurrentPower(int power) { return current = power, *this; }
+  constexpr EffectParameter& CellsPower(int power) { return cells = power, *this; }
+  constexpr EffectParameter& RatePower(int power) { return rate = power, *this; }
+  constexpr EffectParameter& Convert(double (*f)(const double*, const ReadingScale&)) {
+    return convert = f, *this;
+  }
+  constexpr EffectParameter& Held() { return held = true, *this; }
+  constexpr EffectParameter& Scatter(double deviation) { return scatter = deviation, *this; }
+  constexpr EffectParameter& BelowUpper() { return below_upper = true, *this; }
+  constexpr EffectParameter& AboveLower() { return above_lower = true, *this; }
+  constexpr EffectParameter& AbsentAt(double value) { return absent_at = value, *this; }
+  constexpr EffectParameter& Only(Whole kind) { return whole = kind, *this; }
 };
+
+constexpr EffectParameter Parameter(const char* symbol, const char* name, const char* doc) {
+  EffectParameter made;
+  made.symbol = symbol;
+  made.name = name;
+  made.doc = doc;
+  return made;
+}
 
 // What an effect belongs to.
 enum class Where { kDevice, kSweep, kInstrument, kConditions, kNowhere };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/law/quote.h"
 
 namespace lyrefit {
@@ -103,7 +104,7 @@ Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vecto
     lower = upper = usual[k];
   }
   ParameterBounds bounds{lower, upper, lower, upper, SearchScale::kLinear};
-  if (auto fine = KeepWhole(use, k, traits, &bounds); !fine) return tl::unexpected(fine.error());
+  TRY(KeepWhole(use, k, traits, &bounds));
   return bounds;
 }
 
@@ -117,7 +118,7 @@ Error Unfit(const Effect& effect, const std::string& why) {
 
 Expected<void> AddUse(const EffectUse& use, Extension* extension) {
   for (const auto& [key, range] : use.ranges) {
-    if (auto known = CheckParameter(use, key); !known) return known;
+    TRY(CheckParameter(use, key));
     if (range.first <= range.second) continue;
     return tl::unexpected(
         Unfit(*use.effect, fmt::format("{} = {} is reversed", key, RangeText(range))));
@@ -125,10 +126,9 @@ Expected<void> AddUse(const EffectUse& use, Extension* extension) {
   const ReadingScale& scale = extension->readings.scale;
   const std::vector<double> usual = UsualValues(use, scale);
   for (int k = 0; k < use.effect->size(); ++k) {
-    const auto bounds = BoundsOf(use, k, usual, scale, extension->readings.traits);
-    if (!bounds) return tl::unexpected(bounds.error());
-    extension->bounds.push_back(*bounds);
-    extension->usual.push_back(WithinBounds(*bounds, usual[k]));
+    TRY(const auto bounds, BoundsOf(use, k, usual, scale, extension->readings.traits));
+    extension->bounds.push_back(bounds);
+    extension->usual.push_back(WithinBounds(bounds, usual[k]));
   }
   return {};
 }

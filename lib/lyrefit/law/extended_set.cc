@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/law/make_readings.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/law/reading_blocks.h"
@@ -47,9 +48,7 @@ Device At(const Device& device, std::vector<Reading> points) {
 
 Expected<Readings> SetReadings(const CurveSet& set, double reference_K) {
   std::vector<std::string> contradictions;  // the readers of the curves have said them already
-  auto made = MakeReadings(set, &contradictions);
-  if (!made) return made;
-  Readings readings = std::move(*made);
+  TRY(Readings readings, MakeReadings(set, &contradictions));
   const int cells = set.curves.front().conditions.cells_in_series;
   const double ratio = readings.scale.cells / static_cast<double>(cells);
   for (Reading& r : readings.points) r.voltage *= ratio;
@@ -65,12 +64,11 @@ Expected<Readings> SetReadings(const CurveSet& set, double reference_K) {
 
 Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, double reference_K,
                            const std::vector<EffectUse>& uses, bool force) {
-  auto readings = SetReadings(set, reference_K);
-  if (!readings) return tl::unexpected(readings.error());
-  TakeConditions(set, &*readings);
-  readings->isc_tempco_scales_per_K = 0;  // alpha is a parameter
+  TRY(auto readings, SetReadings(set, reference_K));
+  TakeConditions(set, &readings);
+  readings.isc_tempco_scales_per_K = 0;  // alpha is a parameter
   Extension extension;
-  extension.readings = std::move(*readings);
+  extension.readings = std::move(readings);
   extension.law = std::move(law);
   extension.law.natural = extension.law.free_tempco = extension.law.free_bandgap = true;
   extension.law.effects.clear();
@@ -106,18 +104,17 @@ Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
   law.constants = at.spec.constants;
   law.shunt = at.spec.shunt;
   law.bandgap_slope_per_K = bandgap_slope;
-  auto device = ExtendSet(at.device, std::move(law), set, kReferenceTemperature_K, uses, force);
-  if (!device) return tl::unexpected(device.error());
+  TRY(auto device, ExtendSet(at.device, std::move(law), set, kReferenceTemperature_K, uses, force));
   at.shared_of = {at.photocurrent, at.saturation_current, at.n, at.resistance_series,
                   at.resistance_shunt};
   if (at.n_2 >= 0) at.shared_of.insert(at.shared_of.end(), {at.saturation_current_2, at.n_2});
   at.shared_of.insert(at.shared_of.end(), {at.alpha_sc, at.bandgap});
   at.first_effect = at.size();
-  for (int i = at.size(); static_cast<int>(at.shared_of.size()) < device->size(); ++i) {
+  for (int i = at.size(); static_cast<int>(at.shared_of.size()) < device.size(); ++i) {
     at.shared_of.push_back(i);
   }
   AddInfos(uses, &at.parameters);
-  at.extended = std::move(*device);
+  at.extended = std::move(device);
   return {};
 }
 

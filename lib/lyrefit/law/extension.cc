@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/law/effect_ranges.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/reading_blocks.h"
@@ -85,14 +86,11 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout) {
   if (layout != nullptr) {
-    if (auto fine = CheckLayout(*layout, curve.conditions, uses); !fine) {
-      return tl::unexpected(fine.error());
-    }
+    TRY(CheckLayout(*layout, curve.conditions, uses));
   }
-  auto readings = ReadingsOf(curve);
-  if (!readings) return tl::unexpected(readings.error());
+  TRY(auto readings, ReadingsOf(curve));
   Extension extension;
-  extension.readings = std::move(*readings);
+  extension.readings = std::move(readings);
   extension.law.natural = true;
   extension.law.model = model;
   extension.law.constants = constants;
@@ -115,7 +113,7 @@ bool OneOfSeveral(const Extension& extension, int k) {
 
 Expected<Device> AddEffects(const Device& base, Extension extension,
                             const std::vector<EffectUse>& uses, bool force) {
-  if (auto fine = CheckTogether(uses, base.size()); !fine) return tl::unexpected(fine.error());
+  TRY(CheckTogether(uses, base.size()));
   extension.blocks = BlocksOf(extension.readings);
   extension.uses = uses;
   for (const EffectUse& use : uses) {
@@ -129,9 +127,9 @@ Expected<Device> AddEffects(const Device& base, Extension extension,
       return tl::unexpected(Unfit(effect, *why_not + " (--force fits it all the same)"));
     }
     extension.law.effects.push_back(&effect);
-    if (auto added = AddUse(use, &extension); !added) return tl::unexpected(added.error());
+    TRY(AddUse(use, &extension));
   }
-  if (auto fine = CheckShares(extension); !fine) return tl::unexpected(fine.error());
+  TRY(CheckShares(extension));
   Device device = base;
   AddInfos(uses, &device.parameters);
   device.extension = std::make_shared<const Extension>(std::move(extension));

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
@@ -335,8 +336,8 @@ Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* w
   if (set.curves.empty()) return Fail("there is no curve");
   Readings readings;
   for (const IvCurve& curve : set.curves) {
-    if (auto valid = Validate(curve); !valid) return tl::unexpected(valid.error());
-    if (auto possible = CheckSizes(curve); !possible) return tl::unexpected(possible.error());
+    TRY(Validate(curve));
+    TRY(CheckSizes(curve));
   }
   readings.scale.cells = CountCells(set, &readings.traits, warnings);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {

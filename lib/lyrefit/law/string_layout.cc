@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 
 namespace lyrefit {
@@ -67,7 +68,7 @@ Expected<void> ReadNumber(const Node& node, const char* key, const Range& range,
 }
 
 Expected<void> ReadWhole(const Node& node, const char* key, double* target) {
-  if (auto read = ReadNumber(node, key, {1, 10000}, target); !read) return read;
+  TRY(ReadNumber(node, key, {1, 10000}, target));
   if (*target == std::floor(*target)) return {};
   return node.At(key).Refuse("a whole number");
 }
@@ -75,17 +76,15 @@ Expected<void> ReadWhole(const Node& node, const char* key, double* target) {
 Expected<void> ReadBypass(const Node& file, StringLayout* layout) {
   if (!file.Has("bypass_diode")) return {};
   const Node node = file.At("bypass_diode");
-  if (auto fine = CheckKeys(node, {"voltage_V", "ideality"}); !fine) return fine;
-  if (auto read = ReadNumber(node, "voltage_V", {0.05, 2}, &layout->bypass_voltage_V); !read) {
-    return read;
-  }
+  TRY(CheckKeys(node, {"voltage_V", "ideality"}));
+  TRY(ReadNumber(node, "voltage_V", {0.05, 2}, &layout->bypass_voltage_V));
   return ReadNumber(node, "ideality", {0.05, 3}, &layout->bypass_ideality);
 }
 
 Expected<void> ReadReverse(const Node& file, StringLayout* layout) {
   if (!file.Has("reverse")) return {};
   const Node node = file.At("reverse");
-  if (auto fine = CheckKeys(node, {"law", "a", "Vbr_V", "A_V", "m"}); !fine) return fine;
+  TRY(CheckKeys(node, {"law", "a", "Vbr_V", "A_V", "m"}));
   const json law = node.Has("law") ? *node.At("law").value : json();
   if (law == "shunt") return CheckKeys(node, {"law"});
   if (law != "bishop" && law != "soft") {
@@ -97,11 +96,9 @@ Expected<void> ReadReverse(const Node& file, StringLayout* layout) {
   auto fine =
       soft ? CheckKeys(node, {"law", "A_V", "m"}) : CheckKeys(node, {"law", "a", "Vbr_V", "m"});
   if (!fine) return fine;
-  if (auto read = ReadNumber(node, "a", {0, 100}, &layout->reverse_strength); !read) return read;
+  TRY(ReadNumber(node, "a", {0, 100}, &layout->reverse_strength));
   const char* const voltage = soft ? "A_V" : "Vbr_V";
-  if (auto read = ReadNumber(node, voltage, {0.5, 200}, &layout->reverse_voltage_V); !read) {
-    return read;
-  }
+  TRY(ReadNumber(node, voltage, {0.5, 200}, &layout->reverse_voltage_V));
   return ReadNumber(node, "m", {0.5, 10}, &layout->reverse_exponent);
 }
 
@@ -129,18 +126,14 @@ bool Alike(const WrittenPart& a, const WrittenPart& b) {
 }
 
 Expected<WrittenPart> ReadPart(const Node& node, int string) {
-  if (auto fine = CheckKeys(node, {"bypass", "times", "cells"}); !fine) {
-    return tl::unexpected(fine.error());
-  }
+  TRY(CheckKeys(node, {"bypass", "times", "cells"}));
   WrittenPart written;
   written.part.string = string;
   if (node.Has("bypass")) {
     if (!node.At("bypass").value->is_boolean()) return node.At("bypass").Refuse("true or false");
     written.part.bypassed = node.At("bypass").value->get<bool>();
   }
-  if (auto read = ReadWhole(node, "times", &written.times); !read) {
-    return tl::unexpected(read.error());
-  }
+  TRY(ReadWhole(node, "times", &written.times));
   if (!node.Has("cells") || !node.At("cells").value->is_array() ||
       node.At("cells").value->empty()) {
     return node.Refuse("a list \"cells\" of {\"count\", \"light\", \"leak_S\"}");
@@ -149,9 +142,7 @@ Expected<WrittenPart> ReadPart(const Node& node, int string) {
   const Node cells = node.At("cells");
   for (std::size_t k = 0; k < cells.value->size(); ++k) {
     const Node at = cells.At(k);
-    if (auto fine = CheckKeys(at, {"count", "light", "leak_S"}); !fine) {
-      return tl::unexpected(fine.error());
-    }
+    TRY(CheckKeys(at, {"count", "light", "leak_S"}));
     StringLayout::Cells kind;
     for (auto read :
          {ReadWhole(at, "count", &kind.share), ReadNumber(at, "light", {0, 2}, &kind.light),
@@ -174,15 +165,14 @@ Expected<std::vector<WrittenPart>> ReadParts(const Node& strings, std::vector<do
     }
     double count = 0;
     for (std::size_t k = 0; k < string.value->size(); ++k) {
-      auto part = ReadPart(string.At(k), static_cast<int>(s));
-      if (!part) return tl::unexpected(part.error());
-      count += part->times * part->part.cells;
+      TRY(auto part, ReadPart(string.At(k), static_cast<int>(s)));
+      count += part.times * part.part.cells;
       const auto same = std::find_if(parts.begin(), parts.end(),
-                                     [&](const WrittenPart& other) { return Alike(other, *part); });
+                                     [&](const WrittenPart& other) { return Alike(other, part); });
       if (same == parts.end()) {
-        parts.push_back(std::move(*part));
+        parts.push_back(std::move(part));
       } else {
-        same->times += part->times * part->part.cells / same->part.cells;
+        same->times += part.times * part.part.cells / same->part.cells;
       }
     }
     cells->push_back(count);
@@ -193,11 +183,9 @@ Expected<std::vector<WrittenPart>> ReadParts(const Node& strings, std::vector<do
 }  // namespace
 
 Expected<StringLayout> ReadStringLayout(const std::string& path) {
-  const Expected<std::string> text = ReadTextFile(path, kLargestFile);
-  if (!text) return tl::unexpected(text.error());
-  const Expected<json> document = ParseJson(*text, path);
-  if (!document) return tl::unexpected(document.error());
-  const Node file{&*document, "", &path};
+  TRY(const std::string text, ReadTextFile(path, kLargestFile));
+  TRY(const json document, ParseJson(text, path));
+  const Node file{&document, "", &path};
   StringLayout layout;
   for (auto read : {CheckKeys(file, {"bypass_diode", "reverse", "strings"}),
                     ReadBypass(file, &layout), ReadReverse(file, &layout)}) {
@@ -208,8 +196,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
     return Fail("expected a list \"strings\" of lists of parts", path);
   }
   std::vector<double> cells;
-  const auto parts = ReadParts(file.At("strings"), &cells);
-  if (!parts) return tl::unexpected(parts.error());
+  TRY(const auto parts, ReadParts(file.At("strings"), &cells));
   for (const double count : cells) {
     if (count == cells.front()) continue;
     return Fail(fmt::format("strings: expected as many cells in each, found {:g} and {:g}",
@@ -218,7 +205,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
   }
   layout.strings = static_cast<int>(cells.size());
   layout.cells_in_series = static_cast<int>(cells.front());
-  for (const WrittenPart& written : *parts) {
+  for (const WrittenPart& written : parts) {
     for (StringLayout::Cells kind : written.kinds) {
       kind.part = static_cast<int>(layout.parts.size());
       kind.share *= written.times / (cells.front() * layout.strings);

@@ -114,8 +114,8 @@ S DeSotoBarrier(const S& gap, const S& slope, double from_K, const S& to_K, doub
 //
 //   IL  = G / Gref (IL_ref + alpha_sc (T - Tref))
 //   De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010), eqs. 16 to 18, 21, 22:
-//     Io  = Io_ref (T / Tref)^3 exp(EgRef / (k Tref) - Eg / (k T)),  Eg = EgRef (1 + dEgdT (T -
-//     Tref)) n constant, Rsh = Rsh_ref Gref / G
+//     Io  = Io_ref (T / Tref)^3 exp(EgRef / (k Tref) - Eg / (k T))
+//     Eg  = EgRef (1 + dEgdT (T - Tref)), n constant, Rsh = Rsh_ref Gref / G
 //   PVsyst (Mermoud and Lejeune 2010; Sauer, Roessler and Hansen 2015,
 //   doi:10.1109/JPHOTOV.2014.2364133):
 //     gamma = gamma_ref + mu_gamma (T - Tref)

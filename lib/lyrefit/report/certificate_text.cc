@@ -159,7 +159,7 @@ std::string CertificateText(const Certificate& certificate) {
   for (const std::string& section :
        {FloorSection(certificate), ProofSection(certificate), ModelSection(certificate),
         Wrap("", Conclusion(certificate)), Field("time", Duration(certificate.seconds)),
-        List("Assumptions", certificate.curve.assumptions)}) {
+        List("Assumptions", SentencesOf(certificate.curve.assumptions))}) {
     if (!section.empty()) text += "\n" + section;
   }
   return text;

@@ -16,7 +16,7 @@ Json CurveJson(const IvCurve& curve) {
             {"strings_in_parallel", c.strings_in_parallel},
             {"cell_temperature_C", Number(temperature_C)},
             {"irradiance_Wm2", Number(c.irradiance_W_m2)}}},
-          {"assumptions", curve.assumptions}};
+          {"assumptions", SentencesOf(curve.assumptions)}};
 }
 
 std::string JsonText(const Json& json, int indent) {

@@ -29,7 +29,7 @@ std::string FullReport(const FitReport& report) {
   for (const std::string& section :
        {ChoiceSection(report), FormSection(report), ParameterSection(report), ErrorSection(report),
         RmseSection(report), KeyPointSection(report), ResidualSection(report),
-        SearchSection(report), List("Assumptions", report.curve.assumptions),
+        SearchSection(report), List("Assumptions", SentencesOf(report.curve.assumptions)),
         List("Warnings", report.warnings)}) {
     if (!section.empty()) text += "\n" + section;
   }

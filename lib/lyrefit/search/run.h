@@ -1,7 +1,6 @@
 #pragma once
 
-#include <chrono>
-
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
@@ -50,7 +49,7 @@ class SearchRun {
   const SearchOptions& options_;
   const Observer& observer_;
   const int dimensions_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const Instant begin_ = Now();
   std::vector<double> x_;
   std::vector<double> f_;
   int best_ = 0;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/search/run.h"
 
 namespace lyrefit {
@@ -47,9 +48,7 @@ SearchRun::SearchRun(const ObjectiveFunction& objective, const Box& box,
       x_(static_cast<std::size_t>(options.population) * box.lower.size()),
       f_(options.population, kInfinity) {}
 
-double SearchRun::Seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
+double SearchRun::Seconds() const { return SecondsSince(begin_); }
 
 void SearchRun::Replace(int bird, const double* x, double f) {
   std::copy(x, x + dimensions_, this->x(bird));

@@ -6,7 +6,9 @@
 #include <chrono>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/family/free_fits.h"
@@ -16,10 +18,6 @@ namespace lyrefit {
 namespace {
 
 constexpr double kCorrelated = 0.01;  // p-value of the runs test
-
-double Seconds(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 }  // namespace
 
@@ -38,7 +36,7 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
     watch.FinishJob();
   });
   fits.interrupted = watch.Stopped();
-  fits.seconds = Seconds(begin);
+  fits.seconds = SecondsSince(begin);
   return fits;
 }
 
@@ -78,7 +76,7 @@ std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& r
 
 Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
-  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
+  TRY(ValidateThreads(options.threads));
   FamilyReport report;
   report.version = Version();
   report.name = set.name;

@@ -21,12 +21,12 @@ struct FittedBase {
 };
 
 FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch* watch) {
-  const Readings& readings = measurement.readings;
-  const std::size_t count = readings.points.size();
-  FittedBase shape{
-      {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, 0, watch},
-      {},
-      {}};
+  const std::size_t count = measurement.readings.points.size();
+  FittedBase shape;
+  shape.bench.readings = std::make_shared<const Readings>(measurement.readings);
+  shape.bench.sigma.assign(count, 1e-3);
+  shape.bench.used.assign(count, 1);
+  shape.bench.watch = watch;
   for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
   for (const int k : measurement.values.at_voltage_limit) shape.bench.used[k] = 0;
   if (count <= kQuickToFit) shape.bench.watch = nullptr;
@@ -200,12 +200,12 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
 
 Selection OnAllReadings(const Selection& found, const Averaged& averaged,
                         const Measurement& measurement) {
-  const Readings& readings = measurement.readings;
   Selection all = found;
-  const std::size_t count = readings.points.size();
+  const auto readings = std::make_shared<const Readings>(measurement.readings);
+  const std::size_t count = readings->points.size();
   const auto widen = [&](Workbench* bench) {
     const std::vector<char> used = bench->used;
-    bench->readings = &readings;
+    bench->readings = readings;
     bench->correlation = bench->path = 0;
     bench->sigma.assign(count, 1e-3);
     bench->used.assign(count, 1);

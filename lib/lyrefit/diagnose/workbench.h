@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "lyrefit/diagnose/watch.h"
@@ -13,7 +14,7 @@ namespace lyrefit {
 
 // What laws are fitted to: readings, how far each is trusted, and which of them count.
 struct Workbench {
-  const Readings* readings = nullptr;
+  std::shared_ptr<const Readings> readings;
   std::vector<double> sigma;
   std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
   double correlation = 0;  // lag 1, of the noise

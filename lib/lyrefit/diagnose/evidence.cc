@@ -62,37 +62,40 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
        {}});
 }
 
-void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
-  std::vector<Finding>& findings = evidence->findings;
+// Readings that stand at a limit of the instrument, and grids that they lie on.
+void AddValueFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
+  const ReadingScale& scale = selection.bench.readings->scale;
+  const auto clipping = [&](const std::vector<int>& at, const std::string& text) {
+    evidence->findings.push_back({"clipping", text, at});
+  };
   if (evidence->clipped_points > 0) {
-    findings.push_back({"clipping",
-                        fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
-                                    evidence->clipped_points, evidence->clip_level_A),
-                        values.clipped});
+    clipping(values.clipped,
+             fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
+                         evidence->clipped_points, evidence->clip_level_A));
   }
   if (values.limited) {
-    findings.push_back({"clipping",
-                        fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
-                                    values.at_lower.size(),
-                                    values.lower_limit * selection.bench.readings->scale.current_A),
-                        values.at_lower});
+    clipping(values.at_lower,
+             fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
+                         values.at_lower.size(), values.lower_limit * scale.current_A));
   }
   if (!values.at_voltage_limit.empty()) {
-    findings.push_back(
-        {"clipping",
-         fmt::format("{} readings repeat the largest voltage, {:.6g} V, while the current falls",
-                     values.at_voltage_limit.size(),
-                     values.voltage_limit * selection.bench.readings->scale.cells),
-         values.at_voltage_limit});
+    clipping(
+        values.at_voltage_limit,
+        fmt::format("{} readings repeat the largest voltage, {:.6g} V, while the current falls",
+                    values.at_voltage_limit.size(), values.voltage_limit * scale.cells));
   }
   if (evidence->grid_step_A > 0) {
-    findings.push_back(
+    evidence->findings.push_back(
         {"grid",
          fmt::format("all currents lie on a grid of {:.4g} A; the noise is {:.3g} A",
-                     evidence->grid_step_A,
-                     MedianSigma(selection.noise) * selection.bench.readings->scale.current_A),
+                     evidence->grid_step_A, MedianSigma(selection.noise) * scale.current_A),
          {}});
   }
+}
+
+// What the base model leaves.
+void AddResidualFindings(const Selection& selection, Evidence* evidence) {
+  std::vector<Finding>& findings = evidence->findings;
   if (evidence->misfit_ratio > 1.1) {
     findings.push_back(
         {"misfit",
@@ -115,12 +118,17 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                                     selection.bench.correlation),
                         {}});
   }
+}
+
+void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
+  AddValueFindings(selection, values, evidence);
+  AddResidualFindings(selection, evidence);
   AddIrradianceFinding(*selection.bench.readings, evidence);
   AddIdealityFinding(selection, evidence);
   const LawFit& fit = selection.extended;
   for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
     if (fit.p[at] > 1e-9) continue;
-    findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
+    evidence->findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
   }
 }
 

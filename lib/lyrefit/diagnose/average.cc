@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/law/make_readings.h"
 
@@ -47,9 +48,7 @@ bool Sudden(const FittedBase& shape, const std::vector<double>& off, int k) {
     if (points[i].segment == points[k].segment) around.push_back(off[i]);
   }
   if (around.size() < 2) return false;
-  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return std::fabs(off[k] - *middle) > kFar * shape.bench.sigma[k];
+  return std::fabs(off[k] - UpperMedian(std::move(around))) > kFar * shape.bench.sigma[k];
 }
 
 // Readings of a stretch in lots of `size`, those alone by themselves.

@@ -190,7 +190,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = selection.noise.dark.constant * scale;
   }
-  evidence.misfit_ratio = std::sqrt(selection.base.sum / Degrees(bench, selection.base.law));
+  evidence.misfit_ratio = std::sqrt(SquarePerDegree(bench, selection.base));
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
@@ -266,8 +266,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const double n = fit.p[kBaseIdeality];
   if (n >= smallest && n <= kLargest) return {};
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const int degrees = Degrees(bench, fit.law);
-  const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
+  const double error = errors[kBaseIdeality] * std::sqrt(SquarePerDegree(bench, fit));
   if (!(error > 0)) return {};
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
@@ -276,7 +275,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
-  const double z = StudentT95(degrees) * error;
+  const double z = StudentT95(Degrees(bench, fit.law)) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false},
                     {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - kZeroCelsius_K,
                      kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, false},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
@@ -34,10 +35,7 @@ double CommonAt(const std::vector<const SweepState*>& references, double u) {
     values.push_back(k > 0 ? r->off[k - 1] + part * (r->off[k] - r->off[k - 1]) : r->off[0]);
   }
   if (2 * values.size() < references.size() || values.empty()) return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  return Median(std::move(values));
 }
 
 void TakeCommonOff(const IvCurve& curve, const SweepState& state,

@@ -97,8 +97,16 @@ int FreeCount(const Workbench& bench, const Law& law);
 // What the readings have beyond them, at least 1.
 int Degrees(const Workbench& bench, const Law& law);
 
-// Of whitened residuals: 1 where sigma is the noise.
+// Mean square of whitened residuals: 1 where sigma is the noise and the law is right.
+double SquarePerDegree(const Workbench& bench, const LawFit& fit);
+
+// The same as the variance of the noise in units of sigma, which is not taken below what the bench
+// allows.
 double NoiseVariance(const Workbench& bench, const LawFit& fit);
+
+// Half of a normal's 95 % interval in standard deviations: for sizes and for what scatters from
+// module to module, where the degrees of freedom of one fit say nothing.
+constexpr double kNormal95 = 1.96;
 
 // Beside the largest base an effect may have the rest.
 constexpr int kMostEffectParameters = 11;

@@ -266,14 +266,28 @@ CurveSet AsRead(const CurveSet& set, const Readings& readings) {
   return read;
 }
 
+// Whether the diodes alone under one sky are the whole law.
+bool IsPlain(const CurveSet& set, const Law& law) {
+  const IvCurve& curve = set.curves.front();
+  return set.curves.size() == 1 && law.effects.empty() && !law.free_tempco && !law.free_bandgap &&
+         curve.irradiance_W_m2.empty() && curve.temperature_C.empty();
+}
+
 // The law as a device with effects, so that whoever reads the report can simulate it: where cells
-// are counted as stated, and of one curve with nothing free but the diodes and the effects. The
-// report's parameters are the device's own from here on.
+// are counted as stated, and of one curve with nothing free but the diodes and the effects. Without
+// effects it is the device of the cells that were counted. The report's parameters are the device's
+// own from here on.
 void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
   const IvCurve& curve = set.curves.front();
   const Readings& readings = *selection.bench.readings;
   const bool one = set.curves.size() == 1;
+  if (IsPlain(set, law)) {
+    Conditions at = curve.conditions;
+    at.cells_in_series = readings.scale.cells;
+    report->device = MakeDevice(law.model, at);
+    return;
+  }
   if (one && (law.effects.empty() || law.free_tempco || law.free_bandgap)) return;
   if (readings.scale.cells != curve.conditions.cells_in_series) return;
   std::vector<EffectUse> uses;

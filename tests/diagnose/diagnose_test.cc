@@ -13,6 +13,7 @@
 
 #include "law/made_curve.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/law/kernel.h"
 
 namespace lyrefit {
 namespace {
@@ -306,6 +307,25 @@ TEST(DiagnoseTest, EveryChoiceIsEchoed) {
                                                         {"effects", "nonohmic_shunt,drift"},
                                                         {"held-out", "no"},
                                                         {"draws", "400"}}));
+}
+
+// Whoever reads the report can simulate it, with a cause or without.
+TEST(DiagnoseTest, WithoutACauseTheExtendedModelIsItsDiodes) {
+  DiagnoseOptions options = Quick();
+  options.extend = true;
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
+    options.base = model;
+    const IvCurve curve = MadeCurve({});
+    const Diagnosis d = DiagnoseOrFail(curve, options);
+    const FitReport& report = d.extended;
+    ASSERT_THAT(Ids(d), IsEmpty());
+    ASSERT_EQ(report.device.size(), static_cast<int>(report.refined.size()));
+    const std::vector<double> current_A =
+        SolveCurrents(report.device, report.refined.data(), curve.voltage_V);
+    for (std::size_t k = 0; k < current_A.size(); ++k) {
+      EXPECT_NEAR(current_A[k], report.model_current_A[k], 1e-9);
+    }
+  }
 }
 
 TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {

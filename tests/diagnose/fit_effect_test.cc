@@ -14,7 +14,7 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   recipe.cells = 60;
   const MadeBench made = OnTheBench(MadeCurve(recipe));
   const LawFit base = FitBase(made.bench, Law());
-  const auto candidates = Showable(made.measurement->readings.traits);
+  const auto candidates = Showable(made.measurement.readings.traits);
   int fitted = 0;
   for (const Score& score : ScoreEffects(made.bench, base, candidates, 200, 1)) {
     if (!score.testable || score.effect->probes == nullptr) continue;
@@ -46,7 +46,7 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   const LawFit fit = FitEffect(made.bench, base, scores.front());
   ASSERT_TRUE(fit.usable);
   EXPECT_LT(fit.sum, 0.5 * base.sum);
-  EXPECT_NEAR(fit.p[6], made.measurement->readings.points[21].x, 0.02);
+  EXPECT_NEAR(fit.p[6], made.measurement.readings.points[21].x, 0.02);
   const LawFit without = FitWithout(made.bench, fit, 0);
   EXPECT_TRUE(without.law.effects.empty());
   EXPECT_NEAR(without.sum, base.sum, 1e-3 * base.sum);

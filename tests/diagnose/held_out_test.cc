@@ -14,7 +14,7 @@ std::set<int> Distinct(const std::vector<int>& folds) { return {folds.begin(), f
 
 TEST(MakeFoldsTest, SpreadsShortBlocksOverASweep) {
   const MadeBench made = OnTheBench(MadeCurve({}));  // 60 readings
-  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   ASSERT_EQ(folds.size(), 60U);
   EXPECT_EQ(Distinct(folds).size(), 10U);
   for (std::size_t k = 0; k < folds.size(); k += 2) EXPECT_EQ(folds[k], folds[k + 1]);
@@ -35,11 +35,11 @@ TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
     curves.push_back(MadeCurve(recipe));
   }
   const MadeBench made = OnTheBench(SetOf(curves));
-  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   for (std::size_t k = 0; k < folds.size(); ++k) {
-    EXPECT_EQ(folds[k], made.measurement->readings.points[k].curve);
+    EXPECT_EQ(folds[k], made.measurement.readings.points[k].curve);
   }
-  const std::vector<int> three = MakeFolds(made.measurement->readings, 3);
+  const std::vector<int> three = MakeFolds(made.measurement.readings, 3);
   EXPECT_EQ(Distinct(three).size(), 3U);
 }
 
@@ -47,12 +47,12 @@ TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
   Recipe recipe;
   recipe.and_back = true;
   IvCurve curve = MadeCurve(recipe);  // up and down: two sweeps
-  EXPECT_FALSE(LeavesSweepsOut(OnTheBench(curve).measurement->readings));
+  EXPECT_FALSE(LeavesSweepsOut(OnTheBench(curve).measurement.readings));
   const IvCurve again = curve;
   curve.voltage_V.insert(curve.voltage_V.end(), again.voltage_V.begin(), again.voltage_V.end());
   curve.current_A.insert(curve.current_A.end(), again.current_A.begin(), again.current_A.end());
   const MadeBench made = OnTheBench(curve);
-  const Readings& readings = made.measurement->readings;
+  const Readings& readings = made.measurement.readings;
   ASSERT_TRUE(LeavesSweepsOut(readings));
   const std::vector<int> folds = MakeFolds(readings, 10);
   EXPECT_EQ(Distinct(folds).size(), 4U);
@@ -63,7 +63,7 @@ TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
   Recipe recipe;
   recipe.points = 7;
   const MadeBench made = OnTheBench(MadeCurve(recipe));
-  const std::vector<int> folds = MakeFolds(made.measurement->readings, 10);
+  const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   EXPECT_EQ(Distinct(folds).size(), 4U);
   EXPECT_EQ(*std::max_element(folds.begin(), folds.end()), 3);
 }
@@ -73,7 +73,7 @@ TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
   const MadeBench made = OnTheBench(curve);
-  const Measurement& measurement = *made.measurement;
+  const Measurement& measurement = made.measurement;
   SelectOptions options;
   options.draws = 300;
   options.candidates = {FindEffect("irr_step"), FindEffect("outliers")};

@@ -27,7 +27,7 @@ struct Healthy {
 Healthy FitHealthy() {
   Healthy healthy{OnTheBench(MadeCurve({})), {}};
   healthy.fit = FitBase(healthy.made.bench,
-                        StartingLaw(healthy.made.measurement->readings, Model::kSingleDiode));
+                        StartingLaw(healthy.made.measurement.readings, Model::kSingleDiode));
   return healthy;
 }
 

@@ -13,17 +13,17 @@
 
 namespace lyrefit {
 
-// A measurement on the bench, its noise known. The readings stay where they are when it is moved.
+// A measurement on the bench, its noise known.
 struct MadeBench {
-  std::unique_ptr<Measurement> measurement;
+  Measurement measurement;
   Workbench bench;
 };
 
 inline MadeBench OnTheBench(const CurveSet& set, double sigma_A = 0.004) {
   MadeBench made;
-  made.measurement = std::make_unique<Measurement>(*MakeMeasurement(set));
-  const Readings& readings = made.measurement->readings;
-  made.bench.readings = &readings;
+  made.measurement = *MakeMeasurement(set);
+  const Readings& readings = made.measurement.readings;
+  made.bench.readings = std::make_shared<const Readings>(readings);
   made.bench.sigma.assign(readings.points.size(), sigma_A / readings.scale.current_A);
   made.bench.used.assign(readings.points.size(), 1);
   return made;

@@ -73,7 +73,6 @@ struct Outcome {
 
 // The measurement of a pair, as its cause makes it.
 struct Made {
-  Measurement measurement;
   LawFit truth;
   Workbench bench;
 };
@@ -86,9 +85,8 @@ Made Make(const Pair& pair, RandomStream* random) {
     curves.push_back(MadeCurve(dark));
   }
   Made made;
-  made.measurement = *MakeMeasurement(SetOf(curves));
-  Readings& readings = made.measurement.readings;
-  made.bench.readings = &readings;
+  Readings readings = MakeMeasurement(SetOf(curves))->readings;
+  made.bench.readings = std::make_shared<const Readings>(readings);
   made.bench.sigma.assign(readings.points.size(), kNoise);
   made.bench.used.assign(readings.points.size(), 1);
   made.bench.path = pair.path;
@@ -102,6 +100,7 @@ Made Make(const Pair& pair, RandomStream* random) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     readings.points[k].current = made.truth.current[k] + errors[k];
   }
+  made.bench.readings = std::make_shared<const Readings>(std::move(readings));
   return made;
 }
 
@@ -131,8 +130,7 @@ std::vector<int> OpenOnes(const Pair& pair, int tries) {
   std::vector<char> open(tries);
   ParallelFor(tries, 0, [&](int k) {
     RandomStream random(17, k);
-    Made made = Make(pair, &random);
-    made.bench.readings = &made.measurement.readings;
+    const Made made = Make(pair, &random);
     open[k] = FitPair(pair, made).empty() ? 0 : 1;
   });
   std::vector<int> numbers;
@@ -164,8 +162,7 @@ Pair Settled(Pair pair) {
 // What a plan foresees, and what comes out when the further readings are taken.
 Outcome Try(const Pair& pair, int number) {
   RandomStream random(17, number);
-  Made made = Make(pair, &random);
-  made.bench.readings = &made.measurement.readings;
+  const Made made = Make(pair, &random);
   const std::vector<PlanCandidate> candidates = FitPair(pair, made);
   Outcome outcome;
   for (const Further& further : FurtherMeasurements(*made.bench.readings)) {

@@ -26,13 +26,15 @@ class NullTest : public ::testing::Test {
   }
 
   std::vector<Score> Draw(int seed) {
-    Readings& readings = made_.measurement->readings;
+    Readings readings = made_.measurement.readings;
     RandomStream random(seed, 5);
     for (std::size_t k = 0; k < readings.points.size(); ++k) {
       readings.points[k].current = clean_.current[k] + made_.bench.sigma[k] * random.Normal();
     }
-    const LawFit fit = FitLaw(made_.bench, Law(), clean_.p);
-    return ScoreEffects(made_.bench, fit, Showable(readings.traits), kDraws, 100 + seed);
+    Workbench bench = made_.bench;
+    bench.readings = std::make_shared<const Readings>(std::move(readings));
+    const LawFit fit = FitLaw(bench, Law(), clean_.p);
+    return ScoreEffects(bench, fit, Showable(bench.readings->traits), kDraws, 100 + seed);
   }
 
   MadeBench made_;
@@ -102,7 +104,7 @@ const Score& Of(const std::vector<Score>& scores, const std::string& id) {
 std::vector<Score> ScoreCurve(const IvCurve& curve) {
   const MadeBench made = OnTheBench(curve);
   return ScoreEffects(made.bench, FitBase(made.bench, Law()),
-                      Showable(made.measurement->readings.traits), kDraws, 1);
+                      Showable(made.measurement.readings.traits), kDraws, 1);
 }
 
 TEST(ScoreTest, SeesAWrongReading) {
@@ -165,7 +167,7 @@ TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
 
 TEST(ImprintTest, IsWhatTheProbesDo) {
   const MadeBench made = OnTheBench(MadeCurve({}));
-  const Readings& readings = made.measurement->readings;
+  const Readings& readings = made.measurement.readings;
   const LawFit fit = FitBase(made.bench, Law());
   const Effect& drift = *FindEffect("drift");
   Imprints imprints;

@@ -31,7 +31,7 @@ struct Selected {
 Selected SelectFor(const IvCurve& curve, SelectOptions options = {}) {
   Selected selected;
   selected.made = OnTheBench(curve);
-  const Measurement& measurement = *selected.made.measurement;
+  const Measurement& measurement = selected.made.measurement;
   options.draws = 600;
   if (options.candidates.empty()) options.candidates = Showable(measurement.readings.traits);
   selected.options = options;
@@ -68,7 +68,7 @@ TEST(SelectCausesTest, FindsAStepOfTheLight) {
   EXPECT_THAT(selected.Ids(), ElementsAre("irr_step"));
   ASSERT_EQ(selection.extended.p.size(), 7U);
   EXPECT_NEAR(selection.extended.p[5], 0.015, 0.002);
-  const Readings& readings = selected.made.measurement->readings;
+  const Readings& readings = selected.made.measurement.readings;
   EXPECT_GT(selection.extended.p[6], readings.points[25].x);
   EXPECT_LT(selection.extended.p[6], readings.points[26].x);
   EXPECT_LT(selection.extended.sum, selection.base.sum);
@@ -103,10 +103,9 @@ TEST(SelectCausesTest, TakesClippingFromTheValues) {
   for (double& i : curve.current_A) i = std::min(i, 7.9);
   const Selected selected = SelectFor(curve);
   EXPECT_THAT(selected.Ids(), ElementsAre("clip"));
-  EXPECT_NEAR(
-      selected.selection.extended.p[5] * selected.made.measurement->readings.scale.current_A, 7.9,
-      1e-9);
-  for (const int k : selected.made.measurement->values.clipped)
+  EXPECT_NEAR(selected.selection.extended.p[5] * selected.made.measurement.readings.scale.current_A,
+              7.9, 1e-9);
+  for (const int k : selected.made.measurement.values.clipped)
     EXPECT_EQ(selected.selection.bench.used[k], 0);
 }
 
@@ -139,7 +138,6 @@ TEST(SelectCausesTest, NamesNoMoreThanAsked) {
 
 TEST(FindRivalsTest, ListsWhoCouldStandInACausesPlace) {
   Selected selected = SelectFor(CurveWithAStep());
-  selected.selection.bench.readings = &selected.made.measurement->readings;
   FindRivals(selected.options, &selected.selection);
   ASSERT_EQ(selected.selection.without.size(), selected.selection.causes.size());
   const auto& rivals = selected.selection.causes.front().rivals;

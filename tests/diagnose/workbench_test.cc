@@ -63,7 +63,7 @@ TEST(FitBaseTest, FindsTheDevice) {
     const MadeBench made = OnTheBench(MadeCurve(recipe));
     const LawFit fit = FitBase(made.bench, Law());
     ASSERT_TRUE(fit.usable);
-    const double scale = made.measurement->readings.scale.current_A;
+    const double scale = made.measurement.readings.scale.current_A;
     EXPECT_NEAR(fit.p[kBasePhotocurrent] * scale, 8, 1e-4);
     EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 1e-3);
     EXPECT_NEAR(fit.p[kBaseResistance] / scale, 0.004, 1e-5);
@@ -82,7 +82,7 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
     double by_hand = 0;
     for (std::size_t k = 0; k < fit.current.size(); ++k) {
       by_hand += std::pow(
-          (fit.current[k] - made.measurement->readings.points[k].current) / made.bench.sigma[k], 2);
+          (fit.current[k] - made.measurement.readings.points[k].current) / made.bench.sigma[k], 2);
     }
     EXPECT_NEAR(fit.sum, by_hand, 1e-6 * by_hand);
     sum += fit.sum / 55 / 20;  // 60 readings, 5 parameters
@@ -145,7 +145,7 @@ TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
     recipe.points = 120;
     const MadeBench made = OnTheBench(MadeCurve(recipe));
     const LawFit fit = FitBase(made.bench, Law());
-    const double scale = made.measurement->readings.scale.current_A;
+    const double scale = made.measurement.readings.scale.current_A;
     const std::vector<double> errors = StandardErrors(Linearize(made.bench, fit), 5);
     const double to_A[] = {scale, 1, 1, 1 / scale, scale};
     for (int k = 0; k < 5; ++k) {

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/attain.h"
 #include "lyrefit/certify/beyond.h"
@@ -41,7 +42,7 @@ struct Proof {
 };
 
 Expected<void> CheckOptions(const CertifyOptions& options) {
-  if (auto valid = ValidateOptions(options, kCertifyOptionTable); !valid) return valid;
+  TRY(ValidateOptions(options, kCertifyOptionTable));
   if (!(options.n_lower < options.n_upper)) {
     return Fail(fmt::format("n-lower = {:g} must be below n-upper = {:g}", options.n_lower,
                             options.n_upper));
@@ -70,11 +71,9 @@ Expected<void> CheckExponents(const Proof& proof) {
 Expected<void> Prepare(Proof* proof) {
   const IvCurve& curve = proof->curve;
   const CertifyOptions& options = proof->options;
-  if (auto valid = Validate(curve); !valid) return valid;
-  auto doubts = JudgeReadings(curve);
-  if (!doubts) return tl::unexpected(doubts.error());
-  proof->doubts = std::move(*doubts);
-  if (auto valid = CheckOptions(options); !valid) return valid;
+  TRY(Validate(curve));
+  TRY(proof->doubts, JudgeReadings(curve));
+  TRY(CheckOptions(options));
   const auto points = static_cast<Eigen::Index>(curve.size());
   MixtureData& data = proof->data;
   data.voltage_V = Eigen::Map<const Eigen::VectorXd>(curve.voltage_V.data(), points);
@@ -187,12 +186,11 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
                               const Observer& observer) {
   const Instant begin = Now();
-  const auto seconds = [&] { return SecondsSince(begin); };
   Proof proof{curve, options, observer, {}, {}, {}};
-  if (auto ready = Prepare(&proof); !ready) return tl::unexpected(ready.error());
+  TRY(Prepare(&proof));
   const char* stage = "floor";
   proof.limits.proceed = [&](std::int64_t solved, double best, double lower) {
-    Progress progress{stage, solved, 0, solved, proof.Rmse(best), seconds()};
+    Progress progress{stage, solved, 0, solved, proof.Rmse(best), SecondsSince(begin)};
     progress.lower_bound = proof.Rmse(lower);
     if (StopRequested(observer, progress)) proof.stopped = true;
     return !proof.stopped;
@@ -220,7 +218,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
     last.above_floor = above > proof.rounding_A ? above / certificate.floor.rmse_A : 0;
   }
   certificate.interrupted = proof.stopped;
-  certificate.seconds = seconds();
+  certificate.seconds = SecondsSince(begin);
   return certificate;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/law/make_readings.h"
 
@@ -21,12 +22,12 @@ struct FittedBase {
 };
 
 FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch* watch) {
-  const Readings& readings = measurement.readings;
-  const std::size_t count = readings.points.size();
-  FittedBase shape{
-      {&readings, std::vector<double>(count, 1e-3), std::vector<char>(count, 1), 0, 0, 0, watch},
-      {},
-      {}};
+  const std::size_t count = measurement.readings.points.size();
+  FittedBase shape;
+  shape.bench.readings = std::make_shared<const Readings>(measurement.readings);
+  shape.bench.sigma.assign(count, 1e-3);
+  shape.bench.used.assign(count, 1);
+  shape.bench.watch = watch;
   for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
   for (const int k : measurement.values.at_voltage_limit) shape.bench.used[k] = 0;
   if (count <= kQuickToFit) shape.bench.watch = nullptr;
@@ -47,9 +48,7 @@ bool Sudden(const FittedBase& shape, const std::vector<double>& off, int k) {
     if (points[i].segment == points[k].segment) around.push_back(off[i]);
   }
   if (around.size() < 2) return false;
-  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return std::fabs(off[k] - *middle) > kFar * shape.bench.sigma[k];
+  return std::fabs(off[k] - UpperMedian(std::move(around))) > kFar * shape.bench.sigma[k];
 }
 
 // Readings of a stretch in lots of `size`, those alone by themselves.
@@ -200,12 +199,12 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
 
 Selection OnAllReadings(const Selection& found, const Averaged& averaged,
                         const Measurement& measurement) {
-  const Readings& readings = measurement.readings;
   Selection all = found;
-  const std::size_t count = readings.points.size();
+  const auto readings = std::make_shared<const Readings>(measurement.readings);
+  const std::size_t count = readings->points.size();
   const auto widen = [&](Workbench* bench) {
     const std::vector<char> used = bench->used;
-    bench->readings = &readings;
+    bench->readings = readings;
     bench->correlation = bench->path = 0;
     bench->sigma.assign(count, 1e-3);
     bench->used.assign(count, 1);

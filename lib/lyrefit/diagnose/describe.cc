@@ -115,7 +115,6 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
   const int first = fit.law.Offset(index);
   const std::vector<double> errors = AllowedErrors(bench, fit, effect);
   const double spread = StudentT95(Degrees(bench, fit.law)) * std::sqrt(NoiseVariance(bench, fit));
-  constexpr double kDeviations = 1.96;
   std::vector<CauseParameter> described;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
@@ -127,7 +126,7 @@ std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const Law
     const double slack = 1e-6 * (info.upper - info.lower);
     parameter.at_bound = value <= info.lower + slack || value >= info.upper - slack;
     if (errors[first + k] > 0) {
-      const double scatter = bench.path > 0 ? kDeviations * info.scatter : 0;
+      const double scatter = bench.path > 0 ? kNormal95 * info.scatter : 0;
       const double half = std::hypot(spread * errors[first + k], scatter);
       const double low = std::max(value - half, info.lower) * factor;
       const double high = std::min(value + half, info.upper) * factor;

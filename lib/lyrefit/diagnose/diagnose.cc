@@ -8,6 +8,7 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
@@ -217,15 +218,15 @@ struct Outcome {
 
 Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select,
                      const DiagnoseOptions& options, const std::vector<const Effect*>& known,
-                     Averaged* averaged, Diagnosis* diagnosis) {
+                     Diagnosis* diagnosis) {
   const bool is_long = IsLong(measurement.readings);
-  if (is_long) *averaged = Average(measurement, select.base, select.watch);
-  const Measurement& seen = is_long ? averaged->measurement : measurement;
+  const Averaged averaged = is_long ? Average(measurement, select.base, select.watch) : Averaged();
+  const Measurement& seen = is_long ? averaged.measurement : measurement;
   Outcome outcome;
   outcome.correlation = SelectWhitened(seen, select, &outcome.found);
   if (!outcome.found.base.usable) return outcome;
   FindRivals(select, &outcome.found);
-  outcome.shown = is_long ? OnAllReadings(outcome.found, *averaged, measurement) : outcome.found;
+  outcome.shown = is_long ? OnAllReadings(outcome.found, averaged, measurement) : outcome.found;
   diagnosis->trials =
       DescribeTrials(measurement.readings, outcome.shown, known, select.candidates, options);
   if (options.held_out && !Stopped(select.watch)) {
@@ -235,63 +236,76 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
   return outcome;
 }
 
+Expected<void> CheckOptions(const DiagnoseOptions& options) {
+  TRY(ValidateOptions(options, kDiagnoseOptionRows));
+  TRY(ValidateThreads(options.threads));
+  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  return {};
+}
+
+// What is to be diagnosed, its curves in order.
+Expected<Measurement> TakeIn(const CurveSet& set, const std::vector<std::string>& disorder,
+                             const DiagnoseOptions& options) {
+  TRY(Measurement measurement, MakeMeasurement(set));
+  measurement.warnings.insert(measurement.warnings.begin(), disorder.begin(), disorder.end());
+  measurement.errors = options.noise;
+  if (!IsWanted(*FindEffect("clip"), options)) ForgetLimits(&measurement.values);
+  return measurement;
+}
+
+void DescribeEvidenceAndVerdict(const Measurement& measurement, const Outcome& outcome,
+                                const DiagnoseOptions& options, Diagnosis* diagnosis) {
+  const Selection &found = outcome.found, &shown = outcome.shown;
+  const Readings& readings = measurement.readings;
+  diagnosis->base_sentence = DescribeLaw(readings, shown.base.law);
+  Evidence& evidence = diagnosis->evidence;
+  evidence = DescribeEvidence(shown, measurement.values, outcome.correlation);
+  if (measurement.noise_is_stated()) {
+    evidence.noise_stated_A = UpperMedian(shown.bench.sigma) * readings.scale.current_A;
+  }
+  evidence.whiteness_p_value = Whiteness(found.base_bench, found.base);
+  evidence.whiteness_after_p_value = Whiteness(found.bench, found.extended);
+  diagnosis->verdict = Decide(measurement, shown, options, evidence.whiteness_after_p_value);
+}
+
+void MarkInterrupted(Diagnosis* diagnosis) {
+  diagnosis->interrupted = true;
+  Verdict& verdict = diagnosis->verdict;
+  verdict.sentence = verdict.found ? "Stopped early; so far: " + verdict.sentence
+                                   : "Stopped early: nothing was found so far.";
+}
+
 }  // namespace
 
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
-  if (auto valid = ValidateOptions(options, kDiagnoseOptionRows); !valid) {
-    return tl::unexpected(valid.error());
-  }
-  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
-  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
-  const auto known = KnownEffects(options);
-  if (!known) return tl::unexpected(known.error());
-  auto doubts = JudgeReadings(taken.curves);
-  if (!doubts) return tl::unexpected(doubts.error());
+  TRY(CheckOptions(options));
+  TRY(const auto known, KnownEffects(options));
+  TRY(auto doubts, JudgeReadings(taken.curves));
   std::vector<std::string> disorder;
   const CurveSet set = InOrder(taken, &disorder);
-  auto measurement = MakeMeasurement(set);
-  if (!measurement) return tl::unexpected(measurement.error());
-  measurement->warnings.insert(measurement->warnings.begin(), disorder.begin(), disorder.end());
-  measurement->errors = options.noise;
-  const Readings& readings = measurement->readings;
+  TRY(const Measurement measurement, TakeIn(set, disorder, options));
+  const Readings& readings = measurement.readings;
   Watch watch(observer);
   const SelectOptions select =
-      MakeSelectOptions(readings, options, Candidates(*known, readings.traits, options), &watch);
-  if (!IsWanted(*FindEffect("clip"), options)) ForgetLimits(&measurement->values);
-  Diagnosis diagnosis = BeginDiagnosis(set, *measurement, options);
-  diagnosis.doubts = std::move(*doubts);
-  Averaged averaged;
-  const Outcome outcome =
-      SearchCauses(*measurement, select, options, *known, &averaged, &diagnosis);
-  if (!outcome.shown.base.usable || !outcome.shown.extended.usable) {
+      MakeSelectOptions(readings, options, Candidates(known, readings.traits, options), &watch);
+  Diagnosis diagnosis = BeginDiagnosis(set, measurement, options);
+  diagnosis.doubts = std::move(doubts);
+  const Outcome outcome = SearchCauses(measurement, select, options, known, &diagnosis);
+  const Selection& shown = outcome.shown;
+  if (!shown.base.usable || !shown.extended.usable) {
     return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
                                                   : ": no diode model fits these readings"));
   }
-  const Selection& shown = outcome.shown;
-  diagnosis.base_sentence = DescribeLaw(readings, shown.base.law);
-  diagnosis.evidence = DescribeEvidence(shown, measurement->values, outcome.correlation);
-  if (measurement->noise_is_stated()) {
-    diagnosis.evidence.noise_stated_A = UpperMedian(shown.bench.sigma) * readings.scale.current_A;
-  }
-  diagnosis.evidence.whiteness_p_value = Whiteness(outcome.found.base_bench, outcome.found.base);
-  diagnosis.evidence.whiteness_after_p_value =
-      Whiteness(outcome.found.bench, outcome.found.extended);
-  diagnosis.verdict =
-      Decide(*measurement, shown, options, diagnosis.evidence.whiteness_after_p_value);
-  DescribeGain(shown, measurement->has_path(), &diagnosis.gain);
+  DescribeEvidenceAndVerdict(measurement, outcome, options, &diagnosis);
+  DescribeGain(shown, measurement.has_path(), &diagnosis.gain);
   if (options.plan && !watch.Stopped()) {
     diagnosis.plan = MakePlan(outcome.found, options.seed, options.threads);
   }
-  DescribePoints(set, *measurement, shown, &diagnosis);
-  AddWarnings(outcome.found, *measurement, &diagnosis);
-  diagnosis.interrupted = watch.Stopped();
-  if (diagnosis.interrupted) {
-    diagnosis.verdict.sentence = diagnosis.verdict.found
-                                     ? "Stopped early; so far: " + diagnosis.verdict.sentence
-                                     : "Stopped early: nothing was found so far.";
-  }
+  DescribePoints(set, measurement, shown, &diagnosis);
+  AddWarnings(outcome.found, measurement, &diagnosis);
+  if (watch.Stopped()) MarkInterrupted(&diagnosis);
   diagnosis.extended =
       ExtendedReport(set, shown, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;

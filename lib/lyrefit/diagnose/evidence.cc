@@ -62,37 +62,40 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
        {}});
 }
 
-void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
-  std::vector<Finding>& findings = evidence->findings;
+// Readings that stand at a limit of the instrument, and grids that they lie on.
+void AddValueFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
+  const ReadingScale& scale = selection.bench.readings->scale;
+  const auto clipping = [&](const std::vector<int>& at, const std::string& text) {
+    evidence->findings.push_back({"clipping", text, at});
+  };
   if (evidence->clipped_points > 0) {
-    findings.push_back({"clipping",
-                        fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
-                                    evidence->clipped_points, evidence->clip_level_A),
-                        values.clipped});
+    clipping(values.clipped,
+             fmt::format("{} readings repeat the largest current, {:.6g} A, exactly",
+                         evidence->clipped_points, evidence->clip_level_A));
   }
   if (values.limited) {
-    findings.push_back({"clipping",
-                        fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
-                                    values.at_lower.size(),
-                                    values.lower_limit * selection.bench.readings->scale.current_A),
-                        values.at_lower});
+    clipping(values.at_lower,
+             fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
+                         values.at_lower.size(), values.lower_limit * scale.current_A));
   }
   if (!values.at_voltage_limit.empty()) {
-    findings.push_back(
-        {"clipping",
-         fmt::format("{} readings repeat the largest voltage, {:.6g} V, while the current falls",
-                     values.at_voltage_limit.size(),
-                     values.voltage_limit * selection.bench.readings->scale.cells),
-         values.at_voltage_limit});
+    clipping(
+        values.at_voltage_limit,
+        fmt::format("{} readings repeat the largest voltage, {:.6g} V, while the current falls",
+                    values.at_voltage_limit.size(), values.voltage_limit * scale.cells));
   }
   if (evidence->grid_step_A > 0) {
-    findings.push_back(
+    evidence->findings.push_back(
         {"grid",
          fmt::format("all currents lie on a grid of {:.4g} A; the noise is {:.3g} A",
-                     evidence->grid_step_A,
-                     MedianSigma(selection.noise) * selection.bench.readings->scale.current_A),
+                     evidence->grid_step_A, MedianSigma(selection.noise) * scale.current_A),
          {}});
   }
+}
+
+// What the base model leaves.
+void AddResidualFindings(const Selection& selection, Evidence* evidence) {
+  std::vector<Finding>& findings = evidence->findings;
   if (evidence->misfit_ratio > 1.1) {
     findings.push_back(
         {"misfit",
@@ -115,12 +118,17 @@ void AddFindings(const Selection& selection, const ValueFindings& values, Eviden
                                     selection.bench.correlation),
                         {}});
   }
+}
+
+void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
+  AddValueFindings(selection, values, evidence);
+  AddResidualFindings(selection, evidence);
   AddIrradianceFinding(*selection.bench.readings, evidence);
   AddIdealityFinding(selection, evidence);
   const LawFit& fit = selection.extended;
   for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
     if (fit.p[at] > 1e-9) continue;
-    findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
+    evidence->findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
   }
 }
 
@@ -182,7 +190,7 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = selection.noise.dark.constant * scale;
   }
-  evidence.misfit_ratio = std::sqrt(selection.base.sum / Degrees(bench, selection.base.law));
+  evidence.misfit_ratio = std::sqrt(SquarePerDegree(bench, selection.base));
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
@@ -258,8 +266,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const double n = fit.p[kBaseIdeality];
   if (n >= smallest && n <= kLargest) return {};
   const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const int degrees = Degrees(bench, fit.law);
-  const double error = errors[kBaseIdeality] * std::sqrt(fit.sum / degrees);
+  const double error = errors[kBaseIdeality] * std::sqrt(SquarePerDegree(bench, fit));
   if (!(error > 0)) return {};
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
@@ -268,7 +275,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
-  const double z = StudentT95(degrees) * error;
+  const double z = StudentT95(Degrees(bench, fit.law)) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false},
                     {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - kZeroCelsius_K,
                      kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, false},

@@ -86,6 +86,12 @@ struct Row {
   bool positive = true;
 };
 
+constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
+                             {"Is1", "saturation_current", "A", "saturation current"},
+                             {"n1", "n", "", "ideality, per cell"},
+                             {"Rs", "resistance_series", "ohm", "series resistance"},
+                             {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
+
 // Values in a person's units, in the order of the report.
 std::vector<double> Reported(const Workbench& bench, const Law& law, const std::vector<double>& p) {
   const Readings& readings = *bench.readings;
@@ -113,72 +119,92 @@ std::vector<double> Reported(const Workbench& bench, const Law& law, const std::
   return values;
 }
 
-void AddEstimates(const Selection& selection, const std::vector<double>& searched,
-                  FitReport* report) {
-  static const Row kBase[] = {{"Iph", "photocurrent", "A", "photocurrent"},
-                              {"Is1", "saturation_current", "A", "saturation current"},
-                              {"n1", "n", "", "ideality, per cell"},
-                              {"Rs", "resistance_series", "ohm", "series resistance"},
-                              {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
+// Of the base parameters in the order of the report; NaN where there is none.
+std::vector<double> StandardErrorsOf(const Selection& selection, std::size_t count) {
   const Law& law = selection.extended.law;
-  const Readings& readings = *selection.bench.readings;
-  const std::vector<double> refined = Reported(selection.bench, law, selection.extended.p);
-  std::vector<double> errors(refined.size(), kUnknown);
+  std::vector<double> errors(count, kUnknown);
   for (const ParameterShift& shift : DescribeShifts(selection)) {
     for (int k = 0; k < 5; ++k) {
-      if (shift.symbol == kBase[k].symbol) errors[k] = shift.standard_error;
+      if (shift.symbol == kBaseRows[k].symbol) errors[k] = shift.standard_error;
     }
     const int second = law.model == Model::kDoubleDiode ? 1 : 0;  // and its ideality
     if (shift.symbol == "alpha") errors[law.TempcoAt() + second] = shift.standard_error;
     if (shift.symbol == "Eg") errors[law.BandgapAt() + second] = shift.standard_error;
   }
-  const double t = StudentT95(Degrees(selection.bench, law));
-  const auto add = [&](const Row& row) {
-    const std::size_t k = report->estimates.size();
-    Estimate estimate;
-    estimate.info = {row.symbol, row.name, row.unit, row.doc};
-    estimate.refined = refined[k];
-    if (!searched.empty()) estimate.searched = searched[k];
-    if (errors[k] > 0 && std::isfinite(errors[k])) {
-      estimate.standard_error = errors[k];
-      const double half = t * errors[k];
-      estimate.low_95 = refined[k] - half;
-      if (row.positive) estimate.low_95 = std::max(0.0, estimate.low_95);
-      estimate.high_95 = refined[k] + half;
-      estimate.interval = IntervalMethod::kSymmetric;
-    }
-    report->estimates.push_back(estimate);
-    return &report->estimates.back();
-  };
-  for (const Row& row : kBase) add(row);
+  return errors;
+}
+
+// Rows of the law without its effects.
+std::vector<Row> BaseRows(const Law& law) {
+  std::vector<Row> rows(std::begin(kBaseRows), std::end(kBaseRows));
   if (law.model == Model::kDoubleDiode) {
-    add({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
-    add({"n2", "n_2", "", "ideality of the second diode"})->fixed = true;
+    rows.push_back({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
+    rows.push_back({"n2", "n_2", "", "ideality of the second diode"});
   }
   if (law.free_tempco) {
-    add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc", false});
+    rows.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc", false});
   }
-  if (law.free_bandgap) add({"Eg", "EgRef", "eV", "band gap at the reference"});
-  for (std::size_t e = 0; e < law.effects.size(); ++e) {
-    const auto parameters =
-        DescribeParameters(selection.bench, selection.extended, static_cast<int>(e));
-    for (int k = 0; k < law.effects[e]->size(); ++k) {
-      const EffectParameter& info = law.effects[e]->parameters[k];
-      const std::string symbol = std::string(law.effects[e]->id) + "." + info.symbol;
-      const std::string name = std::string(law.effects[e]->id) + "_" + info.name;
-      Estimate* estimate = add({symbol.c_str(), name.c_str(), info.unit, info.doc});
-      for (const CauseParameter& parameter : parameters) {
-        if (parameter.symbol != info.symbol) continue;
-        estimate->low_95 = parameter.low_95;
-        estimate->high_95 = parameter.high_95;
-      }
-      estimate->fixed = info.searched;
-      if (std::isfinite(estimate->low_95)) estimate->interval = IntervalMethod::kSymmetric;
-      const double factor = info.ReportedFactor(
-          selection.extended.p.data() + law.Offset(static_cast<int>(e)), readings.scale);
-      estimate->bounds.lower = std::min(info.lower * factor, info.upper * factor);
-      estimate->bounds.upper = std::max(info.lower * factor, info.upper * factor);
+  if (law.free_bandgap) rows.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
+  return rows;
+}
+
+void AddInterval(const Row& row, double error, double t, Estimate* estimate) {
+  if (!(error > 0 && std::isfinite(error))) return;
+  const double half = t * error;
+  estimate->standard_error = error;
+  estimate->low_95 = estimate->refined - half;
+  if (row.positive) estimate->low_95 = std::max(0.0, estimate->low_95);
+  estimate->high_95 = estimate->refined + half;
+  estimate->interval = IntervalMethod::kSymmetric;
+}
+
+// Intervals and bounds of the parameters of effect `e` of the law, which stand at `first`.
+void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
+                        std::vector<Estimate>* estimates) {
+  const LawFit& fit = selection.extended;
+  const Effect& effect = *fit.law.effects[e];
+  const auto described = DescribeParameters(selection.bench, fit, e);
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& info = effect.parameters[k];
+    Estimate& estimate = (*estimates)[first + k];
+    estimate.info = {std::string(effect.id) + "." + info.symbol,
+                     std::string(effect.id) + "_" + info.name, info.unit, info.doc};
+    for (const CauseParameter& parameter : described) {
+      if (parameter.symbol != info.symbol) continue;
+      estimate.low_95 = parameter.low_95;
+      estimate.high_95 = parameter.high_95;
     }
+    estimate.fixed = info.searched;
+    if (std::isfinite(estimate.low_95)) estimate.interval = IntervalMethod::kSymmetric;
+    const double factor =
+        info.ReportedFactor(fit.p.data() + fit.law.Offset(e), selection.bench.readings->scale);
+    estimate.bounds.lower = std::min(info.lower * factor, info.upper * factor);
+    estimate.bounds.upper = std::max(info.lower * factor, info.upper * factor);
+  }
+}
+
+void AddEstimates(const Selection& selection, const std::vector<double>& searched,
+                  FitReport* report) {
+  const Law& law = selection.extended.law;
+  const std::vector<double> refined = Reported(selection.bench, law, selection.extended.p);
+  std::vector<Estimate>& estimates = report->estimates;
+  estimates.resize(refined.size());
+  for (std::size_t k = 0; k < refined.size(); ++k) {
+    estimates[k].refined = refined[k];
+    if (!searched.empty()) estimates[k].searched = searched[k];
+  }
+  const std::vector<Row> rows = BaseRows(law);
+  const std::vector<double> errors = StandardErrorsOf(selection, rows.size());
+  const double t = StudentT95(Degrees(selection.bench, law));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    estimates[k].info = {rows[k].symbol, rows[k].name, rows[k].unit, rows[k].doc};
+    estimates[k].fixed = std::string(rows[k].symbol) == "n2";
+    AddInterval(rows[k], errors[k], t, &estimates[k]);
+  }
+  std::size_t first = rows.size();
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    AddEffectEstimates(selection, static_cast<int>(e), first, &estimates);
+    first += law.effects[e]->size();
   }
   report->refined = refined;
   report->searched = searched.empty() ? refined : searched;
@@ -240,14 +266,28 @@ CurveSet AsRead(const CurveSet& set, const Readings& readings) {
   return read;
 }
 
+// Whether the diodes alone under one sky are the whole law.
+bool IsPlain(const CurveSet& set, const Law& law) {
+  const IvCurve& curve = set.curves.front();
+  return set.curves.size() == 1 && law.effects.empty() && !law.free_tempco && !law.free_bandgap &&
+         curve.irradiance_W_m2.empty() && curve.temperature_C.empty();
+}
+
 // The law as a device with effects, so that whoever reads the report can simulate it: where cells
-// are counted as stated, and of one curve with nothing free but the diodes and the effects. The
-// report's parameters are the device's own from here on.
+// are counted as stated, and of one curve with nothing free but the diodes and the effects. Without
+// effects it is the device of the cells that were counted. The report's parameters are the device's
+// own from here on.
 void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
   const IvCurve& curve = set.curves.front();
   const Readings& readings = *selection.bench.readings;
   const bool one = set.curves.size() == 1;
+  if (IsPlain(set, law)) {
+    Conditions at = curve.conditions;
+    at.cells_in_series = readings.scale.cells;
+    report->device = MakeDevice(law.model, at);
+    return;
+  }
   if (one && (law.effects.empty() || law.free_tempco || law.free_bandgap)) return;
   if (readings.scale.cells != curve.conditions.cells_in_series) return;
   std::vector<EffectUse> uses;

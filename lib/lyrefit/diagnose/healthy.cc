@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
 #include "lyrefit/diagnose/healthy_causes.h"
 #include "lyrefit/diagnose/healthy_rows.h"
@@ -33,10 +35,7 @@ double CommonAt(const std::vector<const SweepState*>& references, double u) {
     values.push_back(k > 0 ? r->off[k - 1] + part * (r->off[k] - r->off[k - 1]) : r->off[0]);
   }
   if (2 * values.size() < references.size() || values.empty()) return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  return Median(std::move(values));
 }
 
 void TakeCommonOff(const IvCurve& curve, const SweepState& state,
@@ -141,12 +140,12 @@ Expected<void> CheckReach(const SweepState& sweep,
                     "to {:.4g} {}; compare it with sweeps under like light",
                     sweep.name, what, value, unit, low, high, unit));
   };
-  if (auto isc = check(&SweepState::isc_A, "Isc", "A"); !isc) return isc;
+  TRY(check(&SweepState::isc_A, "Isc", "A"));
   return check(&SweepState::voc_V, "Voc", "V");
 }
 
 Expected<void> CheckOptions(const HealthyOptions& options) {
-  if (auto valid = ValidateOptions(options, kHealthyOptionRows); !valid) return valid;
+  TRY(ValidateOptions(options, kHealthyOptionRows));
   return ValidateThreads(options.threads);
 }
 
@@ -155,9 +154,8 @@ Expected<void> CheckOptions(const HealthyOptions& options) {
 Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
                                                const std::vector<IvCurve>& healthy,
                                                const HealthyOptions& options) {
-  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
-  auto sweep = FitSweep(curve);
-  if (!sweep) return tl::unexpected(sweep.error());
+  TRY(CheckOptions(options));
+  TRY(const FittedSweep sweep, FitSweep(curve));
   const auto fits = FitAll(healthy, options.threads);
   std::vector<const SweepState*> references;
   std::vector<std::string> left_out;
@@ -167,11 +165,11 @@ Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
       left_out.push_back(healthy[i].name + ": it is the sweep that is compared");
     } else if (!fit) {
       left_out.push_back(fit.error().message);
-    } else if (fit->state.cells != sweep->state.cells) {
+    } else if (fit->state.cells != sweep.state.cells) {
       return Fail(
           fmt::format("{} has {} cells in series, the healthy sweep {} has {}: compare "
                       "sweeps of one module or of its like",
-                      curve.name, sweep->state.cells, fit->state.name, fit->state.cells));
+                      curve.name, sweep.state.cells, fit->state.name, fit->state.cells));
     } else {
       references.push_back(&fit->state);
     }
@@ -181,19 +179,17 @@ Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
                             references.size(), kFewestReferences,
                             left_out.empty() ? "" : " (" + left_out.front() + ")"));
   }
-  if (auto near = CheckReach(sweep->state, references); !near) {
-    return tl::unexpected(near.error());
-  }
+  TRY(CheckReach(sweep.state, references));
   std::vector<const SweepState*> used;
-  HealthyComparison result = Compare(*sweep, references, options.level, 1, &used);
+  HealthyComparison result = Compare(sweep, references, options.level, 1, &used);
   result.left_out.insert(result.left_out.begin(), left_out.begin(), left_out.end());
-  TakeCommonOff(curve, sweep->state, used, &result);
+  TakeCommonOff(curve, sweep.state, used, &result);
   return result;
 }
 
 Expected<OddSweeps> FindOddSweeps(const std::vector<IvCurve>& curves,
                                   const HealthyOptions& options) {
-  if (auto valid = CheckOptions(options); !valid) return tl::unexpected(valid.error());
+  TRY(CheckOptions(options));
   const auto fits = FitAll(curves, options.threads);
   OddSweeps result;
   std::vector<const FittedSweep*> sweeps;

@@ -29,7 +29,7 @@ struct Dose {
 };
 
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
-  const DataTraits& traits = sweep.measurement->readings.traits;
+  const DataTraits& traits = sweep.bench.readings->traits;
   const std::vector<double>& p = sweep.fit.p;
   const double voltage = sweep.state.voc_V / sweep.state.cells;
   std::vector<Dose> doses = {{"series_resistance",
@@ -91,7 +91,7 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
 // What so many doses do to the currents, in scales; empty where the law cannot have them. What is
 // always there, and has become more, is taken off the law; what may not have been is added to it.
 std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
-  const Readings& readings = sweep.measurement->readings;
+  const Readings& readings = *sweep.bench.readings;
   Law law = sweep.fit.law;
   std::vector<double> p = sweep.fit.p;
   const bool taken = dose.parameter >= 0 && dose.either_way;
@@ -156,7 +156,7 @@ Eigen::MatrixXd Precision(const Expectation& expected) {
 
 // What a change gives of Pmax.
 double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
-  const Readings& readings = sweep.measurement->readings;
+  const Readings& readings = *sweep.bench.readings;
   std::vector<double> voltage, without;
   for (std::size_t k = 0; k < change.size(); ++k) {
     voltage.push_back(readings.points[k].voltage);

@@ -21,31 +21,27 @@ struct Fold {
   std::vector<Squares> trials;
 };
 
-class Judge {
- public:
-  Judge(const Readings& readings, const std::vector<int>& folds, int fold,
-        const std::vector<char>& counted)
-      : readings_(readings) {
-    for (std::size_t k = 0; k < folds.size(); ++k) {
-      if (folds[k] == fold && counted[k] != 0) held_.push_back(static_cast<int>(k));
-    }
+// The readings of a fold that count.
+std::vector<int> HeldReadings(const std::vector<int>& folds, int fold,
+                              const std::vector<char>& counted) {
+  std::vector<int> held;
+  for (std::size_t k = 0; k < folds.size(); ++k) {
+    if (folds[k] == fold && counted[k] != 0) held.push_back(static_cast<int>(k));
   }
-  Squares Of(const std::vector<double>& current) const {
-    Squares squares;
-    for (const int k : held_) {
-      const Reading& reading = readings_.points[k];
-      const double r = current[k] - reading.current;
-      squares.sum += reading.weight * (r * r + reading.scatter);
-      squares.count += reading.weight;
-    }
-    return squares;
-  }
-  bool empty() const { return held_.empty(); }
+  return held;
+}
 
- private:
-  const Readings& readings_;
-  std::vector<int> held_;
-};
+Squares SquaresAt(const Readings& readings, const std::vector<int>& held,
+                  const std::vector<double>& current) {
+  Squares squares;
+  for (const int k : held) {
+    const Reading& reading = readings.points[k];
+    const double r = current[k] - reading.current;
+    squares.sum += reading.weight * (r * r + reading.scatter);
+    squares.count += reading.weight;
+  }
+  return squares;
+}
 
 // A repeated selection need not look at those that stand behind so many others.
 constexpr int kRivals = 4;
@@ -81,6 +77,80 @@ std::vector<int> SweepOfEach(const Readings& readings) {
   return of;
 }
 
+// How the selection is repeated on a part of the readings.
+SelectOptions Repeated(const SelectOptions& options, const Selection& selection) {
+  SelectOptions inner = options;
+  inner.trials = false;
+  inner.most_rivals = kRivals;
+  inner.in_passing = true;
+  inner.hint = selection.extended;
+  inner.met = &selection.trials;
+  inner.base = selection.base.law;
+  inner.start = selection.base.p;
+  inner.worth = selection.worth;
+  inner.imprints = selection.imprints;
+  return inner;
+}
+
+// What the base model, each trial and the whole selection, fitted without the `held` readings of a
+// fold, miss of them. Empty where they cannot be fitted.
+Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
+            const Measurement& measurement, const SelectOptions& options,
+            const Selection& selection) {
+  const Readings& readings = measurement.readings;
+  const Selection again =
+      SelectCauses(measurement, used, selection.bench.correlation, Repeated(options, selection));
+  Fold fold;
+  if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return fold;
+  fold.before = SquaresAt(readings, held, again.base.current);
+  fold.after = SquaresAt(readings, held, again.extended.current);
+  Workbench bench = selection.base_bench;
+  for (std::size_t k = 0; k < used.size(); ++k) bench.used[k] = bench.used[k] != 0 ? used[k] : 0;
+  for (const Rival& rival : selection.trials) {
+    Squares squares;
+    if (rival.fit.usable) {
+      const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p, kNearby);
+      if (fit.usable) squares = SquaresAt(readings, held, fit.current);
+    }
+    fold.trials.push_back(squares);
+  }
+  Step(options.watch);
+  return fold;
+}
+
+// Over the folds that could be fitted.
+void Summarise(const std::vector<Fold>& folds, const Readings& readings,
+               const std::vector<Rival>& tried, Gain* gain, std::vector<Trial>* trials) {
+  Squares before, after;
+  std::vector<Squares> by_trial(tried.size());
+  std::vector<double> gains;
+  for (const Fold& fold : folds) {
+    if (fold.before.count == 0) continue;
+    AddSquares(fold.before, &before);
+    AddSquares(fold.after, &after);
+    for (std::size_t t = 0; t < by_trial.size(); ++t) AddSquares(fold.trials[t], &by_trial[t]);
+    gains.push_back(fold.before.Mean() - fold.after.Mean());
+  }
+  gain->folds = static_cast<int>(gains.size());
+  gain->by_sweeps = LeavesSweepsOut(readings);
+  if (gains.size() < 2) return;
+  const double scale = readings.scale.current_A;
+  gain->held_out_before_A = scale * std::sqrt(before.Mean());
+  gain->held_out_after_A = scale * std::sqrt(after.Mean());
+  double mean = 0, square = 0;
+  for (const double g : gains) mean += g / static_cast<double>(gains.size());
+  for (const double g : gains) square += (g - mean) * (g - mean);
+  const double n = static_cast<double>(gains.size());
+  gain->held_out_gain_A2 = scale * scale * mean;
+  gain->held_out_gain_error_A2 = scale * scale * std::sqrt(square / (n * (n - 1)));
+  for (std::size_t t = 0; t < by_trial.size(); ++t) {
+    for (Trial& trial : *trials) {
+      if (trial.effect != tried[t].score.effect->id) continue;
+      if (by_trial[t].count > 0) trial.held_out_rmse_A = scale * std::sqrt(by_trial[t].Mean());
+    }
+  }
+}
+
 }  // namespace
 
 bool LeavesSweepsOut(const Readings& readings) {
@@ -108,66 +178,14 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
   std::vector<Fold> results(used_folds);
   Begin(options.watch, "held out", used_folds);
   ParallelFor(used_folds, threads, [&](int f) {
-    const Judge judge(readings, of, f, selection.bench.used);
-    if (judge.empty() || Stopped(options.watch)) return;
+    const std::vector<int> held = HeldReadings(of, f, selection.bench.used);
+    if (held.empty() || Stopped(options.watch)) return;
     std::vector<char> used(of.size(), 1);
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
-    SelectOptions inner = options;
-    inner.trials = false;
-    inner.most_rivals = kRivals;
-    inner.in_passing = true;
-    inner.hint = selection.extended;
-    inner.met = &selection.trials;
-    inner.base = selection.base.law;
-    inner.start = selection.base.p;
-    inner.worth = selection.worth;
-    inner.imprints = selection.imprints;
-    const Selection again = SelectCauses(measurement, used, selection.bench.correlation, inner);
-    Fold& result = results[f];
-    if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return;
-    result.before = judge.Of(again.base.current);
-    result.after = judge.Of(again.extended.current);
-    Workbench bench = selection.base_bench;
-    for (std::size_t k = 0; k < of.size(); ++k) bench.used[k] = bench.used[k] != 0 ? used[k] : 0;
-    for (const Rival& rival : selection.trials) {
-      Squares squares;
-      if (rival.fit.usable) {
-        const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p, kNearby);
-        if (fit.usable) squares = judge.Of(fit.current);
-      }
-      result.trials.push_back(squares);
-    }
-    Step(options.watch);
+    results[f] = MissOf(held, used, measurement, options, selection);
   });
   if (Stopped(options.watch)) return;
-  Squares before, after;
-  std::vector<Squares> by_trial(selection.trials.size());
-  std::vector<double> gains;
-  for (const Fold& fold : results) {
-    if (fold.before.count == 0) continue;
-    AddSquares(fold.before, &before);
-    AddSquares(fold.after, &after);
-    for (std::size_t t = 0; t < by_trial.size(); ++t) AddSquares(fold.trials[t], &by_trial[t]);
-    gains.push_back(fold.before.Mean() - fold.after.Mean());
-  }
-  gain->folds = static_cast<int>(gains.size());
-  gain->by_sweeps = LeavesSweepsOut(readings);
-  if (gains.size() < 2) return;
-  const double scale = readings.scale.current_A;
-  gain->held_out_before_A = scale * std::sqrt(before.Mean());
-  gain->held_out_after_A = scale * std::sqrt(after.Mean());
-  double mean = 0, square = 0;
-  for (const double g : gains) mean += g / static_cast<double>(gains.size());
-  for (const double g : gains) square += (g - mean) * (g - mean);
-  const double n = static_cast<double>(gains.size());
-  gain->held_out_gain_A2 = scale * scale * mean;
-  gain->held_out_gain_error_A2 = scale * scale * std::sqrt(square / (n * (n - 1)));
-  for (std::size_t t = 0; t < by_trial.size(); ++t) {
-    for (Trial& trial : *trials) {
-      if (trial.effect != selection.trials[t].score.effect->id) continue;
-      if (by_trial[t].count > 0) trial.held_out_rmse_A = scale * std::sqrt(by_trial[t].Mean());
-    }
-  }
+  Summarise(results, readings, selection.trials, gain, trials);
 }
 
 }  // namespace lyrefit

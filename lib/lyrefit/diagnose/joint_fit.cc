@@ -161,7 +161,7 @@ std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
     }
   }
   Workbench bench = measured;
-  bench.readings = &joint.readings;
+  bench.readings = std::make_shared<const Readings>(joint.readings);
   bench.sigma = joint.sigma;
   bench.used = joint.used;
   bench.path *= deviation;

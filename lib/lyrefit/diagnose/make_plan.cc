@@ -26,7 +26,7 @@ LawFit DrawTruth(const Workbench& bench, const ErrorModel& errors, const PlanCan
     again.points[k].current = candidate.fit.current[k] + drawn[k];
   }
   Workbench other = bench;
-  other.readings = &again;
+  other.readings = std::make_shared<const Readings>(std::move(again));
   LawFit truth = candidate.fit;
   bool fitted = false;
   for (const std::vector<double>& start : candidate.starts) {

@@ -140,7 +140,6 @@ Without MakeWithout(const Workbench& bench, const LawFit& fit) {
 }
 
 EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without) {
-  constexpr double kReach = 1.96;
   EffectSize size;
   size.one_sweep = bench.readings->traits.single;
   size.current = Departure(bench, without.fit, without.basis, with.current);
@@ -150,9 +149,9 @@ EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const W
     size.recoverable = DevicePower(bench, TakenOut(with, index)) / power - 1;
   }
   const double statistic = (without.fit.sum - with.sum) / NoiseVariance(bench, with);
-  size.reach = statistic > kReach * kReach ? kReach / std::sqrt(statistic) : 1;
+  size.reach = statistic > kNormal95 * kNormal95 ? kNormal95 / std::sqrt(statistic) : 1;
   size.power_error =
-      std::max(kReach * error, std::fabs(size.power) * size.reach) + kReach * bench.path;
+      std::max(kNormal95 * error, std::fabs(size.power) * size.reach) + kNormal95 * bench.path;
   return size;
 }
 

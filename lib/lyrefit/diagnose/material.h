@@ -9,6 +9,8 @@ namespace lyrefit {
 struct Floors {
   double current = 0;
   double power = 0;
+
+  bool Any() const { return current > 0 || power > 0; }
 };
 
 // Maximum power of the device by itself, W: the law's device terms under the brightest lit curve's

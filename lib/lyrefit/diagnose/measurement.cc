@@ -1,5 +1,6 @@
 #include "lyrefit/diagnose/measurement.h"
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
@@ -19,13 +20,11 @@ std::vector<double> StatedSigma(const CurveSet& set, double scale_A) {
 Expected<Measurement> MakeMeasurement(const CurveSet& set) {
   constexpr std::size_t kFewest = 7;
   Measurement measurement;
-  auto readings = MakeReadings(set, &measurement.warnings);
-  if (!readings) return tl::unexpected(readings.error());
-  if (readings->points.size() < kFewest) {
-    return Fail("a diagnosis needs 7 readings or more, there are " +
-                std::to_string(readings->points.size()));
+  TRY(measurement.readings, MakeReadings(set, &measurement.warnings));
+  const std::size_t count = measurement.readings.points.size();
+  if (count < kFewest) {
+    return Fail("a diagnosis needs 7 readings or more, there are " + std::to_string(count));
   }
-  measurement.readings = std::move(*readings);
   measurement.notes = set.curves.front().notes;
   measurement.values = LookAtValues(measurement.readings);
   measurement.stated_sigma = StatedSigma(set, measurement.readings.scale.current_A);

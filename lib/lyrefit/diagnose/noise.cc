@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/median.h"
 
 namespace lyrefit {
 
@@ -123,10 +124,7 @@ double CutScale(const Eigen::ArrayXd& squares, double guess) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
     if (std::fabs(scale - before) < kSettled * scale) return std::max(scale, 1e-30);
   }
-  std::vector<double> sorted(squares.begin(), squares.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  scale = *middle / 0.455;
+  scale = UpperMedian({squares.begin(), squares.end()}) / 0.455;
   if (!(scale > 0)) scale = squares.sum() / count;
   for (int round = 0; round < kRounds; ++round) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
@@ -286,8 +284,7 @@ bool IsCoarse(const Measurement& measurement, const Noise& noise) {
       sigma.push_back(noise.sigma[k] * std::sqrt(points[k].weight));
     }
     if (sigma.empty() || !(step > 0)) continue;
-    std::nth_element(sigma.begin(), sigma.begin() + sigma.size() / 2, sigma.end());
-    if (step > kCoarseGrid * sigma[sigma.size() / 2]) return true;
+    if (step > kCoarseGrid * UpperMedian(std::move(sigma))) return true;
   }
   return false;
 }

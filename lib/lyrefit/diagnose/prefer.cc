@@ -45,7 +45,7 @@ double CoveredCells(const Readings& readings, double part) {
 // Causes among unlike cells, by how much they suppose. A shade that covers part of its substrings
 // supposes more than one that covers them, and where it covers about one cell it is a weak cell.
 int Complexity(const Workbench& bench, const Rival& rival) {
-  constexpr double kOneCell = 1.6, kFewCells = 4, kReach = 1.96, kFewMates = 2.5;
+  constexpr double kOneCell = 1.6, kFewCells = 4, kFewMates = 2.5;
   constexpr std::array<std::string_view, 8> kInOrder = {"shading",    "leaky_cell", "mismatch",
                                                         "substrings", "scatter",    "partly",
                                                         "weak_cell",  "bypass_open"};
@@ -66,7 +66,7 @@ int Complexity(const Workbench& bench, const Rival& rival) {
   const auto cells = [&](double sigmas) {
     return CoveredCells(*bench.readings, covered + sigmas * error);
   };
-  const bool one = cells(-kReach) < kOneCell && cells(kReach) < kFewCells;
+  const bool one = cells(-kNormal95) < kOneCell && cells(kNormal95) < kFewCells;
   return one ? static_cast<int>(kInOrder.size()) : place("partly");
 }
 

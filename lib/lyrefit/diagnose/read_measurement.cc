@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
 
@@ -59,21 +60,19 @@ IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
 
 Expected<CurveSet> ReadMeasurement(const std::string& path, const ReadOptions& options) {
   if (HoldsCurveSet(path, options)) return ReadCurveSet(path, options);
-  auto curve = ReadCurve(path, options);
-  if (!curve) return tl::unexpected(curve.error());
-  return SetOfOne(std::move(*curve));
+  TRY(IvCurve curve, ReadCurve(path, options));
+  return SetOfOne(std::move(curve));
 }
 
 Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths,
                                    const ReadOptions& options) {
   CurveSet all;
   for (const std::string& path : paths) {
-    auto set = ReadMeasurement(path, options);
-    if (!set) return set;
-    all.name += (all.name.empty() ? "" : " + ") + set->name;
-    all.source += (all.source.empty() ? "" : ", ") + set->source;
-    for (IvCurve& curve : set->curves) all.curves.push_back(std::move(curve));
-    for (RejectedCurve& bad : set->rejected) all.rejected.push_back(std::move(bad));
+    TRY(CurveSet set, ReadMeasurement(path, options));
+    all.name += (all.name.empty() ? "" : " + ") + set.name;
+    all.source += (all.source.empty() ? "" : ", ") + set.source;
+    for (IvCurve& curve : set.curves) all.curves.push_back(std::move(curve));
+    for (RejectedCurve& bad : set.rejected) all.rejected.push_back(std::move(bad));
   }
   if (all.curves.size() > 1 && AreSweeps(all.curves)) all.curves = {JoinSweeps(all.curves)};
   return all;

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/material.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/noise.h"
+#include "lyrefit/diagnose/rival.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/workbench.h"
 
@@ -16,8 +16,6 @@ namespace lyrefit {
 // Every cause after the first must pass this part of the level: each step is one more chance to be
 // wrong.
 constexpr double kLaterLevel = 0.2;
-
-struct Rival;
 
 struct SelectOptions {
   double level = 0.05;
@@ -38,19 +36,6 @@ struct SelectOptions {
   const std::vector<Rival>* met = nullptr;  // there, each effect beside `base`
   std::vector<const Effect*> candidates;    // allowed by the kind of data
   Watch* watch = nullptr;
-};
-
-// An effect fitted in the company of others.
-struct Rival {
-  Score score;
-  LawFit fit;
-  double statistic = 0;    // what it takes off the sum of squares, in units of the noise variance
-  double freedom = 0;      // what it pays for parameters beyond those of its probes
-  double corrected_p = 1;  // of the statistic, the whole catalogue counted
-  // What it leaves beyond what its law could still take up, root mean square in parts of Isc. NaN:
-  // not asked.
-  double left = kUnknown;
-  double Charged() const { return statistic - score.charge - freedom; }
 };
 
 struct ChosenCause {
@@ -81,7 +66,7 @@ struct Selection {
 };
 
 // Extend-and-repeat with a backward step and exchanges, as described in the README of this room.
-// `used` marks readings that may be looked at. The measurement outlives the selection.
+// `used` marks readings that may be looked at.
 Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
                        double correlation, const SelectOptions& options);
 

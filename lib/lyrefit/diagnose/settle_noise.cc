@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
@@ -38,9 +39,7 @@ double Misfit(const Workbench& bench, const std::vector<double>& residual,
 // Steps that a fit does not follow would pass for noise wherever there are few readings.
 void LevelNoise(Workbench* bench, double misfit) {
   constexpr double kRuined = 0.01, kByFar = 3, kUsual = 1.5e-3;
-  std::vector<double> sorted = bench->sigma;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double middle = sorted[sorted.size() / 2];
+  const double middle = UpperMedian(bench->sigma);
   if (misfit < kRuined || misfit < kByFar * middle) return;
   bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
 }

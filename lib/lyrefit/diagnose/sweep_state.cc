@@ -8,6 +8,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/law/model_points.h"
 
 namespace lyrefit {
@@ -79,11 +80,10 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
   std::vector<std::string> disorder;
   auto measurement = MakeMeasurement(InOrder(SetOfOne(curve), &disorder));
   if (!measurement) return named(measurement.error());
-  if (measurement->readings.traits.only_dark) return Fail(curve.name + ": the curve is dark");
   FittedSweep sweep;
-  sweep.measurement = std::make_unique<Measurement>(std::move(*measurement));
-  const Readings& readings = sweep.measurement->readings;
-  sweep.bench.readings = &readings;
+  sweep.bench.readings = std::make_shared<const Readings>(std::move(measurement->readings));
+  const Readings& readings = *sweep.bench.readings;
+  if (readings.traits.only_dark) return Fail(curve.name + ": the curve is dark");
   sweep.bench.sigma.assign(readings.points.size(), 1);
   sweep.bench.used.assign(readings.points.size(), 1);
   sweep.fit = FitBase(sweep.bench, StartingLaw(readings, Model::kSingleDiode));
@@ -102,13 +102,13 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
 }
 
 SweepState StateWith(const FittedSweep& sweep, const std::vector<double>& change) {
-  Readings readings = sweep.measurement->readings;
+  Readings readings = *sweep.bench.readings;
   for (std::size_t k = 0; k < change.size(); ++k) readings.points[k].current += change[k];
   Workbench bench = sweep.bench;
-  bench.readings = &readings;
+  bench.readings = std::make_shared<const Readings>(std::move(readings));
   const LawFit fit = FitLaw(bench, sweep.fit.law, sweep.fit.p);
   SweepState state = sweep.state;
-  if (fit.usable) Describe(readings, fit, &state);
+  if (fit.usable) Describe(*bench.readings, fit, &state);
   return state;
 }
 

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/workbench.h"
 
 namespace lyrefit {
@@ -37,7 +35,6 @@ struct SweepState {
 
 // The sweep laid out and fitted, to be fitted again with something done to it.
 struct FittedSweep {
-  std::unique_ptr<Measurement> measurement;
   Workbench bench;
   LawFit fit;
   SweepState state;

@@ -45,51 +45,42 @@ void AddRounding(const Readings& readings, bool dark, double step, std::vector<d
   }
 }
 
+// Readings of one monotone stretch at the smallest current, at its high end; the curve must have
+// been falling when it met the limit.
+void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t last,
+            double smallest, double step, std::vector<int>* at) {
+  const bool rising = points[last].voltage > points[first].voltage;
+  const int inwards = rising ? -1 : 1;
+  const int end = static_cast<int>(rising ? last : first);
+  const int stop = static_cast<int>(rising ? first : last) + inwards;
+  const double slack = 1e-9 * (std::fabs(smallest) + 1);
+  int k = end;
+  while (k != stop && points[k].current <= smallest + slack) k += inwards;
+  const int run = std::abs(k - end);
+  if (run < 3 || k == stop || k + inwards == stop) return;
+  const double fall = points[k + inwards].current - points[k].current;
+  if (!(fall > std::max(3 * step, 1e-3))) return;
+  for (int i = end; i != k; i += inwards) at->push_back(i);
+}
+
 // Readings at the smallest current that stand together at the high end of a stretch.
-class LowerLimit {
- public:
-  LowerLimit(const Readings& readings, double step) : readings_(readings), step_(step) {}
-
-  void Find(ValueFindings* findings) const {
-    const std::vector<Reading>& points = readings_.points;
-    double smallest = points.front().current;
-    for (const Reading& r : points) smallest = std::min(smallest, r.current);
-    std::vector<int> at;
-    for (std::size_t first = 0; first < points.size();) {
-      std::size_t last = first;
-      while (last + 1 < points.size() && points[last + 1].segment == points[first].segment) ++last;
-      AddEnd(first, last, smallest, &at);
-      first = last + 1;
-    }
-    if (at.size() < kFewest) return;
-    findings->limited = true;
-    findings->lower_limit = smallest;
-    findings->at_lower = at;
+void FindLowerLimit(const Readings& readings, double step, ValueFindings* findings) {
+  constexpr std::size_t kFewest = 4;
+  const std::vector<Reading>& points = readings.points;
+  double smallest = points.front().current;
+  for (const Reading& r : points) smallest = std::min(smallest, r.current);
+  std::vector<int> at;
+  for (std::size_t first = 0; first < points.size();) {
+    std::size_t last = first;
+    while (last + 1 < points.size() && points[last + 1].segment == points[first].segment) ++last;
+    AddEnd(points, first, last, smallest, step, &at);
+    first = last + 1;
   }
-
- private:
-  static constexpr std::size_t kFewest = 4;
-
-  // Of one monotone stretch; the curve must have been falling when it met the limit.
-  void AddEnd(std::size_t first, std::size_t last, double smallest, std::vector<int>* at) const {
-    const std::vector<Reading>& points = readings_.points;
-    const bool rising = points[last].voltage > points[first].voltage;
-    const int inwards = rising ? -1 : 1;
-    const int end = static_cast<int>(rising ? last : first);
-    const int stop = static_cast<int>(rising ? first : last) + inwards;
-    const double slack = 1e-9 * (std::fabs(smallest) + 1);
-    int k = end;
-    while (k != stop && points[k].current <= smallest + slack) k += inwards;
-    const int run = std::abs(k - end);
-    if (run < 3 || k == stop || k + inwards == stop) return;
-    const double fall = points[k + inwards].current - points[k].current;
-    if (!(fall > std::max(3 * step_, 1e-3))) return;
-    for (int i = end; i != k; i += inwards) at->push_back(i);
-  }
-
-  const Readings& readings_;
-  double step_;
-};
+  if (at.size() < kFewest) return;
+  findings->limited = true;
+  findings->lower_limit = smallest;
+  findings->at_lower = at;
+}
 
 // Readings at the largest voltage that stand together at the high end of a stretch while the
 // current goes on falling: the meter was at its end.
@@ -242,7 +233,7 @@ ValueFindings LookAtValues(const Readings& readings) {
   std::sort(below.begin(), below.end());
   int ties = 0;
   for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
-  LowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark)).Find(&findings);
+  FindLowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
   FindVoltageLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
   const VoltageBins bins = FindBins(readings);
   findings.voltage_bin = bins.step;

@@ -8,6 +8,7 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/weigh_rivals.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -95,18 +96,16 @@ std::string VerdictSentence(const Verdict& verdict, const Floors& floors, bool n
 
 // Root mean square, in parts of Isc, of what a fit leaves beyond the noise.
 Sized LeftBy(const Workbench& bench, const LawFit& fit) {
-  std::vector<double> currents;
   double noise = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    currents.push_back(bench.readings->points[k].current);
     if (bench.used[k] != 0) noise += bench.sigma[k] * bench.sigma[k];
   }
   noise /= std::max(bench.count(), 1);
-  const double departure = Departure(bench, fit, currents);
+  const double departure = MissedBy(bench, fit);
   const double left = std::sqrt(std::max(departure * departure - noise, 0.0));
   // A rough path has some six independent pieces in a sweep: its size is known to a third.
-  constexpr double kReach = 1.96, kPieces = 6;
-  const double half = left * kReach / std::sqrt(2 * kPieces);
+  constexpr double kPieces = 6;
+  const double half = left * kNormal95 / std::sqrt(2 * kPieces);
   return {left, left - half, left + half};
 }
 

@@ -27,8 +27,7 @@ void PreferBelow(const Workbench& bench, double misfit, double floor, std::vecto
   if (worthy->empty() || below->empty()) return;
   std::vector<Rival> all = *worthy;
   all.insert(all.end(), below->begin(), below->end());
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
+  PutBestFirst(&all);
   const Effect* best = all[Prefer(bench, all, misfit, floor)].score.effect;
   const bool is_below = std::any_of(below->begin(), below->end(),
                                     [&](const Rival& r) { return r.score.effect == best; });

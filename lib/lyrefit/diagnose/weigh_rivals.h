@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/material.h"
-#include "lyrefit/diagnose/select.h"
+#include "lyrefit/diagnose/rival.h"
 
 namespace lyrefit {
 

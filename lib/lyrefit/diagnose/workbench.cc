@@ -291,8 +291,12 @@ double FindPath(const Workbench& bench, const LawFit& fit) {
   return path;
 }
 
+double SquarePerDegree(const Workbench& bench, const LawFit& fit) {
+  return fit.sum / Degrees(bench, fit.law);
+}
+
 double NoiseVariance(const Workbench& bench, const LawFit& fit) {
-  return std::max({fit.sum / Degrees(bench, fit.law), bench.least_variance, 1e-300});
+  return std::max({SquarePerDegree(bench, fit), bench.least_variance, 1e-300});
 }
 
 }  // namespace lyrefit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "lyrefit/diagnose/watch.h"
@@ -13,7 +14,7 @@ namespace lyrefit {
 
 // What laws are fitted to: readings, how far each is trusted, and which of them count.
 struct Workbench {
-  const Readings* readings = nullptr;
+  std::shared_ptr<const Readings> readings;
   std::vector<double> sigma;
   std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
   double correlation = 0;  // lag 1, of the noise
@@ -96,8 +97,16 @@ int FreeCount(const Workbench& bench, const Law& law);
 // What the readings have beyond them, at least 1.
 int Degrees(const Workbench& bench, const Law& law);
 
-// Of whitened residuals: 1 where sigma is the noise.
+// Mean square of whitened residuals: 1 where sigma is the noise and the law is right.
+double SquarePerDegree(const Workbench& bench, const LawFit& fit);
+
+// The same as the variance of the noise in units of sigma, which is not taken below what the bench
+// allows.
 double NoiseVariance(const Workbench& bench, const LawFit& fit);
+
+// Half of a normal's 95 % interval in standard deviations: for sizes and for what scatters from
+// module to module, where the degrees of freedom of one fit say nothing.
+constexpr double kNormal95 = 1.96;
 
 // Beside the largest base an effect may have the rest.
 constexpr int kMostEffectParameters = 11;

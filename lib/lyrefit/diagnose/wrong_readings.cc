@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/diagnose/score.h"
+
 namespace lyrefit {
 namespace {
 

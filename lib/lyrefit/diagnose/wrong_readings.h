@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/diagnose/select.h"
+#include "lyrefit/diagnose/rival.h"
 
 namespace lyrefit {
 

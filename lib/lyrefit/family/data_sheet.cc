@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet_values.h"
 #include "lyrefit/family/key_point_solver.h"
@@ -150,12 +151,11 @@ void WarnOfTheRounding(bool all_ends, DataSheetFit* fit) {
 }  // namespace
 
 Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constants) {
-  if (auto checked = CheckDataSheet(sheet); !checked) return tl::unexpected(checked.error());
+  TRY(CheckDataSheet(sheet));
   TranslationSpec spec;
   spec.cells_in_series = sheet.cells_in_series;
   spec.constants = constants;
-  Expected<Translation> translation = MakeTranslation(spec);
-  if (!translation) return tl::unexpected(translation.error());
+  TRY(Translation translation, MakeTranslation(spec));
   const auto solution = SolveKeyPoints(sheet.values, sheet.cells_in_series, constants);
   if (!solution) {
     return Fail(fmt::format(
@@ -164,7 +164,7 @@ Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constant
         sheet.cells_in_series));
   }
   DataSheetFit fit;
-  fit.translation = std::move(*translation);
+  fit.translation = std::move(translation);
   fit.shared = ToShared(fit.translation, solution->device, sheet.values.alpha_sc_A_K);
   AddChecks(sheet, &fit);
   WarnOfTheSolution(*solution, &fit);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {
@@ -64,7 +65,7 @@ Expected<void> CheckDataSheet(const DataSheet& sheet) {
   if (sheet.cells_in_series < 1) {
     return Fail(fmt::format("expected at least 1 cell in series, found {}", sheet.cells_in_series));
   }
-  if (auto checked = CheckDataSheetPoints(v); !checked) return checked;
+  TRY(CheckDataSheetPoints(v));
   return CheckCoefficients(sheet);
 }
 

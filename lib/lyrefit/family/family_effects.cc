@@ -9,6 +9,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/statistics.h"
@@ -77,17 +78,13 @@ Expected<CurveSet> Kept(const CurveSet& set, const FamilyMembers& members) {
 
 Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
                                 FamilyProblem* family) {
-  if (auto fine = CheckTogether(options, *family); !fine) return fine;
-  auto kept = Kept(set, family->curves);
-  if (!kept) return tl::unexpected(kept.error());
+  TRY(CheckTogether(options, *family));
+  TRY(const CurveSet kept, Kept(set, family->curves));
   Translation& at = family->translation;
   const int first = at.size();
-  if (auto extended = ExtendTranslation(*kept, family->fixed[at.bandgap_slope], options.with,
-                                        options.force_effects, &at);
-      !extended) {
-    return extended;
-  }
-  if (auto fine = CheckFitRanges(ExtensionOf(at)); !fine) return fine;
+  TRY(ExtendTranslation(kept, family->fixed[at.bandgap_slope], options.with, options.force_effects,
+                        &at));
+  TRY(CheckFitRanges(ExtensionOf(at)));
   const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
   family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
   std::vector<double> fixed;

@@ -39,232 +39,223 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
   return ModelKeyPoints(at.device, at.parameters.data());
 }
 
-class Judge {
- public:
-  Judge(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
-        FamilyReport* report)
-      : family_(fit.family),
-        options_(options),
-        problem_(fit.problem),
-        end_(fit.end),
-        valleys_(fit.valleys),
-        observer_(observer),
-        r_(*report) {}
-
-  void Run() {
-    const std::vector<double>& shared = end_.point.shared;
-    const int count = family_.translation.size();
-    r_.refined.assign(shared.begin(), shared.begin() + count);
-    r_.refined = InnerShared(family_.translation, std::move(r_.refined));
-    searched_ = ReportedShared(family_.translation, r_.searched);
-    JointSpread spread = FindJointSpread(problem_, end_, problem_.noise_A * problem_.noise_A);
-    const double degrees = JointDegrees(problem_, family_.free_parameters, spread.local_degrees);
-    variance_ = end_.squares / degrees;
-    r_.noise_A = std::sqrt(variance_);
-    t_ = StudentT95(static_cast<int>(degrees));
-    spread = FindJointSpread(problem_, end_, variance_);
-    r_.estimates.clear();
-    for (int i = 0; i < count; ++i) r_.estimates.push_back(Describe(i, spread));
-    if (options_.intervals) {
-      ProfileWhereNeeded();
-      FindCoefficients(spread);
-      FindCorrelations(spread);
-    }
-    SensorErrors(spread);
-    r_.reference = AtReference(family_.translation, r_.refined);
-    local_error_ = spread.local_errors;
-  }
-
-  double t() const { return t_; }
-  const std::vector<JointLocal>& local_error() const { return local_error_; }
-
- private:
-  ParameterKind Kind(int i) const { return family_.translation.parameters[i].kind; }
-
-  Estimate Describe(int i, const JointSpread& spread) const {
-    Estimate e;
-    e.info = family_.translation.parameters[i];
-    e.bounds = family_.bounds[i];
-    e.fixed = !std::isnan(family_.fixed[i]);
-    e.searched = searched_.empty() ? kUnknown : searched_[i];
-    e.refined = end_.point.shared[i];
-    if (e.fixed) return e;
-    if (end_.held[i]) MarkHeld(i, &e);
-    e.standard_error = spread.standard_error[i];
-    const double reach = t_ * e.standard_error;
-    if (!std::isfinite(reach) && !end_.held[i]) {
-      e.identifiable = false;
-      e.reason = "the data do not fix it: nothing shows it, or another parameter takes its place";
-    }
-    if (!options_.intervals || !std::isfinite(reach)) return e;
-    e.interval = IntervalMethod::kSymmetric;
-    const ParameterRange range = RangeAround(e.info.kind, e.refined, reach);
-    e.low_95 = range.low;
-    e.high_95 = range.high;
-    return e;
-  }
-
-  void MarkHeld(int i, Estimate* e) const {
-    const Translation& at = family_.translation;
-    const double resistance = problem_.voltage_scale_V / problem_.current_scale_A;
-    if (i == at.saturation_current_2 || i == at.n_2) {
-      e->identifiable = false;
-      e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
-      if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
-    } else if (e->info.kind == ParameterKind::kDarkShunt) {
-      // Its range is relative to the other shunt.
-      const double ratio = e->refined / end_.point.shared[e->info.with[0]];
-      e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
-    } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
-      const bool perfect = e->refined > kNearPerfectShunt * resistance;
-      e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
-    } else {
-      const bool low = e->refined - e->bounds.lower < e->bounds.upper - e->refined;
-      e->at_bound = low ? BoundSide::kLower : BoundSide::kUpper;
-    }
-  }
-
-  bool NeedsProfile(int i) const {
-    const Estimate& e = r_.estimates[i];
-    if (e.fixed || (Kind(i) == ParameterKind::kSaturation && end_.held[i]) ||
-        i == family_.translation.n_2)
-      return false;
-    if (!valleys_.empty() || BendsWithOthers(i)) return true;
-    // An ideality and what goes with it are exact in their own coordinates.
-    if (e.at_bound != BoundSide::kNone) return true;
-    if (e.interval == IntervalMethod::kNone) return false;
-    if (e.low_95 < e.bounds.lower || e.high_95 > e.bounds.upper) return true;
-    const bool signed_value = e.bounds.lower < 0;
-    if (signed_value) return false;
-    return t_ * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
-  }
-
-  bool BendsWithOthers(int i) const {
-    const Translation& at = family_.translation;
-    if (!at.extended || i < at.first_effect) return false;
-    return OneOfSeveral(*at.extended->extension, i - at.first_effect);
-  }
-
-  void ProfileWhereNeeded() {
-    std::vector<ProfileQuery> queries;
-    for (int i = 0; i < family_.translation.size(); ++i) {
-      if (!NeedsProfile(i)) continue;
-      for (const bool upper : {false, true}) {
-        queries.push_back(
-            {i, upper, t_, variance_, r_.estimates[i].standard_error, false, valleys_});
-      }
-    }
-    std::vector<ProfileSide> sides(queries.size());
-    SharedObserver watch(observer_, "intervals", static_cast<std::int64_t>(queries.size()));
-    watch.Begin();
-    ParallelFor(static_cast<int>(queries.size()), options_.threads, [&](int q) {
-      if (watch.Stopped()) return;
-      sides[q] = FindProfileSide(problem_, end_, queries[q], watch.Proceed());
-      watch.FinishJob();
-    });
-    if (watch.Stopped()) {
-      r_.interrupted = true;
-      return;
-    }
-    for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
-      const int i = queries[q].parameter;
-      Estimate& e = r_.estimates[i];
-      e.interval = IntervalMethod::kProfile;
-      e.low_95 = std::max(sides[q].value, e.bounds.lower);
-      e.high_95 = sides[q + 1].at_bound && IsConductance(Kind(i)) ? kInfinity : sides[q + 1].value;
-      if (IsConductance(Kind(i)) && std::isinf(e.high_95)) {
-        e.identifiable = false;
-        e.reason = "only a lower limit is known";
-      } else if (sides[q].at_bound && sides[q + 1].at_bound) {
-        e.identifiable = false;
-        e.reason = "the data allow its whole range";
-      }
-    }
-  }
-
-  // Gradient of a function of the shared parameters by central differences, and the spread that
-  // follows; none where the function changes along a direction that the data leave open.
-  Interval Derived(const std::function<double(const std::vector<double>&)>& value,
-                   const JointSpread& spread) const {
-    constexpr double kOpen = 1e-3;  // smaller changes are rounding
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
-    for (int i = 0; i < family_.translation.size(); ++i) {
-      if (end_.held[i]) continue;
-      // A step that shows: a thousandth of what is not known, be it little or everything.
-      const bool open = std::isnan(spread.standard_error[i]);
-      const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
-      const double step = std::max(1e-3 * size, 1e-5 * std::fabs(r_.refined[i]));
-      if (!(step > 0)) continue;
-      std::vector<double> up = r_.refined, down = r_.refined;
-      up[i] += step;
-      down[i] -= step;
-      gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
-    }
-    const double now = value(r_.refined);
-    for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
-      const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
-      const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
-      if (std::fabs(parts.sum()) > kOpen * least) return Symmetric(now, kUnknown, t_);
-    }
-    const double variance = gradient.dot(spread.covariance * gradient);
-    return Symmetric(now, std::sqrt(std::max(variance, 0.0)), t_);
-  }
-
-  void FindCoefficients(const JointSpread& spread) {
-    const auto coefficient = [&](double TemperatureCoefficients::*field) {
-      return [this, field](const std::vector<double>& shared) {
-        return CoefficientsAtReference(family_.translation, shared).*field;
-      };
-    };
-    r_.coefficients = {
-        {"alpha_isc", "A/K", Derived(coefficient(&TemperatureCoefficients::alpha_sc_A_K), spread)},
-        {"beta_voc", "V/K", Derived(coefficient(&TemperatureCoefficients::beta_oc_V_K), spread)},
-        {"gamma_pmp", "%/K",
-         Derived(coefficient(&TemperatureCoefficients::gamma_pmp_percent_K), spread)}};
-  }
-
-  void FindCorrelations(const JointSpread& spread) {
-    r_.correlations.clear();
-    const auto symbol = [&](int i) -> std::string {
-      if (i == problem_.irradiance_offset()) return "dG";
-      if (i == problem_.temperature_offset()) return "dT";
-      return family_.translation.parameters[i].symbol;
-    };
-    for (int i = 0; i < problem_.shared(); ++i) {
-      for (int j = i + 1; j < problem_.shared(); ++j) {
-        const double value = spread.correlation(i, j);
-        if (std::fabs(value) <= kStrongCorrelation) continue;
-        r_.correlations.push_back({symbol(i), symbol(j), value});
-      }
-    }
-    std::stable_sort(r_.correlations.begin(), r_.correlations.end(),
-                     [](const Correlation& a, const Correlation& b) {
-                       return std::fabs(a.value) > std::fabs(b.value);
-                     });
-  }
-
-  void SensorErrors(const JointSpread& spread) {
-    const int g = problem_.irradiance_offset(), d = problem_.temperature_offset();
-    if (options_.irradiance_offset) {
-      r_.irradiance_offset_W_m2 = Symmetric(end_.point.shared[g], spread.standard_error[g], t_);
-    }
-    if (options_.temperature_offset) {
-      r_.temperature_offset_K = Symmetric(end_.point.shared[d], spread.standard_error[d], t_);
-    }
-  }
-
-  const FamilyProblem& family_;
-  const FamilyOptions& options_;
-  const JointProblem& problem_;
-  const JointEnd& end_;
-  const std::vector<FitPoint>& valleys_;
-  const Observer& observer_;
-  FamilyReport& r_;
-  std::vector<double> searched_;
-  double variance_ = 0;
-  double t_ = 2;
-  std::vector<JointLocal> local_error_;
+// A joint fit that is being judged, in the units of reports.
+struct Judged {
+  const QuotedFit& fit;
+  const FamilyOptions& options;
+  double variance = 0;  // of the noise
+  double t = 2;         // Student's, for 95 %
+  JointSpread spread;
 };
+
+Judged SpreadOf(const QuotedFit& fit, const FamilyOptions& options) {
+  Judged judged{fit, options, 0, 2, {}};
+  const double noise_A = fit.problem.noise_A;
+  const JointSpread known = FindJointSpread(fit.problem, fit.end, noise_A * noise_A);
+  const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, known.local_degrees);
+  judged.variance = fit.end.squares / degrees;
+  judged.t = StudentT95(static_cast<int>(degrees));
+  judged.spread = FindJointSpread(fit.problem, fit.end, judged.variance);
+  return judged;
+}
+
+ParameterKind KindOf(const Judged& judged, int i) {
+  return judged.fit.family.translation.parameters[i].kind;
+}
+
+void MarkHeld(const Judged& judged, int i, Estimate* e) {
+  const Translation& at = judged.fit.family.translation;
+  const double resistance = judged.fit.problem.voltage_scale_V / judged.fit.problem.current_scale_A;
+  if (i == at.saturation_current_2 || i == at.n_2) {
+    e->identifiable = false;
+    e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
+    if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
+  } else if (e->info.kind == ParameterKind::kDarkShunt) {
+    // Its range is relative to the other shunt.
+    const double ratio = e->refined / judged.fit.end.point.shared[e->info.with[0]];
+    e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
+  } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
+    const bool perfect = e->refined > kNearPerfectShunt * resistance;
+    e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
+  } else {
+    const bool low = e->refined - e->bounds.lower < e->bounds.upper - e->refined;
+    e->at_bound = low ? BoundSide::kLower : BoundSide::kUpper;
+  }
+}
+
+Estimate Describe(const Judged& judged, int i, double searched) {
+  Estimate e;
+  e.info = judged.fit.family.translation.parameters[i];
+  e.bounds = judged.fit.family.bounds[i];
+  e.fixed = !std::isnan(judged.fit.family.fixed[i]);
+  e.searched = searched;
+  e.refined = judged.fit.end.point.shared[i];
+  if (e.fixed) return e;
+  if (judged.fit.end.held[i]) MarkHeld(judged, i, &e);
+  e.standard_error = judged.spread.standard_error[i];
+  const double reach = judged.t * e.standard_error;
+  if (!std::isfinite(reach) && !judged.fit.end.held[i]) {
+    e.identifiable = false;
+    e.reason = "the data do not fix it: nothing shows it, or another parameter takes its place";
+  }
+  if (!judged.options.intervals || !std::isfinite(reach)) return e;
+  e.interval = IntervalMethod::kSymmetric;
+  const ParameterRange range = RangeAround(e.info.kind, e.refined, reach);
+  e.low_95 = range.low;
+  e.high_95 = range.high;
+  return e;
+}
+
+bool BendsWithOthers(const Judged& judged, int i) {
+  const Translation& at = judged.fit.family.translation;
+  if (!at.extended || i < at.first_effect) return false;
+  return OneOfSeveral(*at.extended->extension, i - at.first_effect);
+}
+
+bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {
+  if (e.fixed || (KindOf(judged, i) == ParameterKind::kSaturation && judged.fit.end.held[i]) ||
+      i == judged.fit.family.translation.n_2)
+    return false;
+  if (!judged.fit.valleys.empty() || BendsWithOthers(judged, i)) return true;
+  // An ideality and what goes with it are exact in their own coordinates.
+  if (e.at_bound != BoundSide::kNone) return true;
+  if (e.interval == IntervalMethod::kNone) return false;
+  if (e.low_95 < e.bounds.lower || e.high_95 > e.bounds.upper) return true;
+  const bool signed_value = e.bounds.lower < 0;
+  if (signed_value) return false;
+  return judged.t * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
+}
+
+// False where the observer wants no more.
+bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
+                        std::vector<Estimate>* estimates) {
+  std::vector<ProfileQuery> queries;
+  for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
+    if (!NeedsProfile(judged, i, (*estimates)[i])) continue;
+    for (const bool upper : {false, true}) {
+      queries.push_back({i, upper, judged.t, judged.variance, (*estimates)[i].standard_error, false,
+                         judged.fit.valleys});
+    }
+  }
+  std::vector<ProfileSide> sides(queries.size());
+  SharedObserver watch(observer, "intervals", static_cast<std::int64_t>(queries.size()));
+  watch.Begin();
+  ParallelFor(static_cast<int>(queries.size()), judged.options.threads, [&](int q) {
+    if (watch.Stopped()) return;
+    sides[q] = FindProfileSide(judged.fit.problem, judged.fit.end, queries[q], watch.Proceed());
+    watch.FinishJob();
+  });
+  if (watch.Stopped()) return false;
+  for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
+    const int i = queries[q].parameter;
+    Estimate& e = (*estimates)[i];
+    e.interval = IntervalMethod::kProfile;
+    e.low_95 = std::max(sides[q].value, e.bounds.lower);
+    e.high_95 =
+        sides[q + 1].at_bound && IsConductance(KindOf(judged, i)) ? kInfinity : sides[q + 1].value;
+    if (IsConductance(KindOf(judged, i)) && std::isinf(e.high_95)) {
+      e.identifiable = false;
+      e.reason = "only a lower limit is known";
+    } else if (sides[q].at_bound && sides[q + 1].at_bound) {
+      e.identifiable = false;
+      e.reason = "the data allow its whole range";
+    }
+  }
+  return true;
+}
+
+// Gradient of a function of the shared parameters by central differences, and the spread that
+// follows; none where the function changes along a direction that the data leave open.
+Interval Derived(const Judged& judged, const std::vector<double>& refined,
+                 const std::function<double(const std::vector<double>&)>& value) {
+  const JointSpread& spread = judged.spread;
+  constexpr double kOpen = 1e-3;  // smaller changes are rounding
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
+  for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
+    if (judged.fit.end.held[i]) continue;
+    // A step that shows: a thousandth of what is not known, be it little or everything.
+    const bool open = std::isnan(spread.standard_error[i]);
+    const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
+    const double step = std::max(1e-3 * size, 1e-5 * std::fabs(refined[i]));
+    if (!(step > 0)) continue;
+    std::vector<double> up = refined, down = refined;
+    up[i] += step;
+    down[i] -= step;
+    gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+  }
+  const double now = value(refined);
+  for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
+    const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
+    const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
+    if (std::fabs(parts.sum()) > kOpen * least) return Symmetric(now, kUnknown, judged.t);
+  }
+  const double variance = gradient.dot(spread.covariance * gradient);
+  return Symmetric(now, std::sqrt(std::max(variance, 0.0)), judged.t);
+}
+
+// Of the short-circuit current, the open-circuit voltage and the power.
+std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<double>& refined) {
+  const auto derived = [&](double TemperatureCoefficients::*field) {
+    return Derived(judged, refined, [&, field](const std::vector<double>& shared) {
+      return CoefficientsAtReference(judged.fit.family.translation, shared).*field;
+    });
+  };
+  return {{"alpha_isc", "A/K", derived(&TemperatureCoefficients::alpha_sc_A_K)},
+          {"beta_voc", "V/K", derived(&TemperatureCoefficients::beta_oc_V_K)},
+          {"gamma_pmp", "%/K", derived(&TemperatureCoefficients::gamma_pmp_percent_K)}};
+}
+
+// The strong ones, the strongest first.
+std::vector<Correlation> StrongCorrelations(const Judged& judged) {
+  const JointProblem& problem = judged.fit.problem;
+  std::vector<Correlation> strong;
+  const auto symbol = [&](int i) -> std::string {
+    if (i == problem.irradiance_offset()) return "dG";
+    if (i == problem.temperature_offset()) return "dT";
+    return judged.fit.family.translation.parameters[i].symbol;
+  };
+  for (int i = 0; i < problem.shared(); ++i) {
+    for (int j = i + 1; j < problem.shared(); ++j) {
+      const double value = judged.spread.correlation(i, j);
+      if (std::fabs(value) <= kStrongCorrelation) continue;
+      strong.push_back({symbol(i), symbol(j), value});
+    }
+  }
+  std::stable_sort(strong.begin(), strong.end(), [](const Correlation& a, const Correlation& b) {
+    return std::fabs(a.value) > std::fabs(b.value);
+  });
+  return strong;
+}
+
+void DescribeSensors(const Judged& judged, FamilyReport* report) {
+  const JointProblem& problem = judged.fit.problem;
+  const auto error = [&](int i) {
+    return Symmetric(judged.fit.end.point.shared[i], judged.spread.standard_error[i], judged.t);
+  };
+  if (judged.options.irradiance_offset) {
+    report->irradiance_offset_W_m2 = error(problem.irradiance_offset());
+  }
+  if (judged.options.temperature_offset) {
+    report->temperature_offset_K = error(problem.temperature_offset());
+  }
+}
+
+void DescribeOffsets(const Judged& judged, FamilyReport* report) {
+  const std::vector<int>& fitted = judged.fit.family.curves.fitted;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    const JointCurve& curve = judged.fit.problem.curves[k];
+    const JointLocal& local = judged.fit.end.point.local[k];
+    const JointLocal& error = judged.spread.local_errors[k];
+    FamilyCurve& row = report->curves[fitted[k]];
+    if (curve.irradiance_sd > 0) {
+      row.irradiance_offset_W_m2 =
+          Symmetric(local[0] * curve.irradiance_W_m2, error[0] * curve.irradiance_W_m2, judged.t);
+    }
+    if (curve.temperature_sd_K > 0) {
+      row.temperature_offset_K = Symmetric(local[1], error[1], judged.t);
+    }
+  }
+}
 
 }  // namespace
 
@@ -278,22 +269,25 @@ double JointDegrees(const JointProblem& problem, int free_parameters, double loc
 
 void JudgeFamily(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report) {
-  Judge judge(fit, options, observer, report);
-  judge.Run();
-  const JointEnd& end = fit.end;
-  const std::vector<int>& fitted = fit.family.curves.fitted;
-  for (std::size_t k = 0; k < fitted.size(); ++k) {
-    const JointCurve& curve = fit.problem.curves[k];
-    FamilyCurve& row = report->curves[fitted[k]];
-    const JointLocal& error = judge.local_error()[k];
-    if (curve.irradiance_sd > 0) {
-      row.irradiance_offset_W_m2 = Symmetric(end.point.local[k][0] * curve.irradiance_W_m2,
-                                             error[0] * curve.irradiance_W_m2, judge.t());
-    }
-    if (curve.temperature_sd_K > 0) {
-      row.temperature_offset_K = Symmetric(end.point.local[k][1], error[1], judge.t());
-    }
+  const Translation& at = fit.family.translation;
+  const std::vector<double>& shared = fit.end.point.shared;
+  report->refined.assign(shared.begin(), shared.begin() + at.size());
+  report->refined = InnerShared(at, std::move(report->refined));
+  const std::vector<double> searched = ReportedShared(at, report->searched);
+  const Judged judged = SpreadOf(fit, options);
+  report->noise_A = std::sqrt(judged.variance);
+  report->estimates.clear();
+  for (int i = 0; i < at.size(); ++i) {
+    report->estimates.push_back(Describe(judged, i, searched.empty() ? kUnknown : searched[i]));
   }
+  if (options.intervals) {
+    if (!ProfileWhereNeeded(judged, observer, &report->estimates)) report->interrupted = true;
+    report->coefficients = Coefficients(judged, report->refined);
+    report->correlations = StrongCorrelations(judged);
+  }
+  DescribeSensors(judged, report);
+  report->reference = AtReference(at, report->refined);
+  DescribeOffsets(judged, report);
 }
 
 }  // namespace lyrefit

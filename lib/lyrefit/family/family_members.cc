@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/family/spread_curves.h"
@@ -205,7 +206,7 @@ std::vector<Conditions> ConditionsOf(const FamilyMembers& members) {
 }
 
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options) {
-  if (auto checked = CheckIds(set, options); !checked) return tl::unexpected(checked.error());
+  TRY(CheckIds(set, options));
   FamilyMembers result;
   for (const IvCurve& curve : set.curves) {
     if (auto valid = Validate(curve); !valid) {
@@ -225,9 +226,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   LeaveOutMisfits(set, options, &result.members, &refusal);
   AddSensorUnknowns(options, &result.members);
   GuessIrradiances(&result.members, &result.notes);
-  if (auto guessed = GuessTemperatures(&result.members, &result.notes); !guessed) {
-    return tl::unexpected(guessed.error());
-  }
+  TRY(GuessTemperatures(&result.members, &result.notes));
   std::vector<int> usable;
   std::vector<double> per_sun;  // of lit curves
   for (std::size_t c = 0; c < result.members.size(); ++c) {

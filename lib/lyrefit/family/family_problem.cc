@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/family/family_effects.h"
 #include "lyrefit/law/held_values.h"
 
@@ -25,217 +27,236 @@ struct Spread {
   }
 };
 
-class Builder {
- public:
-  Builder(const CurveSet& set, const FamilyOptions& options, FamilyProblem* family)
-      : set_(set), options_(options), f_(*family), at_(family->translation) {}
-
-  Expected<void> Build() {
-    for (const int c : f_.curves.fitted) {
-      const JointCurve& curve = f_.curves.members[c].joint;
-      if (std::isfinite(curve.irradiance_sd)) irradiance_.Add(curve.irradiance_W_m2);
-      if (std::isfinite(curve.temperature_sd_K)) temperature_.Add(curve.temperature_K);
-    }
-    SetRanges();
-    HoldWhatCannotBeSeen();
-    if (auto checked = ApplyWishes(); !checked) return checked;
-    if (auto checked = SensorErrors(); !checked) return checked;
-    TellWhatIsHeld();
-    for (const double value : f_.fixed) f_.free_parameters += std::isnan(value);
-    return {};
-  }
-
- private:
-  void Range(int i, double lower, double upper, double from, double to,
-             SearchScale scale = SearchScale::kLinear) {
-    if (i >= 0) f_.bounds[i] = {lower, upper, from, to, scale};
-  }
-
-  void HoldAt(int i, double value, const std::string& why) {
-    if (i < 0) return;
-    f_.fixed[i] = value;
-    if (!why.empty()) reasons_[i] = why;
-  }
-
-  // Of what is held without having been asked for.
-  void TellWhatIsHeld() {
-    for (const auto& [i, why] : reasons_) {
-      f_.notes.push_back(
-          fmt::format("{} is held at {:.6g}: {}", at_.parameters[i].name, f_.fixed[i], why));
-    }
-  }
-
-  // Of the curve nearest to the reference.
-  double OpenCircuitVoltage() const {
-    double voltage = 0;
-    double current = 0;
-    for (const int c : f_.curves.fitted) {
-      const FamilyMember& member = f_.curves.members[c];
-      if (member.short_circuit_current_A <= current) continue;
-      current = member.short_circuit_current_A;
-      voltage = *std::max_element(member.joint.voltage_V.begin(), member.joint.voltage_V.end());
-    }
-    return voltage;
-  }
-
-  void SetRanges() {
-    f_.bounds.resize(at_.size() + 2);
-    f_.fixed.assign(at_.size() + 2, kUnknown);
-    const double current = f_.curves.reference_current_A;
-    const double voltage = OpenCircuitVoltage();
-    const double resistance = voltage / current;
-    const double thermal = at_.device.module_thermal_voltage_V;
-    const auto saturation = [&](double n) { return current * std::exp(-voltage / (n * thermal)); };
-    Range(at_.photocurrent, 0.2 * current, 5 * current, 0.7 * current, 1.4 * current);
-    Range(at_.saturation_current, 0, kInfinity, 0.1 * saturation(1), 10 * saturation(1.8),
-          SearchScale::kLog);
-    Range(at_.n, 0.5, 4, 1, 1.8);
-    Range(at_.resistance_series, 0, 0.5 * resistance, 0, 0.15 * resistance);
-    Range(at_.resistance_shunt, 0.05 * resistance, kInfinity, resistance, 1000 * resistance,
-          SearchScale::kLog);
-    Range(at_.alpha_sc, -0.02 * current, 0.02 * current, -5e-4 * current, 1.5e-3 * current);
-    Range(at_.bandgap, 0.3, 2.5, 0.9, 1.5);
-    Range(at_.bandgap_slope, -0.01, 0.01, -5e-4, 0);
-    Range(at_.n_slope, -0.05, 0.05, -3e-3, 3e-3);
-    Range(at_.resistance_shunt_dark, 0, kInfinity, resistance, 4000 * resistance,
-          SearchScale::kLog);
-    Range(at_.shunt_exponent, 0.1, 30, 1, 10);
-    Range(at_.saturation_current_2, 0, kInfinity, 1e-3 * saturation(2), 3 * saturation(2),
-          SearchScale::kLog);
-    Range(at_.n_2, 1, 4, 1.5, 3);
-    const double built_in = kHeldBuiltIn_V * at_.spec.cells_in_series;
-    Range(at_.recombination, 0, built_in, 0, 0.05 * built_in);
-    Range(at_.built_in_voltage, voltage * 1.05, 3 * built_in, built_in, 1.2 * built_in);
-    Range(at_.size(), 0, 0, 0, 0);
-    Range(at_.size() + 1, 0, 0, 0, 0);
-    HoldAt(at_.bandgap_slope, kHeldBandgapSlope_per_K, "");
-    HoldAt(at_.shunt_exponent, kHeldShuntExponent, "");
-    HoldAt(at_.n_2, kHeldIdeality2, "");
-    HoldAt(at_.built_in_voltage, std::max(built_in, voltage * 1.05), "");
-    f_.fixed[at_.size()] = f_.fixed[at_.size() + 1] = 0;
-  }
-
-  double StatedBandgap() const {
-    for (const IvCurve& curve : set_.curves) {
-      if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
-    }
-    return kHeldBandgap_eV;
-  }
-
-  void HoldWhatCannotBeSeen() {
-    const bool pvsyst = at_.spec.law == TranslationLaw::kPvsyst;
-    if (pvsyst) HoldAt(at_.bandgap, StatedBandgap(), "");
-    if (!(temperature_.high - temperature_.low >= kSameTemperature_K)) {
-      double tempco_A = kHeldTempco_per_K * f_.curves.reference_current_A;
-      for (const IvCurve& curve : set_.curves) {
-        const DeviceNotes& notes = curve.notes;
-        if (notes.isc_tempco_A_per_K) tempco_A = *notes.isc_tempco_A_per_K;
-        if (notes.isc_tempco_per_K) {
-          tempco_A = *notes.isc_tempco_per_K * f_.curves.reference_current_A;
-        }
-      }
-      const std::string why =
-          fmt::format("the temperatures differ by less than {:g} K", kSameTemperature_K);
-      HoldAt(at_.alpha_sc, tempco_A, why);
-      if (!pvsyst) HoldAt(at_.bandgap, StatedBandgap(), why);
-      HoldAt(at_.n_slope, 0, why);
-    } else if (options_.temperature_offset && !pvsyst) {
-      HoldAt(at_.bandgap, StatedBandgap(),
-             "a common error of the temperature sensor looks like another band gap");
-    }
-  }
-
-  Expected<int> Position(const std::string& name, const char* flag) const {
-    const auto found = at_.Find(name);
-    if (found) return *found;
-    std::string names;
-    for (const ParameterInfo& info : at_.parameters) {
-      names += (names.empty() ? "" : ", ") + info.name;
-    }
-    return Fail(
-        fmt::format("{}: no parameter {} in this law: expected one of {}", flag, name, names));
-  }
-
-  Expected<void> ApplyWishes() {
-    for (const std::string& name : options_.freed) {
-      const auto i = Position(name, "free");
-      if (!i) return tl::unexpected(i.error());
-      f_.fixed[*i] = kUnknown;
-      reasons_.erase(*i);
-    }
-    for (const auto& [name, value] : options_.fixed) {
-      const auto i = Position(name, "fix");
-      if (!i) return tl::unexpected(i.error());
-      const ParameterBounds& range = f_.bounds[*i];
-      if (!(value >= range.lower && value <= range.upper)) {
-        return Fail(fmt::format("fix: {} = {:g} is outside [{:g}, {:g}]", name, value, range.lower,
-                                range.upper));
-      }
-      f_.fixed[*i] = value;
-      reasons_.erase(*i);
-    }
-    for (const auto& [name, range] : options_.bounds) {
-      const auto i = Position(name, "bound");
-      if (!i) return tl::unexpected(i.error());
-      const ParameterKind kind = at_.parameters[*i].kind;
-      if (kind == ParameterKind::kSaturation || kind == ParameterKind::kDarkShunt) {
-        return Fail(
-            fmt::format("bound: {} has no bounds of its own in a family fit: bound n or "
-                        "R_sh_ref, or fix it",
-                        name));
-      }
-      if (!(range.first < range.second)) {
-        return Fail(fmt::format("bound: {} = {:g}:{:g} is empty: expected lower:upper", name,
-                                range.first, range.second));
-      }
-      ParameterBounds& bounds = f_.bounds[*i];
-      bounds.lower = range.first;
-      bounds.upper = range.second;
-      bounds.search_lower = std::max(bounds.search_lower, bounds.lower);
-      bounds.search_upper = std::min(bounds.search_upper, bounds.upper);
-      if (bounds.search_lower >= bounds.search_upper) {
-        bounds.search_lower = bounds.lower;
-        bounds.search_upper = std::isfinite(bounds.upper) ? bounds.upper : 10 * bounds.lower;
-      }
-    }
-    return {};
-  }
-
-  Expected<void> SensorErrors() {
-    if (options_.irradiance_offset) {
-      if (!(irradiance_.high >= kSameIrradiance * irradiance_.low)) {
-        return Fail(
-            "irradiance-offset: curves under one irradiance cannot tell a sensor's error from the "
-            "photocurrent: expected irradiances that differ by a factor of 1.5 or more");
-      }
-      const double most = 0.9 * irradiance_.low;
-      Range(at_.size(), -std::min(most, 300.0), 300, -0.3 * most, 0.3 * most);
-      f_.fixed[at_.size()] = kUnknown;
-    }
-    if (options_.temperature_offset) {
-      if (!(temperature_.high - temperature_.low >= kSameTemperature_K)) {
-        return Fail(
-            "temperature-offset: curves at one temperature cannot tell a sensor's error from n and "
-            "the saturation current: expected temperatures that differ by 5 K or more");
-      }
-      Range(at_.size() + 1, -40, 40, -10, 10);
-      f_.fixed[at_.size() + 1] = kUnknown;
-    }
-    return {};
-  }
-
-  const CurveSet& set_;
-  const FamilyOptions& options_;
-  FamilyProblem& f_;
-  const Translation& at_;
-  std::map<int, std::string> reasons_;  // why a parameter is held
-  Spread irradiance_;
-  Spread temperature_;
+// Of the curves fitted.
+struct Spreads {
+  Spread irradiance;
+  Spread temperature;
 };
 
+using Reasons = std::map<int, std::string>;  // why a parameter is held
+
+Spreads SpreadsOf(const FamilyMembers& curves) {
+  Spreads spreads;
+  for (const int c : curves.fitted) {
+    const JointCurve& curve = curves.members[c].joint;
+    if (std::isfinite(curve.irradiance_sd)) spreads.irradiance.Add(curve.irradiance_W_m2);
+    if (std::isfinite(curve.temperature_sd_K)) spreads.temperature.Add(curve.temperature_K);
+  }
+  return spreads;
+}
+
+// Of the curve nearest to the reference.
+double OpenCircuitVoltage(const FamilyMembers& curves) {
+  double voltage = 0;
+  double current = 0;
+  for (const int c : curves.fitted) {
+    const FamilyMember& member = curves.members[c];
+    if (member.short_circuit_current_A <= current) continue;
+    current = member.short_circuit_current_A;
+    voltage = *std::max_element(member.joint.voltage_V.begin(), member.joint.voltage_V.end());
+  }
+  return voltage;
+}
+
+void SetRanges(FamilyProblem* family) {
+  const Translation& at = family->translation;
+  const auto range = [&](int i, double lower, double upper, double from, double to,
+                         SearchScale scale = SearchScale::kLinear) {
+    if (i >= 0) family->bounds[i] = {lower, upper, from, to, scale};
+  };
+  family->bounds.resize(at.size() + 2);
+  const double current = family->curves.reference_current_A;
+  const double voltage = OpenCircuitVoltage(family->curves);
+  const double resistance = voltage / current;
+  const double thermal = at.device.module_thermal_voltage_V;
+  const auto saturation = [&](double n) { return current * std::exp(-voltage / (n * thermal)); };
+  range(at.photocurrent, 0.2 * current, 5 * current, 0.7 * current, 1.4 * current);
+  range(at.saturation_current, 0, kInfinity, 0.1 * saturation(1), 10 * saturation(1.8),
+        SearchScale::kLog);
+  range(at.n, 0.5, 4, 1, 1.8);
+  range(at.resistance_series, 0, 0.5 * resistance, 0, 0.15 * resistance);
+  range(at.resistance_shunt, 0.05 * resistance, kInfinity, resistance, 1000 * resistance,
+        SearchScale::kLog);
+  range(at.alpha_sc, -0.02 * current, 0.02 * current, -5e-4 * current, 1.5e-3 * current);
+  range(at.bandgap, 0.3, 2.5, 0.9, 1.5);
+  range(at.bandgap_slope, -0.01, 0.01, -5e-4, 0);
+  range(at.n_slope, -0.05, 0.05, -3e-3, 3e-3);
+  range(at.resistance_shunt_dark, 0, kInfinity, resistance, 4000 * resistance, SearchScale::kLog);
+  range(at.shunt_exponent, 0.1, 30, 1, 10);
+  range(at.saturation_current_2, 0, kInfinity, 1e-3 * saturation(2), 3 * saturation(2),
+        SearchScale::kLog);
+  range(at.n_2, 1, 4, 1.5, 3);
+  const double built_in = kHeldBuiltIn_V * at.spec.cells_in_series;
+  range(at.recombination, 0, built_in, 0, 0.05 * built_in);
+  range(at.built_in_voltage, voltage * 1.05, 3 * built_in, built_in, 1.2 * built_in);
+  range(at.size(), 0, 0, 0, 0);
+  range(at.size() + 1, 0, 0, 0, 0);
+}
+
+void HoldAt(int i, double value, FamilyProblem* family) {
+  if (i >= 0) family->fixed[i] = value;
+}
+
+// What nobody fits unless asked to.
+void HoldTheUsual(FamilyProblem* family) {
+  const Translation& at = family->translation;
+  const double built_in = kHeldBuiltIn_V * at.spec.cells_in_series;
+  family->fixed.assign(at.size() + 2, kUnknown);
+  HoldAt(at.bandgap_slope, kHeldBandgapSlope_per_K, family);
+  HoldAt(at.shunt_exponent, kHeldShuntExponent, family);
+  HoldAt(at.n_2, kHeldIdeality2, family);
+  HoldAt(at.built_in_voltage, std::max(built_in, OpenCircuitVoltage(family->curves) * 1.05),
+         family);
+  HoldAt(at.size(), 0, family);
+  HoldAt(at.size() + 1, 0, family);
+}
+
+double StatedBandgap(const CurveSet& set) {
+  for (const IvCurve& curve : set.curves) {
+    if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
+  }
+  return kHeldBandgap_eV;
+}
+
+double StatedTempco_A(const CurveSet& set, double reference_current_A) {
+  double tempco_A = kHeldTempco_per_K * reference_current_A;
+  for (const IvCurve& curve : set.curves) {
+    const DeviceNotes& notes = curve.notes;
+    if (notes.isc_tempco_A_per_K) tempco_A = *notes.isc_tempco_A_per_K;
+    if (notes.isc_tempco_per_K) tempco_A = *notes.isc_tempco_per_K * reference_current_A;
+  }
+  return tempco_A;
+}
+
+Reasons HoldWhatCannotBeSeen(const CurveSet& set, const FamilyOptions& options,
+                             const Spread& temperature, FamilyProblem* family) {
+  Reasons reasons;
+  const auto hold = [&](int i, double value, const std::string& why) {
+    HoldAt(i, value, family);
+    if (i >= 0) reasons[i] = why;
+  };
+  const Translation& at = family->translation;
+  const bool pvsyst = at.spec.law == TranslationLaw::kPvsyst;
+  if (pvsyst) HoldAt(at.bandgap, StatedBandgap(set), family);
+  if (!(temperature.high - temperature.low >= kSameTemperature_K)) {
+    const std::string why =
+        fmt::format("the temperatures differ by less than {:g} K", kSameTemperature_K);
+    hold(at.alpha_sc, StatedTempco_A(set, family->curves.reference_current_A), why);
+    if (!pvsyst) hold(at.bandgap, StatedBandgap(set), why);
+    hold(at.n_slope, 0, why);
+  } else if (options.temperature_offset && !pvsyst) {
+    hold(at.bandgap, StatedBandgap(set),
+         "a common error of the temperature sensor looks like another band gap");
+  }
+  return reasons;
+}
+
+Expected<int> Position(const Translation& at, const std::string& name, const char* flag) {
+  const auto found = at.Find(name);
+  if (found) return *found;
+  std::string names;
+  for (const ParameterInfo& info : at.parameters) {
+    names += (names.empty() ? "" : ", ") + info.name;
+  }
+  return Fail(
+      fmt::format("{}: no parameter {} in this law: expected one of {}", flag, name, names));
+}
+
+Expected<void> Bound(const std::string& name, const std::pair<double, double>& range,
+                     FamilyProblem* family) {
+  TRY(const int i, Position(family->translation, name, "bound"));
+  const ParameterKind kind = family->translation.parameters[i].kind;
+  if (kind == ParameterKind::kSaturation || kind == ParameterKind::kDarkShunt) {
+    return Fail(
+        fmt::format("bound: {} has no bounds of its own in a family fit: bound n or "
+                    "R_sh_ref, or fix it",
+                    name));
+  }
+  if (!(range.first < range.second)) {
+    return Fail(fmt::format("bound: {} = {:g}:{:g} is empty: expected lower:upper", name,
+                            range.first, range.second));
+  }
+  ParameterBounds& bounds = family->bounds[i];
+  bounds.lower = range.first;
+  bounds.upper = range.second;
+  bounds.search_lower = std::max(bounds.search_lower, bounds.lower);
+  bounds.search_upper = std::min(bounds.search_upper, bounds.upper);
+  if (bounds.search_lower >= bounds.search_upper) {
+    bounds.search_lower = bounds.lower;
+    bounds.search_upper = std::isfinite(bounds.upper) ? bounds.upper : 10 * bounds.lower;
+  }
+  return {};
+}
+
+// What is asked for is no news: its reasons go.
+Expected<void> ApplyWishes(const FamilyOptions& options, FamilyProblem* family, Reasons* reasons) {
+  const Translation& at = family->translation;
+  for (const std::string& name : options.freed) {
+    TRY(const int i, Position(at, name, "free"));
+    family->fixed[i] = kUnknown;
+    reasons->erase(i);
+  }
+  for (const auto& [name, value] : options.fixed) {
+    TRY(const int i, Position(at, name, "fix"));
+    const ParameterBounds& range = family->bounds[i];
+    if (!(value >= range.lower && value <= range.upper)) {
+      return Fail(fmt::format("fix: {} = {:g} is outside [{:g}, {:g}]", name, value, range.lower,
+                              range.upper));
+    }
+    family->fixed[i] = value;
+    reasons->erase(i);
+  }
+  for (const auto& [name, range] : options.bounds) TRY(Bound(name, range, family));
+  return {};
+}
+
+Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spreads,
+                                FamilyProblem* family) {
+  const int offsets = family->translation.size();
+  if (options.irradiance_offset) {
+    const Spread& irradiance = spreads.irradiance;
+    if (!(irradiance.high >= kSameIrradiance * irradiance.low)) {
+      return Fail(
+          "irradiance-offset: curves under one irradiance cannot tell a sensor's error from the "
+          "photocurrent: expected irradiances that differ by a factor of 1.5 or more");
+    }
+    const double most = 0.9 * irradiance.low;
+    family->bounds[offsets] = {-std::min(most, 300.0), 300, -0.3 * most, 0.3 * most,
+                               SearchScale::kLinear};
+    family->fixed[offsets] = kUnknown;
+  }
+  if (options.temperature_offset) {
+    const Spread& temperature = spreads.temperature;
+    if (!(temperature.high - temperature.low >= kSameTemperature_K)) {
+      return Fail(
+          "temperature-offset: curves at one temperature cannot tell a sensor's error from n and "
+          "the saturation current: expected temperatures that differ by 5 K or more");
+    }
+    family->bounds[offsets + 1] = {-40, 40, -10, 10, SearchScale::kLinear};
+    family->fixed[offsets + 1] = kUnknown;
+  }
+  return {};
+}
+
+// Bounds, what is held and why.
+Expected<void> Bind(const CurveSet& set, const FamilyOptions& options, FamilyProblem* family) {
+  const Spreads spreads = SpreadsOf(family->curves);
+  SetRanges(family);
+  HoldTheUsual(family);
+  Reasons reasons = HoldWhatCannotBeSeen(set, options, spreads.temperature, family);
+  TRY(ApplyWishes(options, family, &reasons));
+  TRY(FreeSensorErrors(options, spreads, family));
+  for (const auto& [i, why] : reasons) {
+    family->notes.push_back(fmt::format(
+        "{} is held at {:.6g}: {}", family->translation.parameters[i].name, family->fixed[i], why));
+  }
+  for (const double value : family->fixed) family->free_parameters += std::isnan(value);
+  return {};
+}
+
 Expected<void> CheckOptions(const FamilyOptions& options) {
-  if (auto valid = ValidateOptions(options.search, kSearchOptionTable); !valid) return valid;
-  if (auto valid = ValidateThreads(options.threads); !valid) return valid;
+  TRY(ValidateOptions(options.search, kSearchOptionTable));
+  TRY(ValidateThreads(options.threads));
   const auto in_range = [](double value, double lower, double upper) {
     return value >= lower && value <= upper;
   };
@@ -260,11 +281,9 @@ Expected<void> CheckOptions(const FamilyOptions& options) {
 }  // namespace
 
 Expected<FamilyProblem> MakeFamilyProblem(const CurveSet& set, const FamilyOptions& options) {
-  if (auto checked = CheckOptions(options); !checked) return tl::unexpected(checked.error());
-  Expected<FamilyMembers> members = MakeFamilyMembers(set, options);
-  if (!members) return tl::unexpected(members.error());
+  TRY(CheckOptions(options));
   FamilyProblem family;
-  family.curves = std::move(*members);
+  TRY(family.curves, MakeFamilyMembers(set, options));
   family.notes = family.curves.notes;
   TranslationSpec spec;
   spec.law = options.law;
@@ -274,16 +293,9 @@ Expected<FamilyProblem> MakeFamilyProblem(const CurveSet& set, const FamilyOptio
   spec.recombination = options.recombination;
   spec.cells_in_series = set.curves[family.curves.fitted[0]].conditions.cells_in_series;
   spec.constants = options.constants;
-  Expected<Translation> translation = MakeTranslation(spec);
-  if (!translation) return tl::unexpected(translation.error());
-  family.translation = std::move(*translation);
-  if (auto built = Builder(set, options, &family).Build(); !built) {
-    return tl::unexpected(built.error());
-  }
-  if (!options.with.empty()) {
-    auto added = AddFamilyEffects(set, options, &family);
-    if (!added) return tl::unexpected(added.error());
-  }
+  TRY(family.translation, MakeTranslation(spec));
+  TRY(Bind(set, options, &family));
+  if (!options.with.empty()) TRY(AddFamilyEffects(set, options, &family));
   return family;
 }
 

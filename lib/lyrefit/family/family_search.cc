@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/fit/check_birds.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/current.h"
@@ -72,8 +73,7 @@ Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const Family
   FamilySearchEnd end;
   if (options.searcher) {
     end.summary = options.searcher(objective, shared.box(), options.search, observer);
-    const auto valid = CheckBirds(objective, shared.box(), &end.summary);
-    if (!valid) return tl::unexpected(valid.error());
+    TRY(CheckBirds(objective, shared.box(), &end.summary));
   } else {
     end.summary = Search(objective, shared.box(), options.search, observer);
   }

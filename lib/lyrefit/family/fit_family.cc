@@ -9,6 +9,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/family_echo.h"
 #include "lyrefit/family/family_effects.h"
@@ -106,10 +107,8 @@ void FitFreely(Job* job, FamilyReport* report) {
 }
 
 Expected<void> SearchShared(Job* job, FamilyReport* report) {
-  const Expected<FamilySearchEnd> searched =
-      SearchFamily(job->family, job->options, job->search_curves, job->observer);
-  if (!searched) return tl::unexpected(searched.error());
-  const FamilySearchEnd& end = *searched;
+  TRY(const FamilySearchEnd end,
+      SearchFamily(job->family, job->options, job->search_curves, job->observer));
   job->stopped = end.summary.termination == SearchTermination::kInterrupted;
   report->search = end.summary;
   for (const int c : job->search_curves) report->search_ids.push_back(job->set.curves[c].name);
@@ -287,19 +286,14 @@ void Refine(Job* job, FamilyReport* report) {
 
 // The problem, if it can be fitted.
 Expected<FamilyProblem> CheckedProblem(const CurveSet& set, const FamilyOptions& options) {
-  if (auto threads = ValidateThreads(options.threads); !threads) {
-    return tl::unexpected(threads.error());
-  }
-  Expected<FamilyProblem> family = MakeFamilyProblem(set, options);
-  if (!family) return tl::unexpected(family.error());
-  if (auto checked = CheckAgainst(*family, options); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(ValidateThreads(options.threads));
+  TRY(FamilyProblem family, MakeFamilyProblem(set, options));
+  TRY(CheckAgainst(family, options));
   std::size_t points = 0;
-  for (const int c : family->curves.fitted) points += set.curves[c].size();
-  if (static_cast<int>(points) <= family->free_parameters) {
+  for (const int c : family.curves.fitted) points += set.curves[c].size();
+  if (static_cast<int>(points) <= family.free_parameters) {
     return Fail(fmt::format("{} points cannot determine {} shared parameters", points,
-                            family->free_parameters),
+                            family.free_parameters),
                 set.source);
   }
   return family;
@@ -308,24 +302,20 @@ Expected<FamilyProblem> CheckedProblem(const CurveSet& set, const FamilyOptions&
 }  // namespace
 
 Expected<Translation> CheckFamily(const CurveSet& set, const FamilyOptions& options) {
-  Expected<FamilyProblem> family = CheckedProblem(set, options);
-  if (!family) return tl::unexpected(family.error());
-  return std::move(family->translation);
+  TRY(FamilyProblem family, CheckedProblem(set, options));
+  return std::move(family.translation);
 }
 
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
                                  const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
-  Expected<FamilyProblem> family = CheckedProblem(set, options);
-  if (!family) return tl::unexpected(family.error());
-  Job job{set, options, observer, std::move(*family), {}, {}, {}, 0, {}, false};
+  TRY(FamilyProblem family, CheckedProblem(set, options));
+  Job job{set, options, observer, std::move(family), {}, {}, {}, 0, {}, false};
   const std::vector<int>& fitted = job.family.curves.fitted;
   job.search_curves = SpreadCurves(ConditionsOf(job.family.curves), fitted, options.search_curves);
   FamilyReport report = Head(job);
   DescribeCurves(job, &report);
-  if (auto searched = SearchShared(&job, &report); !searched) {
-    return tl::unexpected(searched.error());
-  }
+  TRY(SearchShared(&job, &report));
   if (!job.stopped) FitFreely(&job, &report);
   if (!job.stopped) {
     Refine(&job, &report);

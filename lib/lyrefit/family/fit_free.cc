@@ -7,6 +7,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/family/free_fits.h"
@@ -73,9 +74,9 @@ std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& r
   return doubts ? *doubts : std::vector<std::string>();  // what is refused is left out
 }
 
-Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
-                               const Observer& observer) {
-  if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
+namespace {
+
+FamilyReport FreeHead(const CurveSet& set, const FamilyOptions& options) {
   FamilyReport report;
   report.version = Version();
   report.name = set.name;
@@ -88,6 +89,11 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   report.assumptions = SentencesOf(set.assumptions);
   report.search_options = options.search;
   report.termination = "not run";
+  return report;
+}
+
+// Of every curve by itself.
+FitOptions FreeOptions(const FamilyOptions& options) {
   FitOptions fit;
   fit.model = options.model;
   fit.objective = options.objective;
@@ -101,72 +107,109 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   fit.random_baseline = false;
   fit.intervals = options.intervals ? Intervals::kProfile : Intervals::kNone;
   fit.threads = 1;
+  return fit;
+}
+
+// The curves to be fitted; all of them are described.
+Expected<std::vector<const IvCurve*>> WantedCurves(const CurveSet& set,
+                                                   const FamilyOptions& options,
+                                                   FamilyReport* report) {
+  const std::vector<std::string>& unwanted = options.leave_out;
   std::vector<const IvCurve*> curves;
   for (const IvCurve& curve : set.curves) {
-    report.curves.push_back(DescribeCurve(curve));
-    const bool unwanted = std::find(options.leave_out.begin(), options.leave_out.end(),
-                                    curve.name) != options.leave_out.end();
-    FamilyCurve& described = report.curves.back();
-    if (unwanted) described.reason = "left out as asked";
-    if (unwanted) described.role = CurveRole::kLeftOut;
-    if (!unwanted) curves.push_back(&curve);
+    report->curves.push_back(DescribeCurve(curve));
+    if (std::find(unwanted.begin(), unwanted.end(), curve.name) == unwanted.end()) {
+      curves.push_back(&curve);
+    } else {
+      report->curves.back().reason = "left out as asked";
+      report->curves.back().role = CurveRole::kLeftOut;
+    }
   }
-  for (const std::string& id : options.leave_out) {
+  for (const std::string& id : unwanted) {
     const bool found = std::any_of(set.curves.begin(), set.curves.end(),
                                    [&](const IvCurve& curve) { return curve.name == id; });
     if (!found) return Fail(fmt::format("leave-out: the set has no curve {}", id));
   }
   if (curves.empty()) return Fail("expected at least one curve, found none", set.source);
-  report.cells_in_series = curves[0]->conditions.cells_in_series;
-  const FreeFits fits = FitEveryCurve(curves, fit, options.threads, observer);
-  report.free_seconds = report.seconds = fits.seconds;
-  report.interrupted = fits.interrupted;
+  return curves;
+}
+
+// How the single fits went.
+struct FreeCounts {
+  int fitted = 0;
+  int failed = 0;      // fits that are not usable
+  int correlated = 0;  // fits whose residuals keep their sign too long
+  int refused = 0;
+  const Error* first = nullptr;         // of those refused
+  const FitReport* unusable = nullptr;  // the first
+};
+
+// Fills the curves of the report; those that cannot be fitted are left out with a warning.
+FreeCounts TakeFits(const FreeFits& fits, FamilyReport* report) {
+  FreeCounts counts;
   std::size_t next = 0;
-  int failed = 0, fitted = 0, correlated = 0, refused = 0;
-  const Error* first = nullptr;
-  const FitReport* unusable = nullptr;
-  for (FamilyCurve& curve : report.curves) {
+  for (FamilyCurve& curve : report->curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
     if (one && *one) {
-      FillFreeFit(**one, &curve);
-      fitted += (*one)->usable;
-      failed += !(*one)->usable;
-      if (!(*one)->usable && unusable == nullptr) unusable = &**one;
-      const ResidualStatistics& residuals = (*one)->residuals;
-      correlated +=
+      const FitReport& fit = **one;
+      FillFreeFit(fit, &curve);
+      counts.fitted += fit.usable;
+      counts.failed += !fit.usable;
+      if (!fit.usable && counts.unusable == nullptr) counts.unusable = &fit;
+      const ResidualStatistics& residuals = fit.residuals;
+      counts.correlated +=
           residuals.runs < residuals.expected_runs && residuals.runs_p_value < kCorrelated;
       continue;
     }
     curve.role = CurveRole::kLeftOut;
     curve.reason = one ? one->error().message : "interrupted before its turn";
     if (!one) continue;
-    if (first == nullptr) first = &one->error();
-    ++refused;
-    report.warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
+    if (counts.first == nullptr) counts.first = &one->error();
+    ++counts.refused;
+    report->warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }
+  return counts;
+}
+
+void WarnOfFits(const FreeCounts& counts, std::vector<std::string>* warnings) {
+  if (counts.failed > 0) {
+    warnings->push_back(fmt::format("{} of {} fits are not usable; the first, of curve {}: {}.",
+                                    counts.failed, counts.failed + counts.fitted,
+                                    counts.unusable->curve.name,
+                                    counts.unusable->not_usable_because));
+  }
+  if (2 * counts.correlated > counts.fitted) {
+    warnings->push_back(fmt::format(
+        "The residuals keep their sign too long in {} of {} fits (p below {:g} in the runs test): "
+        "a law that misses, or noise that hangs together from point to point. The intervals of the "
+        "single fits are too narrow then; the spread between fits of equal curves is the honest "
+        "measure.",
+        counts.correlated, counts.fitted, kCorrelated));
+  }
+}
+
+}  // namespace
+
+Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
+                               const Observer& observer) {
+  TRY(ValidateThreads(options.threads));
+  FamilyReport report = FreeHead(set, options);
+  TRY(const auto curves, WantedCurves(set, options, &report));
+  report.cells_in_series = curves[0]->conditions.cells_in_series;
+  const FreeFits fits = FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
+  report.free_seconds = report.seconds = fits.seconds;
+  report.interrupted = fits.interrupted;
+  const FreeCounts counts = TakeFits(fits, &report);
   // What no curve can be fitted with is an error of the options, or of the set.
-  if (first != nullptr && refused == static_cast<int>(curves.size())) {
-    return tl::unexpected(*first);
+  if (counts.first != nullptr && counts.refused == static_cast<int>(curves.size())) {
+    return tl::unexpected(*counts.first);
   }
   if (!options.with.empty()) report.taken = std::make_shared<CurveSet>(KeptCurves(set, report));
   report.doubts = DoubtsOfKept(set, report);
   report.warnings.insert(report.warnings.begin(), report.doubts.begin(), report.doubts.end());
-  if (failed > 0) {
-    report.warnings.push_back(
-        fmt::format("{} of {} fits are not usable; the first, of curve {}: {}.", failed,
-                    failed + fitted, unusable->curve.name, unusable->not_usable_because));
-  }
-  if (2 * correlated > fitted) {
-    report.warnings.push_back(fmt::format(
-        "The residuals keep their sign too long in {} of {} fits (p below {:g} in the runs test): "
-        "a "
-        "law that misses, or noise that hangs together from point to point. The intervals of the "
-        "single fits are too narrow then; the spread between fits of equal curves is the honest "
-        "measure.",
-        correlated, fitted, kCorrelated));
-  }
-  report.usable = fitted > 0;
+  WarnOfFits(counts, &report.warnings);
+  report.usable = counts.fitted > 0;
   return report;
 }
 

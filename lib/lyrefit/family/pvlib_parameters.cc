@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/law/model_points.h"
 
@@ -84,9 +85,7 @@ std::vector<NamedValue> PvsystParameters(const Translation& at, const std::vecto
 
 Expected<std::vector<NamedValue>> PvlibParameters(const Translation& translation,
                                                   const std::vector<double>& shared) {
-  if (auto checked = CheckExpressible(translation, shared); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(CheckExpressible(translation, shared));
   if (translation.spec.law == TranslationLaw::kPvsyst) return PvsystParameters(translation, shared);
   return DeSotoParameters(translation, shared);
 }
@@ -96,9 +95,7 @@ Expected<CecModule> CecRow(const Translation& translation, const std::vector<dou
   if (translation.spec.law != TranslationLaw::kDeSoto) {
     return Fail("a CEC row takes the law desoto, not pvsyst");
   }
-  if (auto checked = CheckExpressible(translation, shared); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(CheckExpressible(translation, shared));
   const Translation& at = translation;
   const double gap = shared[at.bandgap];
   const double slope = shared[at.bandgap_slope];

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/fit/fit_report.h"
@@ -135,9 +136,7 @@ Expected<void> TakeDeSoto(Reader* reader, NamedParameters* module) {
   module->cells_stated = cells > 0;
   TranslationSpec spec;
   spec.cells_in_series = std::max(cells, 1);
-  Expected<Translation> made = MakeTranslation(spec);
-  if (!made) return tl::unexpected(made.error());
-  module->translation = std::move(*made);
+  TRY(module->translation, MakeTranslation(spec));
   const Translation& at = module->translation;
   std::vector<double>& p = module->shared;
   p.resize(at.size());
@@ -160,9 +159,7 @@ Expected<void> TakePvsyst(Reader* reader, NamedParameters* module) {
   spec.recombination = loss > 0;
   spec.cells_in_series = reader->TakeCells();
   if (spec.cells_in_series == 0) reader->Missing("cells_in_series");
-  Expected<Translation> made = MakeTranslation(spec);
-  if (!made) return tl::unexpected(made.error());
-  module->translation = std::move(*made);
+  TRY(module->translation, MakeTranslation(spec));
   const Translation& at = module->translation;
   std::vector<double>& p = module->shared;
   p.resize(at.size());
@@ -185,22 +182,18 @@ Expected<void> TakePvsyst(Reader* reader, NamedParameters* module) {
 }  // namespace
 
 Expected<NamedParameters> ReadPvlibParameters(const std::string& path) {
-  const Expected<std::string> text = ReadTextFile(path, kLargestFile);
-  if (!text) return tl::unexpected(text.error());
-  const Expected<json> document = ParseJson(*text, path);
-  if (!document) return tl::unexpected(document.error());
-  if (!document->is_object()) return Fail("expected an object of pvlib's parameters", path, 1, 1);
-  const Expected<json> dictionary = KeywordsIn(*document, *text, path);
-  if (!dictionary) return tl::unexpected(dictionary.error());
-  const Expected<TranslationLaw> law = LawOf(*document, *dictionary, *text, path);
-  if (!law) return tl::unexpected(law.error());
+  TRY(const std::string text, ReadTextFile(path, kLargestFile));
+  TRY(const json document, ParseJson(text, path));
+  if (!document.is_object()) return Fail("expected an object of pvlib's parameters", path, 1, 1);
+  TRY(const json dictionary, KeywordsIn(document, text, path));
+  TRY(const TranslationLaw law, LawOf(document, dictionary, text, path));
   NamedParameters module;
   module.name = std::filesystem::path(path).filename().string();
-  Reader reader(*dictionary, *text, path);
+  Reader reader(dictionary, text, path);
   reader.CheckReference("irrad_ref", kReferenceIrradiance_W_m2);
   reader.CheckReference("temp_ref", kReferenceTemperature_C);
   const Expected<void> taken =
-      *law == TranslationLaw::kPvsyst ? TakePvsyst(&reader, &module) : TakeDeSoto(&reader, &module);
+      law == TranslationLaw::kPvsyst ? TakePvsyst(&reader, &module) : TakeDeSoto(&reader, &module);
   if (!taken) return Fail(taken.error().message, path);
   if (reader.error()) return tl::unexpected(*reader.error());
   // What pvlib itself would compute otherwise, such as a shunt cut off at 0 ohm.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "lyrefit/refine/bounded_linear.h"
 #include "lyrefit/refine/linear_part.h"
@@ -38,122 +40,133 @@ std::vector<double> SeriesResistanceGrid(const RefineProblem& problem, double hi
   return grid;
 }
 
-// All combinations of n at one Rs after the other; the Gram matrix of all columns is built once an
-// Rs.
-class Grid {
- public:
-  Grid(const RefineProblem& problem, double rs_hint) : problem_(problem) {
-    for (int d = 0; d < DiodeCount(problem.device); ++d) {
-      const int n = IdealityIndex(d);
-      for (const double value : IdealityGrid(problem.lower[n], problem.upper[n])) {
-        if (std::find(idealities_.begin(), idealities_.end(), value) == idealities_.end()) {
-          idealities_.push_back(value);
-        }
+// The n of all diodes' grids.
+std::vector<double> Idealities(const RefineProblem& problem) {
+  std::vector<double> idealities;
+  for (int d = 0; d < DiodeCount(problem.device); ++d) {
+    const int n = IdealityIndex(d);
+    for (const double value : IdealityGrid(problem.lower[n], problem.upper[n])) {
+      if (std::find(idealities.begin(), idealities.end(), value) == idealities.end()) {
+        idealities.push_back(value);
       }
     }
-    for (const double rs : SeriesResistanceGrid(problem, rs_hint)) {
-      rs_ = rs;
-      linear_ = MakeLinearColumns(problem, problem.weights, rs, idealities_);
-      gram_ = linear_.columns.transpose() * linear_.columns;
-      atb_ = linear_.columns.transpose() * linear_.target;
-      Combine();
-    }
   }
+  return idealities;
+}
 
-  std::vector<SeparableStart> Best(int count) {
-    std::stable_sort(starts_.begin(), starts_.end(),
-                     [](const auto& a, const auto& b) { return a.mean_square < b.mean_square; });
-    std::vector<SeparableStart> best;
-    for (const SeparableStart& start : starts_) {
-      if (static_cast<int>(best.size()) == count) break;
-      const bool seen = std::any_of(best.begin(), best.end(), [&](const SeparableStart& taken) {
-        for (int d = 0; d < DiodeCount(problem_.device); ++d) {
-          if (taken.p[IdealityIndex(d)] != start.p[IdealityIndex(d)]) return false;
-        }
-        return true;
-      });
-      if (seen) continue;
-      best.push_back(start);
-      best.back().origin = Origin(start.p);
-    }
-    return best;
-  }
-
- private:
-  // Rising combinations of the n of the grid that every diode's bounds allow.
-  void Combine() {
-    const int diode = static_cast<int>(chosen_.size());
-    if (diode == DiodeCount(problem_.device)) {
-      Solve();
-      return;
-    }
-    const int n = IdealityIndex(diode);
-    const int first = diode == 0 || !SameRange(diode) ? 0 : chosen_.back() + 1;
-    for (int k = first; k < static_cast<int>(idealities_.size()); ++k) {
-      if (idealities_[k] < problem_.lower[n] || idealities_[k] > problem_.upper[n]) continue;
-      chosen_.push_back(k);
-      Combine();
-      chosen_.pop_back();
-    }
-  }
-
-  bool SameRange(int diode) const {
-    const int n = IdealityIndex(diode);
-    const int previous = IdealityIndex(diode - 1);
-    return !problem_.fixed(n) && problem_.lower[n] == problem_.lower[previous] &&
-           problem_.upper[n] == problem_.upper[previous];
-  }
-
-  void Solve() {
-    const int size = 2 + static_cast<int>(chosen_.size());
-    std::vector<int> column = {0, 1};
-    for (const int k : chosen_) column.push_back(2 + k);
-    SmallMatrix gram(size, size);
-    SmallVector atb(size), lower, upper;
-    LinearPart part;
-    part.scale.resize(size);
-    std::vector<double> idealities;
-    for (int a = 0; a < size; ++a) {
-      atb[a] = atb_[column[a]];
-      part.scale[a] = linear_.scale[column[a]];
-      for (int b = 0; b < size; ++b) gram(a, b) = gram_(column[a], column[b]);
-    }
-    for (const int k : chosen_) idealities.push_back(idealities_[k]);
-    LinearBounds(problem_, part.scale, &lower, &upper);
-    part.x = SolveBoundedLinear(gram, atb, lower, upper);
-    SeparableStart start;
-    start.p = ToParameters(problem_, part, rs_, idealities);
-    start.mean_square = MeanSquare(problem_, start.p);
-    starts_.push_back(std::move(start));
-  }
-
-  std::string Origin(const std::vector<double>& p) const {
-    char text[32];
-    std::string origin = "grid n = ";
-    for (int d = 0; d < DiodeCount(problem_.device); ++d) {
-      std::snprintf(text, sizeof text, "%s%.3g", d > 0 ? ", " : "", p[IdealityIndex(d)]);
-      origin += text;
-    }
-    std::snprintf(text, sizeof text, "; Rs = %.3g ohm", p[kRs]);
-    return origin + text;
-  }
-
-  const RefineProblem& problem_;
-  std::vector<double> idealities_;
-  double rs_ = 0;
-  LinearPart linear_;
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd atb_;
-  std::vector<int> chosen_;
-  std::vector<SeparableStart> starts_;
+// The columns of all n at one Rs, whose Gram matrix serves every combination of them.
+struct GridColumns {
+  double rs;
+  LinearPart linear;
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd atb;
 };
+
+GridColumns ColumnsAt(const RefineProblem& problem, const std::vector<double>& idealities,
+                      double rs) {
+  GridColumns at;
+  at.rs = rs;
+  at.linear = MakeLinearColumns(problem, problem.weights, rs, idealities);
+  at.gram = at.linear.columns.transpose() * at.linear.columns;
+  at.atb = at.linear.columns.transpose() * at.linear.target;
+  return at;
+}
+
+// The best linear unknowns for the `chosen` n.
+SeparableStart SolveFor(const RefineProblem& problem, const std::vector<double>& idealities,
+                        const GridColumns& at, const std::vector<int>& chosen) {
+  const int size = 2 + static_cast<int>(chosen.size());
+  std::vector<int> column = {0, 1};
+  for (const int k : chosen) column.push_back(2 + k);
+  SmallMatrix gram(size, size);
+  SmallVector atb(size), lower, upper;
+  LinearPart part;
+  part.scale.resize(size);
+  std::vector<double> n;
+  for (int a = 0; a < size; ++a) {
+    atb[a] = at.atb[column[a]];
+    part.scale[a] = at.linear.scale[column[a]];
+    for (int b = 0; b < size; ++b) gram(a, b) = at.gram(column[a], column[b]);
+  }
+  for (const int k : chosen) n.push_back(idealities[k]);
+  LinearBounds(problem, part.scale, &lower, &upper);
+  part.x = SolveBoundedLinear(gram, atb, lower, upper);
+  SeparableStart start;
+  start.p = ToParameters(problem, part, at.rs, n);
+  start.mean_square = MeanSquare(problem, start.p);
+  return start;
+}
+
+bool HasRangeOfTheLast(const RefineProblem& problem, int diode) {
+  const int n = IdealityIndex(diode);
+  const int previous = IdealityIndex(diode - 1);
+  return !problem.fixed(n) && problem.lower[n] == problem.lower[previous] &&
+         problem.upper[n] == problem.upper[previous];
+}
+
+// Rising combinations of the n of the grid that every diode's bounds allow.
+void Combine(const RefineProblem& problem, const std::vector<double>& idealities,
+             const GridColumns& at, std::vector<int>* chosen, std::vector<SeparableStart>* starts) {
+  const int diode = static_cast<int>(chosen->size());
+  if (diode == DiodeCount(problem.device)) {
+    starts->push_back(SolveFor(problem, idealities, at, *chosen));
+    return;
+  }
+  const int n = IdealityIndex(diode);
+  const bool rising = diode > 0 && HasRangeOfTheLast(problem, diode);
+  for (int k = rising ? chosen->back() + 1 : 0; k < static_cast<int>(idealities.size()); ++k) {
+    if (idealities[k] < problem.lower[n] || idealities[k] > problem.upper[n]) continue;
+    chosen->push_back(k);
+    Combine(problem, idealities, at, chosen, starts);
+    chosen->pop_back();
+  }
+}
+
+std::string Origin(int diodes, const std::vector<double>& p) {
+  char text[32];
+  std::string origin = "grid n = ";
+  for (int d = 0; d < diodes; ++d) {
+    std::snprintf(text, sizeof text, "%s%.3g", d > 0 ? ", " : "", p[IdealityIndex(d)]);
+    origin += text;
+  }
+  std::snprintf(text, sizeof text, "; Rs = %.3g ohm", p[kRs]);
+  return origin + text;
+}
+
+// The lowest, each with n of its own.
+std::vector<SeparableStart> Best(std::vector<SeparableStart> starts, int diodes, int count) {
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& a, const auto& b) { return a.mean_square < b.mean_square; });
+  std::vector<SeparableStart> best;
+  for (const SeparableStart& start : starts) {
+    if (static_cast<int>(best.size()) == count) break;
+    const bool seen = std::any_of(best.begin(), best.end(), [&](const SeparableStart& taken) {
+      for (int d = 0; d < diodes; ++d) {
+        if (taken.p[IdealityIndex(d)] != start.p[IdealityIndex(d)]) return false;
+      }
+      return true;
+    });
+    if (seen) continue;
+    best.push_back(start);
+    best.back().origin = Origin(diodes, start.p);
+  }
+  return best;
+}
 
 }  // namespace
 
+// All combinations of n at one Rs after the other.
 std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint,
                                             int count) {
   if (problem.device.extension != nullptr) return {};
-  return Grid(problem, rs_hint).Best(count);
+  const std::vector<double> idealities = Idealities(problem);
+  std::vector<SeparableStart> starts;
+  for (const double rs : SeriesResistanceGrid(problem, rs_hint)) {
+    const GridColumns columns = ColumnsAt(problem, idealities, rs);
+    std::vector<int> chosen;
+    Combine(problem, idealities, columns, &chosen, &starts);
+  }
+  return Best(std::move(starts), DiodeCount(problem.device), count);
 }
 
 }  // namespace lyrefit

@@ -1,0 +1,48 @@
+#include "lyrefit/diagnose/rival.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lyrefit/effects/catalogue.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Not;
+
+Rival Of(double statistic, double charge, double freedom, int place) {
+  Rival rival;
+  rival.statistic = statistic;
+  rival.score.charge = charge;
+  rival.score.outlier = place;
+  rival.freedom = freedom;
+  return rival;
+}
+
+TEST(RivalTest, WhatIsPaidCountsAndEqualsKeepTheirOrder) {
+  std::vector<Rival> rivals = {Of(10, 4, 0, 0), Of(30, 2, 25, 1), Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
+  PutBestFirst(&rivals);
+  std::vector<int> order;
+  for (const Rival& rival : rivals) order.push_back(rival.score.outlier);
+  EXPECT_THAT(order, ElementsAre(3, 0, 2, 1));
+}
+
+TEST(RivalTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {
+  const std::vector<const Effect*> all = Catalogue();
+  Law law;
+  EXPECT_EQ(RoomFor(law, all), all);
+  const Effect* shading = FindEffect("shading");
+  law.effects.push_back(shading);
+  const std::vector<const Effect*> open = RoomFor(law, all);
+  EXPECT_THAT(open, Not(Contains(shading)));
+  EXPECT_THAT(open, Contains(FindEffect("irr_step")));
+  for (const Effect* effect : all) {
+    if (!Exclude(*shading, *effect)) continue;
+    EXPECT_THAT(open, Not(Contains(effect))) << effect->id;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

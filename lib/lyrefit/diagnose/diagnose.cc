@@ -1,7 +1,6 @@
 #include "lyrefit/diagnose/diagnose.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -279,7 +278,7 @@ void MarkInterrupted(Diagnosis* diagnosis) {
 
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   TRY(CheckOptions(options));
   TRY(const auto known, KnownEffects(options));
   TRY(auto doubts, JudgeReadings(taken.curves));

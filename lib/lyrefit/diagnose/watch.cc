@@ -5,10 +5,11 @@
 #include <mutex>
 #include <utility>
 
+#include "lyrefit/base/seconds.h"
+
 namespace lyrefit {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPeriod(20);
 
 }  // namespace
@@ -17,13 +18,13 @@ struct Watch::State {
   Observer observer;
   std::mutex mutex;  // of all below but `stopped`
   Progress progress;
-  Clock::time_point begun = Clock::now();
-  Clock::time_point asked = {};
+  Instant begun = Now();
+  Instant asked = {};
   std::atomic<bool> stopped{false};
 
-  void Ask(Clock::time_point now) {
+  void Ask(Instant now) {
     asked = now;
-    progress.seconds = std::chrono::duration<double>(now - begun).count();
+    progress.seconds = SecondsSince(begun);
     if (StopRequested(observer, progress)) stopped = true;
   }
 };
@@ -36,7 +37,7 @@ void Watch::Begin(const char* name, std::int64_t steps) {
   state_->progress.stage = name;
   state_->progress.iteration = 0;
   state_->progress.iterations = steps;
-  state_->begun = Clock::now();
+  state_->begun = Now();
   state_->Ask(state_->begun);
 }
 
@@ -51,7 +52,7 @@ bool Watch::Stopped() {
   const std::unique_lock<std::mutex> lock(state_->mutex, std::try_to_lock);
   if (!lock.owns_lock()) return state_->stopped;     // another thread is asking
   if (state_->progress.stage.empty()) return false;  // nothing has begun
-  const Clock::time_point now = Clock::now();
+  const Instant now = Now();
   if (now - state_->asked >= kPeriod) state_->Ask(now);
   return state_->stopped;
 }

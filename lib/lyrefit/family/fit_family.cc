@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "lyrefit/base/parallel.h"
@@ -252,7 +251,7 @@ void Refine(Job* job, FamilyReport* report) {
   bird.local.assign(problem.curves.size(), {0, 0});
   report->rmse.searched_all = FamilyRmse(problem, bird);
   if (job->options.plain_polish) FollowBird(job, problem, report);
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   job->starts = ChooseStarts(job->family, job->options, job->search_curves, std::move(job->starts),
                              job->elites, job->observer);
   const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
@@ -308,7 +307,7 @@ Expected<Translation> CheckFamily(const CurveSet& set, const FamilyOptions& opti
 
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options,
                                  const Observer& observer) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Instant begin = Now();
   TRY(FamilyProblem family, CheckedProblem(set, options));
   Job job{set, options, observer, std::move(family), {}, {}, {}, 0, {}, false};
   const std::vector<int>& fitted = job.family.curves.fitted;

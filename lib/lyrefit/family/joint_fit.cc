@@ -90,10 +90,10 @@ BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
   SharedObserver watch(observer, "joint fit", 0);
   JointOptions how;
   how.proceed = watch.Proceed();
-  auto begin = std::chrono::steady_clock::now();
+  Instant begin = Now();
   ends.plain = RefineJointlyPlainly(problem, start, how);
   ends.plain_seconds = SecondsSince(begin);
-  begin = std::chrono::steady_clock::now();
+  begin = Now();
   ends.own = FitJointly(family, options, search_curves, {bird}, observer, &problem);
   ends.own_seconds = SecondsSince(begin);
   return ends;

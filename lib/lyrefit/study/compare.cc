@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
@@ -25,7 +24,6 @@
 namespace lyrefit {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 
 // One subject with one model, while its runs are under way.
 struct Problem {
@@ -239,7 +237,7 @@ class Study {
 
   const std::vector<Contender>& contenders_;
   const CompareOptions& options_;
-  const Clock::time_point begin_ = Clock::now();
+  const Instant begin_ = Now();
   const int runs_per_problem_;
   const Problems problems_;
   SharedObserver watch_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -19,7 +18,6 @@
 namespace lyrefit {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 
 FamilyOptions FitOptionsOf(const CoverageOptions& options) {
   FamilyOptions family = options.family;
@@ -73,7 +71,7 @@ std::vector<CoverageRow> RowsOf(const SimulatedSet& made, const FamilyReport& re
 CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
                    const FamilyFitter& fit, const Observer& watch, bool* interrupted) {
   CoverageSet set;
-  const Clock::time_point begin = Clock::now();
+  const Instant begin = Now();
   set.cells_in_series = made.translation.spec.cells_in_series;
   set.curves = static_cast<int>(made.set.curves.size());
   const Expected<FamilyReport> report = fit(made.set, FitOptionsOf(options), watch);
@@ -203,7 +201,7 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   if (auto tried = SimulateSet(options, 0); !tried) return tl::unexpected(tried.error());
   const auto translation = CoverageTranslation(options, options.cells_in_series);
   if (!translation) return tl::unexpected(translation.error());
-  const Clock::time_point begin = Clock::now();
+  const Instant begin = Now();
   CoverageReport report;
   report.version = Version();
   report.options = options;

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "../temp_folder.h"
+#include "temp_folder.h"
 #include "lyrefit/study/report/compare_script.h"
 #include "sample_comparison.h"
 

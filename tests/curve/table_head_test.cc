@@ -75,7 +75,7 @@ TEST(HeadSentencesTest, ShowSomeOfTheLinesThatWereLeft) {
   ReadHeadLine("Irradiance (W/m2),912", 1, HeadLine::kText, &head);
   for (int i = 2; i < 12; ++i) ReadHeadLine("Foo: 12", i, HeadLine::kText, &head);
   EXPECT_THAT(
-      HeadSentences(head),
+      SentencesOf(HeadSentences(head)),
       ElementsAre("irradiance 912 W/m2 taken from line 1 'Irradiance (W/m2),912'",
                   "not understood, and not used: line 2 'Foo: 12', line 3 'Foo: 12', line 4 "
                   "'Foo: 12', line 5 'Foo: 12', line 6 'Foo: 12', line 7 'Foo: 12' and 4 "

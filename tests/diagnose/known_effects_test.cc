@@ -7,6 +7,7 @@
 #include <string>
 
 #include "law/made_curve.h"
+#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

@@ -6,8 +6,8 @@
 
 #include "../temp_folder.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/pool.h"
+#include "lyrefit/study/report/compare_json.h"
 #include "pooled_study.h"
 
 namespace lyrefit {

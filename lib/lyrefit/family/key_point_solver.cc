@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/law/translation.h"
 
 namespace lyrefit {
@@ -40,100 +41,97 @@ struct Curve {
   double slope_error;  // of dP/dV = 0 at the maximum power point, in A
 };
 
-class KeyPointEquations {
- public:
-  KeyPointEquations(const DataSheetValues& values, double module_thermal_voltage_V,
-                    ConstantSet constants)
-      : v_(values), thermal_(module_thermal_voltage_V), constants_(constants) {}
-
-  // Points on the curve: Isc, Voc, (Vmp, Imp). The exponentials are relative to that at Voc.
-  Curve Through(double n, double rs) const {
-    const double a = n * thermal_;
-    const double isc = v_.short_circuit_current_A;
-    const double imp = v_.max_power_current_A;
-    const double voc = v_.open_circuit_voltage_V;
-    const double short_V = isc * rs;
-    const double power_V = v_.max_power_voltage_V + imp * rs;
-    const double at_short = std::exp((short_V - voc) / a);
-    const double at_power = std::exp((power_V - voc) / a);
-    // Differences to the short circuit rid the equations of Iph.
-    const double open_e = 1 - at_short, open_v = voc - short_V;
-    const double power_e = at_power - at_short, power_v = power_V - short_V;
-    const double determinant = open_e * power_v - power_e * open_v;
-    Curve c{n, rs, 0, 0, 0, 0};
-    c.diode_A = (isc * power_v - (isc - imp) * open_v) / determinant;
-    c.conductance = (open_e * (isc - imp) - power_e * isc) / determinant;
-    c.photocurrent = c.diode_A * (1 - std::exp(-voc / a)) + c.conductance * voc;
-    const double steepness = c.diode_A * at_power / a + c.conductance;
-    c.slope_error = steepness * (v_.max_power_voltage_V - rs * imp) - imp;
-    return c;
-  }
-
-  // The curve for n whose power is largest where it should be; nothing if that takes a negative
-  // Rs, 1/Rsh or Is.
-  std::optional<Curve> Physical(double n) const {
-    const auto conductance = [&](double rs) { return Through(n, rs).conductance; };
-    if (!(conductance(0) >= 0)) return std::nullopt;
-    // Up to this Rs the voltages at the junction keep their order; the shunt is perfect before.
-    double largest = (v_.open_circuit_voltage_V - v_.max_power_voltage_V) / v_.max_power_current_A;
-    largest = std::min(largest, v_.max_power_voltage_V / v_.max_power_current_A);
-    if (!(conductance(largest) >= 0)) largest = SignChange(conductance, 0, largest);
-    const auto slope_error = [&](double rs) { return Through(n, rs).slope_error; };
-    const bool positive = slope_error(0) > 0;
-    for (int k = 1; k <= kResistances; ++k) {
-      const double rs = largest * k / kResistances;
-      if ((slope_error(rs) > 0) == positive) continue;
-      const Curve curve = Through(n, SignChange(slope_error, largest * (k - 1) / kResistances, rs));
-      if (curve.diode_A > 0) return curve;
-    }
-    return std::nullopt;
-  }
-
-  // The current at Voc + 2 K beta_oc and 27 C, which should be 0.
-  double WarmError(const Curve& c) const {
-    const double k_eV = ThermalVoltage(1.0, constants_);
-    const double warm_K = kReferenceTemperature_K + kVocStep_K;
-    const double ratio = warm_K / kReferenceTemperature_K;
-    const double gap = kSiliconBandGap_eV * (1 + kSiliconBandGapSlope_1_K * kVocStep_K);
-    const double growth = 3 * std::log(ratio) +
-                          kSiliconBandGap_eV / (k_eV * kReferenceTemperature_K) -
-                          gap / (k_eV * warm_K);
-    const double a = c.n * thermal_;
-    const double voc = v_.open_circuit_voltage_V;
-    const double warm_V = voc + kVocStep_K * v_.beta_oc_V_K;
-    const double diode = c.diode_A * (std::exp(growth + warm_V / (a * ratio) - voc / a) -
-                                      std::exp(growth - voc / a));
-    return c.photocurrent + v_.alpha_sc_A_K * kVocStep_K - diode - c.conductance * warm_V;
-  }
-
-  ReferenceDevice ToDevice(const Curve& c) const {
-    const double is = c.diode_A * std::exp(-v_.open_circuit_voltage_V / (c.n * thermal_));
-    return {c.photocurrent, is, c.n, c.rs, c.conductance};
-  }
-
- private:
-  const DataSheetValues& v_;
-  double thermal_;
-  ConstantSet constants_;
+// What a data sheet says, and of how many cells at which temperature.
+struct KeyPointSheet {
+  const DataSheetValues& values;
+  double thermal_V;  // of the module
+  ConstantSet constants;
 };
 
+// Points on the curve: Isc, Voc, (Vmp, Imp). The exponentials are relative to that at Voc.
+Curve Through(const KeyPointSheet& sheet, double n, double rs) {
+  const double a = n * sheet.thermal_V;
+  const double isc = sheet.values.short_circuit_current_A;
+  const double imp = sheet.values.max_power_current_A;
+  const double voc = sheet.values.open_circuit_voltage_V;
+  const double short_V = isc * rs;
+  const double power_V = sheet.values.max_power_voltage_V + imp * rs;
+  const double at_short = std::exp((short_V - voc) / a);
+  const double at_power = std::exp((power_V - voc) / a);
+  // Differences to the short circuit rid the equations of Iph.
+  const double open_e = 1 - at_short, open_v = voc - short_V;
+  const double power_e = at_power - at_short, power_v = power_V - short_V;
+  const double determinant = open_e * power_v - power_e * open_v;
+  Curve c{n, rs, 0, 0, 0, 0};
+  c.diode_A = (isc * power_v - (isc - imp) * open_v) / determinant;
+  c.conductance = (open_e * (isc - imp) - power_e * isc) / determinant;
+  c.photocurrent = c.diode_A * (1 - std::exp(-voc / a)) + c.conductance * voc;
+  const double steepness = c.diode_A * at_power / a + c.conductance;
+  c.slope_error = steepness * (sheet.values.max_power_voltage_V - rs * imp) - imp;
+  return c;
+}
+
+// The curve for n whose power is largest where it should be; nothing if that takes a negative
+// Rs, 1/Rsh or Is.
+std::optional<Curve> Physical(const KeyPointSheet& sheet, double n) {
+  const auto conductance = [&](double rs) { return Through(sheet, n, rs).conductance; };
+  if (!(conductance(0) >= 0)) return std::nullopt;
+  // Up to this Rs the voltages at the junction keep their order; the shunt is perfect before.
+  double largest = (sheet.values.open_circuit_voltage_V - sheet.values.max_power_voltage_V) /
+                   sheet.values.max_power_current_A;
+  largest = std::min(largest, sheet.values.max_power_voltage_V / sheet.values.max_power_current_A);
+  if (!(conductance(largest) >= 0)) largest = SignChange(conductance, 0, largest);
+  const auto slope_error = [&](double rs) { return Through(sheet, n, rs).slope_error; };
+  const bool positive = slope_error(0) > 0;
+  for (int k = 1; k <= kResistances; ++k) {
+    const double rs = largest * k / kResistances;
+    if ((slope_error(rs) > 0) == positive) continue;
+    const Curve curve =
+        Through(sheet, n, SignChange(slope_error, largest * (k - 1) / kResistances, rs));
+    if (curve.diode_A > 0) return curve;
+  }
+  return std::nullopt;
+}
+
+// The current at Voc + 2 K beta_oc and 27 C, which should be 0.
+double WarmError(const KeyPointSheet& sheet, const Curve& c) {
+  const double k_eV = ThermalVoltage(1.0, sheet.constants);
+  const double warm_K = kReferenceTemperature_K + kVocStep_K;
+  const double ratio = warm_K / kReferenceTemperature_K;
+  const double gap = kSiliconBandGap_eV * (1 + kSiliconBandGapSlope_1_K * kVocStep_K);
+  const double growth = 3 * std::log(ratio) +
+                        kSiliconBandGap_eV / (k_eV * kReferenceTemperature_K) -
+                        gap / (k_eV * warm_K);
+  const double a = c.n * sheet.thermal_V;
+  const double voc = sheet.values.open_circuit_voltage_V;
+  const double warm_V = voc + kVocStep_K * sheet.values.beta_oc_V_K;
+  const double diode =
+      c.diode_A * (std::exp(growth + warm_V / (a * ratio) - voc / a) - std::exp(growth - voc / a));
+  return c.photocurrent + sheet.values.alpha_sc_A_K * kVocStep_K - diode - c.conductance * warm_V;
+}
+
+ReferenceDevice ToDevice(const KeyPointSheet& sheet, const Curve& c) {
+  const double is =
+      c.diode_A * std::exp(-sheet.values.open_circuit_voltage_V / (c.n * sheet.thermal_V));
+  return {c.photocurrent, is, c.n, c.rs, c.conductance};
+}
+
 // Physical curves by rising n: a fine grid, and the last n on either side of every gap.
-std::vector<Curve> PhysicalCurves(const KeyPointEquations& equations, double lowest,
-                                  double highest) {
+std::vector<Curve> PhysicalCurves(const KeyPointSheet& sheet, double lowest, double highest) {
   const auto border = [&](double inside, double outside) {
     for (int k = 0; k < 100; ++k) {
       const double middle = 0.5 * (inside + outside);
       if (middle == inside || middle == outside) break;
-      (equations.Physical(middle) ? inside : outside) = middle;
+      (Physical(sheet, middle) ? inside : outside) = middle;
     }
-    return *equations.Physical(inside);
+    return *Physical(sheet, inside);
   };
   std::vector<Curve> curves;
   double before = 0;
   bool inside = false;
   for (int k = 0; k <= kIdealities; ++k) {
     const double n = lowest * std::pow(highest / lowest, static_cast<double>(k) / kIdealities);
-    const std::optional<Curve> curve = equations.Physical(n);
+    const std::optional<Curve> curve = Physical(sheet, n);
     if (curve && !inside && k > 0) curves.push_back(border(n, before));
     if (!curve && inside) curves.push_back(border(before, n));
     if (curve) curves.push_back(*curve);
@@ -144,14 +142,14 @@ std::vector<Curve> PhysicalCurves(const KeyPointEquations& equations, double low
 }
 
 // The physical curve that misses beta_oc the least, with what ends there set to exactly nothing.
-KeyPointSolution Nearest(const KeyPointEquations& equations, const std::vector<Curve>& curves) {
+KeyPointSolution Nearest(const KeyPointSheet& sheet, const std::vector<Curve>& curves) {
   const Curve* best = &curves.front();
   for (const Curve& curve : curves) {
-    if (std::fabs(equations.WarmError(curve)) < std::fabs(equations.WarmError(*best))) {
+    if (std::fabs(WarmError(sheet, curve)) < std::fabs(WarmError(sheet, *best))) {
       best = &curve;
     }
   }
-  KeyPointSolution solution{equations.ToDevice(*best), Border::kIdeality, 0};
+  KeyPointSolution solution{ToDevice(sheet, *best), Border::kIdeality, 0};
   if (best->rs * best->photocurrent < kNothing) {
     solution.border = Border::kNoSeriesResistance;
     solution.device.resistance_series_ohm = 0;
@@ -168,31 +166,31 @@ std::optional<KeyPointSolution> SolveKeyPoints(const DataSheetValues& values, in
                                                ConstantSet constants) {
   const double thermal_V = cells_in_series * ThermalVoltage(kReferenceTemperature_K, constants);
   const double voc_in_thermal = values.open_circuit_voltage_V / thermal_V;
-  const KeyPointEquations equations(values, thermal_V, constants);
-  const std::vector<Curve> curves = PhysicalCurves(
-      equations, voc_in_thermal / kLargestExponentAtVoc, voc_in_thermal / kSmallestExponentAtVoc);
+  const KeyPointSheet sheet{values, thermal_V, constants};
+  const std::vector<Curve> curves = PhysicalCurves(sheet, voc_in_thermal / kLargestExponentAtVoc,
+                                                   voc_in_thermal / kSmallestExponentAtVoc);
   if (curves.empty()) return std::nullopt;
   const auto warm_error = [&](double n) {
-    const std::optional<Curve> curve = equations.Physical(n);
-    return curve ? equations.WarmError(*curve) : std::nan("");
+    const std::optional<Curve> curve = Physical(sheet, n);
+    return curve ? WarmError(sheet, *curve) : kUnknown;
   };
   std::vector<Curve> found;
   for (std::size_t k = 0; k + 1 < curves.size(); ++k) {
-    const double left = equations.WarmError(curves[k]);
-    const double right = equations.WarmError(curves[k + 1]);
+    const double left = WarmError(sheet, curves[k]);
+    const double right = WarmError(sheet, curves[k + 1]);
     if ((left > 0) == (right > 0)) continue;
-    const auto curve = equations.Physical(SignChange(warm_error, curves[k].n, curves[k + 1].n));
+    const auto curve = Physical(sheet, SignChange(warm_error, curves[k].n, curves[k + 1].n));
     // Across a gap between physical curves the sign may change without a root.
-    if (curve && std::fabs(equations.WarmError(*curve)) < 1e-9 * curve->photocurrent) {
+    if (curve && std::fabs(WarmError(sheet, *curve)) < 1e-9 * curve->photocurrent) {
       found.push_back(*curve);
     }
   }
-  if (found.empty()) return Nearest(equations, curves);
+  if (found.empty()) return Nearest(sheet, curves);
   const Curve* best = &found.front();
   for (const Curve& curve : found) {
     if (std::fabs(curve.n - kUsualIdeality) < std::fabs(best->n - kUsualIdeality)) best = &curve;
   }
-  return KeyPointSolution{equations.ToDevice(*best), Border::kNone, static_cast<int>(found.size())};
+  return KeyPointSolution{ToDevice(sheet, *best), Border::kNone, static_cast<int>(found.size())};
 }
 
 }  // namespace lyrefit

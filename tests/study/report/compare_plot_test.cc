@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "../temp_folder.h"
 #include "lyrefit/study/report/compare_script.h"
 #include "sample_comparison.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../study/made_pool.h"
+#include "study/made_pool.h"
 
 namespace lyrefit {
 namespace {

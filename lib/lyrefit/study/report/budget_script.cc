@@ -4,8 +4,8 @@
 #include <array>
 #include <iterator>
 
-#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/report/panels.h"
+#include "lyrefit/study/report/compare_script.h"
 
 namespace lyrefit {
 namespace {

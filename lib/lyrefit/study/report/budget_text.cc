@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "lyrefit/study/report/compare_sections.h"
-#include "lyrefit/study/report/compare_text.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/pool.h"
+#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/study/report/compare_text.h"
 
 namespace lyrefit {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lyrefit/study/report/compare_sections.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/study/report/compare_sections.h"
 
 namespace lyrefit {
 namespace {

@@ -1,7 +1,7 @@
 #include "lyrefit/study/report/compare_plot.h"
 
-#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/report/plot.h"
+#include "lyrefit/study/report/compare_script.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "lyrefit/study/report/compare_sections.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/study/report/compare_sections.h"
 
 namespace lyrefit {
 namespace {

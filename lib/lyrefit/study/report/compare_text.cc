@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/study/report/compare_sections.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/report/compare_sections.h"
 
 namespace lyrefit {
 namespace {

@@ -1,8 +1,8 @@
 #include "lyrefit/study/report/pool_json.h"
 
+#include "lyrefit/study/pool_ranks.h"
 #include "lyrefit/study/report/pool_verdict.h"
 #include "lyrefit/study/report/rank_json.h"
-#include "lyrefit/study/pool_ranks.h"
 
 namespace lyrefit {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/report/panels.h"
 #include "lyrefit/study/pool.h"
+#include "lyrefit/study/report/compare_script.h"
 
 namespace lyrefit {
 namespace {

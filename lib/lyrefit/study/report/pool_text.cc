@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "lyrefit/study/report/compare_sections.h"
-#include "lyrefit/study/report/pool_verdict.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/pool_ranks.h"
+#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/study/report/pool_verdict.h"
 
 namespace lyrefit {
 namespace {

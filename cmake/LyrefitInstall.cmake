@@ -88,6 +88,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/healthy_text.h
   report/json_report.h
   report/plot.h
+  report/plot/figure.h
   report/pvlib_json.h
   report/text_report.h
   report/truth_text.h

@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 #include <vector>
 
-#include "lyrefit/report/data_block.h"
-#include "lyrefit/report/panels.h"
-#include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
 namespace {
@@ -26,15 +21,13 @@ constexpr std::array<const char*, 4> kMarks = {"#F0B400", "#E05080", "#40C0A0", 
 
 // One direction of one curve.
 struct Group {
-  int colour = 0;
-  bool triangles = false;
-  DataBlock measured;  // V, A
-  DataBlock base;
-  DataBlock extended;
-  DataBlock without;  // V, A, as if there were no cause
-  DataBlock before;   // V, residual
-  DataBlock after;
-  std::size_t points = 0;
+  Look look = {};
+  Series measured = {};  // A over V
+  Series base = {};
+  Series extended = {};
+  Series without = {};  // as if there were no cause
+  Series before = {};   // residual over V
+  Series after = {};
   int segment = -1;  // of the last point
 };
 
@@ -48,8 +41,8 @@ struct DiagnosisData {
   std::vector<Group> groups;  // up and down of the first curve, of the second, ...
   std::vector<Mark> marks;
   std::vector<std::string> legend;  // in the order of colours
-  bool triangles = false;
-  double low_V = 0;  // of all voltages
+  bool triangles = false;           // those of the way down
+  double low_V = kUnknown;          // of all voltages; unknown without points
   double span_V = 0;
   double unit_A = 1;          // a hundredth of Isc; 1 mA where there is none
   double largest_before = 0;  // residual, in the unit it is drawn in
@@ -84,14 +77,6 @@ bool BothWays(const Diagnosis& diagnosis, const std::vector<bool>& falling) {
   return std::find(ways.begin(), ways.end(), 3) != ways.end();
 }
 
-Group MakeGroup(int colour, bool triangles, std::size_t index) {
-  const auto block = [index](const char* what) {
-    return DataBlock(fmt::format("{}{}", what, index));
-  };
-  return {colour,           triangles,       block("measured"), block("base"), block("extended"),
-          block("without"), block("before"), block("after")};
-}
-
 // A curve has one colour and, where directions matter, triangles for its way down; the only curve
 // has two colours instead.
 void AddGroups(const Diagnosis& diagnosis, bool both_ways, DiagnosisData* data) {
@@ -99,8 +84,10 @@ void AddGroups(const Diagnosis& diagnosis, bool both_ways, DiagnosisData* data) 
   data->triangles = both_ways && !one;
   for (int curve = 0; curve < static_cast<int>(diagnosis.curves.size()); ++curve) {
     for (const bool down : {false, true}) {
-      const int colour = one && both_ways && down ? 1 : curve;
-      data->groups.push_back(MakeGroup(colour, down && data->triangles, data->groups.size()));
+      Group group;
+      group.look.colour = LookOf(one && both_ways && down ? 1 : curve).colour;
+      group.look.point = down && data->triangles ? 8 : 6;
+      data->groups.push_back(group);
     }
     if (!one) data->legend.push_back(diagnosis.curves[curve].name);
   }
@@ -108,19 +95,18 @@ void AddGroups(const Diagnosis& diagnosis, bool both_ways, DiagnosisData* data) 
 }
 
 void AddPoint(const DiagnosedPoint& point, double unit_A, Group* group) {
-  if (group->segment != point.segment && group->points > 0) {
-    group->base.EndLine();
-    group->extended.EndLine();
-    group->without.EndLine();
-  }
+  const bool ends = group->segment != point.segment && !group->measured.rows.empty();
   group->segment = point.segment;
-  ++group->points;
-  group->measured.Add({point.voltage_V, point.current_A});
-  group->base.Add({point.voltage_V, point.before_A});
-  group->extended.Add({point.voltage_V, point.after_A});
-  group->without.Add({point.voltage_V, point.without_A});
-  group->before.Add({point.voltage_V, Residual(point, point.before_A, unit_A)});
-  group->after.Add({point.voltage_V, Residual(point, point.after_A, unit_A)});
+  const auto add = [&](Series* series, double y) {
+    if (ends) series->EndLine();
+    series->Add(point.voltage_V, y);
+  };
+  add(&group->measured, point.current_A);
+  add(&group->base, point.before_A);
+  add(&group->extended, point.after_A);
+  add(&group->without, point.without_A);
+  add(&group->before, Residual(point, point.before_A, unit_A));
+  add(&group->after, Residual(point, point.after_A, unit_A));
 }
 
 // Readings that stand together become one band; gaps that some readings in between leave do not
@@ -152,25 +138,6 @@ Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause) {
   return mark;
 }
 
-// Which points are drawn: all, or of each curve as many as can be told apart, and those that stand
-// out before or after.
-std::vector<bool> Drawn(const std::vector<DiagnosedPoint>& points, double unit_A) {
-  std::map<int, std::vector<std::size_t>> curves;
-  for (std::size_t i = 0; i < points.size(); ++i) curves[points[i].curve].push_back(i);
-  std::vector<bool> drawn(points.size());
-  for (const auto& [curve, places] : curves) {
-    for (const auto model : {&DiagnosedPoint::before_A, &DiagnosedPoint::after_A}) {
-      std::vector<double> voltage_V, residual;
-      for (const std::size_t i : places) {
-        voltage_V.push_back(points[i].voltage_V);
-        residual.push_back(Residual(points[i], points[i].*model, unit_A));
-      }
-      for (const std::size_t k : MarksToDraw(voltage_V, residual)) drawn[places[k]] = true;
-    }
-  }
-  return drawn;
-}
-
 DiagnosisData Collect(const Diagnosis& diagnosis) {
   DiagnosisData data;
   double largest_A = 0;
@@ -187,13 +154,8 @@ DiagnosisData Collect(const Diagnosis& diagnosis) {
   data.unit_A = largest_A > 0 ? 0.01 * largest_A : 1e-3;
   const std::vector<bool> falling = Falling(diagnosis.points);
   AddGroups(diagnosis, BothWays(diagnosis, falling), &data);
-  const std::vector<bool> drawn = Drawn(diagnosis.points, data.unit_A);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const DiagnosedPoint& point = diagnosis.points[i];
-    if (drawn[i]) {
-      AddPoint(point, data.unit_A,
-               &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)]);
-    }
+  for (const DiagnosedPoint& point : diagnosis.points) {
+    AddPoint(point, data.unit_A, &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)]);
     const auto largest = [&](double model_A, double most) {
       const double residual = std::fabs(Residual(point, model_A, data.unit_A));
       return std::isfinite(residual) ? std::max(most, residual) : most;
@@ -207,116 +169,102 @@ DiagnosisData Collect(const Diagnosis& diagnosis) {
   return data;
 }
 
-std::string Blocks(const DiagnosisData& data) {
-  std::string text;
-  for (const Group& group : data.groups) {
-    text += group.measured.Text() + group.base.Text() + group.extended.Text() +
-            group.without.Text() + group.before.Text() + group.after.Text();
-  }
-  return text;
-}
-
 const char* MarkColour(std::size_t index) { return kMarks[index % kMarks.size()]; }
 
 // Bands behind the points where causes act.
-std::string Bands(const DiagnosisData& data) {
+void AddBands(const DiagnosisData& data, Panel* panel) {
   constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
-  std::string text;
-  int object = 10;
+  const double air = kLeast * data.span_V;
   for (std::size_t i = 0; i < data.marks.size(); ++i) {
     for (const auto& [low, high] : data.marks[i].bands) {
-      const double air = kLeast * data.span_V;
-      text += fmt::format(
-          "set object {} rectangle from first {}, graph 0 to first {}, graph 1 fc rgb '{}' fs "
-          "transparent solid 0.18 noborder behind\n",
-          object++, low - air, high + air, MarkColour(i));
+      panel->bands.push_back({true, low - air, high + air, MarkColour(i), 0.18});
     }
   }
-  return text;
 }
 
 // The titles of the causes below the curve, each at its place.
-std::string MarkLabels(const DiagnosisData& data) {
-  std::string text;
+std::vector<Note> MarkTitles(const DiagnosisData& data) {
+  std::vector<Note> notes(data.marks.size());
   double height = 0.06;
-  for (std::size_t i = data.marks.size(); i-- > 0; height += 0.09) {
+  for (std::size_t i = notes.size(); i-- > 0; height += 0.09) {
     const auto& bands = data.marks[i].bands;
     double middle = 0.5;
     if (!bands.empty() && data.span_V > 0) {
       middle = (0.5 * (bands.front().first + bands.back().second) - data.low_V) / data.span_V;
     }
     const char* const side = middle < 0.3 ? "left" : middle > 0.7 ? "right" : "center";
-    text += fmt::format("set label {} {} at graph {:.3f}, graph {} {} noenhanced tc rgb '{}'\n",
-                        101 + i, GnuplotText(data.marks[i].title),
-                        std::min(std::max(middle, 0.03), 0.97), height, side, MarkColour(i));
+    notes[i] = {data.marks[i].title, MarkColour(i), std::clamp(middle, 0.03, 0.97), height, side};
   }
-  return text;
+  return notes;
 }
 
-double SymbolSize(const Group& group, double size) {
-  return group.points > kManyOfAGroup ? 0.4 * size : 0.8 * size;
+// The voltages are the same in all panels, so that points stand above each other.
+Panel VoltagePanel(const DiagnosisData& data, std::string title, std::string y_label) {
+  Panel panel{std::move(title)};
+  panel.x.label = "Voltage (V)";
+  const double air = data.span_V > 0 ? 0.03 * data.span_V : 1;
+  panel.x.low = data.low_V - air;
+  panel.x.high = data.low_V + data.span_V + air;
+  panel.y.label = std::move(y_label);
+  panel.zero_line = true;
+  return panel;
 }
 
-// The same in all panels, so that points stand above each other.
-std::string VoltageRange(const std::vector<DiagnosedPoint>& points) {
-  if (points.empty()) return "";
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(),
-      [](const DiagnosedPoint& a, const DiagnosedPoint& b) { return a.voltage_V < b.voltage_V; });
-  const double span = high->voltage_V - low->voltage_V;
-  const double air = span > 0 ? 0.03 * span : 1;
-  return fmt::format("set xrange [{}:{}]\n", low->voltage_V - air, high->voltage_V + air);
+// Open or filled.
+Series Marked(const Group& group, const Series& points, bool filled) {
+  Series series = points;
+  series.kind = SeriesKind::kPoints;
+  series.look = group.look;
+  series.look.point += filled ? 1 : 0;
+  series.size = group.measured.rows.size() > kManyOfAGroup ? 0.4 : 0.8;
+  return series;
 }
 
-std::string CurvesPanel(const DiagnosisData& data, bool found, double size) {
-  std::string command;
+Series Line(const Series& points, double width, const Look& look) {
+  Series series = points;
+  series.width = width;
+  series.look = look;
+  return series;
+}
+
+Panel CurvesPanel(const DiagnosisData& data, const Diagnosis& diagnosis) {
+  const bool found = diagnosis.verdict.found;
+  const char* const triangles = data.triangles ? " (triangles: down), " : ", ";
+  Panel panel =
+      VoltagePanel(data,
+                   fmt::format("Measured points{}{} model (dashed){}", triangles, diagnosis.base,
+                               found ? ", with the causes (solid), without them (grey)" : ""),
+                   "Current (A)");
   for (const Group& group : data.groups) {
-    JoinPlot(group.measured,
-             fmt::format("using 1:2 with points pt {} ps {} lc rgb '{}' notitle",
-                         group.triangles ? 8 : 6, SymbolSize(group, size), ColourOf(group.colour)),
-             &command);
+    panel.series.push_back(Marked(group, group.measured, /*filled=*/false));
   }
   // Above all points.
   for (const Group& group : data.groups) {
-    JoinPlot(group.base, "using 1:2 with lines lw 1.4 dt 2 lc rgb '#000000' notitle", &command);
+    panel.series.push_back(Line(group.base, 1.4, {"#000000", 2}));
     if (!found) continue;
-    JoinPlot(group.without, "using 1:2 with lines lw 1.2 dt 4 lc rgb '#888888' notitle", &command);
-    JoinPlot(group.extended,
-             fmt::format("using 1:2 with lines lw 1.6 lc rgb '{}' notitle", ColourOf(group.colour)),
-             &command);
+    panel.series.push_back(Line(group.without, 1.2, {kGrey, 4}));
+    panel.series.push_back(Line(group.extended, 1.6, {group.look.colour}));
   }
-  const double below = 0.04 + 0.1 * static_cast<double>(data.marks.size());  // for the titles
-  return fmt::format(
-             "set autoscale noextend\nset xzeroaxis lc rgb '#888888'\n"
-             "set offsets 0, 0, graph 0.04, graph {}\n",
-             below) +
-         Bands(data) + MarkLabels(data) + PlotLine(command);
+  panel.y.tight = true;
+  panel.y.air_high = 0.04;
+  panel.y.air_low = 0.04 + 0.1 * static_cast<double>(data.marks.size());  // for the titles
+  panel.notes = MarkTitles(data);
+  AddBands(data, &panel);
+  return panel;
 }
 
-// What a model leaves.
-struct Remainder {
-  DataBlock Group::*points;
-  double DiagnosisData::*largest;
-};
-constexpr Remainder kBefore = {&Group::before, &DiagnosisData::largest_before};
-constexpr Remainder kAfter = {&Group::after, &DiagnosisData::largest_after};
-
 // Residuals with the band of what one diode misses of healthy modules.
-std::string ResidualPanel(const DiagnosisData& data, const Remainder& remainder, double size) {
-  std::string command;
+Panel ResidualPanel(const DiagnosisData& data, std::string title, Series Group::*points,
+                    double largest) {
+  Panel panel = VoltagePanel(data, std::move(title), "Model - measured (% of Isc)");
   for (const Group& group : data.groups) {
-    JoinPlot(group.*remainder.points,
-             fmt::format("using 1:2 with points pt {} ps {} lc rgb '{}' notitle",
-                         group.triangles ? 9 : 7, SymbolSize(group, size), ColourOf(group.colour)),
-             &command);
+    panel.series.push_back(Marked(group, group.*points, /*filled=*/true));
   }
-  const double half = std::max(1.1 * data.*remainder.largest, 2 * kBand);
-  return fmt::format(
-             "set offsets 0, 0, 0, 0\nset yrange [{}:{}]\n"
-             "set object 1 rectangle from graph 0, first {} to graph 1, first {} fc rgb '#56B4E9' "
-             "fs transparent solid 0.25 noborder behind\n",
-             -half, half, -kBand, kBand) +
-         Bands(data) + PlotLine(command);
+  panel.y.high = std::max(1.1 * largest, 2 * kBand);
+  panel.y.low = -panel.y.high;
+  panel.bands = {{false, -kBand, kBand}};
+  AddBands(data, &panel);
+  return panel;
 }
 
 std::string Title(const Diagnosis& diagnosis) {
@@ -329,35 +277,27 @@ std::string Title(const Diagnosis& diagnosis) {
   return title + (diagnosis.interrupted ? ", interrupted" : "");
 }
 
-std::string Script(const Diagnosis& diagnosis, const DiagnosisData& data,
-                   const std::string& terminal) {
-  const bool found = diagnosis.verdict.found;
-  const PanelPage page(found ? 3 : 2, 1, Title(diagnosis), LegendMark::kBox, data.legend, 0);
-  const double size = PointSize(terminal);
-  const std::string unit = "Model - measured (% of Isc)";
-  const std::string band = "; band: what it misses of healthy modules";
-  const std::string base = diagnosis.base + " model";
-  std::string script = Blocks(data) + page.Begin(terminal) + VoltageRange(diagnosis.points);
-  script += page.Place(
-      0, {"Measured points" + std::string(data.triangles ? " (triangles: down), " : ", ") + base +
-              " (dashed)" + (found ? ", with the causes (solid), without them (grey)" : ""),
-          "Voltage (V)", "Current (A)"});
-  script += CurvesPanel(data, found, size);
-  script += page.Place(1, {"Residuals of the " + base + band, "Voltage (V)", unit});
-  script += ResidualPanel(data, kBefore, size);
-  if (found) {
-    script += page.Place(2, {"Residuals with the causes", "Voltage (V)", unit});
-    script += ResidualPanel(data, kAfter, size);
-  }
-  return script + PanelPage::End();
-}
-
 }  // namespace
 
-Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path) {
+Figure DiagnosisFigure(const Diagnosis& diagnosis) {
   const DiagnosisData data = Collect(diagnosis);
-  return DrawScript([&](const std::string& terminal) { return Script(diagnosis, data, terminal); },
-                    path);
+  Figure figure{Title(diagnosis), LegendOf(data.legend, LegendMark::kBox)};
+  figure.panels.push_back(CurvesPanel(data, diagnosis));
+  figure.panels.push_back(ResidualPanel(
+      data,
+      fmt::format("Residuals of the {} model; band: what it misses of healthy modules",
+                  diagnosis.base),
+      &Group::before, data.largest_before));
+  if (diagnosis.verdict.found) {
+    figure.panels.push_back(
+        ResidualPanel(data, "Residuals with the causes", &Group::after, data.largest_after));
+  }
+  return figure;
+}
+
+Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path,
+                             PlotPoints points) {
+  return DrawFigure(DiagnosisFigure(diagnosis), path, points);
 }
 
 }  // namespace lyrefit

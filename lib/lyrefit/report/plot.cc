@@ -12,7 +12,8 @@ namespace lyrefit {
 namespace {
 
 constexpr int kModelPoints = 500;
-constexpr std::size_t kManyPoints = 150;  // from here on small pale symbols
+constexpr std::size_t kSomePoints = 60;   // from here on smaller symbols
+constexpr std::size_t kManyPoints = 150;  // from here on small pale ones
 
 // A prefix under which the largest number has its first digit around the point.
 struct Prefix {
@@ -104,7 +105,7 @@ Series Measured(Series series, int symbol, const char* colour, const char* pale)
   series.kind = SeriesKind::kPoints;
   series.look = {many ? pale : colour, 1, symbol};
   series.width = 1.3;
-  series.size = many ? 0.4 : 1.3;
+  series.size = many ? 0.4 : series.rows.size() > kSomePoints ? 0.8 : 1.3;
   return series;
 }
 

@@ -28,13 +28,14 @@ bool HasMarks(const Series& series) {
 }
 
 Shares SharesOf(const Figure& figure) {
-  double marks = 1, corners = 1;
+  double marks = 0, corners = 0;
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
       (HasMarks(series) ? marks : corners) += static_cast<double>(series.rows.size());
     }
   }
-  return {std::min(1.0, kMostMarksDrawn / marks), std::min(1.0, kMostCorners / corners)};
+  return {kMostMarksDrawn / std::max(marks, kMostMarksDrawn),
+          kMostCorners / std::max(corners, kMostCorners)};
 }
 
 // Rows of one stretch; places are equally far apart as they are seen.
@@ -124,8 +125,8 @@ std::string ColourOf(const Series& series) {
 std::string Drawn(const Series& series, double point_size) {
   const Look& look = series.look;
   const std::string columns = look.colour.empty() ? "1:2:3" : "1:2";
-  const std::string line = fmt::format("lw {} dt {}", series.width, look.dash);
-  const std::string point = fmt::format("pt {} ps {}", look.point, point_size * series.size);
+  const std::string line = fmt::format("lw {:.2f} dt {}", series.width, look.dash);
+  const std::string point = fmt::format("pt {} ps {:.2f}", look.point, point_size * series.size);
   const std::string colour = "lc " + ColourOf(series);
   switch (series.kind) {
     case SeriesKind::kPoints:
@@ -144,7 +145,9 @@ std::string Drawn(const Series& series, double point_size) {
 }
 
 std::string PanelCommands(const Panel& panel, double point_size, const Shares& shares) {
-  std::string data, plot;
+  constexpr char kOutliers[] =
+      "set style boxplot range 1.5 outliers pointtype 6\nset pointsize 0.35\n";
+  std::string data, plot, outliers;
   const auto join = [&plot](const std::string& what, bool right_axis, const std::string& title) {
     plot += fmt::format("{}{}{} {}", plot.empty() ? "plot " : ", \\\n ", what,
                         right_axis ? " axes x1y2" : "",
@@ -158,6 +161,7 @@ std::string PanelCommands(const Panel& panel, double point_size, const Shares& s
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     const Series& series = panel.series[s];
     if (series.rows.empty()) continue;
+    if (series.kind == SeriesKind::kBox) outliers = kOutliers;
     data += fmt::format("$s{} << END_OF_DATA\n{}END_OF_DATA\n", s, DataOf(panel, series, shares));
     join(fmt::format("$s{} {}", s, Drawn(series, point_size)), series.right_axis, series.name);
   }
@@ -168,7 +172,7 @@ std::string PanelCommands(const Panel& panel, double point_size, const Shares& s
                         panel.x.air_high, panel.y.air_high, panel.y.air_low);
   script +=
       panel.zero_line ? fmt::format("set xzeroaxis lc rgb '{}'\n", kGrey) : "unset xzeroaxis\n";
-  return script + BandsAndNotes(panel) + (empty ? "plot NaN notitle" : plot) + "\n";
+  return script + outliers + BandsAndNotes(panel) + (empty ? "plot NaN notitle" : plot) + "\n";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 constexpr int kLeft = 96;  // room for the axis of the panels on the left
 constexpr int kGap = 64;   // between panels, for the numbers of the next axis
 constexpr int kRight = 24;
-constexpr int kRightAxis = 72;
+constexpr int kRightAxis = 88;
 constexpr int kTitle = 44;
 constexpr int kLegendRow = 24;
 constexpr int kPanelTitle = 34;
@@ -113,8 +113,7 @@ std::string PageCommands(const Figure& figure, const PageLayout& page,
   std::string script = "set encoding utf8\n" + Terminal(page, terminal);
   script +=
       "set multiplot\nunset key\nset border lw 0.8\nset grid back lt 1 lw 0.6 lc rgb '#d8d8d8'\n"
-      "set tics nomirror out scale 0.6\n"
-      "set style boxplot range 1.5 outliers pointtype 6\nset pointsize 0.35\n";
+      "set tics nomirror out scale 0.6\n";
   script += fmt::format("set label 1001 {} at screen 0.5,{:.5f} center noenhanced\n",
                         GnuplotText(figure.title), 1 - 22 / page.height);
   script += Legend(figure, page);

@@ -58,24 +58,19 @@ Panel BudgetPanel(const ProblemResult& problem, const std::vector<std::string>& 
 }  // namespace
 
 Series ShareLine(const std::string& name, int index, double width) {
-  Series series{SeriesKind::kLineAndPoints, LookOf(index), width};
-  series.size = 1 + 0.15 * width;
+  Series series{SeriesKind::kLineAndPoints, LookOf(index), width, 1 + 0.15 * width};
   series.name = name;
   return series;
 }
 
 Axis BudgetAxis(double low, double high) {
-  Axis axis{"Evaluations of the search"};
-  axis.low = low;
-  axis.high = high;
+  Axis axis{"Evaluations of the search", low, high};
   axis.log = true;
   return axis;
 }
 
 Axis ShareAxis() {
-  Axis axis{"Runs that hit (%)"};
-  axis.low = -4;
-  axis.high = 104;
+  Axis axis{"Runs that hit (%)", -4, 104};
   axis.first_tick = 0;
   axis.tick_step = 20;
   return axis;

@@ -22,8 +22,10 @@ std::vector<double> Idealities(const Certificate& certificate) {
   return n;
 }
 
-Series CosinesOf(const std::vector<double>& n, const std::vector<double>& cosines, double unit) {
-  Series series;
+// Over n, in units of `unit`.
+Series Cosines(const Certificate& certificate, const std::vector<double>& n, double unit,
+               Series series) {
+  const std::vector<double> cosines = DualCosines(certificate, n);
   for (std::size_t i = 0; i < n.size(); ++i) series.Add(n[i], cosines[i] / unit);
   return series;
 }
@@ -37,26 +39,16 @@ Figure CertificateFigure(const Certificate& certificate) {
   const std::vector<double> cosines = DualCosines(certificate, n);
   const double lowest = -*std::min_element(cosines.begin(), cosines.end());
   const double unit = lowest > 0 ? std::pow(10, std::floor(std::log10(lowest))) : 1;
-  Series any = CosinesOf(n, cosines, unit);
-  any.look = LookOf(0);
-  any.width = 2;
-  Series floor = CosinesOf(diodes, DualCosines(certificate, diodes), unit);
-  floor.kind = SeriesKind::kPoints;
-  floor.look = LookOf(1);
-  floor.size = 2;
-
-  Panel panel{"What a diode of ideality n could still gain: nothing above zero"};
-  panel.x.label = "Ideality factor n";
-  panel.x.low = certificate.options.n_lower;
-  panel.x.high = certificate.options.n_upper;
-  panel.y.label = fmt::format("Cosine of dual vector and column ({:.0e})", unit);
+  Panel panel{"What a diode of ideality n could still gain: nothing above zero",
+              {"Ideality factor n", certificate.options.n_lower, certificate.options.n_upper},
+              {fmt::format("Cosine of dual vector and column ({:.0e})", unit)}};
   panel.rules = {{0, kGrey}};
-  panel.series = {std::move(any), std::move(floor)};
-  Figure figure{fmt::format("{}: floor {} A", certificate.curve.name,
-                            Scientific(certificate.floor.rmse_A, 10)),
-                LegendOf({"any diode", "diodes of the floor"}, LegendMark::kLineAndPoint)};
-  figure.panels.push_back(std::move(panel));
-  return figure;
+  panel.series = {Cosines(certificate, n, unit, {SeriesKind::kLine, LookOf(0), 2}),
+                  Cosines(certificate, diodes, unit, {SeriesKind::kPoints, LookOf(1), 1, 2})};
+  return {fmt::format("{}: floor {} A", certificate.curve.name,
+                      Scientific(certificate.floor.rmse_A, 10)),
+          LegendOf({"any diode", "diodes of the floor"}, LegendMark::kLineAndPoint),
+          {std::move(panel)}};
 }
 
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path) {

@@ -42,10 +42,8 @@ struct LogRange {
 Axis LogAxis(const std::string& label, LogRange range, double air) {
   if (!(range.low <= range.high)) range = {1, 10};
   const double decades = std::log10(range.high / range.low);
-  Axis axis{label};
+  Axis axis{label, range.low / air, range.high * air};
   axis.log = true;
-  axis.low = range.low / air;
-  axis.high = range.high * air;
   axis.first_tick = std::pow(10.0, std::ceil(std::log10(range.low) - 1e-9));
   axis.tick_step = std::pow(10.0, std::max(1.0, std::ceil(decades / 9)));
   return axis;
@@ -63,10 +61,8 @@ Panel ConvergencePanel(const Comparison& comparison, const ProblemResult& proble
   Panel panel{PanelTitle(problem)};
   LogRange x, y;
   for (const ContenderResult& contender : problem.contenders) {
-    Series series;
+    Series series{SeriesKind::kLine, LookOf(static_cast<int>(panel.series.size())), 2};
     series.name = contender.name;
-    series.look = LookOf(static_cast<int>(panel.series.size()));
-    series.width = 2;
     for (const MedianPoint& point : contender.trace) {
       if (!(point.best_A < 1e300)) continue;
       const auto evaluations = static_cast<double>(point.evaluations);
@@ -92,9 +88,7 @@ Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
   LogRange y;
   const auto add_box = [&](const ContenderResult& contender, double x, double RunRecord::*end_A,
                            int colour) {
-    Series box{SeriesKind::kBox};
-    box.look.colour = LookOf(colour).colour;
-    box.width = 0.32;
+    Series box{SeriesKind::kBox, LookOf(colour), 0.32};
     box.name = contender.name;
     for (const RunRecord& run : contender.runs) {
       const double above = AboveReference(run.*end_A, problem);

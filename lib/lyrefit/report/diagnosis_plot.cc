@@ -21,37 +21,20 @@ constexpr std::array<const char*, 4> kMarks = {"#F0B400", "#E05080", "#40C0A0", 
 
 // One direction of one curve.
 struct Group {
-  Look look = {};
-  Series measured = {};  // A over V
-  Series base = {};
-  Series extended = {};
-  Series without = {};  // as if there were no cause
-  Series before = {};   // residual over V
-  Series after = {};
-  int segment = -1;  // of the last point
+  Look look;
+  std::vector<const DiagnosedPoint*> points = {};
 };
 
-// Where a cause acts.
-struct Mark {
-  std::string title;
-  std::vector<std::pair<double, double>> bands;  // of the voltage, V
-};
-
-struct DiagnosisData {
-  std::vector<Group> groups;  // up and down of the first curve, of the second, ...
-  std::vector<Mark> marks;
+struct Shown {
+  std::vector<Group> groups;        // up and down of the first curve, of the second, ...
   std::vector<std::string> legend;  // in the order of colours
   bool triangles = false;           // those of the way down
   double low_V = kUnknown;          // of all voltages; unknown without points
   double span_V = 0;
-  double unit_A = 1;          // a hundredth of Isc; 1 mA where there is none
-  double largest_before = 0;  // residual, in the unit it is drawn in
-  double largest_after = 0;
+  double unit_A = 1e-3;     // a hundredth of Isc; 1 mA where there is none
+  std::vector<Band> bands;  // where causes act
+  std::vector<Note> notes;  // their titles
 };
-
-double Residual(const DiagnosedPoint& point, double model_A, double unit_A) {
-  return (model_A - point.current_A) / unit_A;
-}
 
 // Whether the voltages of each segment fall.
 std::vector<bool> Falling(const std::vector<DiagnosedPoint>& points) {
@@ -79,191 +62,161 @@ bool BothWays(const Diagnosis& diagnosis, const std::vector<bool>& falling) {
 
 // A curve has one colour and, where directions matter, triangles for its way down; the only curve
 // has two colours instead.
-void AddGroups(const Diagnosis& diagnosis, bool both_ways, DiagnosisData* data) {
+void AddGroups(const Diagnosis& diagnosis, Shown* shown) {
+  const std::vector<bool> falling = Falling(diagnosis.points);
+  const bool both_ways = BothWays(diagnosis, falling);
   const bool one = diagnosis.curves.size() == 1;
-  data->triangles = both_ways && !one;
+  shown->triangles = both_ways && !one;
   for (int curve = 0; curve < static_cast<int>(diagnosis.curves.size()); ++curve) {
     for (const bool down : {false, true}) {
-      Group group;
-      group.look.colour = LookOf(one && both_ways && down ? 1 : curve).colour;
-      group.look.point = down && data->triangles ? 8 : 6;
-      data->groups.push_back(group);
+      const std::string colour = LookOf(one && both_ways && down ? 1 : curve).colour;
+      shown->groups.push_back({{colour, 1, down && shown->triangles ? 8 : 6}});
     }
-    if (!one) data->legend.push_back(diagnosis.curves[curve].name);
+    if (!one) shown->legend.push_back(diagnosis.curves[curve].name);
   }
-  if (one && both_ways) data->legend = {"up", "down"};
+  if (one && both_ways) shown->legend = {"up", "down"};
+  for (const DiagnosedPoint& point : diagnosis.points) {
+    shown->groups[2 * point.curve + (falling[point.segment] ? 1 : 0)].points.push_back(&point);
+  }
 }
 
-void AddPoint(const DiagnosedPoint& point, double unit_A, Group* group) {
-  const bool ends = group->segment != point.segment && !group->measured.rows.empty();
-  group->segment = point.segment;
-  const auto add = [&](Series* series, double y) {
-    if (ends) series->EndLine();
-    series->Add(point.voltage_V, y);
-  };
-  add(&group->measured, point.current_A);
-  add(&group->base, point.before_A);
-  add(&group->extended, point.after_A);
-  add(&group->without, point.without_A);
-  add(&group->before, Residual(point, point.before_A, unit_A));
-  add(&group->after, Residual(point, point.after_A, unit_A));
-}
-
-// Readings that stand together become one band; gaps that some readings in between leave do not
-// divide it.
-Mark MakeMark(const Diagnosis& diagnosis, const Cause& cause) {
-  constexpr double kGap = 0.05;  // of the range of the voltages
-  Mark mark{cause.title, {}};
+// Where a cause acts. Readings that stand together are one stretch; gaps that some readings in
+// between leave do not divide it.
+std::vector<std::pair<double, double>> Stretches(const Diagnosis& diagnosis, const Cause& cause,
+                                                 double gap_V) {
   std::vector<double> at;
   for (const int i : cause.points) {
     if (i >= 0 && i < static_cast<int>(diagnosis.points.size())) {
       at.push_back(diagnosis.points[i].voltage_V);
     }
   }
-  if (at.empty()) return mark;
   std::sort(at.begin(), at.end());
-  double low = at.front(), high = at.front();
-  for (const DiagnosedPoint& point : diagnosis.points) {
-    low = std::min(low, point.voltage_V);
-    high = std::max(high, point.voltage_V);
-  }
-  const double gap = kGap * (high - low);
+  std::vector<std::pair<double, double>> stretches;
   for (const double v : at) {
-    if (mark.bands.empty() || v > mark.bands.back().second + gap) {
-      mark.bands.emplace_back(v, v);
-    } else {
-      mark.bands.back().second = v;
-    }
+    if (stretches.empty() || v > stretches.back().second + gap_V) stretches.emplace_back(v, v);
+    stretches.back().second = v;
   }
-  return mark;
+  return stretches;
 }
 
-DiagnosisData Collect(const Diagnosis& diagnosis) {
-  DiagnosisData data;
-  double largest_A = 0;
+// Bands behind the points where causes act, and their titles below the curve, each at its place.
+void AddCauses(const Diagnosis& diagnosis, Shown* shown) {
+  constexpr double kGap = 0.05;     // of the range of the voltages
+  constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
+  const std::vector<Cause>& causes = diagnosis.verdict.causes;
+  const double air = kLeast * shown->span_V;
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const char* const colour = kMarks[i % kMarks.size()];
+    const auto stretches = Stretches(diagnosis, causes[i], kGap * shown->span_V);
+    for (const auto& [low, high] : stretches) {
+      shown->bands.push_back({true, low - air, high + air, colour, 0.18});
+    }
+    double middle = 0.5;
+    if (!stretches.empty() && shown->span_V > 0) {
+      const double middle_V = 0.5 * (stretches.front().first + stretches.back().second);
+      middle = (middle_V - shown->low_V) / shown->span_V;
+    }
+    const double height = 0.06 + 0.09 * static_cast<double>(causes.size() - 1 - i);
+    shown->notes.push_back({causes[i].title, colour, std::clamp(middle, 0.03, 0.97), height,
+                            middle < 0.3   ? "left"
+                            : middle > 0.7 ? "right"
+                                           : "center"});
+  }
+}
+
+Shown Collect(const Diagnosis& diagnosis) {
+  Shown shown;
+  double high_V = kUnknown, largest_A = 0;
   for (const DiagnosedPoint& point : diagnosis.points) {
+    shown.low_V = std::fmin(shown.low_V, point.voltage_V);
+    high_V = std::fmax(high_V, point.voltage_V);
     largest_A = std::max(largest_A, point.current_A);
   }
-  if (!diagnosis.points.empty()) {
-    const auto [low, high] = std::minmax_element(
-        diagnosis.points.begin(), diagnosis.points.end(),
-        [](const DiagnosedPoint& a, const DiagnosedPoint& b) { return a.voltage_V < b.voltage_V; });
-    data.low_V = low->voltage_V;
-    data.span_V = high->voltage_V - low->voltage_V;
-  }
-  data.unit_A = largest_A > 0 ? 0.01 * largest_A : 1e-3;
-  const std::vector<bool> falling = Falling(diagnosis.points);
-  AddGroups(diagnosis, BothWays(diagnosis, falling), &data);
-  for (const DiagnosedPoint& point : diagnosis.points) {
-    AddPoint(point, data.unit_A, &data.groups[2 * point.curve + (falling[point.segment] ? 1 : 0)]);
-    const auto largest = [&](double model_A, double most) {
-      const double residual = std::fabs(Residual(point, model_A, data.unit_A));
-      return std::isfinite(residual) ? std::max(most, residual) : most;
-    };
-    data.largest_before = largest(point.before_A, data.largest_before);
-    data.largest_after = largest(point.after_A, data.largest_after);
-  }
-  for (const Cause& cause : diagnosis.verdict.causes) {
-    data.marks.push_back(MakeMark(diagnosis, cause));
-  }
-  return data;
+  if (!diagnosis.points.empty()) shown.span_V = high_V - shown.low_V;
+  if (largest_A > 0) shown.unit_A = 0.01 * largest_A;
+  AddGroups(diagnosis, &shown);
+  AddCauses(diagnosis, &shown);
+  return shown;
 }
 
-const char* MarkColour(std::size_t index) { return kMarks[index % kMarks.size()]; }
-
-// Bands behind the points where causes act.
-void AddBands(const DiagnosisData& data, Panel* panel) {
-  constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
-  const double air = kLeast * data.span_V;
-  for (std::size_t i = 0; i < data.marks.size(); ++i) {
-    for (const auto& [low, high] : data.marks[i].bands) {
-      panel->bands.push_back({true, low - air, high + air, MarkColour(i), 0.18});
-    }
+// A number of each point of a group over the voltage.
+template <typename Value>
+Series OverVoltage(const Group& group, const Value& value) {
+  Series series;
+  int segment = -1;
+  for (const DiagnosedPoint* point : group.points) {
+    if (point->segment != segment && !series.rows.empty()) series.EndLine();
+    segment = point->segment;
+    series.Add(point->voltage_V, value(*point));
   }
-}
-
-// The titles of the causes below the curve, each at its place.
-std::vector<Note> MarkTitles(const DiagnosisData& data) {
-  std::vector<Note> notes(data.marks.size());
-  double height = 0.06;
-  for (std::size_t i = notes.size(); i-- > 0; height += 0.09) {
-    const auto& bands = data.marks[i].bands;
-    double middle = 0.5;
-    if (!bands.empty() && data.span_V > 0) {
-      middle = (0.5 * (bands.front().first + bands.back().second) - data.low_V) / data.span_V;
-    }
-    const char* const side = middle < 0.3 ? "left" : middle > 0.7 ? "right" : "center";
-    notes[i] = {data.marks[i].title, MarkColour(i), std::clamp(middle, 0.03, 0.97), height, side};
-  }
-  return notes;
-}
-
-// The voltages are the same in all panels, so that points stand above each other.
-Panel VoltagePanel(const DiagnosisData& data, std::string title, std::string y_label) {
-  Panel panel{std::move(title)};
-  panel.x.label = "Voltage (V)";
-  const double air = data.span_V > 0 ? 0.03 * data.span_V : 1;
-  panel.x.low = data.low_V - air;
-  panel.x.high = data.low_V + data.span_V + air;
-  panel.y.label = std::move(y_label);
-  panel.zero_line = true;
-  return panel;
-}
-
-// Open or filled.
-Series Marked(const Group& group, const Series& points, bool filled) {
-  Series series = points;
-  series.kind = SeriesKind::kPoints;
-  series.look = group.look;
-  series.look.point += filled ? 1 : 0;
-  series.size = group.measured.rows.size() > kManyOfAGroup ? 0.4 : 0.8;
   return series;
 }
 
-Series Line(const Series& points, double width, const Look& look) {
-  Series series = points;
+// Open or filled.
+Series Marked(const Group& group, Series series, bool filled) {
+  series.kind = SeriesKind::kPoints;
+  series.look = group.look;
+  series.look.point += filled ? 1 : 0;
+  series.size = group.points.size() > kManyOfAGroup ? 0.4 : 0.8;
+  return series;
+}
+
+Series ModelLine(const Group& group, double DiagnosedPoint::*model_A, double width,
+                 const Look& look) {
+  Series series = OverVoltage(group, [&](const DiagnosedPoint& point) { return point.*model_A; });
   series.width = width;
   series.look = look;
   return series;
 }
 
-Panel CurvesPanel(const DiagnosisData& data, const Diagnosis& diagnosis) {
+// The voltages are the same in all panels, so that points stand above each other.
+Panel VoltagePanel(const Shown& shown, const std::string& title, const std::string& y_label) {
+  const double air = shown.span_V > 0 ? 0.03 * shown.span_V : 1;
+  Panel panel{
+      title, {"Voltage (V)", shown.low_V - air, shown.low_V + shown.span_V + air}, {y_label}};
+  panel.bands = shown.bands;
+  panel.zero_line = true;
+  return panel;
+}
+
+Panel CurvesPanel(const Shown& shown, const Diagnosis& diagnosis) {
   const bool found = diagnosis.verdict.found;
-  const char* const triangles = data.triangles ? " (triangles: down), " : ", ";
-  Panel panel =
-      VoltagePanel(data,
-                   fmt::format("Measured points{}{} model (dashed){}", triangles, diagnosis.base,
-                               found ? ", with the causes (solid), without them (grey)" : ""),
-                   "Current (A)");
-  for (const Group& group : data.groups) {
-    panel.series.push_back(Marked(group, group.measured, /*filled=*/false));
+  const std::string title = fmt::format(
+      "Measured points{} {} model (dashed){}", shown.triangles ? " (triangles: down)," : ",",
+      diagnosis.base, found ? ", with the causes (solid), without them (grey)" : "");
+  Panel panel = VoltagePanel(shown, title, "Current (A)");
+  const auto current = [](const DiagnosedPoint& point) { return point.current_A; };
+  for (const Group& group : shown.groups) {
+    panel.series.push_back(Marked(group, OverVoltage(group, current), /*filled=*/false));
   }
   // Above all points.
-  for (const Group& group : data.groups) {
-    panel.series.push_back(Line(group.base, 1.4, {"#000000", 2}));
+  for (const Group& group : shown.groups) {
+    panel.series.push_back(ModelLine(group, &DiagnosedPoint::before_A, 1.4, {"#000000", 2}));
     if (!found) continue;
-    panel.series.push_back(Line(group.without, 1.2, {kGrey, 4}));
-    panel.series.push_back(Line(group.extended, 1.6, {group.look.colour}));
+    panel.series.push_back(ModelLine(group, &DiagnosedPoint::without_A, 1.2, {kGrey, 4}));
+    panel.series.push_back(ModelLine(group, &DiagnosedPoint::after_A, 1.6, {group.look.colour}));
   }
   panel.y.tight = true;
   panel.y.air_high = 0.04;
-  panel.y.air_low = 0.04 + 0.1 * static_cast<double>(data.marks.size());  // for the titles
-  panel.notes = MarkTitles(data);
-  AddBands(data, &panel);
+  panel.y.air_low = 0.04 + 0.1 * static_cast<double>(shown.notes.size());  // for the titles
+  panel.notes = shown.notes;
   return panel;
 }
 
 // Residuals with the band of what one diode misses of healthy modules.
-Panel ResidualPanel(const DiagnosisData& data, std::string title, Series Group::*points,
-                    double largest) {
-  Panel panel = VoltagePanel(data, std::move(title), "Model - measured (% of Isc)");
-  for (const Group& group : data.groups) {
-    panel.series.push_back(Marked(group, group.*points, /*filled=*/true));
+Panel ResidualPanel(const Shown& shown, const std::string& title, double DiagnosedPoint::*model_A) {
+  Panel panel = VoltagePanel(shown, title, "Model - measured (% of Isc)");
+  const auto residual = [&](const DiagnosedPoint& point) {
+    return (point.*model_A - point.current_A) / shown.unit_A;
+  };
+  double largest = 0;
+  for (const Group& group : shown.groups) {
+    panel.series.push_back(Marked(group, OverVoltage(group, residual), /*filled=*/true));
+    for (const auto& row : panel.series.back().rows) largest = std::max(largest, std::fabs(row[1]));
   }
   panel.y.high = std::max(1.1 * largest, 2 * kBand);
   panel.y.low = -panel.y.high;
-  panel.bands = {{false, -kBand, kBand}};
-  AddBands(data, &panel);
+  panel.bands.insert(panel.bands.begin(), {false, -kBand, kBand});
   return panel;
 }
 
@@ -280,17 +233,16 @@ std::string Title(const Diagnosis& diagnosis) {
 }  // namespace
 
 Figure DiagnosisFigure(const Diagnosis& diagnosis) {
-  const DiagnosisData data = Collect(diagnosis);
-  Figure figure{Title(diagnosis), LegendOf(data.legend, LegendMark::kBox)};
-  figure.panels.push_back(CurvesPanel(data, diagnosis));
-  figure.panels.push_back(ResidualPanel(
-      data,
-      fmt::format("Residuals of the {} model; band: what it misses of healthy modules",
-                  diagnosis.base),
-      &Group::before, data.largest_before));
+  const Shown shown = Collect(diagnosis);
+  Figure figure{Title(diagnosis), LegendOf(shown.legend, LegendMark::kBox)};
+  figure.panels = {CurvesPanel(shown, diagnosis),
+                   ResidualPanel(shown,
+                                 "Residuals of the " + diagnosis.base +
+                                     " model; band: what it misses of healthy modules",
+                                 &DiagnosedPoint::before_A)};
   if (diagnosis.verdict.found) {
     figure.panels.push_back(
-        ResidualPanel(data, "Residuals with the causes", &Group::after, data.largest_after));
+        ResidualPanel(shown, "Residuals with the causes", &DiagnosedPoint::after_A));
   }
   return figure;
 }

@@ -110,20 +110,13 @@ struct Extent {
 };
 
 // Coloured by temperature.
-Series Points(int symbol, double size) {
-  Series series{SeriesKind::kPoints};
-  series.look = {"", 1, symbol};
-  series.size = size;
-  return series;
-}
+Series Points(int symbol, double size) { return {SeriesKind::kPoints, {"", 1, symbol}, 1, size}; }
 
 Panel CurvesPanel(const FamilyReport& report, const CurveSet& set) {
   CurveOf sources;
   for (const IvCurve& curve : set.curves) sources[curve.name] = &curve;
   Series measured = Points(6, 0.7);
-  Series model;
-  model.look.colour = "";
-  model.width = 1.6;
+  Series model{SeriesKind::kLine, {""}, 1.6};
   Extent voltage, current;
   for (const FamilyCurve* curve : Drawn(report, sources)) {
     const IvCurve& points = *sources.at(curve->id);
@@ -144,11 +137,9 @@ Panel CurvesPanel(const FamilyReport& report, const CurveSet& set) {
     }
     model.EndLine();
   }
-  Panel panel{"Measured points and model"};
-  panel.x.label = "Voltage (V)";
-  panel.x.low = voltage.AxisBegin();
-  panel.y.label = "Current (A)";
-  panel.y.low = current.AxisBegin();
+  Panel panel{"Measured points and model",
+              {"Voltage (V)", voltage.AxisBegin()},
+              {"Current (A)", current.AxisBegin()}};
   panel.series = {std::move(measured), std::move(model)};
   return panel;
 }
@@ -164,8 +155,7 @@ Panel PerCurvePanel(const FamilyReport& report, const std::string& title, const 
     (curve.role == CurveRole::kHeldOut ? held_out : fitted)
         .Add(curve.irradiance_W_m2, value(curve), curve.temperature_C);
   }
-  Panel panel{title};
-  panel.x.label = "Irradiance (W/m2)";
+  Panel panel{title, {"Irradiance (W/m2)"}};
   panel.x.air_low = panel.x.air_high = 0.04;
   panel.y.air_high = 0.06;
   panel.series = {std::move(held_out), std::move(fitted)};

@@ -67,12 +67,8 @@ bool AlignZeros(Span* a, Span* b) {
 // With some air, and from zero where nothing lies below.
 Axis AxisOf(const Span& span, const Prefix& prefix, const std::string& label, const char* colour) {
   const double air = span.high > span.low ? 0.06 * (span.high - span.low) : 1;
-  Axis axis;
-  axis.label = label;
-  axis.colour = colour;
-  axis.low = (span.low < 0 ? span.low - air : 0.0) * prefix.factor;
-  axis.high = (span.high + air) * prefix.factor;
-  return axis;
+  return {label, (span.low < 0 ? span.low - air : 0.0) * prefix.factor,
+          (span.high + air) * prefix.factor, colour};
 }
 
 std::string Title(const FitReport& report) {
@@ -86,32 +82,12 @@ std::string Title(const FitReport& report) {
 Axis VoltageAxis(const IvCurve& curve) {
   const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
   const double air = *high > *low ? 0.03 * (*high - *low) : 1;
-  Axis axis;
-  axis.label = "Voltage (V)";
-  axis.low = *low - air;
-  axis.high = *high + air;
-  return axis;
+  return {"Voltage (V)", *low - air, *high + air};
 }
 
-Series Over(const std::vector<double>& x, const std::vector<double>& y, double factor) {
-  Series series;
+Series Over(const std::vector<double>& x, const std::vector<double>& y, double factor,
+            Series series) {
   for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) series.Add(x[i], y[i] * factor);
-  return series;
-}
-
-// Symbols of many points are small and pale, so that the model is seen above them.
-Series Measured(Series series, int symbol, const char* colour, const char* pale) {
-  const bool many = series.rows.size() > kManyPoints;
-  series.kind = SeriesKind::kPoints;
-  series.look = {many ? pale : colour, 1, symbol};
-  series.width = 1.3;
-  series.size = many ? 0.4 : series.rows.size() > kSomePoints ? 0.8 : 1.3;
-  return series;
-}
-
-Series Model(Series series, const char* colour, int dash) {
-  series.look = {colour, dash};
-  series.width = 2;
   return series;
 }
 
@@ -132,22 +108,27 @@ Panel CurvePanel(const FitReport& report) {
   const bool one_zero = AlignZeros(&current, &power);
   const Prefix ampere = PrefixFor(current.Largest());
   const Prefix watt = PrefixFor(power.Largest());
-  Panel panel{"Measured points and model"};
-  panel.x = VoltageAxis(report.curve);
-  panel.y = AxisOf(current, ampere, fmt::format("Current ({}A)", ampere.text), kBlue);
-  panel.right = AxisOf(power, watt, fmt::format("Power ({}W)", watt.text), kVermilion);
+  Panel panel{"Measured points and model", VoltageAxis(report.curve),
+              AxisOf(current, ampere, fmt::format("Current ({}A)", ampere.text), kBlue),
+              AxisOf(power, watt, fmt::format("Power ({}W)", watt.text), kVermilion)};
   panel.rules = {{0, "black", 1, 0.8}};
   // Where the power has a zero of its own it is drawn too.
   if (!one_zero) panel.rules.push_back({0, kVermilion, 3, 0.8, /*right_axis=*/true});
-  const auto power_of = [&](Series series) {
-    series.right_axis = true;
-    return series;
+  // Symbols of many points are small and pale, so that the model is seen above them.
+  const std::size_t count = voltage_V.size();
+  const bool many = count > kManyPoints;
+  const double size = many ? 0.4 : count > kSomePoints ? 0.8 : 1.3;
+  const auto measured = [&](const char* colour, int symbol, bool right_axis) {
+    return Series{SeriesKind::kPoints, {colour, 1, symbol}, 1.3, size, right_axis};
+  };
+  const auto model = [](const char* colour, int dash, bool right_axis) {
+    return Series{SeriesKind::kLine, {colour, dash}, 2, 1, right_axis};
   };
   panel.series = {
-      Measured(Over(voltage_V, current_A, ampere.factor), 6, kBlue, kSkyBlue),
-      power_of(Measured(Over(voltage_V, power_W, watt.factor), 8, kVermilion, kOrange)),
-      Model(Over(model_V, model_A, ampere.factor), kBlue, 1),
-      power_of(Model(Over(model_V, Product(model_V, model_A), watt.factor), kVermilion, 2))};
+      Over(voltage_V, current_A, ampere.factor, measured(many ? kSkyBlue : kBlue, 6, false)),
+      Over(voltage_V, power_W, watt.factor, measured(many ? kOrange : kVermilion, 8, true)),
+      Over(model_V, model_A, ampere.factor, model(kBlue, 1, false)),
+      Over(model_V, Product(model_V, model_A), watt.factor, model(kVermilion, 2, true))};
   panel.height = 365;
   return panel;
 }
@@ -162,29 +143,21 @@ Panel ResidualPanel(const FitReport& report) {
   const Prefix prefix = PrefixFor(largest);
   const bool many = report.curve.size() > kManyPoints;
   Panel panel{fmt::format("Residuals, solved-current; band: ± RMSE, {:.3g} {}A",
-                          rmse * prefix.factor, prefix.text)};
-  panel.x = VoltageAxis(report.curve);
-  panel.y.label = fmt::format("Model - measured ({}A)", prefix.text);
-  panel.y.low = -half * prefix.factor;
-  panel.y.high = half * prefix.factor;
+                          rmse * prefix.factor, prefix.text),
+              VoltageAxis(report.curve),
+              {fmt::format("Model - measured ({}A)", prefix.text), -half * prefix.factor,
+               half * prefix.factor}};
   const std::vector<double> at_V = {0};
   const double isc_A = SolveCurrents(report.device, report.refined.data(), at_V).front();
-  if (isc_A > half) {
-    panel.right = Axis{"% of Isc"};
-    panel.right->high = 100 * half / isc_A;
-    panel.right->low = -panel.right->high;
-  }
+  const double percent = 100 * half / isc_A;
+  if (isc_A > half) panel.right = Axis{"% of Isc", -percent, percent};
   panel.rules = {{0}};
   panel.bands = {{false, -rmse * prefix.factor, rmse * prefix.factor}};
-  Series stems = Over(report.curve.voltage_V, report.residual_A, prefix.factor);
-  Series points = stems;
-  stems.kind = SeriesKind::kStems;
-  stems.look.colour = many ? kSkyBlue : kBlue;
-  stems.width = many ? 0.3 : 1.2;
-  points.kind = SeriesKind::kPoints;
-  points.look = {kBlue, 1, 7};
-  points.size = many ? 0.4 : 0.8;
-  panel.series = {std::move(stems), std::move(points)};
+  const auto residuals = [&](Series series) {
+    return Over(report.curve.voltage_V, report.residual_A, prefix.factor, std::move(series));
+  };
+  panel.series = {residuals({SeriesKind::kStems, {many ? kSkyBlue : kBlue}, many ? 0.3 : 1.2}),
+                  residuals({SeriesKind::kPoints, {kBlue, 1, 7}, 1, many ? 0.4 : 0.8})};
   panel.height = 197;
   return panel;
 }

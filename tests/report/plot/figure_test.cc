@@ -95,7 +95,7 @@ TEST(Figure, HasPanelsThatKnowNothingOfEachOther) {
   first.x.log = first.y.tight = first.zero_line = true;
   first.x.ticks = {{"here", 1}};
   first.x.slanted = true;
-  first.right = Axis{"right", "black", 0, 1};
+  first.right = Axis{"right", 0, 1};
   figure.panels.push_back(plain.panels[0]);
   const auto after = [](const std::string& script) {
     return script.substr(script.find("set title 'panel'", script.find("set title") + 1));

@@ -58,10 +58,10 @@ struct Tick {
 
 struct Axis {
   std::string label;
-  std::string colour = "black";  // of the label
-  double low = kUnknown;         // unknown ends are those of the data, at the next tick
+  double low = kUnknown;  // unknown ends are those of the data, at the next tick
   double high = kUnknown;
-  double air_low = 0;  // room beyond the data where an end is unknown, of the panel
+  std::string colour = "black";  // of the label
+  double air_low = 0;            // room beyond the data where an end is unknown, of the panel
   double air_high = 0;
   bool tight = false;  // an unknown end is not moved to the next tick
   bool log = false;

@@ -25,7 +25,7 @@ struct Group {
   std::vector<const DiagnosedPoint*> points = {};
 };
 
-struct Shown {
+struct ShownDiagnosis {
   std::vector<Group> groups;        // up and down of the first curve, of the second, ...
   std::vector<std::string> legend;  // in the order of colours
   bool triangles = false;           // those of the way down
@@ -62,7 +62,7 @@ bool BothWays(const Diagnosis& diagnosis, const std::vector<bool>& falling) {
 
 // A curve has one colour and, where directions matter, triangles for its way down; the only curve
 // has two colours instead.
-void AddGroups(const Diagnosis& diagnosis, Shown* shown) {
+void AddGroups(const Diagnosis& diagnosis, ShownDiagnosis* shown) {
   const std::vector<bool> falling = Falling(diagnosis.points);
   const bool both_ways = BothWays(diagnosis, falling);
   const bool one = diagnosis.curves.size() == 1;
@@ -100,7 +100,7 @@ std::vector<std::pair<double, double>> Stretches(const Diagnosis& diagnosis, con
 }
 
 // Bands behind the points where causes act, and their titles below the curve, each at its place.
-void AddCauses(const Diagnosis& diagnosis, Shown* shown) {
+void AddCauses(const Diagnosis& diagnosis, ShownDiagnosis* shown) {
   constexpr double kGap = 0.05;     // of the range of the voltages
   constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
@@ -124,8 +124,8 @@ void AddCauses(const Diagnosis& diagnosis, Shown* shown) {
   }
 }
 
-Shown Collect(const Diagnosis& diagnosis) {
-  Shown shown;
+ShownDiagnosis Collect(const Diagnosis& diagnosis) {
+  ShownDiagnosis shown;
   double high_V = kUnknown, largest_A = 0;
   for (const DiagnosedPoint& point : diagnosis.points) {
     shown.low_V = std::fmin(shown.low_V, point.voltage_V);
@@ -170,7 +170,8 @@ Series ModelLine(const Group& group, double DiagnosedPoint::*model_A, double wid
 }
 
 // The voltages are the same in all panels, so that points stand above each other.
-Panel VoltagePanel(const Shown& shown, const std::string& title, const std::string& y_label) {
+Panel VoltagePanel(const ShownDiagnosis& shown, const std::string& title,
+                   const std::string& y_label) {
   const double air = shown.span_V > 0 ? 0.03 * shown.span_V : 1;
   Panel panel{
       title, {"Voltage (V)", shown.low_V - air, shown.low_V + shown.span_V + air}, {y_label}};
@@ -179,7 +180,7 @@ Panel VoltagePanel(const Shown& shown, const std::string& title, const std::stri
   return panel;
 }
 
-Panel CurvesPanel(const Shown& shown, const Diagnosis& diagnosis) {
+Panel CurvesPanel(const ShownDiagnosis& shown, const Diagnosis& diagnosis) {
   const bool found = diagnosis.verdict.found;
   const std::string title = fmt::format(
       "Measured points{} {} model (dashed){}", shown.triangles ? " (triangles: down)," : ",",
@@ -204,7 +205,8 @@ Panel CurvesPanel(const Shown& shown, const Diagnosis& diagnosis) {
 }
 
 // Residuals with the band of what one diode misses of healthy modules.
-Panel ResidualPanel(const Shown& shown, const std::string& title, double DiagnosedPoint::*model_A) {
+Panel ResidualPanel(const ShownDiagnosis& shown, const std::string& title,
+                    double DiagnosedPoint::*model_A) {
   Panel panel = VoltagePanel(shown, title, "Model - measured (% of Isc)");
   const auto residual = [&](const DiagnosedPoint& point) {
     return (point.*model_A - point.current_A) / shown.unit_A;
@@ -233,7 +235,7 @@ std::string Title(const Diagnosis& diagnosis) {
 }  // namespace
 
 Figure DiagnosisFigure(const Diagnosis& diagnosis) {
-  const Shown shown = Collect(diagnosis);
+  const ShownDiagnosis shown = Collect(diagnosis);
   Figure figure{Title(diagnosis), LegendOf(shown.legend, LegendMark::kBox)};
   figure.panels = {CurvesPanel(shown, diagnosis),
                    ResidualPanel(shown,

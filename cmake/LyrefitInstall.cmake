@@ -67,6 +67,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/healthy_text.h
   report/json_report.h
   report/plot.h
+  report/plot/figure.h
   report/pvlib_json.h
   report/text_report.h
   # laws, and what an effect of one's own is written with

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string Content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -24,6 +26,90 @@ std::string Content(const std::string& path) {
 
 int FilesIn(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(FitFigure, LabelsTheRmseByTheFittedObjective) {
+  FitReport report = SampleReport();
+  EXPECT_THAT(FigureScript(FitFigure(report), "svg"), HasSubstr("RMSE 0.000773 A solved-current'"));
+  report.objective = Objective::kMeasuredCurrent;
+  EXPECT_THAT(FigureScript(FitFigure(report), "svg"),
+              HasSubstr("RMSE 0.0009891 A measured-current'"));
+}
+
+TEST(FitFigure, SaysInterruptedAndNotPolished) {
+  FitReport report = SampleReport();
+  report.interrupted = true;
+  report.polished = false;
+  EXPECT_THAT(FigureScript(FitFigure(report), "png"),
+              HasSubstr("model, interrupted: RMSE 0.000776 A"));
+  EXPECT_THAT(FigureScript(FitFigure(report), "png"), HasSubstr("solved-current, not polished'"));
+}
+
+TEST(FitFigure, LeavesOutWhatIsNotFinite) {
+  FitReport report = SampleReport();
+  report.residual_A[3] = kUnknown;
+  EXPECT_THAT(FigureScript(FitFigure(report), "svg"), Not(HasSubstr("nan")));
+}
+
+// Where zero lies on an axis, from 0 to 1.
+double ZeroOf(const Axis& axis) { return -axis.low / (axis.high - axis.low); }
+
+// Whether the zero of the right axis is drawn.
+bool HasZeroOfTheRight(const Panel& panel) {
+  return std::any_of(panel.rules.begin(), panel.rules.end(),
+                     [](const Rule& rule) { return rule.right_axis && rule.y == 0; });
+}
+
+// A long tail beyond open circuit, where power falls further than current.
+TEST(FitFigure, HasTheZerosOfBothAxesAtOneHeightOrDrawsBoth) {
+  FitReport report = SampleReport();
+  report.curve.current_A.back() = -4;
+  const Panel tail = FitFigure(report).panels[0];
+  EXPECT_NEAR(ZeroOf(tail.y), ZeroOf(*tail.right), 1e-9);
+  EXPECT_FALSE(HasZeroOfTheRight(tail));
+  // Deep reverse bias: much negative power, no negative current.
+  report = SampleReport();
+  report.curve.voltage_V.front() = -40;
+  EXPECT_TRUE(HasZeroOfTheRight(FitFigure(report).panels[0]));
+}
+
+TEST(FitFigure, ShowsResidualsInPercentOfTheShortCircuitCurrent) {
+  const FitReport report = SampleReport();
+  const Panel residuals = FitFigure(report).panels[1];
+  ASSERT_TRUE(residuals.right);
+  EXPECT_EQ(residuals.right->label, "% of Isc");
+  // 0.76 A, and the left axis in mA.
+  EXPECT_NEAR(residuals.right->high / residuals.y.high, 0.1 / 0.7603, 1e-4);
+  EXPECT_NEAR(ZeroOf(*residuals.right), ZeroOf(residuals.y), 1e-12);
+}
+
+TEST(FitFigure, HasNoPercentInTheDark) {
+  FitReport report = SampleReport();
+  report.refined[kIph] = 0;
+  EXPECT_FALSE(FitFigure(report).panels[1].right);
+}
+
+TEST(FitFigure, DrawsTheModelAboveAllPoints) {
+  const Panel panel = FitFigure(SampleReport()).panels[0];
+  ASSERT_EQ(panel.series.size(), 4U);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(panel.series[i].kind == SeriesKind::kPoints, i < 2);
+}
+
+TEST(FitFigure, DrawsNoMoreMarksThanCanBeToldApart) {
+  FitReport report = SampleReport();
+  for (int i = 0; i < 12; ++i) {
+    for (auto* values : {&report.curve.voltage_V, &report.curve.current_A, &report.residual_A,
+                         &report.model_current_A}) {
+      const std::vector<double> copy = *values;
+      values->insert(values->end(), copy.begin(), copy.end());
+    }
+  }
+  ASSERT_GT(report.curve.size(), 100000U);
+  EXPECT_LT(FigureScript(FitFigure(report), "svg").size(), 300000U);
+  const TempFolder folder;
+  ASSERT_TRUE(PlotFit(report, folder.Path("fit.svg")));
+  EXPECT_LT(Content(folder.Path("fit.svg")).size(), 1000000U);
+  EXPECT_GT(FigureScript(FitFigure(report), "svg", PlotPoints::kAll).size(), 3000000U);
 }
 
 TEST(PlotFit, WritesAnSvgWithItsLabels) {

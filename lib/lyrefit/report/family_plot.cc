@@ -9,19 +9,14 @@
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/quote.h"
-#include "lyrefit/report/data_block.h"
-#include "lyrefit/report/panels.h"
-#include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
-#include "lyrefit/report/thin_marks.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr std::size_t kMostDrawn = 12;
 constexpr int kFamilyModelPoints = 200;
-constexpr int kColourBar = 60;  // room for it under the panels, in pixels
 
 using CurveOf = std::map<std::string, const IvCurve*>;
 
@@ -100,89 +95,82 @@ std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf&
   return drawn;
 }
 
-struct FamilyData {
-  DataBlock measured{"measured"};
-  DataBlock model{"model"};
-  DataBlock fitted{"fitted"};      // irradiance, RMSE in mA, temperature
-  DataBlock held_out{"held_out"};  // the same
-  DataBlock mean{"mean"};          // of fitted curves: irradiance, mean residual in mA, temperature
-  DataBlock mean_held_out{"mean_held_out"};
-  double lowest_V = 0;
-  double highest_V = 0;
-  double lowest_A = 0;
-  double highest_A = 0;
-  double coldest_C = 1e9;
-  double hottest_C = -1e9;
+struct Extent {
+  double low = 0;
+  double high = 0;
+  void Add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  // Where an axis begins: at 0 if only the scatter of its first points lies below.
+  double AxisBegin() const {
+    constexpr double kScatter = 0.02;
+    return low < -kScatter * high ? kUnknown : 0;
+  }
 };
 
-void AddCurve(const FamilyReport& report, const FamilyCurve& curve, const IvCurve& points,
-              FamilyData* data) {
-  for (const std::size_t i : MarksToDraw(points.voltage_V, points.current_A)) {
-    data->measured.Add({points.voltage_V[i], points.current_A[i], curve.temperature_C});
+// Coloured by temperature.
+Series Points(int symbol, double size) { return {SeriesKind::kPoints, {"", 1, symbol}, 1, size}; }
+
+Panel CurvesPanel(const FamilyReport& report, const CurveSet& set) {
+  CurveOf sources;
+  for (const IvCurve& curve : set.curves) sources[curve.name] = &curve;
+  Series measured = Points(6, 0.7);
+  Series model{SeriesKind::kLine, {""}, 1.6};
+  Extent voltage, current;
+  for (const FamilyCurve* curve : Drawn(report, sources)) {
+    const IvCurve& points = *sources.at(curve->id);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      measured.Add(points.voltage_V[i], points.current_A[i], curve->temperature_C);
+      voltage.Add(points.voltage_V[i]);
+      current.Add(points.current_A[i]);
+    }
+    measured.EndLine();
+    const auto [low, high] = std::minmax_element(points.voltage_V.begin(), points.voltage_V.end());
+    std::vector<double> voltage_V(kFamilyModelPoints);
+    for (int i = 0; i < kFamilyModelPoints; ++i) {
+      voltage_V[i] = *low + (*high - *low) * i / (kFamilyModelPoints - 1);
+    }
+    const std::vector<double> current_A = ModelCurrents(report, *curve, voltage_V);
+    for (std::size_t i = 0; i < current_A.size(); ++i) {
+      model.Add(voltage_V[i], current_A[i], curve->temperature_C);
+    }
+    model.EndLine();
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    data->lowest_V = std::min(data->lowest_V, points.voltage_V[i]);
-    data->highest_V = std::max(data->highest_V, points.voltage_V[i]);
-    data->lowest_A = std::min(data->lowest_A, points.current_A[i]);
-    data->highest_A = std::max(data->highest_A, points.current_A[i]);
-  }
-  const auto [low, high] = std::minmax_element(points.voltage_V.begin(), points.voltage_V.end());
-  std::vector<double> voltage_V(kFamilyModelPoints);
-  for (int i = 0; i < kFamilyModelPoints; ++i) {
-    voltage_V[i] = *low + (*high - *low) * i / (kFamilyModelPoints - 1);
-  }
-  const std::vector<double> current_A = ModelCurrents(report, curve, voltage_V);
-  for (std::size_t i = 0; i < current_A.size(); ++i) {
-    data->model.Add({voltage_V[i], current_A[i], curve.temperature_C});
-  }
-  data->model.EndLine();
+  Panel panel{"Measured points and model",
+              {"Voltage (V)", voltage.AxisBegin()},
+              {"Current (A)", current.AxisBegin()}};
+  panel.series = {std::move(measured), std::move(model)};
+  return panel;
 }
 
-FamilyData Collect(const FamilyReport& report, const CurveSet& set) {
-  CurveOf points;
-  for (const IvCurve& curve : set.curves) points[curve.name] = &curve;
-  FamilyData data;
-  for (const FamilyCurve* curve : Drawn(report, points)) {
-    AddCurve(report, *curve, *points.at(curve->id), &data);
-  }
+// A number of each curve over its irradiance: filled those fitted, open those held out, beneath
+// them.
+template <typename Value>
+Panel PerCurvePanel(const FamilyReport& report, const std::string& title, const Value& value) {
+  Series held_out = Points(6, 1.2);
+  Series fitted = Points(7, 1.2);
   for (const FamilyCurve& curve : report.curves) {
     if (curve.role == CurveRole::kLeftOut) continue;
-    const RmsePair& rmse = report.estimates.empty() ? curve.free_rmse : curve.rmse;
-    const bool held_out = curve.role == CurveRole::kHeldOut;
-    DataBlock* const errors = held_out ? &data.held_out : &data.fitted;
-    errors->Add({curve.irradiance_W_m2, 1e3 * rmse.solved_current_A, curve.temperature_C});
-    DataBlock* const means = held_out ? &data.mean_held_out : &data.mean;
-    means->Add({curve.irradiance_W_m2, 1e3 * curve.mean_residual_A, curve.temperature_C});
-    data.coldest_C = std::min(data.coldest_C, curve.temperature_C);
-    data.hottest_C = std::max(data.hottest_C, curve.temperature_C);
+    (curve.role == CurveRole::kHeldOut ? held_out : fitted)
+        .Add(curve.irradiance_W_m2, value(curve), curve.temperature_C);
   }
-  return data;
+  Panel panel{title, {"Irradiance (W/m2)"}};
+  panel.x.air_low = panel.x.air_high = 0.04;
+  panel.y.air_high = 0.06;
+  panel.series = {std::move(held_out), std::move(fitted)};
+  return panel;
 }
 
-std::string ColourBar(const FamilyData& data) {
-  const bool one = !(data.hottest_C - data.coldest_C > 0.5);
-  return fmt::format(
-      "set palette defined (0 '#0072B2', 0.5 '#8C8C8C', 1 '#D55E00')\n"
-      "set cbrange [{:g}:{:g}]\n"
-      "set colorbox horizontal user origin screen 0.36, screen 0.105 size screen 0.28, screen "
-      "0.025\n"
-      "set cblabel 'Cell temperature (C)' offset 0,0.4\n",
-      one ? data.coldest_C - 1 : data.coldest_C, one ? data.hottest_C + 1 : data.hottest_C);
-}
-
-// Where an axis begins: at 0 if only the scatter of its first points lies below.
-const char* AxisBegin(double lowest, double highest) {
-  constexpr double kScatter = 0.02;
-  return lowest < -kScatter * highest ? "*" : "0";
-}
-
-// The points of both blocks: filled those fitted, open those held out, beneath them.
-std::string BothRoles(const DataBlock& held_out, const DataBlock& fitted, double size) {
-  constexpr char kPoints[] = "using 1:2:3 with points pt {} ps {} lc palette notitle";
-  std::string command;
-  JoinPlot(held_out, fmt::format(kPoints, 6, size), &command);
-  JoinPlot(fitted, fmt::format(kPoints, 7, size), &command);
-  return command;
+ColourBar TemperatureBar(const FamilyReport& report) {
+  double coldest_C = 1e9, hottest_C = -1e9;
+  for (const FamilyCurve& curve : report.curves) {
+    if (curve.role == CurveRole::kLeftOut) continue;
+    coldest_C = std::min(coldest_C, curve.temperature_C);
+    hottest_C = std::max(hottest_C, curve.temperature_C);
+  }
+  const double air = hottest_C - coldest_C > 0.5 ? 0 : 1;
+  return {"Cell temperature (C)", coldest_C - air, hottest_C + air};
 }
 
 std::string Title(const FamilyReport& report) {
@@ -201,46 +189,34 @@ std::string Title(const FamilyReport& report) {
   return title + (report.interrupted ? ", interrupted" : "");
 }
 
-std::string CurvesPanel(const FamilyData& data, double size) {
-  std::string curves;
-  JoinPlot(data.measured,
-           fmt::format("using 1:2:3 with points pt 6 ps {} lc palette notitle", 0.7 * size),
-           &curves);
-  JoinPlot(data.model, "using 1:2:3 with lines lw 1.6 lc palette notitle", &curves);
-  return fmt::format("set xrange [{}:*]\nset yrange [{}:*]\n",
-                     AxisBegin(data.lowest_V, data.highest_V),
-                     AxisBegin(data.lowest_A, data.highest_A)) +
-         PlotLine(curves) + "unset colorbox\nset xrange [*:*]\n";
-}
-
-std::string Script(const FamilyReport& report, const FamilyData& data,
-                   const std::string& terminal) {
-  const PanelPage page(3, 3, Title(report), LegendMark::kLine, {}, kColourBar);
-  const double size = PointSize(terminal);
-  const std::string open = data.held_out.empty() ? "" : "; open: held out";
-  std::string script = data.measured.Text() + data.model.Text() + data.fitted.Text() +
-                       data.held_out.Text() + data.mean.Text() + data.mean_held_out.Text() +
-                       page.Begin(terminal) + ColourBar(data);
-  script += page.Place(0, {"Measured points and model", "Voltage (V)", "Current (A)"});
-  script += CurvesPanel(data, size);
-  script += page.Place(
-      1, {"RMSE of each curve (mA, solved-current" + open + ")", "Irradiance (W/m2)", ""});
-  script += "set offsets graph 0.04, graph 0.04, graph 0.06, 0\nset yrange [0:*]\n";
-  script += PlotLine(BothRoles(data.held_out, data.fitted, 1.2 * size));
-  script += page.Place(2, {"Mean of model - measured (mA" + open + ")", "Irradiance (W/m2)", ""});
-  script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\nset yrange [*:*]\n";
-  script += "set xzeroaxis lc rgb '#888888'\n";
-  script += PlotLine(BothRoles(data.mean_held_out, data.mean, 1.2 * size));
-  return script + PanelPage::End();
-}
-
 }  // namespace
 
-Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set,
-                          const std::string& path) {
-  const FamilyData data = Collect(report, set);
-  return DrawScript([&](const std::string& terminal) { return Script(report, data, terminal); },
-                    path);
+Figure FamilyFigure(const FamilyReport& report, const CurveSet& set) {
+  const bool held_out =
+      std::any_of(report.curves.begin(), report.curves.end(),
+                  [](const FamilyCurve& curve) { return curve.role == CurveRole::kHeldOut; });
+  const std::string open = held_out ? "; open: held out)" : ")";
+  Panel rmse = PerCurvePanel(
+      report, "RMSE of each curve (mA, solved-current" + open, [&](const FamilyCurve& curve) {
+        const RmsePair& pair = report.estimates.empty() ? curve.free_rmse : curve.rmse;
+        return 1e3 * pair.solved_current_A;
+      });
+  rmse.y.low = 0;
+  Panel mean = PerCurvePanel(report, "Mean of model - measured (mA" + open,
+                             [](const FamilyCurve& curve) { return 1e3 * curve.mean_residual_A; });
+  mean.y.air_low = 0.06;
+  mean.zero_line = true;
+
+  Figure figure{Title(report)};
+  figure.panels = {CurvesPanel(report, set), std::move(rmse), std::move(mean)};
+  figure.columns = 3;
+  figure.colour_bar = TemperatureBar(report);
+  return figure;
+}
+
+Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set, const std::string& path,
+                          PlotPoints points) {
+  return DrawFigure(FamilyFigure(report, set), path, points);
 }
 
 }  // namespace lyrefit

@@ -133,7 +133,7 @@ TEST(ComparePlots, RefuseOtherExtensionsAndEmptyComparisons) {
 
 TEST(ComparePlots, KeepTheirLowestLineOffZero) {
   // A logarithmic axis has no place for runs that end on the reference itself.
-  EXPECT_THAT(BoxScript(SampleComparison(), "svg"), Not(HasSubstr("\n0 0\n")));
+  EXPECT_THAT(FigureScript(BoxFigure(SampleComparison()), "svg"), Not(HasSubstr("\n0 0\n")));
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace lyrefit {
 
 // Pictures of a comparison, drawn with gnuplot into a .svg or .png file, one panel a problem.
 // Written completely or not at all. Errors: another extension, gnuplot missing, `path` not
-// writable, nothing to draw. CheckPlot() of plot.h finds the first two beforehand.
+// writable, nothing to draw. CheckPlot() of plot/figure.h finds the first two
+// beforehand.
 
 // How far the runs end above the reference, on a logarithmic scale: a box a contender for the
 // search alone and one after the polish. What is closer than 1e-10 of the reference lies on the

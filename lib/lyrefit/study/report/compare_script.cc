@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-
-#include "lyrefit/report/panels.h"
 
 namespace lyrefit {
 namespace {
@@ -43,117 +39,108 @@ struct LogRange {
 };
 
 // With `air` on both sides, and a number at every decade, or every second where there are many.
-std::string LogAxis(const char* axis, LogRange range, double air) {
+Axis LogAxis(const std::string& label, LogRange range, double air) {
   if (!(range.low <= range.high)) range = {1, 10};
   const double decades = std::log10(range.high / range.low);
-  const int step = std::max(1, static_cast<int>(std::ceil(decades / 9)));
-  const double first = std::pow(10.0, std::ceil(std::log10(range.low) - 1e-9));
-  return fmt::format(
-      "set logscale {0}\nset {0}range [{1:.6g}:{2:.6g}]\nset format {0} '10^{{%T}}'\n"
-      "set {0}tics {3:.6g}, 1e{4}\nset m{0}tics {5}\n",
-      axis, range.low / air, range.high * air, first, step, step == 1 ? 10 : 1);
+  Axis axis{label, range.low / air, range.high * air};
+  axis.log = true;
+  axis.first_tick = std::pow(10.0, std::ceil(std::log10(range.low) - 1e-9));
+  axis.tick_step = std::pow(10.0, std::max(1.0, std::ceil(decades / 9)));
+  return axis;
 }
 
 double AboveReference(double rmse, const ProblemResult& problem) {
   return std::max(rmse - problem.reference.rmse_A, kFloor * problem.reference.rmse_A);
 }
 
-std::string ConvergencePanel(const Comparison& comparison, const ProblemResult& problem) {
+std::string HeightLabel(const Comparison& comparison) {
+  return fmt::format("RMSE above reference (A, {})", ToText(comparison.options.objective));
+}
+
+Panel ConvergencePanel(const Comparison& comparison, const ProblemResult& problem) {
+  Panel panel{PanelTitle(problem)};
   LogRange x, y;
-  std::string data, plot;
-  for (std::size_t c = 0; c < problem.contenders.size(); ++c) {
-    data += fmt::format("$c{} << END_OF_DATA\n", c);
-    for (const MedianPoint& point : problem.contenders[c].trace) {
+  for (const ContenderResult& contender : problem.contenders) {
+    Series series{SeriesKind::kLine, LookOf(static_cast<int>(panel.series.size())), 2};
+    series.name = contender.name;
+    for (const MedianPoint& point : contender.trace) {
       if (!(point.best_A < 1e300)) continue;
+      const auto evaluations = static_cast<double>(point.evaluations);
       const double above = AboveReference(point.best_A, problem);
-      x.Add(static_cast<double>(point.evaluations));
+      x.Add(evaluations);
       y.Add(above);
-      fmt::format_to(std::back_inserter(data), "{} {}\n", point.evaluations, above);
+      series.Add(evaluations, above);
     }
-    data += "END_OF_DATA\n";
-    plot +=
-        fmt::format(", \\\n $c{} using 1:2 with lines lw 2 {}", c, LineLook(static_cast<int>(c)));
+    panel.series.push_back(std::move(series));
   }
   const double target = comparison.options.target_gap * problem.reference.rmse_A;
   y.Add(target);
-  return data + LogAxis("x", x, 1.1) + LogAxis("y", y, 2) +
-         fmt::format("plot {} with lines lw 1 lc rgb '#606060' dt 3{}\n", target, plot);
+  panel.rules = {{target, "#606060", 3}};
+  panel.x = LogAxis("Evaluations of the objective", x, 1.1);
+  panel.y = LogAxis(HeightLabel(comparison), y, 2);
+  return panel;
 }
 
 // Two boxes a contender; the data are clipped at the floor before gnuplot takes quartiles.
-std::string BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
+Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
+  const bool polish = comparison.options.polish;
+  Panel panel{PanelTitle(problem)};
   LogRange y;
-  std::string data, plot, ticks;
-  const int count = static_cast<int>(problem.contenders.size());
-  for (int c = 0; c < count; ++c) {
-    const ContenderResult& contender = problem.contenders[c];
-    data += fmt::format("$c{} << END_OF_DATA\n", c);
+  const auto add_box = [&](const ContenderResult& contender, double x, double RunRecord::*end_A,
+                           int colour) {
+    Series box{SeriesKind::kBox, LookOf(colour), 0.32};
+    box.name = contender.name;
     for (const RunRecord& run : contender.runs) {
-      const double searched = AboveReference(run.searched_A, problem);
-      const double polished =
-          comparison.options.polish ? AboveReference(run.polished_A, problem) : searched;
-      y.Add(searched);
-      y.Add(polished);
-      fmt::format_to(std::back_inserter(data), "{} {}\n", std::min(searched, 1e300),
-                     std::min(polished, 1e300));
+      const double above = AboveReference(run.*end_A, problem);
+      y.Add(above);
+      box.Add(x, std::min(above, 1e300));
     }
-    data += "END_OF_DATA\n";
-    const double shift = comparison.options.polish ? 0.2 : 0;
-    plot += fmt::format("{} $c{} using ({}):1:(0.32) with boxplot fs solid 0.45 lc rgb '{}'",
-                        c == 0 ? "plot" : ", \\\n", c, c + 1 - shift, ColourOf(0));
-    if (comparison.options.polish) {
-      plot += fmt::format(", \\\n $c{} using ({}):2:(0.32) with boxplot fs solid 0.45 lc rgb '{}'",
-                          c, c + 1 + shift, ColourOf(1));
-    }
-    ticks += fmt::format("{}{} {}", c == 0 ? "" : ", ", GnuplotText(contender.name), c + 1);
+    panel.series.push_back(std::move(box));
+  };
+  const double shift = polish ? 0.2 : 0;
+  double place = 0;
+  for (const ContenderResult& contender : problem.contenders) {
+    ++place;
+    add_box(contender, place - shift, &RunRecord::searched_A, 0);
+    if (polish) add_box(contender, place + shift, &RunRecord::polished_A, 1);
+    panel.x.ticks.push_back({contender.name, place});
   }
-  return data + "set style boxplot range 1.5 outliers pointtype 6\nset pointsize 0.35\n" +
-         LogAxis("y", y, 3) +
-         fmt::format(
-             "set xrange [0.4:{}]\nset xtics ({}) rotate by 40 right noenhanced offset 0.6,0.2\n",
-             count + 0.6, ticks) +
-         plot + "\n";
-}
-
-std::string YAxis(const Comparison& comparison) {
-  return fmt::format("RMSE above reference (A, {})", ToText(comparison.options.objective));
+  panel.x.slanted = true;
+  panel.x.low = 0.4;
+  panel.x.high = place + 0.6;
+  panel.y = LogAxis(HeightLabel(comparison), y, 3);
+  return panel;
 }
 
 }  // namespace
 
-std::string ConvergenceScript(const Comparison& comparison, const std::string& terminal) {
-  const int count = static_cast<int>(comparison.problems.size());
-  const PanelPage page(count, Columns(comparison),
-                       fmt::format("Median of {} runs; dotted: target of {:g} above the reference",
-                                   comparison.options.runs, comparison.options.target_gap),
-                       LegendMark::kLine, Names(comparison.problems[0]), 0);
-  std::string script = page.Begin(terminal);
-  for (int p = 0; p < count; ++p) {
-    script += page.Place(
-        p, {PanelTitle(comparison.problems[p]), "Evaluations of the objective", YAxis(comparison)});
-    script += ConvergencePanel(comparison, comparison.problems[p]);
+Figure ConvergenceFigure(const Comparison& comparison) {
+  Figure figure{fmt::format("Median of {} runs; dotted: target of {:g} above the reference",
+                            comparison.options.runs, comparison.options.target_gap),
+                LegendOf(Names(comparison.problems[0]), LegendMark::kLine)};
+  figure.columns = Columns(comparison);
+  for (const ProblemResult& problem : comparison.problems) {
+    figure.panels.push_back(ConvergencePanel(comparison, problem));
   }
-  return script + PanelPage::End();
+  return figure;
 }
 
-std::string BoxScript(const Comparison& comparison, const std::string& terminal) {
-  const int count = static_cast<int>(comparison.problems.size());
+Figure BoxFigure(const Comparison& comparison) {
   std::vector<std::string> legend = {"search alone"};
   if (comparison.options.polish) legend.emplace_back("after the polish");
   std::size_t longest = 0;
   for (const std::string& name : Names(comparison.problems[0])) {
     longest = std::max(longest, name.size());
   }
-  const PanelPage page(count, Columns(comparison),
-                       fmt::format("{} runs each; lowest line: equal to the reference within {:g}",
-                                   comparison.options.runs, kFloor),
-                       LegendMark::kBox, legend, std::max(0, 6 * static_cast<int>(longest) - 30));
-  std::string script = page.Begin(terminal);
-  for (int p = 0; p < count; ++p) {
-    script += page.Place(p, {PanelTitle(comparison.problems[p]), "", YAxis(comparison)});
-    script += BoxPanel(comparison, comparison.problems[p]);
+  Figure figure{fmt::format("{} runs each; lowest line: equal to the reference within {:g}",
+                            comparison.options.runs, kFloor),
+                LegendOf(legend, LegendMark::kBox)};
+  figure.columns = Columns(comparison);
+  figure.room_below = std::max(0, 6 * static_cast<int>(longest) - 30);
+  for (const ProblemResult& problem : comparison.problems) {
+    figure.panels.push_back(BoxPanel(comparison, problem));
   }
-  return script + PanelPage::End();
+  return figure;
 }
 
 }  // namespace lyrefit

@@ -1,17 +1,22 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "lyrefit/report/plot/figure.h"
 #include "lyrefit/study/comparison.h"
 
 namespace lyrefit {
 
-// gnuplot commands that draw a comparison on standard output. `terminal` is "svg" or "png".
-std::string BoxScript(const Comparison& comparison, const std::string& terminal);
-std::string ConvergenceScript(const Comparison& comparison, const std::string& terminal);
-std::string BudgetScript(const Comparison& comparison, const std::string& terminal);
+// Pictures of a comparison, one panel a problem, as compare_plot.h describes them. There is at
+// least one problem.
+Figure BoxFigure(const Comparison& comparison);
+Figure ConvergenceFigure(const Comparison& comparison);
+Figure BudgetFigure(const Comparison& comparison);
 // pool_script.cc: the same of pooled problems.
-std::string PoolScript(const Comparison& comparison, const std::string& terminal);
+Figure PoolFigure(const Comparison& comparison);
+
+// budget_script.cc: what a panel of shares of runs over budgets consists of. Lines that lie on each
+// other are drawn one in the other, the first one widest.
+Series ShareLine(const std::string& name, int index, double width);
+Axis BudgetAxis(double low, double high);
+Axis ShareAxis();
 
 }  // namespace lyrefit

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "lyrefit/report/panels.h"
 #include "lyrefit/study/pool.h"
 #include "lyrefit/study/report/compare_script.h"
 
@@ -16,7 +15,7 @@ constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best bi
                                      "all starts"};
 
 // Of all problems, in the order they come: the searches first, then what has no budget.
-std::vector<std::string> LegendOf(const std::vector<PooledProblem>& pools) {
+std::vector<std::string> AlgorithmsOf(const std::vector<PooledProblem>& pools) {
   std::vector<std::string> names;
   for (const bool search : {true, false}) {
     for (const PooledProblem& pool : pools) {
@@ -30,92 +29,70 @@ std::vector<std::string> LegendOf(const std::vector<PooledProblem>& pools) {
   return names;
 }
 
-struct BudgetRange {
-  double least = 1e300;
-  double most = 0;
-  std::string ticks;  // for gnuplot, one at every budget
-};
-
-BudgetRange RangeOf(const std::vector<PooledProblem>& pools) {
-  BudgetRange range;
+// With a tick at every budget.
+Axis AxisOf(const std::vector<PooledProblem>& pools) {
   std::set<std::int64_t> budgets;
   for (const PooledProblem& pool : pools) {
     for (const PooledContender& contender : pool.contenders) {
-      if (contender.budget == 0) continue;
-      budgets.insert(contender.budget);
-      range.least = std::min(range.least, static_cast<double>(contender.budget));
-      range.most = std::max(range.most, static_cast<double>(contender.budget));
+      if (contender.budget > 0) budgets.insert(contender.budget);
     }
   }
-  if (budgets.empty()) return {1, 10, "1, 10"};
+  const bool none = budgets.empty();
+  if (none) budgets = {1, 10};
+  const double air = none ? 1 : 1.6;
+  Axis axis = BudgetAxis(static_cast<double>(*budgets.begin()) / air,
+                         static_cast<double>(*budgets.rbegin()) * air);
   for (const std::int64_t budget : budgets) {
-    range.ticks += fmt::format("{}{}", range.ticks.empty() ? "" : ", ", budget);
+    const auto place = static_cast<double>(budget);
+    axis.ticks.push_back({fmt::format("{:g}", place), place});
   }
-  range.least /= 1.6;
-  range.most *= 1.6;
-  return range;
+  return axis;
 }
 
 // A contender without a budget is a line all across.
-std::string PoolPanel(const PooledProblem& pool, const std::vector<std::string>& names,
-                      PolishLevel level, const BudgetRange& range, const std::string& terminal) {
-  std::string data, plot;
+Panel PoolPanel(const PooledProblem& pool, const std::vector<std::string>& names, std::size_t level,
+                const Axis& budgets) {
+  Panel panel{fmt::format("{}: {}", pool.name, kLevelTitles[level]), budgets, ShareAxis()};
   const int count = static_cast<int>(names.size());
   const double step = std::min(1.2, 6.0 / count);
   for (int a = 0; a < count; ++a) {
-    std::string points;
-    bool across = false;
+    Series series = ShareLine(names[a], a, 1.2 + step * (count - 1 - a));
     for (const PooledContender& contender : pool.contenders) {
-      const auto& at = contender.At(level);
+      const auto& at = contender.At(kPolishLevels[level]);
       if (contender.algorithm != names[a] || !at) continue;
       const double share = 100.0 * at->hits / std::max(at->runs, 1);
-      across = contender.budget == 0;
-      if (across) {
-        points += fmt::format("{} {}\n{} {}\n", range.least, share, range.most, share);
-      } else {
-        points += fmt::format("{} {}\n", contender.budget, share);
+      if (contender.budget > 0) {
+        series.Add(static_cast<double>(contender.budget), share);
+        continue;
       }
+      series.kind = SeriesKind::kLine;
+      series.width = 1.6;
+      series.Add(budgets.low, share);
+      series.Add(budgets.high, share);
     }
-    if (points.empty()) continue;
-    data += fmt::format("$a{} << END_OF_DATA\n{}END_OF_DATA\n", a, points);
-    const double width = 1.2 + step * (count - 1 - a);
-    plot += fmt::format("{} $a{} using 1:2 with ", plot.empty() ? "plot" : ", \\\n", a);
-    plot += across ? fmt::format("lines lw 1.6 {}", LineLook(a))
-                   : fmt::format("linespoints lw {:.2f} pt {} ps {:.2f} {}", width, PointLook(a),
-                                 PointSize(terminal) * (1 + 0.15 * width), LineLook(a));
+    panel.series.push_back(std::move(series));
   }
-  if (plot.empty()) plot = "plot NaN notitle";
-  return data +
-         fmt::format(
-             "set logscale x\nset xrange [{:g}:{:g}]\nset format x '%g'\nset xtics ({})\n"
-             "set yrange [-4:104]\nset ytics 0,20\n",
-             range.least, range.most, range.ticks) +
-         plot + "\n";
+  return panel;
 }
 
 }  // namespace
 
-std::string PoolScript(const Comparison& comparison, const std::string& terminal) {
+Figure PoolFigure(const Comparison& comparison) {
   const std::vector<PooledProblem> pools = PoolProblems(comparison);
-  const std::vector<std::string> names = LegendOf(pools);
-  const BudgetRange range = RangeOf(pools);
-  const int levels = static_cast<int>(kPolishLevels.size());
-  const PanelPage page(static_cast<int>(pools.size()) * levels, levels,
-                       "Share of runs that hit: within 1e-6 of the best known optimum of the "
-                       "device; of equal lines the first is the widest; lines all across have no "
-                       "budget",
-                       LegendMark::kLineAndPoint, names, 0, pools.size() > kFewRows ? 180 : 300);
-  std::string script = page.Begin(terminal);
-  int panel = 0;
+  const std::vector<std::string> names = AlgorithmsOf(pools);
+  const Axis budgets = AxisOf(pools);
+  Figure figure{
+      "Share of runs that hit: within 1e-6 of the best known optimum of the device; of "
+      "equal lines the first is the widest; lines all across have no budget",
+      LegendOf(names, LegendMark::kLineAndPoint)};
+  figure.columns = static_cast<int>(kPolishLevels.size());
   for (const PooledProblem& pool : pools) {
-    for (int l = 0; l < levels; ++l) {
-      script += page.Place(panel, {fmt::format("{}: {}", pool.name, kLevelTitles[l]),
-                                   "Evaluations of the search", "Runs that hit (%)"});
-      script += PoolPanel(pool, names, kPolishLevels[l], range, terminal);
-      ++panel;
+    for (std::size_t level = 0; level < kPolishLevels.size(); ++level) {
+      figure.panels.push_back(PoolPanel(pool, names, level, budgets));
+      if (pools.size() > kFewRows) figure.panels.back().height = 180;
     }
   }
-  return script + PanelPage::End();
+  return figure;
 }
 
 }  // namespace lyrefit

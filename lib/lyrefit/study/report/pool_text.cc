@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::size_t kColumns = 6;  // budgets beside each other
 
-std::string Percent(double share) { return std::isnan(share) ? "-" : Significant(100 * share, 3); }
+std::string InPercent(double share) {
+  return std::isnan(share) ? "-" : Significant(100 * share, 3);
+}
 
 // Every budget, 0 first where there are contenders without one.
 std::vector<std::int64_t> BudgetsOf(const PooledProblem& pool) {
@@ -97,9 +99,9 @@ std::string FailureTable(const PooledProblem& pool) {
       any = true;
       table.Add({contender.name, ToText(level), std::to_string(failures.runs),
                  std::to_string(failures.basins), std::to_string(failures.commonest),
-                 Percent(failures.commonest_excess), Percent(failures.median_excess),
-                 Percent(failures.worst_excess), Percent(failures.median_deviation),
-                 Percent(failures.worst_deviation)});
+                 InPercent(failures.commonest_excess), InPercent(failures.median_excess),
+                 InPercent(failures.worst_excess), InPercent(failures.median_deviation),
+                 InPercent(failures.worst_deviation)});
     }
   }
   if (!any) return "";

@@ -8,7 +8,7 @@ namespace lyrefit {
 // More marks than these nobody can tell apart, and a picture of them all is many megabytes.
 constexpr std::size_t kMostMarks = 2000;
 
-// The places of about `most` points (at least 10) that look like all of them: in equal steps of x
+// The places of about `most` points (at least 4) that look like all of them: in equal steps of x
 // the lowest and the highest y and two in between, and the first and last point. Rising; all places
 // if there are no more points than that. Points that are not finite are left out where there are
 // more.

@@ -1,4 +1,4 @@
-#include "lyrefit/report/thin_marks.h"
+#include "lyrefit/report/plot/thin_marks.h"
 
 #include <algorithm>
 #include <cmath>

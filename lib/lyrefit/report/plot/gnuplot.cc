@@ -1,4 +1,4 @@
-#include "lyrefit/report/gnuplot.h"
+#include "lyrefit/report/plot/gnuplot.h"
 
 #include <fmt/format.h>
 #include <spawn.h>

@@ -13,7 +13,7 @@
 #include "lyrefit/report/family_csv.h"
 #include "lyrefit/report/family_json.h"
 #include "lyrefit/report/family_plot.h"
-#include "lyrefit/report/family_text.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/pvlib_json.h"
 #include "lyrefit/report/truth_text.h"
 #include "lyrefit/study/truth.h"

@@ -7,7 +7,7 @@
 #include "interrupt.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
-#include "lyrefit/report/text_report.h"
+#include "lyrefit/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/report/text_report.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -62,5 +62,18 @@ TEST(TextTable, AlignsColumnsByTheirWidestCell) {
   EXPECT_EQ(table.Text(), "  name   value\n  \u00b5          1\n  alone\n");
 }
 
+TEST(TextTable, WrapsALastColumnOfLongTexts) {
+  TextTable table("rw");
+  table.Add({"RMSE", "what"});
+  std::string words;
+  for (int i = 0; i < 30; ++i) words += "word ";
+  table.Add({"1", words});
+  table.Add({"2"});
+  const std::string text = table.Text();
+  EXPECT_EQ(text.substr(0, 36), "  RMSE  what\n     1  word word word w");
+  EXPECT_NE(text.find("\n        word"), std::string::npos);
+  EXPECT_EQ(text.substr(text.size() - 7), "     2\n");
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -37,7 +37,7 @@ TEST(DrawHtml, IsAPageOfPlainElements) {
 <head>
 <meta charset="utf-8"/>
 <title>title</title>
-<style>.number { text-align: right }</style>
+<style>th { text-align: left } .number { text-align: right }</style>
 </head>
 <body>
 <p role="alert"><strong>INTERRUPTED: early.</strong></p>
@@ -86,6 +86,13 @@ TEST(DrawHtml, EscapesNames) {
   EXPECT_THAT(html, HasSubstr("<h3>below</h3>"));
 }
 
+TEST(DrawHtml, ReplacesWhatIsNoText) {
+  Document document;
+  AddField("latin", "\xe9t\xc3\xa9 \x1b[1m \xff", &document.head);
+  EXPECT_THAT(DrawHtml(document), HasSubstr("<dd>\xef\xbf\xbdt\xc3\xa9 \xef\xbf\xbd[1m \xef\xbf\xbd"
+                                            "</dd>"));
+}
+
 // What a parser that forgives nothing says of a page; nothing if all is well.
 std::string Complaints(const std::string& html) {
   const TempFolder folder;
@@ -102,7 +109,7 @@ TEST(DrawHtml, IsWellFormedForEveryRecord) {
     GTEST_SKIP() << "xmllint is not there (Debian's libxml2-utils)";
   }
   FitReport fit = SampleReport();
-  fit.curve.name = "<!-- & ]]> \"curve\" \x07";
+  fit.curve.name = "<!-- & ]]> \"curve\" \x07 \xe9";
   fit.warnings = {"a < b"};
   fit.usable = false;
   Diagnosis diagnosis = SampleDiagnosis();

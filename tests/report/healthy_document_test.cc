@@ -47,5 +47,15 @@ TEST(OddSweepsText, ShowsTheOddOnesOnly) {
   EXPECT_THAT(BriefOddSweeps(SampleOddSweeps()), HasSubstr("1 of 2 sweeps odd\n"));
 }
 
+TEST(OddSweepsDocument, HasWhatIsSaidOfASweepBelowIt) {
+  const Document document = OddSweepsDocument(SampleOddSweeps());
+  ASSERT_GE(document.sections.size(), 2U);
+  EXPECT_EQ(document.sections[0].heading, "today");
+  EXPECT_EQ(document.sections[0].depth, 0);
+  EXPECT_EQ(document.sections[1].depth, 1);
+  EXPECT_EQ(document.sections.back().heading, "Not compared");
+  EXPECT_EQ(document.sections.back().depth, 0);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -168,8 +168,7 @@ inline Plan SamplePlan() {
             "the sweep backwards",
             "noise as measured",
             0.97,
-            {{"irr_step", 0.96, 3.5, "drift"},
-             {"drift", 0.98, kUnknown, "irr_step"}}}},
+            {{"irr_step", 0.96, 3.5, "drift"}, {"drift", 0.98, kUnknown, "irr_step"}}}},
           "take the sweep backwards"};
 }
 

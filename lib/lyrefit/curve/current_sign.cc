@@ -93,8 +93,7 @@ void TurnLoadSign(IvCurve* curve) {
     case CurrentSign::kUnclear:
       curve->assumptions.push_back(
           "the signs of voltage and current fit no generator (the current at zero volt and its "
-          "trend "
-          "disagree): both were left as written");
+          "trend disagree): both were left as written");
       return;
   }
 }

@@ -78,9 +78,8 @@ Effect Scatter() {
   e.where = Where::kDevice;
   e.equation =
       "lights of the cells have width s, normal or lopsided towards an exponential by q; the "
-      "dimmest, "
-      "t widths beyond its place, and others lie in the substrings in turn; in reverse "
-      "I = ... + Iph (-Vj / A)^m";
+      "dimmest, t widths beyond its place, and others lie in the substrings in turn; in reverse I "
+      "= ... + Iph (-Vj / A)^m";
   e.reference = "Bucciarelli 1979, doi:10.1016/0038-092X(79)90117-9";
   e.sentence = "no two cells deliver the same current, and the weaker ones limit the others";
   e.needs = "a curve of a module";

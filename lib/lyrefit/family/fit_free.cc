@@ -163,8 +163,7 @@ Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options
   if (2 * correlated > fitted) {
     report.warnings.push_back(fmt::format(
         "The residuals keep their sign too long in {} of {} fits (p below {:g} in the runs test): "
-        "a "
-        "law that misses, or noise that hangs together from point to point. The intervals of the "
+        "a law that misses, or noise that hangs together from point to point. The intervals of the "
         "single fits are too narrow then; the spread between fits of equal curves is the honest "
         "measure.",
         correlated, fitted, kCorrelated));

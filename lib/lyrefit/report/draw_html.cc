@@ -1,12 +1,27 @@
+#include <string_view>
+
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/report/document.h"
 
 namespace lyrefit {
 namespace {
 
-// What HTML reads as its own is spelled out, what it may not hold becomes U+FFFD.
+constexpr const char* kUnreadable = "\xef\xbf\xbd";  // U+FFFD, in place of what a page may not hold
+
+// Names come from files, and files hold anything.
+std::string Readable(std::string_view text) {
+  std::string readable;
+  while (const auto bad = FirstInvalidUtf8(text)) {
+    readable.append(text.substr(0, *bad)).append(kUnreadable);
+    text.remove_prefix(*bad + 1);
+  }
+  return readable.append(text);
+}
+
+// What HTML reads as its own is spelled out.
 std::string HtmlEscaped(const std::string& text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : Readable(text)) {
     switch (c) {
       case '&':
         html += "&amp;";
@@ -29,8 +44,11 @@ std::string HtmlEscaped(const std::string& text) {
         html += ' ';
         break;
       default:
-        html +=
-            static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? "\xef\xbf\xbd" : std::string(1, c);
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+          html += kUnreadable;
+        } else {
+          html += c;
+        }
     }
   }
   return html;
@@ -120,7 +138,7 @@ std::string DrawHtml(const Document& document) {
       "<head>\n"
       "<meta charset=\"utf-8\"/>\n";
   html += Element("title", title.empty() ? "lyrefit" : title) + "\n";
-  html += "<style>.number { text-align: right }</style>\n</head>\n<body>\n";
+  html += "<style>th { text-align: left } .number { text-align: right }</style>\n</head>\n<body>\n";
   for (const std::string& banner : document.banners) {
     html += "<p role=\"alert\">" + Element("strong", banner) + "</p>\n";
   }

@@ -159,8 +159,7 @@ std::string StartsText(const RefineReport& refine) {
 // The sections on what came out.
 
 Section ChoiceSection(const FitReport& report) {
-  Section section = {"Choice of the model"};
-  if (!report.choice) return section;
+  if (!report.choice) return {};
   const std::string rmse = fmt::format("RMSE in A ({})", ToText(report.objective));
   block::Table table = {
       "lrrrrl", {{"model", rmse, "held out", "AICc", "F-test p", "every parameter identifiable"}}};
@@ -170,23 +169,19 @@ Section ChoiceSection(const FitReport& report) {
                           Decimals(c.aicc), Significant(c.f_p_value, 2),
                           c.identifiable ? "yes" : "no"});
   }
-  AddTable(std::move(table), &section);
-  AddSentence(report.choice->sentence, &section);
-  return section;
+  return {"Choice of the model", {table, block::Sentence{report.choice->sentence}}};
 }
 
 // What of the effects is free, where that followed from the shape of the curve.
 Section FormSection(const FitReport& report) {
-  Section section = {"Choice of the form"};
-  if (report.forms.empty()) return section;
+  if (report.forms.empty()) return {};
   block::Table table = {"rrw",
                         {{"RMSE in A (solved-current)", "BIC above the best", "of the effects"}}};
   for (const FormReport& form : report.forms) {
     const char* mark = form.chosen ? " <-" : form.finished ? "" : " (given up: at most this much)";
     table.rows.push_back({Scientific(form.rmse_A, 6), Decimals(form.bic_above), form.what + mark});
   }
-  AddTable(std::move(table), &section);
-  return section;
+  return {"Choice of the form", {table}};
 }
 
 Section ParameterSection(const FitReport& report) {
@@ -276,9 +271,7 @@ Section KeyPointSection(const FitReport& report) {
                           Significant(simulated, kValueDigits), Difference(measured, simulated),
                           row.unit});
   }
-  Section section = {"Key points"};
-  AddTable(std::move(table), &section);
-  return section;
+  return {"Key points", {table}};
 }
 
 // The sections on how far to trust it.

@@ -46,7 +46,7 @@ std::string RangeText(const FamilyReport& report) {
                      hot->temperature_C);
 }
 
-std::string Law(const FamilyReport& report) {
+std::string LawText(const FamilyReport& report) {
   const TranslationSpec& spec = report.translation.spec;
   return fmt::format("{}, shunt {}{}", ToText(spec.law), ToText(spec.shunt),
                      spec.recombination ? ", recombination in the i-layer" : "");
@@ -70,7 +70,7 @@ Section FamilyHead(const FamilyReport& report) {
       "conditions",
       fmt::format("{}; {} in series", RangeText(report), Plural(report.cells_in_series, "cell")),
       &head);
-  if (!OneByOne(report)) AddField("law", Law(report), &head);
+  if (!OneByOne(report)) AddField("law", LawText(report), &head);
   if (!report.with.empty()) AddField("effects", EffectTitles(report.with), &head);
   AddField("objective",
            fmt::format("{}; constants {}; seed {}", ToText(report.objective),

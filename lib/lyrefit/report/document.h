@@ -46,7 +46,7 @@ struct Preformatted {
   std::string line;
 };
 
-// A picture, told by its caption where there is none.
+// A picture, of which a terminal shows nothing; so far its caption alone.
 struct Figure {
   std::string caption;
 };

@@ -37,12 +37,12 @@ std::string BoundText(double bound);
 std::vector<std::string> Banners(bool interrupted, bool usable, const std::string& because,
                                  const std::vector<std::string>& doubts);
 
-// The lines of the doubts alone.
-std::string DoubtLines(const std::vector<std::string>& doubts);
-
 // The same, and how many warnings there are, at the end of a report of one line.
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
                        const std::string& because = {});
+
+// The banners of the doubts alone, drawn for a terminal.
+std::string DoubtLines(const std::vector<std::string>& doubts);
 
 // "Rs (ohm)", "n1".
 std::string LabelWithUnit(const ParameterInfo& info);

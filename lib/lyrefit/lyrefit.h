@@ -21,8 +21,8 @@
 // Certify proves how low a curve's RMSE can go, Compare runs searches (yours as well) against each
 // other, Audit checks published parameters. FitDataSheet finds a device from a data sheet alone,
 // PvlibParameters hands one to pvlib. Diagnose says what the model gets wrong in a measurement and
-// why. FitDocument, FamilyDocument and their kin are the reports as data, for DrawText, DrawMarkdown
-// and DrawHtml.
+// why. FitDocument, FamilyDocument and their kin are the reports as data, for DrawText,
+// DrawMarkdown and DrawHtml.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/curve_set.h"

@@ -188,9 +188,7 @@ Section ParameterSection(const FitReport& report) {
   Section section = {"Parameters"};
   block::Table table = {"lrrrll",
                         {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
-  for (const Estimate& e : report.estimates) {
-    table.rows.push_back(ParameterRow(e, report.polished));
-  }
+  for (const Estimate& e : report.estimates) table.rows.push_back(ParameterRow(e, report.polished));
   AddTable(std::move(table), &section);
   if (!report.polished) {
     AddSentence("No polish was done: the searched values are the answer.", &section);

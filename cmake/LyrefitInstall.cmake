@@ -52,24 +52,20 @@ set(LYREFIT_PUBLIC_HEADERS
   # writers of records
   report/certificate_json.h
   report/certificate_plot.h
-  report/certificate_text.h
   report/data_sheet_json.h
-  report/data_sheet_text.h
   report/diagnosis_json.h
   report/diagnosis_plot.h
-  report/diagnosis_text.h
+  report/document.h
+  report/documents.h
   report/family_csv.h
   report/family_json.h
   report/family_plot.h
-  report/family_text.h
   report/fits_table.h
   report/healthy_json.h
-  report/healthy_text.h
   report/json_report.h
   report/plot.h
   report/plot/figure.h
   report/pvlib_json.h
-  report/text_report.h
   # laws, and what an effect of one's own is written with
   law/curve_shape.h
   law/device.h

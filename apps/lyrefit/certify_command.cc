@@ -3,7 +3,7 @@
 #include "interrupt.h"
 #include "lyrefit/report/certificate_json.h"
 #include "lyrefit/report/certificate_plot.h"
-#include "lyrefit/report/certificate_text.h"
+#include "lyrefit/report/documents.h"
 #include "output.h"
 #include "study_flags.h"
 

@@ -9,7 +9,7 @@
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/data_sheet_json.h"
-#include "lyrefit/report/data_sheet_text.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/pvlib_json.h"
 #include "output.h"
 

@@ -10,7 +10,7 @@
 #include "interrupt.h"
 #include "lyrefit/report/diagnosis_json.h"
 #include "lyrefit/report/diagnosis_plot.h"
-#include "lyrefit/report/diagnosis_text.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_report.h"
 #include "output.h"
 #include "study_flags.h"

@@ -3,9 +3,8 @@
 #include "diagnose_command.h"
 #include "interrupt.h"
 #include "lyrefit/report/diagnosis_plot.h"
-#include "lyrefit/report/diagnosis_text.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/healthy_json.h"
-#include "lyrefit/report/healthy_text.h"
 #include "lyrefit/report/json_report.h"
 #include "output.h"
 

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/document.h"
 
 namespace lyrefit {
 namespace {
@@ -28,6 +29,21 @@ std::string ConfusedText(const Effect& effect) {
   return text.empty() ? "nothing in the catalogue" : text;
 }
 
+Section ParameterSection(const Effect& effect) {
+  Section section;
+  if (effect.parameters.empty()) return section;
+  block::Table table = {"lll", {{"parameter", "bounds", "meaning (unit in reports)"}}};
+  for (const EffectParameter& parameter : effect.parameters) {
+    table.rows.push_back({parameter.symbol, BoundsText(parameter), ParameterText(parameter)});
+  }
+  AddTable(std::move(table), &section);
+  AddSentence(
+      "Bounds are of the equation's own units: voltages per cell, currents in parts of the "
+      "short-circuit current.",
+      &section);
+  return section;
+}
+
 }  // namespace
 
 Expected<void> CheckEffects(const std::string& flag, const std::vector<std::string>& ids) {
@@ -43,37 +59,34 @@ Expected<void> CheckEffects(const std::string& flag, const std::vector<std::stri
 }
 
 Expected<std::string> ExplainEffect(const std::string& id) {
-  if (auto checked = CheckEffects("--explain", {id}); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY(CheckEffects("--explain", {id}));
   const Effect& effect = *FindEffect(id);
-  std::string text =
-      fmt::format("{} ({})\n", effect.title, effect.id) + Wrap("  ", effect.sentence) + "\n" +
-      Field("equation", effect.equation) + Field("reference", effect.reference) +
-      Field("where", fmt::format("{}; {}", ToText(effect.where), effect.acts)) +
-      Field("data needed", effect.needs) + Field("confused with", ConfusedText(effect)) +
-      Field("to tell", effect.separate_by);
-  if (effect.probes == nullptr)
-    text += Field("found", "by looking at values and residuals, not by a fit of its own");
-  if (effect.parameters.empty()) return text;
-  TextTable table("lll");
-  table.Add({"parameter", "bounds", "meaning (unit in reports)"});
-  for (const EffectParameter& parameter : effect.parameters) {
-    table.Add({parameter.symbol, BoundsText(parameter), ParameterText(parameter)});
+  Document document;
+  document.head.heading = fmt::format("{} ({})", effect.title, effect.id);
+  AddSentence(effect.sentence, &document.head);
+  Section law;
+  AddField("equation", effect.equation, &law);
+  AddField("reference", effect.reference, &law);
+  AddField("where", fmt::format("{}; {}", ToText(effect.where), effect.acts), &law);
+  AddField("data needed", effect.needs, &law);
+  AddField("confused with", ConfusedText(effect), &law);
+  AddField("to tell", effect.separate_by, &law);
+  if (effect.probes == nullptr) {
+    AddField("found", "by looking at values and residuals, not by a fit of its own", &law);
   }
-  return text + "\n" + table.Text() +
-         Wrap("  ",
-              "Bounds are of the equation's own units: voltages per cell, currents in parts of "
-              "the short-circuit current.");
+  AddSections({law, ParameterSection(effect)}, &document);
+  return DrawText(document);
 }
 
 std::string EffectList() {
-  TextTable table("lll");
-  table.Add({"effect", "title", "where"});
+  block::Table table = {"lll", {{"effect", "title", "where"}}};
   for (const Effect* effect : Catalogue()) {
-    table.Add({effect->id, effect->title, ToText(effect->where)});
+    table.rows.push_back({effect->id, effect->title, ToText(effect->where)});
   }
-  return table.Text() + Wrap("  ", "lyrefit diagnose --explain EFFECT says more of one.");
+  Document document;
+  AddTable(std::move(table), &document.head);
+  AddSentence("lyrefit diagnose --explain EFFECT says more of one.", &document.head);
+  return DrawText(document);
 }
 
 }  // namespace lyrefit

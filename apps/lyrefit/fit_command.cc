@@ -5,9 +5,9 @@
 #include "family_run.h"
 #include "fit_files.h"
 #include "interrupt.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
-#include "lyrefit/report/text_report.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -19,7 +19,8 @@
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // FitFamily fits one device to curves under different irradiance and temperature. Certify proves
 // how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone. Diagnose says
-// what the model gets wrong in a measurement and why.
+// what the model gets wrong in a measurement and why. FitDocument, FamilyDocument and their kin are the
+// reports as data, for DrawText, DrawMarkdown and DrawHtml.
 //
 // Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_free.h fits every curve
 // of a set on its own, diagnose/healthy.h holds a sweep against healthy ones of the same module,
@@ -35,13 +36,10 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
 #include "lyrefit/report/certificate_json.h"
-#include "lyrefit/report/certificate_text.h"
 #include "lyrefit/report/diagnosis_json.h"
 #include "lyrefit/report/diagnosis_plot.h"
-#include "lyrefit/report/diagnosis_text.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/family_json.h"
 #include "lyrefit/report/family_plot.h"
-#include "lyrefit/report/family_text.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
-#include "lyrefit/report/text_report.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/report/family_text.h"
+#include "lyrefit/report/documents.h"
 #include "made_family.h"
 
 namespace lyrefit {

@@ -28,8 +28,8 @@ TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
   const json& first = plan.at("measurements").at(0);
   EXPECT_EQ(Keys(first), (Set{"id", "title", "taken", "probability", "causes"}));
   EXPECT_EQ(first.at("probability"), 0.97);
-  EXPECT_EQ(first.at("causes").at("irradiance_drift").at("nearest"), "irradiance_step");
-  EXPECT_TRUE(first.at("causes").at("irradiance_drift").at("separation").is_null());
+  EXPECT_EQ(first.at("causes").at("drift").at("nearest"), "irr_step");
+  EXPECT_TRUE(first.at("causes").at("drift").at("separation").is_null());
 }
 
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
@@ -68,8 +68,8 @@ TEST(DiagnosisJson, TellsTheCauseWithItsInterval) {
   EXPECT_EQ(j["objective"], "solved-current");
   EXPECT_EQ(j["verdict"]["found"], true);
   const json& cause = j["verdict"]["causes"][0];
-  EXPECT_EQ(cause["id"], "irradiance_step");
-  EXPECT_EQ(cause["equivalents"], json({"irradiance_drift"}));
+  EXPECT_EQ(cause["id"], "irr_step");
+  EXPECT_EQ(cause["equivalents"], json({"drift"}));
   EXPECT_EQ(cause["strength"], json({{"d", -0.019}, {"V1", 12.1}}));
   EXPECT_EQ(cause["interval"]["d"], json({-0.0212, -0.0168}));
   EXPECT_EQ(cause["units"]["V1"], "V");
@@ -106,7 +106,7 @@ TEST(DiagnosisJson, WritesSeveralAsAnArray) {
 TEST(AnswersJson, ListsEachCauseWithItsEquivalents) {
   const json j = json::parse(
       AnswersJson({"a", "b", "c"}, {SampleDiagnosis(), SampleLitAndDark(), SampleUpDown()}));
-  EXPECT_EQ(j["a"], json::parse(R"([["irradiance_step", "irradiance_drift"]])"));
+  EXPECT_EQ(j["a"], json::parse(R"([["irr_step", "drift"]])"));
   EXPECT_EQ(j["b"], json::array());
   EXPECT_EQ(j["c"].size(), 2U);
 }

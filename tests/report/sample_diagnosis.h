@@ -99,8 +99,8 @@ inline Diagnosis SampleDiagnosisHead() {
                          {"grid", "the currents lie on a grid of 1 mA", {3, 4}}};
   d.trials = {
       SampleTrial("nonohmic_shunt", "non-ohmic shunt", 9.1e-3, 0.02),
-      SampleTrial("irradiance_step", "step of the irradiance", 2.1e-3, 1e-8),
-      SampleTrial("irradiance_drift", "drift of the irradiance", 2.2e-3, 3e-8),
+      SampleTrial("irr_step", "step of the irradiance", 2.1e-3, 1e-8),
+      SampleTrial("drift", "drift of the irradiance", 2.2e-3, 3e-8),
       SampleUntried("capacitance", "capacitance of the junction",
                     "needs sweeps in both directions"),
       SampleUntried("instrument_lag", "lag of the instrument", "needs sweeps in both directions")};
@@ -131,10 +131,10 @@ inline Diagnosis SampleDiagnosisHead() {
 
 inline Cause SampleStepCause() {
   Cause cause;
-  cause.id = "irradiance_step";
+  cause.id = "irr_step";
   cause.title = "step of the irradiance";
   cause.sentence = "From 12 V on the light was 1.9 % weaker than before.";
-  cause.equivalents = {"irradiance_drift"};
+  cause.equivalents = {"drift"};
   cause.separate_by = {"a reference cell read with every point"};
   cause.strength = {{"d", "relative_step", "", -0.019, -0.0212, -0.0168, false},
                     {"V1", "from", "V", 12.1, 11.8, 12.4, true}};
@@ -163,13 +163,12 @@ inline Diagnosis SampleDiagnosis() {
 
 // Up and down, with two causes.
 inline Plan SamplePlan() {
-  return {{"irradiance_step", "irradiance_drift"},
+  return {{"irr_step", "drift"},
           {{"reverse_sweep",
             "the sweep backwards",
             "noise as measured",
             0.97,
-            {{"irradiance_step", 0.96, 3.5, "irradiance_drift"},
-             {"irradiance_drift", 0.98, kUnknown, "irradiance_step"}}}},
+            {{"irr_step", 0.96, 3.5, "drift"}, {"drift", 0.98, kUnknown, "irr_step"}}}},
           "take the sweep backwards"};
 }
 

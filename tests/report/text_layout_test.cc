@@ -62,5 +62,14 @@ TEST(TextTable, AlignsColumnsByTheirWidestCell) {
   EXPECT_EQ(table.Text(), "  name   value\n  \u00b5          1\n  alone\n");
 }
 
+TEST(TextTable, WrapsALastColumnOfLongTexts) {
+  const std::string word(80, 'x');
+  TextTable table("rw");
+  table.Add({"RMSE", "what"});
+  table.Add({"1", word + " " + word});
+  table.Add({"2"});
+  EXPECT_EQ(table.Text(), "  RMSE  what\n     1  " + word + "\n        " + word + "\n     2\n");
+}
+
 }  // namespace
 }  // namespace lyrefit

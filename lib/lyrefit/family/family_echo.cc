@@ -87,10 +87,9 @@ void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings
   if (!(points > 0) || !(joint > kVisible * kVisible * free)) return;
   warnings->push_back(fmt::format(
       "The joint fit misses the curves by {:.3g} A, fits of their own by {:.3g} A "
-      "(solved-current): "
-      "the law, the stated conditions or a curve does not fit the others. The intervals take every "
-      "point as independent and are too narrow then; those by whole curves (jackknife) are the "
-      "honest ones.",
+      "(solved-current): the law, the stated conditions or a curve does not fit the others. The "
+      "intervals take every point as independent and are too narrow then; those by whole curves "
+      "(jackknife) are the honest ones.",
       std::sqrt(joint / points), std::sqrt(free / points)));
 }
 

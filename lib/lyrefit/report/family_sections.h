@@ -1,11 +1,11 @@
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "lyrefit/family/family_report.h"
+#include "lyrefit/report/document.h"
 
-// The sections of the text report on a family; each ends with a newline or is empty where there is
-// nothing to say.
+// What the documents and files on a family share.
 namespace lyrefit {
 
 // Whether the curves were fitted one by one, without shared parameters.
@@ -23,24 +23,7 @@ inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
   return infos;
 }
 
-// family_answer_text.cc: what came out.
-std::string FamilyParameterSection(const FamilyReport& report);
-std::string FamilySensorSection(const FamilyReport& report);
-std::string FamilyReferenceSection(const FamilyReport& report);
-std::string FamilyRmseSection(const FamilyReport& report);
-
-// family_curve_text.cc: curve by curve.
-std::string FamilyCurveSection(const FamilyReport& report);
-std::string FamilyOffsetSection(const FamilyReport& report);
-std::string FreeFitSection(const FamilyReport& report);
-
-// family_held_out_text.cc: whole curves as a test, of parameters from elsewhere too.
-std::string FamilyHeldOutSection(const FamilyReport& report);
-
-// family_evidence_text.cc: how far to trust it.
-std::string FamilyCandidateSection(const FamilyReport& report);
-std::string FamilyOddSection(const FamilyReport& report);
-std::string FamilyOutSection(const FamilyReport& report);
-std::string FamilySearchSection(const FamilyReport& report);
+// family_curve_document.cc: curve by curve, whole curves as a test, and those that were left out.
+std::vector<Section> FamilyCurveSections(const FamilyReport& report);
 
 }  // namespace lyrefit

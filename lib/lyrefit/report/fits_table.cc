@@ -1,9 +1,15 @@
 #include "lyrefit/report/fits_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "lyrefit/base/version.h"
 #include "lyrefit/report/csv_parts.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/fit_json_parts.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -52,15 +58,12 @@ void AddConditions(const IvCurve& curve, std::vector<std::string>* fields) {
   fields->push_back(std::to_string(curve.size()));
 }
 
-// Value and standard error of the parameter with this symbol.
-void AddParameter(const FitReport& report, const ParameterInfo& info,
-                  std::vector<std::string>* fields) {
+// The answer of a fit and its standard error for the parameter with this symbol.
+std::pair<double, double> ValueAndError(const FitReport& report, const ParameterInfo& info) {
   const auto found = std::find_if(report.estimates.begin(), report.estimates.end(),
                                   [&](const Estimate& e) { return e.info.symbol == info.symbol; });
-  const bool there = found != report.estimates.end();
-  const double value = !there ? kUnknown : report.polished ? found->refined : found->searched;
-  fields->push_back(CsvField(value));
-  fields->push_back(CsvField(there ? found->standard_error : kUnknown));
+  if (found == report.estimates.end()) return {kUnknown, kUnknown};
+  return {report.polished ? found->refined : found->searched, found->standard_error};
 }
 
 std::vector<std::string> Row(const FittedFile& fit, const std::vector<ParameterInfo>& parameters) {
@@ -74,7 +77,11 @@ std::vector<std::string> Row(const FittedFile& fit, const std::vector<ParameterI
   std::vector<std::string> fields = {CsvField(fit.file), CsvField(report.curve.name),
                                      ToText(report.model), ToText(report.objective)};
   AddConditions(report.curve, &fields);
-  for (const ParameterInfo& info : parameters) AddParameter(report, info, &fields);
+  for (const ParameterInfo& info : parameters) {
+    const auto [value, error] = ValueAndError(report, info);
+    fields.push_back(CsvField(value));
+    fields.push_back(CsvField(error));
+  }
   const RmsePair refined = report.polished ? report.rmse.refined : RmsePair();
   for (const RmsePair& rmse : {report.rmse.searched, refined}) {
     fields.push_back(CsvField(rmse.measured_current_A));
@@ -86,7 +93,54 @@ std::vector<std::string> Row(const FittedFile& fit, const std::vector<ParameterI
   return fields;
 }
 
+block::Table::Row TextRow(const FittedFile& fit, const std::vector<ParameterInfo>& parameters) {
+  const FitReport& report = *fit.report;
+  const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
+  block::Table::Row row = {fit.file, ToText(report.model) + PlusEffects(EffectsOf(report.device)),
+                           std::to_string(report.curve.size()),
+                           Scientific(rmse.measured_current_A, 4),
+                           Scientific(rmse.solved_current_A, 4)};
+  for (const ParameterInfo& info : parameters) {
+    row.push_back(Significant(ValueAndError(report, info).first, 5));
+  }
+  const std::string marks = BriefMarks(report.interrupted, report.usable, 0);
+  row.push_back(report.polished ? marks.substr(marks.empty() ? 0 : 2) : "not polished" + marks);
+  return row;
+}
+
 }  // namespace
+
+Document FitsDocument(const std::vector<FittedFile>& fits) {
+  const std::vector<ParameterInfo> parameters = LargestModel(fits);
+  block::Table table = {"llrrr" + std::string(parameters.size(), 'r') + "l",
+                        {{"", "", "", "RMSE (A)", "RMSE (A)"},
+                         {"file", "model", "points", "measured-current", "solved-current"}}};
+  for (const ParameterInfo& info : parameters) {
+    table.heads[0].push_back(info.symbol);
+    table.heads[1].push_back(info.unit);
+  }
+  std::vector<std::string> without;
+  std::vector<std::string> warnings;
+  for (const FittedFile& fit : fits) {
+    if (!fit.report) {
+      without.push_back(fmt::format("{}: {}", fit.file, fit.report.error().ToString()));
+      continue;
+    }
+    table.rows.push_back(TextRow(fit, parameters));
+    for (const std::string& warning : fit.report->warnings) {
+      warnings.push_back(fmt::format("{}: {}", fit.file, warning));
+    }
+  }
+  Document document;
+  document.head.heading =
+      fmt::format("lyrefit {}: fits of {}", Version(), Plural(fits.size(), "curve"));
+  Section answers = {"Parameters"};
+  if (!table.rows.empty()) AddTable(std::move(table), &answers);
+  AddSections({answers, ListSection("Not fitted", std::move(without)),
+               ListSection("Warnings", std::move(warnings))},
+              &document);
+  return document;
+}
 
 std::string FitsCsv(const std::vector<FittedFile>& fits) {
   const std::vector<ParameterInfo> parameters = LargestModel(fits);

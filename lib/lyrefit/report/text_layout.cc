@@ -87,9 +87,14 @@ std::string TextTable::Text() const {
   std::string text;
   for (const auto& row : rows_) {
     std::string line;
-    for (std::size_t c = 0; c < row.size(); ++c) {
+    std::size_t c = 0;
+    for (; c < row.size() && alignment_[c] != 'w'; ++c) {
       const std::string blanks(widths[c] - Columns(row[c]), ' ');
       line += "  " + (alignment_[c] == 'r' ? blanks + row[c] : row[c] + blanks);
+    }
+    if (c < row.size()) {
+      text += Wrap(line + "  ", row[c]);
+      continue;
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

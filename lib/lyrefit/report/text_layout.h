@@ -29,8 +29,9 @@ std::string Wrap(std::string_view first, std::string_view text);
 // "  name          text", wrapped.
 std::string Field(std::string_view name, std::string_view text);
 
-// Rows of cells, each column as wide as its widest cell. `alignment` holds one letter a column, 'l'
-// or 'r'; missing cells are blank. Lines begin with two blanks and end with a newline.
+// Rows of cells, each column as wide as its widest cell. `alignment` holds one letter a column,
+// 'l', 'r', or 'w' for a last column whose texts are wrapped; missing cells are blank. Lines begin
+// with two blanks and end with a newline.
 class TextTable {
  public:
   explicit TextTable(std::string alignment) : alignment_(std::move(alignment)) {}

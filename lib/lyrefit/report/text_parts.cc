@@ -8,6 +8,13 @@
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
+namespace {
+
+std::string DoubtText(const std::string& doubt) {
+  return "DOUBTFUL: " + doubt + (doubt.back() == '?' ? "" : ".");
+}
+
+}  // namespace
 
 std::string ModelTitle(Model model) {
   switch (model) {
@@ -43,48 +50,35 @@ std::string Plural(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::string CurveFields(const IvCurve& curve) {
-  std::string text = curve.name;
-  if (curve.size() > 0) {
-    const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
-    text += fmt::format(", {} points from {:.6g} to {:.6g} V", curve.size(), *low, *high);
-  }
-  if (!curve.source.empty()) text += fmt::format(" ({})", curve.source);
-  const Conditions& c = curve.conditions;
-  const std::string conditions =
-      fmt::format("{:.6g} C, {:.6g} W/m2, {} in series, {} in parallel",
-                  c.cell_temperature_K - kZeroCelsius_K, c.irradiance_W_m2,
-                  Plural(c.cells_in_series, "cell"), Plural(c.strings_in_parallel, "string"));
-  return Field("curve", text) + Field("conditions", conditions);
+std::string FullSentence(std::string text) {
+  if (!text.empty() && text.back() != '.') text += '.';
+  return text;
 }
 
-// A proved bound, which must not be rounded up.
 std::string BoundText(double bound) {
   if (!(bound > 0)) return "0";
   const double unit = std::pow(10, std::floor(std::log10(bound)) - (10 - 1));
   return Scientific(std::floor(bound / unit) * unit, 10);
 }
 
-std::string DoubtLines(const std::vector<std::string>& doubts) {
-  std::string text;
-  for (const std::string& doubt : doubts) {
-    text += Wrap("", "DOUBTFUL: " + doubt + (doubt.back() == '?' ? "" : ".")) + "\n";
-  }
-  return text;
-}
-
-std::string Banner(bool interrupted, bool usable, const std::string& because,
-                   const std::vector<std::string>& doubts) {
-  std::string text;
-  if (!usable && !because.empty()) text += Wrap("", "NOT USABLE: " + because + ".") + "\n";
+std::vector<std::string> Banners(bool interrupted, bool usable, const std::string& because,
+                                 const std::vector<std::string>& doubts) {
+  std::vector<std::string> banners;
+  if (!usable && !because.empty()) banners.push_back("NOT USABLE: " + because + ".");
   if (interrupted) {
-    text += Wrap("", "INTERRUPTED: the best found so far; with more time the result may differ.") +
-            "\n";
+    banners.push_back("INTERRUPTED: the best found so far; with more time the result may differ.");
   }
   if (!usable && because.empty()) {
-    text += Wrap("", "NOT USABLE: do not work with these values; see the warnings.") + "\n";
+    banners.push_back("NOT USABLE: do not work with these values; see the warnings.");
   }
-  return text + DoubtLines(doubts);
+  for (const std::string& doubt : doubts) banners.push_back(DoubtText(doubt));
+  return banners;
+}
+
+std::string DoubtLines(const std::vector<std::string>& doubts) {
+  std::string text;
+  for (const std::string& doubt : doubts) text += Wrap("", DoubtText(doubt)) + "\n";
+  return text;
 }
 
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
@@ -94,48 +88,6 @@ std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
   if (!usable) text += ", NOT USABLE" + (because.empty() ? "" : ": " + because);
   if (warnings > 0) text += fmt::format(", {}", Plural(warnings, "warning"));
   return text;
-}
-
-std::string List(const std::string& title, const std::vector<std::string>& sentences) {
-  if (sentences.empty()) return "";
-  std::string text = title + "\n";
-  for (const std::string& sentence : sentences) text += Wrap("  - ", sentence);
-  return text;
-}
-
-std::string ErrorSizesText(const ErrorReport& errors) {
-  const char* found = errors.stated ? "stated" : "found";
-  const auto line = [](const std::string& name, const std::string& size, const char* how,
-                       const char* meaning) {
-    return Field(name, fmt::format("{} ({}): {}", size, how, meaning));
-  };
-  return line("current noise", Significant(errors.sizes.current_A, 2) + " A",
-              errors.current_stated ? "stated" : found, "every current by itself") +
-         line("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
-              "of a voltage near Voc, which shows where the curve is steep") +
-         line("path", Significant(100 * errors.sizes.path, 2) + " % of Isc", found,
-              "what neighbours share: light that wanders during the sweep, or the device's own "
-              "departure from the model");
-}
-
-std::string WhichToBelieve(const ErrorReport& errors) {
-  if (errors.weighed) {
-    return "The fit is weighed by these errors and its intervals hold under them.";
-  }
-  const std::string gain =
-      fmt::format("2 ln of the ratio of likelihoods {}", Significant(errors.gain, 3));
-  if (!errors.believed) {
-    return fmt::format(
-        "The residuals do not ask for more than independent errors ({}): the intervals above are "
-        "to "
-        "be believed.",
-        gain);
-  }
-  return fmt::format(
-      "The residuals say clearly that errors hang together ({}): believe these intervals, not "
-      "those "
-      "above, which take them for independent.",
-      gain);
 }
 
 std::string LabelWithUnit(const ParameterInfo& info) {
@@ -152,15 +104,6 @@ std::string EstimateMarks(const Estimate& estimate) {
   if (!estimate.identifiable)
     marks += (marks.empty() ? "" : ", ") + std::string("not identifiable");
   return marks;
-}
-
-std::string UnidentifiableNotes(const std::vector<Estimate>& estimates) {
-  std::string text;
-  for (const Estimate& e : estimates) {
-    if (e.identifiable || e.reason.empty()) continue;
-    text += Wrap("  ", fmt::format("{} is not identifiable: {}", e.info.symbol, e.reason));
-  }
-  return text;
 }
 
 std::string CorrelationsText(const std::vector<Correlation>& correlations) {
@@ -195,6 +138,62 @@ std::string OptionsText(const std::vector<OptionEcho>& options) {
     if (!echo.default_value.empty()) text += fmt::format(" (default {})", echo.default_value);
   }
   return text;
+}
+
+void AddCurve(const IvCurve& curve, Section* section) {
+  std::string text = curve.name;
+  if (curve.size() > 0) {
+    const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
+    text += fmt::format(", {} points from {:.6g} to {:.6g} V", curve.size(), *low, *high);
+  }
+  if (!curve.source.empty()) text += fmt::format(" ({})", curve.source);
+  const Conditions& c = curve.conditions;
+  const std::string conditions =
+      fmt::format("{:.6g} C, {:.6g} W/m2, {} in series, {} in parallel",
+                  c.cell_temperature_K - kZeroCelsius_K, c.irradiance_W_m2,
+                  Plural(c.cells_in_series, "cell"), Plural(c.strings_in_parallel, "string"));
+  AddField("curve", text, section);
+  AddField("conditions", conditions, section);
+}
+
+void AddErrorSizes(const ErrorReport& errors, Section* section) {
+  const char* found = errors.stated ? "stated" : "found";
+  const auto add = [section](const char* name, const std::string& size, const char* how,
+                             const char* meaning) {
+    AddField(name, fmt::format("{} ({}): {}", size, how, meaning), section);
+  };
+  add("current noise", Significant(errors.sizes.current_A, 2) + " A",
+      errors.current_stated ? "stated" : found, "every current by itself");
+  add("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
+      "of a voltage near Voc, which shows where the curve is steep");
+  add("path", Significant(100 * errors.sizes.path, 2) + " % of Isc", found,
+      "what neighbours share: light that wanders during the sweep, or the device's own departure "
+      "from the model");
+}
+
+std::string WhichToBelieve(const ErrorReport& errors) {
+  if (errors.weighed) {
+    return "The fit is weighed by these errors and its intervals hold under them.";
+  }
+  const std::string gain =
+      fmt::format("2 ln of the ratio of likelihoods {}", Significant(errors.gain, 3));
+  if (!errors.believed) {
+    return fmt::format(
+        "The residuals do not ask for more than independent errors ({}): the intervals above are "
+        "to be believed.",
+        gain);
+  }
+  return fmt::format(
+      "The residuals say clearly that errors hang together ({}): believe these intervals, not "
+      "those above, which take them for independent.",
+      gain);
+}
+
+void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section) {
+  for (const Estimate& e : estimates) {
+    if (e.identifiable || e.reason.empty()) continue;
+    AddSentence(fmt::format("{} is not identifiable: {}", e.info.symbol, e.reason), section);
+  }
 }
 
 }  // namespace lyrefit

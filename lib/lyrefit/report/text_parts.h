@@ -7,8 +7,9 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/extension.h"
+#include "lyrefit/report/document.h"
 
-// What the text writers share.
+// What the reports share.
 namespace lyrefit {
 
 // "single-diode"
@@ -25,40 +26,29 @@ std::vector<EffectUse> EffectsOf(const Device& device);
 // "1 cell", "3 cells"
 std::string Plural(std::size_t count, const std::string& noun);
 
-// The lines "curve" and "conditions" of a report's head.
-std::string CurveFields(const IvCurve& curve);
+// With a full stop.
+std::string FullSentence(std::string text);
 
 // A proved bound, which must not be rounded up.
 std::string BoundText(double bound);
 
 // What stands above everything else of a report that is unfinished or worthless; else nothing.
 // `because` says why it is worthless, `doubts` what is doubtful about its readings.
-std::string Banner(bool interrupted, bool usable, const std::string& because = {},
-                   const std::vector<std::string>& doubts = {});
-
-// The lines of the doubts alone.
-std::string DoubtLines(const std::vector<std::string>& doubts);
+std::vector<std::string> Banners(bool interrupted, bool usable, const std::string& because,
+                                 const std::vector<std::string>& doubts);
 
 // The same, and how many warnings there are, at the end of a report of one line.
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
                        const std::string& because = {});
 
-// A title and a list of sentences; nothing without sentences.
-std::string List(const std::string& title, const std::vector<std::string>& sentences);
+// The banners of the doubts alone, drawn for a terminal.
+std::string DoubtLines(const std::vector<std::string>& doubts);
 
 // "Rs (ohm)", "n1".
-// The sizes of the errors of the readings, a line each, with what they mean.
-std::string ErrorSizesText(const ErrorReport& errors);
-// One sentence on which intervals to believe.
-std::string WhichToBelieve(const ErrorReport& errors);
-
 std::string LabelWithUnit(const ParameterInfo& info);
 
 // "fixed", "lower bound, not identifiable"; empty where there is nothing to say.
 std::string EstimateMarks(const Estimate& estimate);
-
-// A sentence for each parameter that cannot be told.
-std::string UnidentifiableNotes(const std::vector<Estimate>& estimates);
 
 // "Is1-n1 +0.9999, ..."
 std::string CorrelationsText(const std::vector<Correlation>& correlations);
@@ -69,5 +59,16 @@ std::string SearchText(const SearchOptions& options, const SearchSummary& search
 
 // "seed = 1 (default 0), ..."
 std::string OptionsText(const std::vector<OptionEcho>& options);
+
+// The fields "curve" and "conditions" of a report's head.
+void AddCurve(const IvCurve& curve, Section* section);
+
+// The sizes of the errors of the readings, a field each, with what they mean.
+void AddErrorSizes(const ErrorReport& errors, Section* section);
+// One sentence on which intervals to believe.
+std::string WhichToBelieve(const ErrorReport& errors);
+
+// A sentence for each parameter that cannot be told.
+void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section);
 
 }  // namespace lyrefit

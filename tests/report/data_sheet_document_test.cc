@@ -1,4 +1,4 @@
-#include "lyrefit/report/data_sheet_text.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

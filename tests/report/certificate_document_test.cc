@@ -1,4 +1,4 @@
-#include "lyrefit/report/certificate_text.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

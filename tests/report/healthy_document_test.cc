@@ -1,4 +1,4 @@
-#include "lyrefit/report/healthy_text.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +45,16 @@ TEST(OddSweepsText, ShowsTheOddOnesOnly) {
   EXPECT_THAT(text, Not(HasSubstr("yesterday")));
   EXPECT_THAT(text, HasSubstr("night: the curve is dark"));
   EXPECT_THAT(BriefOddSweeps(SampleOddSweeps()), HasSubstr("1 of 2 sweeps odd\n"));
+}
+
+TEST(OddSweepsDocument, HasWhatIsSaidOfASweepBelowIt) {
+  const Document document = OddSweepsDocument(SampleOddSweeps());
+  ASSERT_GE(document.sections.size(), 2U);
+  EXPECT_EQ(document.sections[0].heading, "today");
+  EXPECT_EQ(document.sections[0].depth, 0);
+  EXPECT_EQ(document.sections[1].depth, 1);
+  EXPECT_EQ(document.sections.back().heading, "Not compared");
+  EXPECT_EQ(document.sections.back().depth, 0);
 }
 
 }  // namespace

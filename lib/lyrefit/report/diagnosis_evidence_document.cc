@@ -80,43 +80,49 @@ std::vector<std::string> TrialRow(const Diagnosis& diagnosis, const Trial& trial
           Significant(trial.kept, 2)};
 }
 
-}  // namespace
-
-std::string DiagnosisEvidenceSection(const Diagnosis& diagnosis) {
+Section EvidenceSection(const Diagnosis& diagnosis) {
   const Evidence& evidence = diagnosis.evidence;
-  std::string text = "What the readings show\n" + Field("noise", NoiseText(evidence));
-  text += Field("misfit", fmt::format("the base model's residuals are {} times the noise",
-                                      Significant(evidence.misfit_ratio, 3)));
-  text += Field("residuals", ResidualText(evidence.residuals));
-  text += Field("whiteness", WhitenessText(diagnosis));
+  Section section = {"What the readings show"};
+  AddField("noise", NoiseText(evidence), &section);
+  AddField("misfit",
+           fmt::format("the base model's residuals are {} times the noise",
+                       Significant(evidence.misfit_ratio, 3)),
+           &section);
+  AddField("residuals", ResidualText(evidence.residuals), &section);
+  AddField("whiteness", WhitenessText(diagnosis), &section);
   const std::string grid = GridText(evidence);
-  if (!grid.empty()) text += Field("grid", grid);
+  if (!grid.empty()) AddField("grid", grid, &section);
   if (evidence.clipped_points > 0) {
-    text += Field("clipped", fmt::format("{} at {} A", Plural(evidence.clipped_points, "point"),
-                                         Significant(evidence.clip_level_A, 5)));
+    AddField("clipped",
+             fmt::format("{} at {} A", Plural(evidence.clipped_points, "point"),
+                         Significant(evidence.clip_level_A, 5)),
+             &section);
   }
-  for (const Finding& finding : evidence.findings) text += Wrap("  - ", finding.sentence);
-  return text;
+  std::vector<std::string> findings;
+  for (const Finding& finding : evidence.findings) findings.push_back(finding.sentence);
+  AddList(std::move(findings), &section);
+  return section;
 }
 
-std::string DiagnosisTrialSection(const Diagnosis& diagnosis) {
-  TextTable table("lrrrrrrr");
-  table.Add({"effect", "RMSE (A)", "misfit", "p", "corrected p", "dAICc", "held out (A)", "kept"});
-  bool any = false;
+Section TrialSection(const Diagnosis& diagnosis) {
+  Section section = {"Effects tried, one at a time (RMSE solved-current)"};
+  block::Table table = {
+      "lrrrrrrr",
+      {{"effect", "RMSE (A)", "misfit", "p", "corrected p", "dAICc", "held out (A)", "kept"}}};
   for (const Trial& trial : diagnosis.trials) {
-    if (!trial.tried) continue;
-    table.Add(TrialRow(diagnosis, trial));
-    any = true;
+    if (trial.tried) table.rows.push_back(TrialRow(diagnosis, trial));
   }
-  if (!any) return "";
-  return "Effects tried, one at a time (RMSE solved-current)\n" + table.Text() +
-         Wrap("  ",
-              "<-: named as a cause. Misfit: what the effect takes away, in units of the noise. "
-              "Corrected p: the whole catalogue counted. dAICc: with the effect minus without. "
-              "Kept: the part of its signature that the base model cannot absorb.");
+  if (table.rows.empty()) return section;
+  AddTable(std::move(table), &section);
+  AddSentence(
+      "<-: named as a cause. Misfit: what the effect takes away, in units of the noise. Corrected "
+      "p: the whole catalogue counted. dAICc: with the effect minus without. Kept: the part of its "
+      "signature that the base model cannot absorb.",
+      &section);
+  return section;
 }
 
-std::string DiagnosisUntriedSection(const Diagnosis& diagnosis) {
+Section UntriedSection(const Diagnosis& diagnosis) {
   std::vector<std::pair<std::string, std::string>> reasons;  // and the effects they hold for
   for (const Trial& trial : diagnosis.trials) {
     if (trial.tried) continue;
@@ -134,10 +140,10 @@ std::string DiagnosisUntriedSection(const Diagnosis& diagnosis) {
   for (const auto& [reason, effects] : reasons) {
     sentences.push_back(reason.empty() ? effects : fmt::format("{}: {}", effects, reason));
   }
-  return List("Effects not tried", sentences);
+  return ListSection("Effects not tried", std::move(sentences));
 }
 
-std::string DiagnosisLimitSection(const Diagnosis& diagnosis) {
+Section LimitSection(const Diagnosis& diagnosis) {
   std::vector<std::string> sentences;
   for (const CannotBeExcluded& cause : diagnosis.verdict.cannot_be_excluded) {
     std::string text =
@@ -145,7 +151,14 @@ std::string DiagnosisLimitSection(const Diagnosis& diagnosis) {
     if (!cause.separate_by.empty()) text += " To tell: " + FullSentence(cause.separate_by);
     sentences.push_back(std::move(text));
   }
-  return List("What these data cannot exclude", sentences);
+  return ListSection("What these data cannot exclude", std::move(sentences));
+}
+
+}  // namespace
+
+std::vector<Section> DiagnosisEvidenceSections(const Diagnosis& diagnosis) {
+  return {EvidenceSection(diagnosis), TrialSection(diagnosis), UntriedSection(diagnosis),
+          LimitSection(diagnosis)};
 }
 
 }  // namespace lyrefit

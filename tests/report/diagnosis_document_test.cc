@@ -1,4 +1,4 @@
-#include "lyrefit/report/diagnosis_text.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(DiagnosisText, TellsTheVerdictBeforeItsEvidence) {
   const std::string text = DiagnosisText(SampleDiagnosis());
   EXPECT_THAT(text, StartsWith("lyrefit 1.2.3: diagnosis of sample_module\n"));
   const std::size_t verdict = text.find("The light stepped down by 1.9 %");
-  const std::size_t cause = text.find("Cause 1 of 1: step of the irradiance (irradiance_step)");
+  const std::size_t cause = text.find("Cause 1 of 1: step of the irradiance (irr_step)");
   const std::size_t evidence = text.find("What the readings show");
   const std::size_t trials = text.find("Effects tried");
   ASSERT_NE(trials, std::string::npos);
@@ -33,7 +33,7 @@ TEST(DiagnosisText, GivesEachCauseItsSizeAndWhatElseItCouldBe) {
   EXPECT_THAT(text, HasSubstr("relative step d = -0.0190, 95 %: -0.0212 .. -0.0168"));
   EXPECT_THAT(text, HasSubstr("from V1 = 12.1 V, 95 %: 11.80 .. 12.40 V, at its bound"));
   EXPECT_THAT(text, HasSubstr("corrected p = 2.0e-07"));
-  EXPECT_THAT(text, HasSubstr("or else       drift of the irradiance (irradiance_drift)"));
+  EXPECT_THAT(text, HasSubstr("or else       drift of the irradiance (drift)"));
   EXPECT_THAT(text, HasSubstr("to tell       a reference cell read with every point"));
 }
 
@@ -47,13 +47,23 @@ TEST(DiagnosisText, SaysWhatACauseMustBeToBeNamed) {
               HasSubstr("certain at 5 % over the whole catalogue, and above 0.25 % of Isc"));
 }
 
+TEST(DiagnosisText, GivesEachImmaterialCauseASectionOfItsOwn) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  diagnosis.verdict.below_floor = {SampleStepCause(), SampleStepCause()};
+  const std::string text = DiagnosisText(diagnosis);
+  const std::string heading = "\n\nPresent, not material: step of the irradiance (irr_step)\n";
+  const std::size_t first = text.find(heading);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(text.find(heading, first + 1), std::string::npos);
+}
+
 TEST(DiagnosisText, TellsWhatToMeasureNextWhereThatWasAskedFor) {
   Diagnosis diagnosis = SampleDiagnosis();
   EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("What would tell them apart")));
   diagnosis.plan = SamplePlan();
   const std::string text = DiagnosisText(diagnosis);
   EXPECT_THAT(text, HasSubstr("What would tell them apart\n  take the sweep backwards.\n"));
-  EXPECT_THAT(text, HasSubstr("between       irradiance_step, irradiance_drift\n"));
+  EXPECT_THAT(text, HasSubstr("between       irr_step, drift\n"));
   EXPECT_THAT(text, HasSubstr("reverse_sweep"));
   EXPECT_THAT(text, HasSubstr("97 %"));
   EXPECT_THAT(text, HasSubstr("- reverse_sweep: the sweep backwards; noise as measured."));
@@ -72,7 +82,7 @@ TEST(DiagnosisText, ShowsTheGainAndWhatMoved) {
 
 TEST(DiagnosisText, ShowsTrialsAndWhyOthersWereNot) {
   const std::string text = DiagnosisText(SampleDiagnosis());
-  EXPECT_THAT(text, HasSubstr("irradiance_step <-  2.10e-03"));
+  EXPECT_THAT(text, HasSubstr("irr_step <-     2.10e-03"));
   EXPECT_THAT(text, HasSubstr("- capacitance, instrument_lag: needs sweeps in both directions\n"));
   EXPECT_THAT(text, HasSubstr("lead_resistance (biases Rs)"));
   EXPECT_THAT(text, HasSubstr("currents lie on a grid"));
@@ -128,7 +138,7 @@ TEST(DiagnosisText, FitsATerminalOf100Columns) {
 
 TEST(BriefDiagnosis, IsOneLine) {
   EXPECT_EQ(BriefDiagnosis(SampleDiagnosis()),
-            "sample_module: irradiance_step d -0.0190 (corrected p 2.0e-07) or irradiance_drift; "
+            "sample_module: irr_step d -0.0190 (corrected p 2.0e-07) or drift; "
             "RMSE 1.310e-02 -> 2.100e-03 A solved-current\n");
   EXPECT_EQ(BriefDiagnosis(SampleLitAndDark()),
             "lit_and_dark: Something is there, but none of the known causes fits. RMSE 1.310e-02 A "

@@ -1,4 +1,4 @@
-#include "lyrefit/report/text_report.h"
+#include "lyrefit/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -243,6 +244,19 @@ TEST(FullReport, TakesAnEmptyReport) {
   report.measured = report.simulated = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   EXPECT_FALSE(FullReport(report).empty());
   EXPECT_FALSE(BriefReport(report).empty());
+}
+
+TEST(FitDocument, TellsTheAnswerBeforeItsEvidence) {
+  FitReport report = SampleReport();
+  report.warnings = {"a warning"};
+  const Document document = FitDocument(report);
+  EXPECT_EQ(document.head.heading, "lyrefit 1.2.3: single-diode model of sample_cell");
+  std::vector<std::string> headings;
+  for (const Section& section : document.sections) headings.push_back(section.heading);
+  EXPECT_THAT(headings, ElementsAre("Parameters", "RMSE in A   (* the objective that was fitted)",
+                                    "Key points", "Residuals (model - measured, solved-current)",
+                                    "How it was found", "Assumptions", "Warnings"));
+  EXPECT_EQ(DrawText(document), FullReport(report));
 }
 
 TEST(BriefReport, IsOneLineWithBothLabels) {

@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kProvedDigits = 10;
+constexpr int kRangeDigits = 6;
+
+// Whether larger Rs than those gone through were asked for.
+bool OpenRange(const Certificate& certificate) {
+  return certificate.options.rs_upper_ohm > certificate.rs_upper_ohm;
+}
+
+std::string Ranges(const Certificate& certificate) {
+  const CertifyOptions& options = certificate.options;
+  const std::string rs =
+      OpenRange(certificate)
+          ? fmt::format("any Rs from {:g} ohm up", options.rs_lower_ohm)
+          : fmt::format("Rs in [{:g}, {:.4g}] ohm", options.rs_lower_ohm, options.rs_upper_ohm);
+  return fmt::format("n in [{:g}, {:g}] and {}", options.n_lower, options.n_upper, rs);
+}
+
+std::vector<std::string> CertificateBanners(const Certificate& certificate) {
+  std::vector<std::string> banners = Banners(false, true, {}, certificate.doubts);
+  if (certificate.interrupted) {
+    banners.push_back("INTERRUPTED: the bounds hold, but with more time they would be closer.");
+  }
+  return banners;
+}
+
+Section CertificateHead(const Certificate& certificate) {
+  Section head = {fmt::format("lyrefit {}: how low the RMSE of {} can go", certificate.version,
+                              certificate.curve.name)};
+  AddCurve(certificate.curve, &head);
+  AddField("objective", "measured-current, unweighted", &head);
+  AddField("range",
+           "diodes in parallel with " + Ranges(certificate) +
+               "; Iph, Is and 1/Rsh from 0 up; constants " + ToText(certificate.options.constants),
+           &head);
+  return head;
+}
+
+std::string GapText(double gap) { return fmt::format("{:.1e}", gap); }
+
+// A mixture goes through all points.
+bool Exact(const Floor& floor) { return floor.gap == 0 && floor.lower_bound_A == 0; }
+
+Section FloorSection(const Certificate& certificate) {
+  const Floor& floor = certificate.floor;
+  Section section = {"Floor: the lowest RMSE of any number of diodes"};
+  AddField("reached", Scientific(floor.rmse_A, kProvedDigits) + " A", &section);
+  AddField("proved",
+           Exact(floor) ? "nothing can be lower: this is rounding"
+                        : fmt::format("nothing lies below {} A: a relative gap of {}",
+                                      BoundText(floor.lower_bound_A), GapText(floor.gap)),
+           &section);
+  const double shunt = floor.conductance_shunt_S;
+  AddField("reached by",
+           fmt::format("Iph {} A, Rs {} ohm, Rsh {} ohm, and{}",
+                       Significant(floor.photocurrent_A, kRangeDigits),
+                       Significant(floor.resistance_series_ohm, kRangeDigits),
+                       shunt > 0 ? Significant(1 / shunt, kRangeDigits) : "infinite",
+                       floor.diodes.empty() ? " no diode" : ""),
+           &section);
+  if (floor.diodes.empty()) return section;
+  block::Table table = {
+      "rrrr",
+      {{"diode", "n", "Is (A)",
+        fmt::format("current at {:.5g} V (A)", certificate.reference_voltage_V)}}};
+  for (std::size_t d = 0; d < floor.diodes.size(); ++d) {
+    const FloorDiode& diode = floor.diodes[d];
+    table.rows.push_back({std::to_string(d + 1), Significant(diode.n, 8),
+                          Significant(diode.saturation_current_A, kRangeDigits),
+                          Significant(diode.current_A, kRangeDigits)});
+  }
+  AddTable(std::move(table), &section);
+  return section;
+}
+
+Section ProofSection(const Certificate& certificate) {
+  const Floor& floor = certificate.floor;
+  Section section = {"Proof"};
+  if (Exact(floor)) return section;
+  const std::string correlation =
+      floor.largest_correlation > 0 ? fmt::format("exceeds {:.0e} of its length, which is rounding",
+                                                  floor.largest_correlation)
+                                    : std::string("is positive");
+  AddSentence(fmt::format("At that Rs the residuals are a dual vector: of all diodes with n in the "
+                          "range, none has a column whose product with it {}, so none can lower "
+                          "the sum of squares. Duality gap {} (relative).",
+                          correlation, GapText(floor.duality_gap)),
+              &section);
+  AddSentence(fmt::format("Between the Rs visited the dual vectors of both neighbours, "
+                          "interpolated, bound the RMSE from below: {} convex problems settled Rs "
+                          "up to {:.4g} ohm.{}",
+                          floor.solved, certificate.rs_upper_ohm,
+                          OpenRange(certificate) ? " Beyond that the points come in the wrong "
+                                                   "order of junction voltage for any model."
+                                                 : ""),
+              &section);
+  return section;
+}
+
+// "Iph 0.760788 A, Is1 3.10685e-07 A, ..."
+std::string ModelValues(const ModelCertificate& model, const Conditions& conditions) {
+  const Device device = MakeDevice(model.model, conditions);
+  std::string values;
+  for (int i = 0; i < device.size(); ++i) {
+    const ParameterInfo& info = device.parameters[i];
+    values += fmt::format("{}{} {}{}", i == 0 ? "" : ", ", info.symbol,
+                          Significant(model.parameters[i], kRangeDigits),
+                          info.unit.empty() ? "" : " " + info.unit);
+  }
+  return values;
+}
+
+Section ModelSection(const Certificate& certificate) {
+  Section section = {"Models with one, two and three diodes"};
+  if (certificate.models.empty()) return section;
+  block::Table table = {"lrrrrlr",
+                        {{"model", "best RMSE (A)", "proved bound (A)", "gap", "above floor",
+                          "certified", "problems"}}};
+  for (const ModelCertificate& model : certificate.models) {
+    const bool attains = model.above_floor <= kCertifiedGap;
+    table.rows.push_back({ToText(model.model), Scientific(model.rmse_A, kProvedDigits),
+                          BoundText(model.lower_bound_A), GapText(model.gap),
+                          attains ? "attains it" : Significant(100 * model.above_floor, 3) + " %",
+                          model.certified ? "yes" : "NO",
+                          model.solved > 0 ? std::to_string(model.solved) : "the floor's"});
+  }
+  AddTable(std::move(table), &section);
+  for (const ModelCertificate& model : certificate.models) {
+    AddField(ToText(model.model), ModelValues(model, certificate.curve.conditions), &section);
+  }
+  return section;
+}
+
+// What all that comes to.
+std::string Conclusion(const Certificate& certificate) {
+  const std::size_t diodes = certificate.floor.diodes.size();
+  const double gap = certificate.floor.gap;
+  if (!certificate.floor.certified) {
+    return fmt::format(
+        "The floor lies between the proved bound and what was reached, {:.2g} % apart.", 100 * gap);
+  }
+  std::string text =
+      Exact(certificate.floor)
+          ? "The floor is zero: diodes in parallel go through all points, to rounding."
+          : fmt::format("{} attain{} the floor: with {} no further diode can lower the RMSE.",
+                        diodes == 0 ? "No diode is needed to" : Plural(diodes, "diode"),
+                        diodes == 1 ? "s" : "", Ranges(certificate));
+  for (const ModelCertificate& model : certificate.models) {
+    if (model.certified) continue;
+    text += fmt::format(" {}: not certified, a lower RMSE by up to {:.2g} % is not excluded.",
+                        ToText(model.model), 100 * model.gap);
+  }
+  return text;
+}
+
+}  // namespace
+
+Document CertificateDocument(const Certificate& certificate) {
+  Document document = {CertificateBanners(certificate), CertificateHead(certificate)};
+  Section time;
+  AddField("time", Duration(certificate.seconds), &time);
+  AddSections({FloorSection(certificate),
+               ProofSection(certificate),
+               ModelSection(certificate),
+               {"", {block::Conclusion{Conclusion(certificate)}}},
+               time,
+               ListSection("Assumptions", SentencesOf(certificate.curve.assumptions))},
+              &document);
+  return document;
+}
+
+std::string CertificateText(const Certificate& certificate) {
+  return DrawText(CertificateDocument(certificate));
+}
+
+std::string BriefCertificate(const Certificate& certificate) {
+  std::string text =
+      fmt::format("{}: floor {} A measured-current (gap {}, {}, n in [{:g}, {:g}])",
+                  certificate.curve.name, Scientific(certificate.floor.rmse_A, kProvedDigits),
+                  GapText(certificate.floor.gap), Plural(certificate.floor.diodes.size(), "diode"),
+                  certificate.options.n_lower, certificate.options.n_upper);
+  for (const ModelCertificate& model : certificate.models) {
+    text += fmt::format(", {} {} A (gap {}{})", ToText(model.model),
+                        Scientific(model.rmse_A, kProvedDigits), GapText(model.gap),
+                        model.certified ? "" : ", NOT CERTIFIED");
+  }
+  if (certificate.interrupted) text += ", INTERRUPTED";
+  if (!certificate.doubts.empty()) text += ", " + Plural(certificate.doubts.size(), "warning");
+  return text + "\n";
+}
+
+}  // namespace lyrefit

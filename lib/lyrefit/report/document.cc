@@ -1,0 +1,32 @@
+#include "lyrefit/report/document.h"
+
+namespace lyrefit {
+
+void AddField(std::string name, std::string text, Section* section) {
+  section->blocks.push_back(block::Field{std::move(name), std::move(text)});
+}
+
+void AddSentence(std::string text, Section* section) {
+  section->blocks.push_back(block::Sentence{std::move(text)});
+}
+
+void AddList(std::vector<std::string> sentences, Section* section) {
+  if (sentences.empty()) return;
+  section->blocks.push_back(block::List{std::move(sentences)});
+}
+
+void AddTable(block::Table table, Section* section) { section->blocks.push_back(std::move(table)); }
+
+Section ListSection(std::string heading, std::vector<std::string> sentences) {
+  Section section = {std::move(heading)};
+  AddList(std::move(sentences), &section);
+  return section;
+}
+
+void AddSections(std::vector<Section> sections, Document* document) {
+  for (Section& section : sections) {
+    if (!section.blocks.empty()) document->sections.push_back(std::move(section));
+  }
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/report/document.h"
+
+// What there is to read of each record: as a document, drawn for a terminal of 100 columns, and in
+// one line that ends with a newline. "-" stands for what is not known; every RMSE stands under its
+// label, measured-current or solved-current.
+namespace lyrefit {
+
+struct Certificate;
+struct DataSheetFit;
+struct Diagnosis;
+struct FamilyReport;
+struct FitReport;
+struct FittedFile;
+struct HealthyComparison;
+struct OddSweeps;
+
+// A fit: the answer, then how far to trust it. '*' marks the objective that was fitted.
+Document FitDocument(const FitReport& report);
+std::string FullReport(const FitReport& report);
+std::string BriefReport(const FitReport& report);
+
+// The fits of several files, each in a row, and why others have none.
+Document FitsDocument(const std::vector<FittedFile>& fits);
+
+// A family. A report without shared parameters is that of curves fitted one by one.
+Document FamilyDocument(const FamilyReport& report);
+std::string FamilyText(const FamilyReport& report);
+std::string BriefFamily(const FamilyReport& report);
+
+// A diagnosis: the verdict first, then each cause with its size and what else it could be, then the
+// evidence. Every RMSE is solved-current and says so.
+Document DiagnosisDocument(const Diagnosis& diagnosis);
+std::string DiagnosisText(const Diagnosis& diagnosis);
+std::string BriefDiagnosis(const Diagnosis& diagnosis);
+
+// A sweep against healthy ones: what it says, the table of now against expected, who was compared.
+Document HealthyDocument(const HealthyComparison& comparison);
+std::string HealthyText(const HealthyComparison& comparison);
+std::string BriefHealthy(const HealthyComparison& comparison);
+
+// The sweeps of a module against each other: the odd ones first, each with its table; the others
+// are counted. In short a line for each odd one, and one.
+Document OddSweepsDocument(const OddSweeps& odd);
+std::string OddSweepsText(const OddSweeps& odd);
+std::string BriefOddSweeps(const OddSweeps& odd);
+
+// A certificate: what was asked, the floor and the diodes that attain it, what proves it, and how
+// each model stands.
+Document CertificateDocument(const Certificate& certificate);
+std::string CertificateText(const Certificate& certificate);
+std::string BriefCertificate(const Certificate& certificate);
+
+// The device behind a data sheet, and what it gives of what was printed.
+Document DataSheetDocument(const DataSheetFit& fit);
+std::string DataSheetText(const DataSheetFit& fit);
+
+}  // namespace lyrefit

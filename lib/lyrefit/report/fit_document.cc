@@ -1,0 +1,350 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSearchedDigits = 5;
+constexpr int kValueDigits = 6;
+constexpr int kErrorDigits = 2;
+constexpr int kRmseDigits = 10;
+constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
+
+// Where the words about residuals change. They are words only: nothing is decided by them.
+constexpr double kSurprising = 0.05;
+constexpr double kDurbinWatsonLow = 1.0;
+constexpr double kDurbinWatsonHigh = 3.0;
+
+Section FitHead(const FitReport& report) {
+  Section head = {fmt::format("lyrefit {}: {} model of {}", report.version,
+                              ModelTitle(report.model), report.curve.name)};
+  AddCurve(report.curve, &head);
+  const std::string effects = EffectTitles(EffectsOf(report.device));
+  if (!effects.empty()) AddField("effects", effects, &head);
+  AddField("objective",
+           fmt::format("{}; bounds {}; constants {}", ToText(report.objective), report.bounds_name,
+                       ToText(report.constants)),
+           &head);
+  return head;
+}
+
+std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
+  return {LabelWithUnit(e.info),
+          Significant(e.searched, kSearchedDigits),
+          polished ? Significant(e.refined, kValueDigits) : "-",
+          Significant(e.standard_error, kErrorDigits),
+          Range(e.low_95, e.high_95),
+          EstimateMarks(e)};
+}
+
+// "95 % intervals: profile (Rs, n2), symmetric (Iph)".
+std::string IntervalNote(const std::vector<Estimate>& estimates) {
+  std::string note;
+  for (const IntervalMethod method :
+       {IntervalMethod::kSymmetric, IntervalMethod::kProfile, IntervalMethod::kUnsettled}) {
+    std::string symbols;
+    for (const Estimate& e : estimates) {
+      if (e.interval == method) symbols += (symbols.empty() ? "" : ", ") + e.info.symbol;
+    }
+    if (symbols.empty()) continue;
+    note += fmt::format("{}{} ({})", note.empty() ? "" : "; ", ToText(method), symbols);
+  }
+  return note;
+}
+
+std::string Difference(double measured, double simulated) {
+  const double percent = 100 * (simulated / measured - 1);
+  return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
+}
+
+// How much room is left below.
+std::string FloorText(const FloorReport& floor) {
+  const std::string range = fmt::format("n in [{:g}, {:g}]", floor.n_lower, floor.n_upper);
+  const std::string above = floor.above <= kCertifiedGap
+                                ? "and the refined answer attains it"
+                                : fmt::format("and the refined answer is {} % above it",
+                                              Significant(100 * floor.above, 3));
+  return fmt::format(
+      "Floor: no number of diodes with {} brings the measured-current RMSE below {} A, {}.", range,
+      BoundText(floor.lower_bound_A), above);
+}
+
+std::string ResidualVerdict(const ResidualStatistics& r) {
+  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return "too few points to say";
+  const bool surprising = r.runs_p_value < kSurprising;
+  if ((surprising && r.runs < r.expected_runs) || r.durbin_watson < kDurbinWatsonLow) {
+    return "neighbouring residuals go together: the curve holds a shape that the model lacks, or "
+           "the readings drifted";
+  }
+  if ((surprising && r.runs > r.expected_runs) || r.durbin_watson > kDurbinWatsonHigh) {
+    return "neighbouring residuals alternate more than chance allows: look at the instrument or at "
+           "how the points were sorted";
+  }
+  return "consistent with independent noise: no pattern beyond chance";
+}
+
+std::string Decimals(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.2f}", value);
+}
+
+std::string PolishText(const RefineReport& refine) {
+  std::string text = Duration(refine.seconds) + ": " + refine.termination;
+  if (!refine.message.empty()) text += fmt::format(" ({})", refine.message);
+  return text + fmt::format("; projected gradient {}; condition {}",
+                            Significant(refine.projected_gradient, 2),
+                            Significant(refine.condition, 2));
+}
+
+std::string BestVisits(int count) {
+  if (count == 0) return "none of them the best";  // interrupted
+  return "the best of them reached " + (count == 1 ? "once" : fmt::format("{} times", count));
+}
+
+// "14 of 49 went to their end, in 3 basins, the best of them reached 6 times; the other 35 were
+// ..."
+std::string BasinStarts(const BasinCount& count, int starts) {
+  if (count.ends == 0) return fmt::format("none of {} went to its end", starts);
+  std::string text = fmt::format("{} of {} went to {} end, in {}, {}", count.ends, starts,
+                                 count.ends == 1 ? "its" : "their", Plural(count.basins, "basin"),
+                                 BestVisits(count.best_visits));
+  const int others = starts - count.ends;
+  if (others > 0) {
+    text += fmt::format(
+        "; {} given up: out of reach of the best, or that had been reached often enough",
+        others == 1 ? "the other one was" : fmt::format("the other {} were", others));
+  }
+  return text;
+}
+
+// What may have been missed.
+std::string UnseenText(const BasinCount& count) {
+  const BasinCount::Independent& of = count.independent;
+  std::string text;
+  if (of.ends < count.ends) {
+    text = fmt::format(
+        "{} of the {} did not begin beside an earlier end, {} of those in the best; ", of.ends,
+        Plural(count.ends, "end"), of.best_visits == 0 ? "none" : std::to_string(of.best_visits));
+  }
+  if (!std::isfinite(count.unseen)) {
+    return text + "too few descents to estimate how many basins were not seen";
+  }
+  text += "by Chao's estimate (doi:10.2307/2531532) ";
+  if (count.unseen > 0) {
+    return text + fmt::format("{} more were probably not seen: {} of {} were reached just once",
+                              Significant(count.unseen, 2), of.once, Plural(of.basins, "basin"));
+  }
+  return text + fmt::format("none was left unseen: {} was reached just once",
+                            of.once == 0 ? "none" : "only one");
+}
+
+std::string StartsText(const RefineReport& refine) {
+  const int starts = static_cast<int>(refine.starts.size());
+  std::string text = refine.basins
+                         ? BasinStarts(*refine.basins, starts)
+                         : fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
+  if (refine.winner >= 0 && refine.winner < starts) {
+    text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
+                        refine.starts[refine.winner].origin);
+  }
+  return text;
+}
+
+// The sections on what came out.
+
+Section ChoiceSection(const FitReport& report) {
+  if (!report.choice) return {};
+  const std::string rmse = fmt::format("RMSE in A ({})", ToText(report.objective));
+  block::Table table = {
+      "lrrrrl", {{"model", rmse, "held out", "AICc", "F-test p", "every parameter identifiable"}}};
+  for (const CandidateReport& c : report.choice->candidates) {
+    table.rows.push_back({ToText(c.model) + (c.model == report.choice->chosen ? " <-" : ""),
+                          Scientific(c.rmse_A, 6), Scientific(c.held_out_rmse_A, 3),
+                          Decimals(c.aicc), Significant(c.f_p_value, 2),
+                          c.identifiable ? "yes" : "no"});
+  }
+  return {"Choice of the model", {table, block::Sentence{report.choice->sentence}}};
+}
+
+// What of the effects is free, where that followed from the shape of the curve.
+Section FormSection(const FitReport& report) {
+  if (report.forms.empty()) return {};
+  block::Table table = {"rrw",
+                        {{"RMSE in A (solved-current)", "BIC above the best", "of the effects"}}};
+  for (const FormReport& form : report.forms) {
+    const char* mark = form.chosen ? " <-" : form.finished ? "" : " (given up: at most this much)";
+    table.rows.push_back({Scientific(form.rmse_A, 6), Decimals(form.bic_above), form.what + mark});
+  }
+  return {"Choice of the form", {table}};
+}
+
+Section ParameterSection(const FitReport& report) {
+  Section section = {"Parameters"};
+  block::Table table = {"lrrrll",
+                        {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
+  for (const Estimate& e : report.estimates) table.rows.push_back(ParameterRow(e, report.polished));
+  AddTable(std::move(table), &section);
+  if (!report.polished) {
+    AddSentence("No polish was done: the searched values are the answer.", &section);
+  }
+  AddUnidentifiable(report.estimates, &section);
+  const std::string intervals = IntervalNote(report.estimates);
+  if (!intervals.empty()) AddSentence("95 % intervals: " + intervals, &section);
+  if (!report.no_intervals_because.empty()) {
+    AddSentence("95 % intervals: none, since " + report.no_intervals_because + ".", &section);
+  }
+  AddSentence(fmt::format("nNsVth = {} V (n1 x cells in series x k T / q)",
+                          Significant(report.nNsVth, kValueDigits)),
+              &section);
+  return section;
+}
+
+// The three sizes in words, and what they are good for.
+Section ErrorSection(const FitReport& report) {
+  Section section = {"Errors of the readings"};
+  if (!report.errors) return section;
+  AddErrorSizes(*report.errors, &section);
+  if (!report.under_errors.empty()) {
+    block::Table table = {"lrl", {{"parameter", "std err", "95 % interval under these errors"}}};
+    for (const Estimate& e : report.under_errors) {
+      table.rows.push_back({LabelWithUnit(e.info), Significant(e.standard_error, kErrorDigits),
+                            Range(e.low_95, e.high_95)});
+    }
+    AddTable(std::move(table), &section);
+    AddSentence("95 % intervals: " + IntervalNote(report.under_errors), &section);
+  }
+  AddSentence(WhichToBelieve(*report.errors), &section);
+  return section;
+}
+
+Section RmseSection(const FitReport& report) {
+  const auto label = [&](Objective objective) {
+    return ToText(objective) + (objective == report.objective ? " *" : "");
+  };
+  block::Table table = {
+      "lrr", {{"", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)}}};
+  const auto add = [&table](const char* name, const RmsePair& rmse, bool known) {
+    const RmsePair shown = known ? rmse : RmsePair{};
+    table.rows.push_back({name, Scientific(shown.measured_current_A, kRmseDigits),
+                          Scientific(shown.solved_current_A, kRmseDigits)});
+  };
+  add("random points, as many", report.rmse.random_baseline, true);
+  add("searched (best bird)", report.rmse.searched, true);
+  add("best bird polished", report.rmse.best_bird_polished, report.polished);
+  const bool weighed = report.errors && report.errors->weighed;
+  if (weighed) add("least squares", report.errors->least_squares, true);
+  add(weighed ? "weighed by the errors" : "refined (best of all starts)", report.rmse.refined,
+      report.polished);
+  Section section = {"RMSE in A   (* the objective that was fitted)"};
+  AddTable(std::move(table), &section);
+  if (weighed) {
+    AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", &section);
+  }
+  if (report.floor) AddSentence(FloorText(*report.floor), &section);
+  return section;
+}
+
+Section KeyPointSection(const FitReport& report) {
+  const struct {
+    const char* name;
+    const char* unit;
+    double KeyPoints::*field;
+  } rows[] = {{"Isc", "A", &KeyPoints::short_circuit_current_A},
+              {"Voc", "V", &KeyPoints::open_circuit_voltage_V},
+              {"Vmp", "V", &KeyPoints::max_power_voltage_V},
+              {"Imp", "A", &KeyPoints::max_power_current_A},
+              {"Pmp", "W", &KeyPoints::max_power_W},
+              {"fill factor", "", &KeyPoints::fill_factor}};
+  block::Table table = {"lrrrl", {{"", "measured", "simulated", "difference", "unit"}}};
+  for (const auto& row : rows) {
+    const double measured = report.measured.*row.field;
+    const double simulated = report.simulated.*row.field;
+    table.rows.push_back({row.name, Significant(measured, kValueDigits),
+                          Significant(simulated, kValueDigits), Difference(measured, simulated),
+                          row.unit});
+  }
+  return {"Key points", {table}};
+}
+
+// The sections on how far to trust it.
+
+Section ResidualSection(const FitReport& report) {
+  const ResidualStatistics& r = report.residuals;
+  Section section = {"Residuals (model - measured, solved-current)"};
+  AddField("largest error",
+           fmt::format("{} A at {} V; mean {} A", Significant(r.largest_A, 3),
+                       Significant(r.largest_at_V, 4), Significant(r.mean_A, 2)),
+           &section);
+  AddField("runs",
+           fmt::format("{} of one sign, {} expected of independent noise (p = {}); "
+                       "Durbin-Watson {}",
+                       r.runs, Significant(r.expected_runs, 3), Significant(r.runs_p_value, 2),
+                       Significant(r.durbin_watson, 3)),
+           &section);
+  AddField("verdict", ResidualVerdict(r), &section);
+  AddField("information",
+           fmt::format("AICc {}, BIC {} ({} points, {} free parameters)",
+                       Decimals(report.criteria.aicc), Decimals(report.criteria.bic),
+                       report.criteria.points, report.criteria.parameters),
+           &section);
+  const std::string correlations = CorrelationsText(report.correlations);
+  if (!correlations.empty()) AddField("correlations", correlations + " (above 0.9)", &section);
+  return section;
+}
+
+Section SearchSection(const FitReport& report) {
+  Section section = {"How it was found"};
+  AddField("search", SearchText(report.search_options, report.search, report.curve_evaluations),
+           &section);
+  AddField("polish", report.polished ? PolishText(report.refine) : "none", &section);
+  if (report.polished) AddField("starts", StartsText(report.refine), &section);
+  const bool counted = report.refine.basins && report.refine.basins->ends > 0;
+  if (counted) AddField("basins", UnseenText(*report.refine.basins), &section);
+  if (report.interval_seconds > 0) {
+    AddField("intervals", Duration(report.interval_seconds), &section);
+  }
+  AddField("options", OptionsText(report.non_default_options), &section);
+  return section;
+}
+
+}  // namespace
+
+Document FitDocument(const FitReport& report) {
+  Document document = {
+      Banners(report.interrupted, report.usable, report.not_usable_because, report.doubts),
+      FitHead(report)};
+  AddSections(
+      {ChoiceSection(report), FormSection(report), ParameterSection(report), ErrorSection(report),
+       RmseSection(report), KeyPointSection(report), ResidualSection(report), SearchSection(report),
+       ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
+       ListSection("Warnings", report.warnings)},
+      &document);
+  return document;
+}
+
+std::string FullReport(const FitReport& report) { return DrawText(FitDocument(report)); }
+
+std::string BriefReport(const FitReport& report) {
+  const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
+  const std::string model = ToText(report.model) + PlusEffects(EffectsOf(report.device));
+  std::string text = fmt::format(
+      "{}: {}, RMSE {} A measured-current, {} A solved-current (fitted: {}{})", report.curve.name,
+      model, Scientific(rmse.measured_current_A, 10), Scientific(rmse.solved_current_A, 10),
+      ToText(report.objective), report.polished ? "" : ", not polished");
+  for (const Estimate& e : report.estimates) {
+    text += fmt::format(", {} {}{}{}", e.info.symbol,
+                        Significant(report.polished ? e.refined : e.searched, 6),
+                        e.info.unit.empty() ? "" : " ", e.info.unit);
+  }
+  text += BriefMarks(report.interrupted, report.usable, report.warnings.size(),
+                     report.not_usable_because);
+  return text + "\n";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,132 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "../temp_folder.h"
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/fits_table.h"
+#include "sample_certificate.h"
+#include "sample_data_sheet.h"
+#include "sample_diagnosis.h"
+#include "sample_document.h"
+#include "sample_family.h"
+#include "sample_healthy.h"
+#include "sample_report.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(DrawHtml, IsAPageOfPlainElements) {
+  Document document;
+  document.banners = {"INTERRUPTED: early."};
+  document.head.heading = "title";
+  AddField("curve", "a.csv", &document.head);
+  AddField("", "b.csv", &document.head);
+  Section section = {"Parameters"};
+  AddTable({"lr", {{"", "value"}}, {{"Rs", "1"}, {"n"}}}, &section);
+  AddSentence("A sentence.", &section);
+  AddList({"one", "two"}, &section);
+  AddSections({section, {"", {block::Conclusion{"The end."}}}}, &document);
+  EXPECT_EQ(DrawHtml(document), R"(<!DOCTYPE html>
+<html xmlns="http://www.w3.org/1999/xhtml" lang="en">
+<head>
+<meta charset="utf-8"/>
+<title>title</title>
+<style>th { text-align: left } .number { text-align: right }</style>
+</head>
+<body>
+<p role="alert"><strong>INTERRUPTED: early.</strong></p>
+<header>
+<h1>title</h1>
+<dl>
+<dt>curve</dt><dd>a.csv</dd>
+<dd>b.csv</dd>
+</dl>
+</header>
+<section>
+<h2>Parameters</h2>
+<table>
+<thead>
+<tr><td></td><th scope="col" class="number">value</th></tr>
+</thead>
+<tbody>
+<tr><th scope="row">Rs</th><td class="number">1</td></tr>
+<tr><th scope="row">n</th><td class="number"></td></tr>
+</tbody>
+</table>
+<p>A sentence.</p>
+<ul>
+<li>one</li>
+<li>two</li>
+</ul>
+</section>
+<section>
+<p><strong>The end.</strong></p>
+</section>
+</body>
+</html>
+)");
+}
+
+TEST(DrawHtml, EscapesNames) {
+  const std::string html = DrawHtml(HostileDocument());
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("<b>")));
+  EXPECT_THAT(html, Not(HasSubstr("\x01")));
+  EXPECT_THAT(html,
+              HasSubstr("<title>report of &lt;/title&gt;&lt;script&gt;alert(&quot;1 &amp; 2"));
+  EXPECT_THAT(html, HasSubstr("<dd>a_b_c.csv &amp; &#39;others&#39;</dd>"));
+  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">&lt;td&gt;|&lt;/td&gt;</th>"));
+  EXPECT_THAT(html, HasSubstr("<pre>a   &lt;b&gt;</pre>"));
+  EXPECT_THAT(html, HasSubstr("<h3>below</h3>"));
+}
+
+TEST(DrawHtml, ReplacesWhatIsNoText) {
+  Document document;
+  AddField("latin", "\xe9t\xc3\xa9 \x1b[1m \xff", &document.head);
+  EXPECT_THAT(DrawHtml(document), HasSubstr("<dd>\xef\xbf\xbdt\xc3\xa9 \xef\xbf\xbd[1m \xef\xbf\xbd"
+                                            "</dd>"));
+}
+
+// What a parser that forgives nothing says of a page; nothing if all is well.
+std::string Complaints(const std::string& html) {
+  const TempFolder folder;
+  const std::string page = folder.Write("page.html", html);
+  const std::string said = page + ".said";
+  const int status = std::system(("xmllint --nonet --noout " + page + " 2> " + said).c_str());
+  std::ifstream file(said);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  return status == 0 ? text : "failed: " + text;
+}
+
+TEST(DrawHtml, IsWellFormedForEveryRecord) {
+  if (std::system("command -v xmllint > /dev/null") != 0) {
+    GTEST_SKIP() << "xmllint is not there (Debian's libxml2-utils)";
+  }
+  FitReport fit = SampleReport();
+  fit.curve.name = "<!-- & ]]> \"curve\" \x07 \xe9";
+  fit.warnings = {"a < b"};
+  fit.usable = false;
+  Diagnosis diagnosis = SampleDiagnosis();
+  diagnosis.plan = SamplePlan();
+  const std::vector<Document> documents = {HostileDocument(),
+                                           FitDocument(fit),
+                                           FitsDocument({{"<a>", fit}, {"b", Fail("x < y")}}),
+                                           FamilyDocument(MakeSampleFamily(8).report),
+                                           DiagnosisDocument(diagnosis),
+                                           HealthyDocument(SampleHealthy()),
+                                           OddSweepsDocument(SampleOddSweeps()),
+                                           CertificateDocument(RtcCertificate()),
+                                           DataSheetDocument(SampleDataSheetFit())};
+  for (const Document& document : documents) {
+    EXPECT_EQ(Complaints(DrawHtml(document)), "") << document.head.heading;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

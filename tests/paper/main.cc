@@ -20,10 +20,10 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/report/markdown.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
-#include "paper/markdown.h"
 #include "paper/paper_page.h"
 #include "paper/paper_study.h"
 

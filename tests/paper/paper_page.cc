@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/report/markdown.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/study/report/audit_text.h"
 #include "lyrefit/study/report/compare_sections.h"
-#include "paper/markdown.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "paper/markdown.h"
+#include "lyrefit/report/markdown.h"
 
 #include "lyrefit/report/text_layout.h"
 

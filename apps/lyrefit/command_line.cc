@@ -12,6 +12,7 @@ namespace lyrefit {
 namespace {
 
 constexpr char kOutput[] = "Output";  // the heading of the files in --help
+constexpr char kAbout[] = "About lyrefit";
 
 // What CLI11 found wrong, in our words where its own say little.
 Error CommandLineError(const CLI::ParseError& error) {
@@ -52,14 +53,13 @@ std::string FirstWord(int argc, char** argv) {
   return "";
 }
 
-// A line without a verb of ours: which was meant, or which there are.
-Error NoVerb(const CLI::App& app, int argc, char** argv) {
-  const std::string word = FirstWord(argc, argv);
+// What was meant by a word that is no verb, or which there are.
+Error NoSuchVerb(const CLI::App& app, const std::string& word) {
   std::string near, all;
   std::size_t nearest = 3;  // more than two letters off is another word
   for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
     const std::string& name = verb->get_name();
-    all += (all.empty() ? "" : ", ") + name;
+    if (verb->get_group() != kAbout) all += (all.empty() ? "" : ", ") + name;
     const bool begun = word.size() >= 2 && name.rfind(word, 0) == 0;
     const std::size_t distance = begun ? 0 : Distance(word, name);
     if (distance >= std::min(nearest, name.size())) continue;
@@ -69,6 +69,24 @@ Error NoVerb(const CLI::App& app, int argc, char** argv) {
   if (word.empty()) return {"expected a verb: " + all, {}};
   if (near.empty()) return {"no verb '" + word + "': expected " + all, {}};
   return {"no verb '" + word + "'; did you mean " + near + "?", {}};
+}
+
+Error NoVerb(const CLI::App& app, int argc, char** argv) {
+  return NoSuchVerb(app, FirstWord(argc, argv));
+}
+
+// Flags that many verbs have alike: of a verb that has one not, what it writes instead.
+std::optional<Error> OtherTarget(const Verb& verb, const CLI::App& app,
+                                 const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return {};
+  for (const char* flag : {"--json", "--csv", "--plot", "--brief", "--full-json", "--quiet"}) {
+    for (const std::string& word : app.remaining(true)) {
+      if (word.substr(0, word.find('=')) != flag) continue;
+      return Error{std::string(flag) + ": " + verb.name + " has none; it writes " + verb.writes,
+                   {}};
+    }
+  }
+  return {};
 }
 
 std::string NotNegative(const std::string& text) {
@@ -85,19 +103,24 @@ struct Flag::Impl {
   bool curves = false;
   bool writes = false;
   bool draws = false;
+  std::vector<std::string> choices;
 };
 
-struct Verb::Impl {
+struct VerbLine::Impl {
+  const CommandLine* line;
+  const Verb* verb;
   CLI::App* app;
+  std::function<Expected<int>()> run;
   std::deque<Flag::Impl> flags;  // addresses stay
   std::vector<OutputFile> more_outputs;
+  std::deque<std::pair<bool, std::function<void()>>> switches;  // given, and what it sets
   bool force = false;
   bool quiet = false;
 };
 
 struct CommandLine::Impl {
   CLI::App app{"lyrefit: diode-model parameters from measured photovoltaic I-V curves", "lyrefit"};
-  std::vector<std::unique_ptr<Verb>> verbs;
+  std::vector<std::unique_ptr<VerbLine>> verbs;
   int verbosity = 0;
 };
 
@@ -146,6 +169,14 @@ Flag& Flag::Draws() {
   return Writes();
 }
 
+Flag& Flag::OneOf(const std::string& texts) {
+  std::istringstream list(texts);
+  for (std::string text; std::getline(list >> std::ws, text, ',');) {
+    impl_->choices.push_back(text);
+  }
+  return *this;
+}
+
 Flag& Flag::Between(int least, int most) {
   impl_->option->check(CLI::Range(least, most).description(""));
   return *this;
@@ -167,15 +198,15 @@ Flag& Flag::Within(double lower, double upper) {
   return *this;
 }
 
-Verb::Verb(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Verb::~Verb() = default;
+VerbLine::VerbLine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+VerbLine::~VerbLine() = default;
 
-Flag Verb::Declare(void* option, FlagTarget target) {
+Flag VerbLine::Declare(void* option, FlagTarget target) {
   impl_->flags.push_back({static_cast<CLI::Option*>(option), target});
   return Flag(&impl_->flags.back());
 }
 
-Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
+Flag VerbLine::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
   CLI::Option* const option =
       std::visit([&](auto* value) { return impl_->app->add_option(name, *value, doc); }, target);
   // The parser would take -1 for the largest number there is.
@@ -183,25 +214,41 @@ Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::stri
   return Declare(option, target);
 }
 
-Flag Verb::AddReader(const std::string& name, FlagReader read, const std::string& doc) {
+Flag VerbLine::AddReader(const std::string& name, FlagReader read, const std::string& doc) {
   const auto parse = [name, read = std::move(read)](const std::string& text) {
     const Expected<void> done = read(text);
-    if (!done) throw CLI::ValidationError(name, done.error().message);
+    if (!done) throw CLI::ValidationError(name, done.error().ToString());
   };
   return Declare(impl_->app->add_option_function<std::string>(name, parse, doc), {});
 }
 
-Flag Verb::AddSwitch(const std::string& name, bool* target, const std::string& doc) {
+Flag VerbLine::AddListReader(const std::string& name, FlagReader read, const std::string& doc) {
+  const auto parse = [name, read = std::move(read)](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const Expected<void> done = read(text);
+      if (!done) throw CLI::ValidationError(name, done.error().ToString());
+    }
+  };
+  CLI::Option* const option =
+      impl_->app->add_option_function<std::vector<std::string>>(name, parse, doc);
+  return Declare(option, {}).OneEach();
+}
+
+Flag VerbLine::AddSwitch(const std::string& name, bool* target, const std::string& doc) {
   return Declare(impl_->app->add_flag(name, *target, doc), {});
 }
 
-void Verb::Footer(const std::string& text) { impl_->app->footer(text); }
+Flag VerbLine::AddSwitch(const std::string& name, std::function<void()> set,
+                         const std::string& doc) {
+  impl_->switches.push_back({false, std::move(set)});
+  return AddSwitch(name, &impl_->switches.back().first, doc);
+}
 
-void Verb::AlsoWrites(const std::string& flag, const std::string& path) {
+void VerbLine::AlsoWrites(const std::string& flag, const std::string& path) {
   impl_->more_outputs.push_back({flag, path});
 }
 
-FilePlan Verb::Files() const {
+FilePlan VerbLine::Files() const {
   FilePlan plan;
   plan.force = impl_->force;
   for (const Flag::Impl& flag : impl_->flags) {
@@ -210,18 +257,15 @@ FilePlan Verb::Files() const {
       plan.outputs.push_back({flag.option->get_name(), path, flag.draws});
     }
     if (!flag.reads) continue;
-    if (const auto* path = std::get_if<std::string*>(&flag.target)) {
-      plan.inputs.push_back({**path, flag.curves});
-    }
-    if (const auto* paths = std::get_if<std::vector<std::string>*>(&flag.target)) {
-      for (const std::string& path : **paths) plan.inputs.push_back({path, flag.curves});
+    for (const std::string& path : flag.option->results()) {
+      plan.inputs.push_back({path, flag.curves});
     }
   }
   plan.outputs.insert(plan.outputs.end(), impl_->more_outputs.begin(), impl_->more_outputs.end());
   return plan;
 }
 
-Expected<void> Verb::CheckNames() const {
+Expected<void> VerbLine::CheckNames() const {
   for (const Flag::Impl& flag : impl_->flags) {
     if (!flag.reads && !flag.writes) continue;
     for (const std::string& value : flag.option->results()) {
@@ -232,34 +276,54 @@ Expected<void> Verb::CheckNames() const {
   return {};
 }
 
-Expected<void> Verb::CheckFiles() const {
+Expected<void> VerbLine::CheckFiles() const {
   if (auto named = CheckNames(); !named) return named;
   return CheckFilePlan(Files());
 }
 
-void Verb::AddQuietSwitch() {
+void VerbLine::AddQuietSwitch() {
   AddSwitch("--quiet", &impl_->quiet, "no text, no progress").Group(kOutput);
 }
 
-bool Verb::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
+bool VerbLine::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
 
-bool Verb::StandardOutputTaken() const {
+bool VerbLine::StandardOutputTaken() const {
   const FilePlan plan = Files();
   return std::any_of(plan.outputs.begin(), plan.outputs.end(),
                      [](const OutputFile& output) { return output.path == "-"; });
 }
 
-bool Verb::Forced() const { return impl_->force; }
+bool VerbLine::Forced() const { return impl_->force; }
 
-void Verb::AddForce() {
+void VerbLine::AddForce() {
   const auto writes = [](const Flag::Impl& flag) { return flag.writes; };
   if (std::none_of(impl_->flags.begin(), impl_->flags.end(), writes)) return;
   impl_->app->add_flag("--force", impl_->force, "replace even what this run reads")->group(kOutput);
 }
 
-bool Verb::Given(const std::string& name) const { return impl_->app->count(name) > 0; }
+bool VerbLine::Given(const std::string& name) const { return impl_->app->count(name) > 0; }
 
-bool Verb::Chosen() const { return impl_->app->parsed(); }
+std::vector<FlagText> VerbLine::Texts() const {
+  std::vector<FlagText> texts;
+  for (const CLI::Option* option : impl_->app->get_options()) {
+    FlagText text{option->get_name(), option->get_type_name(), option->get_description(),
+                  option->get_group(), false, {}};
+    if (option->get_items_expected_max() == 0) text.type.clear();
+    for (const Flag::Impl& flag : impl_->flags) {
+      if (flag.option != option) continue;
+      text.file = flag.reads || flag.writes || text.type == "DIR";
+      text.choices = flag.choices;
+    }
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+bool VerbLine::Has(const std::string& name) const {
+  return impl_->app->get_option_no_throw(name) != nullptr;
+}
+
+const CommandLine& VerbLine::line() const { return *impl_->line; }
 
 CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Impl>()) {
   CLI::App& app = impl_->app;
@@ -272,36 +336,71 @@ CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Imp
 
 CommandLine::~CommandLine() = default;
 
-Verb* CommandLine::AddVerb(const std::string& name, const std::string& doc) {
-  auto verb = std::make_unique<Verb::Impl>();
-  verb->app = impl_->app.add_subcommand(name, doc);
-  impl_->verbs.push_back(std::make_unique<Verb>(std::move(verb)));
-  return impl_->verbs.back().get();
+void CommandLine::Add(const Verb& verb) {
+  auto made = std::make_unique<VerbLine::Impl>();
+  made->line = this;
+  made->verb = &verb;
+  made->app = impl_->app.add_subcommand(verb.name, verb.line);
+  made->app->footer(verb.footer);
+  if (!verb.work) made->app->group(kAbout);
+  impl_->verbs.push_back(std::make_unique<VerbLine>(std::move(made)));
+  VerbLine* const line = impl_->verbs.back().get();
+  line->impl_->run = verb.declare(line);
+  line->AddForce();
+}
+
+const VerbLine* CommandLine::Chosen() const {
+  for (const std::unique_ptr<VerbLine>& verb : impl_->verbs) {
+    if (verb->impl_->app->parsed()) return verb.get();
+  }
+  return nullptr;
 }
 
 Expected<std::string> CommandLine::Parse(int argc, char** argv) {
-  for (const std::unique_ptr<Verb>& verb : impl_->verbs) verb->AddForce();
   try {
     impl_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      const bool verb = !impl_->app.get_subcommands().empty();
-      return tl::unexpected(verb ? CommandLineError(error) : NoVerb(impl_->app, argc, argv));
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      impl_->app.exit(error, text, text);
+      return text.str();
     }
-    std::ostringstream text;  // --help, --version
-    impl_->app.exit(error, text, text);
-    return text.str();
+    const VerbLine* const verb = Chosen();
+    if (verb == nullptr) return tl::unexpected(NoVerb(impl_->app, argc, argv));
+    if (auto other = OtherTarget(*verb->impl_->verb, *verb->impl_->app, error)) {
+      return tl::unexpected(std::move(*other));
+    }
+    return tl::unexpected(CommandLineError(error));
+  }
+  for (const auto& [given, set] : Chosen()->impl_->switches) {
+    if (given) set();
   }
   return std::string();
 }
 
-std::string CommandLine::Help() const { return impl_->app.help(); }
+Expected<int> CommandLine::Run() const { return Chosen()->impl_->run(); }
+
+Expected<std::string> CommandLine::Help(const std::string& verb) const {
+  if (verb.empty()) return impl_->app.help();
+  const CLI::App* const app = impl_->app.get_subcommand_no_throw(verb);
+  if (app == nullptr) return tl::unexpected(NoSuchVerb(impl_->app, verb));
+  return app->help();
+}
+
+std::vector<VerbText> CommandLine::Verbs() const {
+  std::vector<VerbText> verbs;
+  for (const std::unique_ptr<VerbLine>& verb : impl_->verbs) {
+    const Verb& data = *verb->impl_->verb;
+    verbs.push_back({data.name, data.line, data.footer, data.work, verb->Texts()});
+  }
+  return verbs;
+}
 
 int CommandLine::verbosity() const { return impl_->verbosity; }
 
 bool CommandLine::quiet() const {
   return std::any_of(impl_->verbs.begin(), impl_->verbs.end(),
-                     [](const auto& verb) { return verb->Chosen() && verb->impl_->quiet; });
+                     [](const auto& verb) { return verb->impl_->app->parsed() && verb->impl_->quiet; });
 }
 
 }  // namespace lyrefit

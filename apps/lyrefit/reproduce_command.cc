@@ -1,5 +1,3 @@
-#include "reproduce_command.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,13 +5,15 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/report/compare_plot.h"
 #include "lyrefit/report/markdown.h"
 #include "lyrefit/report/paper_page.h"
 #include "lyrefit/report/plot.h"
-#include "output.h"
+#include "lyrefit/study/paper_study.h"
 #include "pagmo_searcher.h"
 #include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -47,105 +47,110 @@ constexpr Picture kPictures[] = {
 // The tables of the study that other pages show between marks.
 Expected<void> Update(const PaperStudy& study, const std::string& page) {
   constexpr std::uintmax_t kLargestPage = 1U << 22;
-  const auto text = ReadTextFile(page, kLargestPage);
-  if (!text) return tl::unexpected(text.error());
-  std::string updated = ReplaceBlock(*text, "certified", CertifiedTable(study));
+  TRY(const std::string text, ReadTextFile(page, kLargestPage));
+  std::string updated = ReplaceBlock(text, "certified", CertifiedTable(study));
   updated = ReplaceBlock(updated, "ranked", RankedTable(study));
   updated = ReplaceBlock(updated, "budget", BudgetSummary(study));
   return WriteTextFile(page, updated);
 }
 
-}  // namespace
+struct ReproduceRequest {
+  PaperStudyOptions options;
+  std::string folder;
+  std::string output;
+  std::string peers = "de1220,sade,cmaes,pso,gwo,bee_colony";
+  std::vector<std::string> pages;
+};
 
-ReproduceCommand::ReproduceCommand(CommandLine* line)
-    : verb_(line->AddVerb("reproduce",
-                          "Do the published tables over again and write the page of results")) {
-  verb_->AddOption("FOLDER", &folder_, "published.csv, rows.csv, remarks.csv").Required().Reads();
-  AddTableFlags(verb_, kPaperStudyOptionTable, "Runs", &options_);
-  verb_
-      ->AddOption("--threads", &options_.threads,
-                  "0: all cores; never changes a result but the seconds (default 0)")
-      .Between(0, 1024)
-      .Type("N")
-      .Group("Runs");
-  AddResumeFlag(verb_, "run", &options_.journal);
-  verb_->AddOption("--peers", &peers_, "pagmo2 algorithms to rank as well (default " + peers_ + ")")
+void DeclareReproduce(VerbLine* verb, ReproduceRequest* request) {
+  verb->AddOption("FOLDER", &request->folder, "published.csv, rows.csv, remarks.csv")
+      .Required()
+      .Reads();
+  AddTableFlags(verb, kPaperStudyOptionTable, &request->options);
+  AddResumeFlag(verb, "run", &request->options.journal);
+  verb->AddOption("--peers", &request->peers,
+                  "pagmo2 algorithms to rank as well (default " + request->peers + ")")
       .Type("LIST")
       .Group("Runs");
-  verb_->AddOption("--out", &output_, "folder to write into (default FOLDER)")
+  verb->AddOption("--out", &request->output, "folder to write into (default FOLDER)")
       .Type("DIR")
       .Group("Output");
-  AddListFlag(verb_, "--update",
-              "a page whose blocks <!-- certified -->, <!-- ranked --> and <!-- budget --> are "
-              "written anew; once for each",
-              &pages_)
+  verb->AddOption("--update", &request->pages,
+                  "a page whose blocks <!-- certified -->, <!-- ranked --> and <!-- budget --> are "
+                  "written anew; once for each")
+      .OneEach()
       .Type("FILE")
       .Group("Output");
-  verb_->AddQuietSwitch();
-  verb_->Footer(kReproduceFooter);
+  verb->AddQuietSwitch();
 }
 
-Expected<void> ReproduceCommand::AddPeers() {
-  if (peers_.empty() || PagmoNames().empty()) return {};
-  const auto names = ParseList("--peers", peers_);
-  if (!names) return tl::unexpected(names.error());
+Expected<std::vector<Contender>> Peers(const ReproduceRequest& request) {
+  std::vector<Contender> peers;
+  if (request.peers.empty() || PagmoNames().empty()) return peers;
+  TRY(const auto names, ParseList("--peers", request.peers));
   SearchOptions search;
-  search.population = options_.population;
-  search.iterations = options_.iterations;
-  for (const std::string& name : *names) {
-    auto peer = PagmoContender(name, search);
-    if (!peer) return tl::unexpected(peer.error());
-    options_.peers.push_back(std::move(*peer));
+  search.population = request.options.population;
+  search.iterations = request.options.iterations;
+  for (const std::string& name : names) {
+    TRY(Contender peer, PagmoContender(name, search));
+    peers.push_back(std::move(peer));
   }
-  return {};
+  return peers;
 }
 
-Expected<void> ReproduceCommand::Write(const PaperStudy& study) const {
-  const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
-  if (!remarks) return tl::unexpected(remarks.error());
-  const fs::path output(output_);
+Expected<void> CheckTargets(VerbLine* verb, const fs::path& output) {
+  verb->AlsoWrites("--out", (output / "README.md").string());
   for (const Picture& picture : kPictures) {
-    auto drawn = picture.draw(study.*picture.comparison, (output / picture.file).string());
-    if (!drawn) return drawn;
+    const std::string path = (output / picture.file).string();
+    TRY(CheckPlot(path));
+    verb->AlsoWrites("--out", path);
   }
-  for (const std::string& page : pages_) {
-    if (auto updated = Update(study, page); !updated) return updated;
-  }
-  return WriteTextFile((output / "README.md").string(), PaperPage(study, *remarks));
+  return verb->CheckFiles();
 }
 
-int ReproduceCommand::Run() {
-  if (output_.empty()) output_ = folder_;
-  if (auto peers = AddPeers(); !peers) return Refuse(peers.error());
-  const auto remarks = ReadRemarks((fs::path(folder_) / "remarks.csv").string());
-  if (!remarks) return Refuse(remarks.error());
-  verb_->AlsoWrites("--out", (fs::path(output_) / "README.md").string());
+Expected<void> Write(const ReproduceRequest& request, const fs::path& output,
+                     const PaperStudy& study) {
+  TRY(const auto remarks, ReadRemarks((fs::path(request.folder) / "remarks.csv").string()));
   for (const Picture& picture : kPictures) {
-    const std::string path = (fs::path(output_) / picture.file).string();
-    if (auto drawable = CheckPlot(path); !drawable) return Refuse(drawable.error());
-    verb_->AlsoWrites("--out", path);
+    TRY(picture.draw(study.*picture.comparison, (output / picture.file).string()));
   }
-  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
+  for (const std::string& page : request.pages) TRY(Update(study, page));
+  return WriteTextFile((output / "README.md").string(), PaperPage(study, remarks));
+}
+
+Expected<int> RunReproduce(VerbLine& verb, ReproduceRequest& request) {
+  const fs::path output(request.output.empty() ? request.folder : request.output);
+  const std::string& journal = request.options.journal;
+  TRY(request.options.peers, Peers(request));
+  TRY(ReadRemarks((fs::path(request.folder) / "remarks.csv").string()));
+  TRY(CheckTargets(&verb, output));
   const InterruptGuard guard;
-  const std::string kept = options_.journal.empty()
-                               ? "Ctrl-C loses what is done; --resume FILE keeps it"
-                               : "Ctrl-C keeps what is done in " + options_.journal;
-  const auto study = ReproducePaper(folder_, options_, TerminalObserver({"", kept}));
-  if (!study) return Refuse(study.error());
-  PrintRemarks(study->remarks);
-  if (study->interrupted) {
-    PrintRemarks(
-        {options_.journal.empty()
-             ? "interrupted; nothing is written, and nothing kept without --resume FILE"
-             : "interrupted; nothing is written, the same command goes on where it stopped"});
+  const std::string kept = journal.empty() ? "Ctrl-C loses what is done; --resume FILE keeps it"
+                                           : "Ctrl-C keeps what is done in " + journal;
+  TRY(const PaperStudy study,
+      ReproducePaper(request.folder, request.options, TerminalObserver({"", kept})));
+  PrintRemarks(study.remarks);
+  if (study.interrupted) {
+    PrintRemarks({journal.empty()
+                      ? "interrupted; nothing is written, and nothing kept without --resume FILE"
+                      : "interrupted; nothing is written, the same command goes on where it "
+                        "stopped"});
     return kExitInterrupted;
   }
-  if (auto written = Write(*study); !written) return Refuse(written.error());
-  if (!verb_->TextWanted()) return kExitFine;
-  const std::string done = fmt::format("written: {} ({:.0f} s)\n",
-                                       (fs::path(output_) / "README.md").string(), study->seconds);
-  if (auto written = WriteOutput("-", done); !written) return Refuse(written.error());
+  TRY(Write(request, output, study));
+  TRY(WriteText(verb, [&] {
+    return fmt::format("written: {} ({:.0f} s)\n", (output / "README.md").string(),
+                       study.seconds);
+  }));
   return kExitFine;
 }
+
+}  // namespace
+
+const Verb kReproduceVerb = {"reproduce",
+                             "Do the published tables over again and write the page of results",
+                             kReproduceFooter,
+                             "README.md and its pictures into the folder of --out",
+                             Declare<ReproduceRequest, DeclareReproduce, RunReproduce>};
 
 }  // namespace lyrefit

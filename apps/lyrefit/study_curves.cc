@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/nearest_curve.h"
 #include "lyrefit/curve/number_text.h"
@@ -61,9 +62,9 @@ Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const Study
 
 Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& flags,
                    std::vector<CompareCurve>* curves) {
-  Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
-  if (!bounds) return tl::unexpected(bounds.error());
-  curves->push_back(MakeSubject(std::move(curve), std::move(*bounds)));
+  TRY(BoundsSpec bounds, NamedBounds(flags.bounds, file));
+  for (const auto& [name, range] : flags.ranges) bounds.overrides[name] = range;
+  curves->push_back(MakeSubject(std::move(curve), std::move(bounds)));
   return {};
 }
 

@@ -146,7 +146,7 @@ Expected<void> CheckReach(const SweepState& sweep,
 }
 
 Expected<void> CheckOptions(const HealthyOptions& options) {
-  if (auto valid = ValidateOptions(options, kHealthyOptionRows); !valid) return valid;
+  if (auto valid = ValidateOptions(options, kHealthyOptionTable); !valid) return valid;
   return ValidateThreads(options.threads);
 }
 

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/study/read_audit_rows.h"
@@ -21,6 +22,14 @@ struct AuditOptions {
   // Of rows that do not say. Unset: all three sets are tried, and those that fit are named.
   std::optional<ConstantSet> constants;
   Objective objective = Objective::kMeasuredCurrent;  // what the claims are of
+};
+
+inline constexpr OptionRow<AuditOptions> kAuditOptionTable[] = {
+    {"curves", "DIR", "a folder to look for the devices' curves in; may be repeated",
+     &AuditOptions::curve_folders},
+    {"constants", "NAME", "values of k and q of rows that do not say",
+     EnumOption<&AuditOptions::constants>(), OptionTrait::kNone, ": any"},
+    {"objective", "NAME", "which RMSE the claims are of", EnumOption<&AuditOptions::objective>()},
 };
 
 enum class AuditVerdict {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -10,6 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/fit_family.h"
@@ -36,7 +36,18 @@ struct CoverageOptions {
   FamilyOptions family;
 };
 
-inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
+inline constexpr OptionRow<CoverageOptions> kCoverageOptionTable[] = {
+    OptionRow<CoverageOptions>("Device"),
+    {"law", "NAME", "how parameters follow irradiance and temperature",
+     EnumOption<&CoverageOptions::family, &FamilyOptions::law>()},
+    {"model", "NAME", "number of diodes; td cannot be fitted jointly",
+     EnumOption<&CoverageOptions::family, &FamilyOptions::model>()},
+    {"set", "P=VALUE",
+     "value of a shared parameter, Iph=8; once for each; default: a module drawn for every set",
+     AssignmentsOption<&CoverageOptions::module>()},
+    {"cells", "N", "cells in series, with --set (72)", &CoverageOptions::cells_in_series,
+     OptionTrait::kUnchecked | OptionTrait::kNoDefault},
+    OptionRow<CoverageOptions>("Sets"),
     {"sets", "", "simulated sets", &CoverageOptions::sets, 1, 1e6},
     {"seed", "", "seed of everything that is drawn; set s has its own stream",
      &CoverageOptions::seed, 0, 1.8446744073709552e19},
@@ -50,7 +61,14 @@ inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
      &CoverageOptions::temperature_error_K, -20, 20},
     {"irradiance-error", "W/m2", "hidden: the irradiances read that much too high",
      &CoverageOptions::irradiance_error_W_m2, -80, 80},
-}};
+    {"threads", "N", "0: all cores; never changes a result but the seconds",
+     &CoverageOptions::threads, 0, kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
+    OptionRow<CoverageOptions>("Fit"),
+    {"temperature-offset", "", "fit one common error of the temperatures",
+     SwitchOption<&CoverageOptions::family, &FamilyOptions::temperature_offset>()},
+    {"irradiance-offset", "", "fit one common error of the irradiances",
+     SwitchOption<&CoverageOptions::family, &FamilyOptions::irradiance_offset>()},
+};
 
 // What one simulated set says of one parameter.
 struct CoverageRow {

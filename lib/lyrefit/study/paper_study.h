@@ -27,7 +27,8 @@ struct PaperStudyOptions {
   std::string journal;
 };
 
-inline const std::array<OptionRow<PaperStudyOptions>, 8> kPaperStudyOptionTable = {{
+inline constexpr OptionRow<PaperStudyOptions> kPaperStudyOptionTable[] = {
+    OptionRow<PaperStudyOptions>("Runs"),
     {"seed", "", "seed of every run", &PaperStudyOptions::seed, 0, 1.8446744073709552e19},
     {"population", "birds", "birds of every search; the paper's 100",
      &PaperStudyOptions::population, 10, 10000},
@@ -41,7 +42,9 @@ inline const std::array<OptionRow<PaperStudyOptions>, 8> kPaperStudyOptionTable 
      &PaperStudyOptions::ranked_runs, 2, 1e6},
     {"budget-runs", "runs", "runs of each algorithm at each budget",
      &PaperStudyOptions::budget_runs, 1, 1e6},
-}};
+    {"threads", "N", "0: all cores; never changes a result but the seconds",
+     &PaperStudyOptions::threads, 0, kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
+};
 
 // One search alone on the machine, as Table 9 has it.
 struct TimedSearch {

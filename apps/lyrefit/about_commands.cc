@@ -96,8 +96,11 @@ const Verb kCompletionVerb = {"completion",
                               Declare<AboutRequest, DeclareCompletion, RunCompletion>,
                               false};
 
-const Verb kManVerb = {"man",        "Print the manual page", kManFooter,
-                       "roff alone", Declare<AboutRequest, DeclareMan, RunMan>,
+const Verb kManVerb = {"man",
+                       "Print the manual page",
+                       kManFooter,
+                       "roff alone",
+                       Declare<AboutRequest, DeclareMan, RunMan>,
                        false};
 
 }  // namespace lyrefit

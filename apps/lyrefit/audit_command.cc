@@ -57,10 +57,8 @@ Expected<int> RunAudit(VerbLine& verb, AuditRequest& request) {
 
 }  // namespace
 
-const Verb kAuditVerb = {"audit",
-                         "Check published parameter rows: does the claimed RMSE come out?",
-                         kAuditFooter,
-                         "the findings as text, --json and --csv",
+const Verb kAuditVerb = {"audit", "Check published parameter rows: does the claimed RMSE come out?",
+                         kAuditFooter, "the findings as text, --json and --csv",
                          Declare<AuditRequest, DeclareAudit, RunAudit>};
 
 }  // namespace lyrefit

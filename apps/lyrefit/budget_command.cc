@@ -42,8 +42,7 @@ void DeclareBudget(VerbLine* verb, BudgetRequest* request) {
                       request->budgets + ", with --landscape " + kLandscapeBudgets + ")")
       .Type("LIST")
       .Group("Search");
-  AddSearchRows(verb,
-                {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
+  AddSearchRows(verb, {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
                 &study);
   verb->AddOption("--plot", &study.output.plot_file,
                   "success rate over evaluations as a picture, .svg or .png")
@@ -88,17 +87,14 @@ Expected<int> RunBudget(VerbLine& verb, BudgetRequest& request) {
   StudyFlags& study = request.study;
   TRY(CheckLandscape(verb, &study));
   const bool usual = study.landscape.empty() || verb.Given("--budgets");
-  TRY(const auto contenders,
-      BudgetContenders(study, usual ? request.budgets : kLandscapeBudgets));
+  TRY(const auto contenders, BudgetContenders(study, usual ? request.budgets : kLandscapeBudgets));
   return RunStudy(verb, study, contenders, BudgetText, {{study.output.plot_file, PlotBudget}});
 }
 
 }  // namespace
 
-const Verb kBudgetVerb = {"budget",
-                          "Evaluations each algorithm needs, by how far it is polished",
-                          kBudgetFooter,
-                          "its tables as text, --json, --csv and --plot",
+const Verb kBudgetVerb = {"budget", "Evaluations each algorithm needs, by how far it is polished",
+                          kBudgetFooter, "its tables as text, --json, --csv and --plot",
                           Declare<BudgetRequest, DeclareBudget, RunBudget>};
 
 }  // namespace lyrefit

@@ -59,10 +59,8 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
 
 }  // namespace
 
-const Verb kCertifyVerb = {"certify",
-                           "Prove how low the measured-current RMSE of a curve can go",
-                           kCertifyFooter,
-                           "the certificate as text, --json, --csv and --plot",
+const Verb kCertifyVerb = {"certify", "Prove how low the measured-current RMSE of a curve can go",
+                           kCertifyFooter, "the certificate as text, --json, --csv and --plot",
                            Declare<CertifyRequest, DeclareCertify, RunCertify>};
 
 }  // namespace lyrefit

@@ -97,7 +97,7 @@ std::string NotNegative(const std::string& text) {
 }  // namespace
 
 struct Flag::Impl {
-  CLI::Option* option;
+  CLI::Option* option = nullptr;
   FlagTarget target;  // none: a null pointer
   bool reads = false;
   bool curves = false;
@@ -202,7 +202,9 @@ VerbLine::VerbLine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 VerbLine::~VerbLine() = default;
 
 Flag VerbLine::Declare(void* option, FlagTarget target) {
-  impl_->flags.push_back({static_cast<CLI::Option*>(option), target});
+  impl_->flags.emplace_back();
+  impl_->flags.back().option = static_cast<CLI::Option*>(option);
+  impl_->flags.back().target = target;
   return Flag(&impl_->flags.back());
 }
 
@@ -306,8 +308,12 @@ bool VerbLine::Given(const std::string& name) const { return impl_->app->count(n
 std::vector<FlagText> VerbLine::Texts() const {
   std::vector<FlagText> texts;
   for (const CLI::Option* option : impl_->app->get_options()) {
-    FlagText text{option->get_name(), option->get_type_name(), option->get_description(),
-                  option->get_group(), false, {}};
+    FlagText text{option->get_name(),
+                  option->get_type_name(),
+                  option->get_description(),
+                  option->get_group(),
+                  false,
+                  {}};
     if (option->get_items_expected_max() == 0) text.type.clear();
     for (const Flag::Impl& flag : impl_->flags) {
       if (flag.option != option) continue;
@@ -381,10 +387,10 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
 Expected<int> CommandLine::Run() const { return Chosen()->impl_->run(); }
 
 Expected<std::string> CommandLine::Help(const std::string& verb) const {
-  if (verb.empty()) return impl_->app.help();
-  const CLI::App* const app = impl_->app.get_subcommand_no_throw(verb);
-  if (app == nullptr) return tl::unexpected(NoSuchVerb(impl_->app, verb));
-  return app->help();
+  for (const std::unique_ptr<VerbLine>& known : impl_->verbs) {
+    if (known->impl_->verb->name == verb) return known->impl_->app->help();
+  }
+  return tl::unexpected(NoSuchVerb(impl_->app, verb));
 }
 
 std::vector<VerbText> CommandLine::Verbs() const {
@@ -399,8 +405,9 @@ std::vector<VerbText> CommandLine::Verbs() const {
 int CommandLine::verbosity() const { return impl_->verbosity; }
 
 bool CommandLine::quiet() const {
-  return std::any_of(impl_->verbs.begin(), impl_->verbs.end(),
-                     [](const auto& verb) { return verb->impl_->app->parsed() && verb->impl_->quiet; });
+  return std::any_of(impl_->verbs.begin(), impl_->verbs.end(), [](const auto& verb) {
+    return verb->impl_->app->parsed() && verb->impl_->quiet;
+  });
 }
 
 }  // namespace lyrefit

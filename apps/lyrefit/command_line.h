@@ -160,7 +160,7 @@ class CommandLine {
   // Does what the verb on the line does; the exit code.
   Expected<int> Run() const;
 
-  // What `lyrefit VERB --help` prints; of "" that of lyrefit itself.
+  // What `lyrefit VERB --help` prints.
   Expected<std::string> Help(const std::string& verb) const;
   std::vector<VerbText> Verbs() const;
   int verbosity() const;

@@ -45,17 +45,16 @@ void DeclareCompare(VerbLine* verb, CompareRequest* request) {
 
 Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
   TRY(const auto contenders, ParseContenders(request.study));
-  return RunStudy(verb, request.study, contenders, CompareText,
-                  {{request.study.output.plot_file, PlotBoxes},
-                   {request.convergence_file, PlotConvergence}});
+  return RunStudy(
+      verb, request.study, contenders, CompareText,
+      {{request.study.output.plot_file, PlotBoxes}, {request.convergence_file, PlotConvergence}});
 }
 
 }  // namespace
 
-const Verb kCompareVerb = {"compare",
-                           "Compare search algorithms, pure and polished, over many runs",
-                           kCompareFooter,
-                           "its tables as text, --json, --csv, --plot and --convergence-plot",
-                           Declare<CompareRequest, DeclareCompare, RunCompare>};
+const Verb kCompareVerb = {
+    "compare", "Compare search algorithms, pure and polished, over many runs", kCompareFooter,
+    "its tables as text, --json, --csv, --plot and --convergence-plot",
+    Declare<CompareRequest, DeclareCompare, RunCompare>};
 
 }  // namespace lyrefit

@@ -65,8 +65,7 @@ std::string BashScript(const std::vector<VerbText>& verbs) {
          values +
          "    *)\n"
          "      case $verb in\n" +
-         flags + "        '') words=" +
-         Quoted(VerbNames(verbs) + " --help --version --verbose") +
+         flags + "        '') words=" + Quoted(VerbNames(verbs) + " --help --version --verbose") +
          " ;;\n"
          "      esac ;;\n"
          "  esac\n"
@@ -87,7 +86,7 @@ std::string ZshDoc(const std::string& text) {
 
 std::string ZshSpec(const FlagText& flag) {
   const std::string message = flag.type.empty() ? " " : ZshDoc(flag.type);
-  const std::string action = flag.file             ? "_files"
+  const std::string action = flag.file              ? "_files"
                              : flag.choices.empty() ? " "
                                                     : "(" + JoinWords(flag.choices) + ")";
   if (!IsFlag(flag)) return "'*:" + ZshDoc(flag.name) + ":" + action + "'";

@@ -55,10 +55,8 @@ Expected<int> RunCoverage(VerbLine& verb, CoverageRequest& request) {
 
 }  // namespace
 
-const Verb kCoverageVerb = {"coverage",
-                            "Count how often the 95 % intervals of joint fits hold the truth",
-                            kCoverageFooter,
-                            "the counts as text, --json and --csv",
-                            Declare<CoverageRequest, DeclareCoverage, RunCoverage>};
+const Verb kCoverageVerb = {
+    "coverage", "Count how often the 95 % intervals of joint fits hold the truth", kCoverageFooter,
+    "the counts as text, --json and --csv", Declare<CoverageRequest, DeclareCoverage, RunCoverage>};
 
 }  // namespace lyrefit

@@ -54,8 +54,8 @@ std::string CausesCsv(const std::vector<std::string>& names,
     for (const Cause& cause : verdict.causes) csv += CauseLine(names[i], cause, true);
     for (const Cause& cause : verdict.below_floor) csv += CauseLine(names[i], cause, false);
     if (!verdict.causes.empty() || !verdict.below_floor.empty()) continue;
-    csv += Line({CsvField(names[i]), "", "", "no", ",,", ",,", "", "", "",
-                 CsvField(verdict.sentence)});
+    csv += Line(
+        {CsvField(names[i]), "", "", "no", ",,", ",,", "", "", "", CsvField(verdict.sentence)});
   }
   return csv;
 }
@@ -89,12 +89,9 @@ std::string CertificateCsv(const Certificate& certificate) {
                CsvField(floor.lower_bound_A), CsvField(floor.gap), "0"});
   csv.insert(csv.size() - 1, std::string(infos.size(), ','));
   for (const ModelCertificate& model : certificate.models) {
-    std::vector<std::string> fields = {ToText(model.model),
-                                       YesNo(model.certified),
-                                       CsvField(model.rmse_A),
-                                       CsvField(model.lower_bound_A),
-                                       CsvField(model.gap),
-                                       CsvField(model.above_floor)};
+    std::vector<std::string> fields = {ToText(model.model),    YesNo(model.certified),
+                                       CsvField(model.rmse_A), CsvField(model.lower_bound_A),
+                                       CsvField(model.gap),    CsvField(model.above_floor)};
     for (std::size_t k = 0; k < infos.size(); ++k) {
       fields.push_back(k < model.parameters.size() ? CsvField(model.parameters[k]) : "");
     }

@@ -12,8 +12,8 @@
 namespace lyrefit {
 
 // What --csv of these verbs writes: a row for each thing found, its numbers as they read back to
-// the same bits, what is not known empty. Powers and currents are in parts as in the library, not in
-// percent.
+// the same bits, what is not known empty. Powers and currents are in parts as in the library, not
+// in percent.
 
 // A row a cause, those below the floor after those that are named; of a measurement without any one
 // row with nothing but its name and the verdict.

@@ -88,8 +88,8 @@ inline constexpr OptionRow<DataSheetRequest> kDataSheetTable[] = {
      &Request::alpha},
     {"beta", "NUMBER", "temperature coefficient of Voc in V/K, or in percent: -0.3%",
      &Request::beta},
-    {"gamma", "NUMBER",
-     "temperature coefficient of Pmp in percent per kelvin, only compared", &Request::gamma},
+    {"gamma", "NUMBER", "temperature coefficient of Pmp in percent per kelvin, only compared",
+     &Request::gamma},
     {"cells", "N", "cells in series", &Request::cells, 1, 100000,
      OptionTrait::kQuiet | OptionTrait::kNoDefault},
     {"exact", "", "the values are not rounded to the digits given", &Request::exact},
@@ -170,10 +170,8 @@ Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
 }  // namespace
 
 const Verb kDataSheetVerb = {
-    "datasheet",
-    "Find a module's parameters from what its data sheet prints, without any curve",
-    kDataSheetFooter,
-    "the parameters as text, --json, --csv and --pvlib",
+    "datasheet", "Find a module's parameters from what its data sheet prints, without any curve",
+    kDataSheetFooter, "the parameters as text, --json, --csv and --pvlib",
     Declare<DataSheetRequest, DeclareDataSheet, RunDataSheet>};
 
 }  // namespace lyrefit

@@ -86,8 +86,7 @@ Expected<void> CheckNames(const DiagnoseRequest& request) {
 
 Expected<void> CheckRequest(const VerbLine& verb, const DiagnoseRequest& request) {
   if (request.files.empty()) return Fail("CURVE is required: a file or folder to diagnose");
-  if (request.Several() &&
-      !(request.output.plot_file.empty() && request.extend_file.empty())) {
+  if (request.Several() && !(request.output.plot_file.empty() && request.extend_file.empty())) {
     return Fail("--plot and --extend are for one CURVE");
   }
   TRY(CheckEffects("--effects", request.options.effects));
@@ -188,8 +187,7 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
 
 const Verb kDiagnoseVerb = {"diagnose",
                             "Say what a diode model gets wrong in a measurement, and why",
-                            kDiagnoseFooter,
-                            "the diagnosis as text, --json, --csv and --plot",
+                            kDiagnoseFooter, "the diagnosis as text, --json, --csv and --plot",
                             Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>};
 
 }  // namespace lyrefit

@@ -33,7 +33,6 @@ constexpr char kFitFooter[] =
     "fit\n"
     "is not usable.";
 
-
 struct FitRequest {
   std::vector<std::string> files;
   CurveFlags curve;  // of one file, or of each
@@ -117,9 +116,8 @@ Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
                : FitsJson(fits, output.points());
   }));
   TRY(WriteWanted(output.csv_file, [&] { return FitsCsv(fits); }));
-  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
-    return PlotFit(*fits.front().report, file);
-  }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotFit(*fits.front().report, file); }));
   return WriteText(verb, [&] {
     std::string text;
     for (const FittedFile& file : fits) {

@@ -71,21 +71,24 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
       const auto read = [options, read = field.read](const std::string& text) {
         return read(text, options);
       };
-      Flag flag = field.many ? verb->AddListReader(name, read, help)
-                             : verb->AddReader(name, read, help);
+      Flag flag =
+          field.many ? verb->AddListReader(name, read, help) : verb->AddReader(name, read, help);
       if (field.allowed != nullptr) flag.OneOf(field.allowed());
       return flag.Type(row.unit);
     } else if constexpr (std::is_same_v<Field, OptionSwitch<Options>>) {
-      return verb->AddSwitch(name, [=, set = field.set] { set(options, true); }, help);
+      return verb->AddSwitch(
+          name, [=, set = field.set] { set(options, true); }, help);
     } else if constexpr (std::is_same_v<Field, bool Options::*>) {
       if (!(options->*field)) return verb->AddSwitch(name, &(options->*field), help);
-      return verb->AddSwitch(name, [=] { options->*field = false; }, help);
+      return verb->AddSwitch(
+          name, [=] { options->*field = false; }, help);
     } else if constexpr (std::is_member_pointer_v<Field>) {
       Flag flag = verb->AddOption(name, &(options->*field), help);
       flag.Type(*row.unit != '\0' ? row.unit : "NUMBER");
       if (IsList(row)) flag.OneEach();
       if (row.Is(OptionTrait::kUnchecked)) return flag;
-      if (!row.Is(OptionTrait::kQuiet)) return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
+      if (!row.Is(OptionTrait::kQuiet))
+        return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
       if constexpr (std::is_same_v<Field, int Options::*>) {
         return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
       } else {

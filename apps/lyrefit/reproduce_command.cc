@@ -139,18 +139,16 @@ Expected<int> RunReproduce(VerbLine& verb, ReproduceRequest& request) {
   }
   TRY(Write(request, output, study));
   TRY(WriteText(verb, [&] {
-    return fmt::format("written: {} ({:.0f} s)\n", (output / "README.md").string(),
-                       study.seconds);
+    return fmt::format("written: {} ({:.0f} s)\n", (output / "README.md").string(), study.seconds);
   }));
   return kExitFine;
 }
 
 }  // namespace
 
-const Verb kReproduceVerb = {"reproduce",
-                             "Do the published tables over again and write the page of results",
-                             kReproduceFooter,
-                             "README.md and its pictures into the folder of --out",
-                             Declare<ReproduceRequest, DeclareReproduce, RunReproduce>};
+const Verb kReproduceVerb = {
+    "reproduce", "Do the published tables over again and write the page of results",
+    kReproduceFooter, "README.md and its pictures into the folder of --out",
+    Declare<ReproduceRequest, DeclareReproduce, RunReproduce>};
 
 }  // namespace lyrefit

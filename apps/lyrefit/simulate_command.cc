@@ -72,8 +72,7 @@ void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
   AddRowFlag(verb, *FindRow(kSimulateOptionTable, "points"), "Points", &request->options)
       .Excludes("--voltages");
   AddTableFlags(verb, kSimulateOptionTable, &request->options);
-  verb->AddOption("--out", &request->out_file,
-                  "where to write; - for standard output (default -)")
+  verb->AddOption("--out", &request->out_file, "where to write; - for standard output (default -)")
       .Writes();
 }
 
@@ -156,10 +155,8 @@ Expected<int> RunSimulate(VerbLine& verb, SimulateRequest& request) {
 
 }  // namespace
 
-const Verb kSimulateVerb = {"simulate",
-                            "Write the curve of a device, with noise if wanted",
-                            kSimulateFooter,
-                            "the curve alone, as a table: --out FILE.csv",
+const Verb kSimulateVerb = {"simulate", "Write the curve of a device, with noise if wanted",
+                            kSimulateFooter, "the curve alone, as a table: --out FILE.csv",
                             Declare<SimulateRequest, DeclareSimulate, RunSimulate>};
 
 }  // namespace lyrefit

@@ -23,8 +23,8 @@ struct StudyFlags {
   CompareOptions options;
   SearchOptions search;
   Birds birds = Birds::kAll;  // of --algorithms that are searches
-  std::string landscape;  // made problems instead of curves: "strings_2,strings_3", "all"
-  int devices = 50;       // of each
+  std::string landscape;      // made problems instead of curves: "strings_2,strings_3", "all"
+  int devices = 50;           // of each
   ReportFlags output;
 };
 

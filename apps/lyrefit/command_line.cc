@@ -373,7 +373,7 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
     }
     const VerbLine* const verb = Chosen();
     if (verb == nullptr) return tl::unexpected(NoVerb(impl_->app, argc, argv));
-    if (auto other = OtherTarget(*verb->impl_->verb, *verb->impl_->app, error)) {
+    if (auto other = OtherTarget(*verb->impl_->verb, impl_->app, error)) {
       return tl::unexpected(std::move(*other));
     }
     return tl::unexpected(CommandLineError(error));

@@ -22,8 +22,8 @@ std::string ShellQuoted(const std::string& text, const char* quote, bool escape_
   }
   return quoted + "'";
 }
-std::string Quoted(const std::string& text) { return ShellQuoted(text, "'\\''", false); }
-std::string FishQuoted(const std::string& text) { return ShellQuoted(text, "\\'", true); }
+std::string ShellWord(const std::string& text) { return ShellQuoted(text, "'\\''", false); }
+std::string FishWord(const std::string& text) { return ShellQuoted(text, "\\'", true); }
 
 bool IsFlag(const FlagText& flag) { return flag.name.rfind("--", 0) == 0; }
 
@@ -50,9 +50,9 @@ std::string BashScript(const std::vector<VerbText>& verbs) {
       words.push_back(flag.name);
       if (flag.type.empty()) continue;
       const std::string choices = flag.file ? "" : JoinWords(flag.choices);
-      values += "    '" + verb.name + " " + flag.name + "') words=" + Quoted(choices) + " ;;\n";
+      values += "    '" + verb.name + " " + flag.name + "') words=" + ShellWord(choices) + " ;;\n";
     }
-    flags += "        " + verb.name + ") words=" + Quoted(JoinWords(words)) + " ;;\n";
+    flags += "        " + verb.name + ") words=" + ShellWord(JoinWords(words)) + " ;;\n";
   }
   return "# bash completion of lyrefit: source <(lyrefit completion bash)\n"
          "_lyrefit() {\n"
@@ -65,7 +65,8 @@ std::string BashScript(const std::vector<VerbText>& verbs) {
          values +
          "    *)\n"
          "      case $verb in\n" +
-         flags + "        '') words=" + Quoted(VerbNames(verbs) + " --help --version --verbose") +
+         flags +
+         "        '') words=" + ShellWord(VerbNames(verbs) + " --help --version --verbose") +
          " ;;\n"
          "      esac ;;\n"
          "  esac\n"
@@ -92,13 +93,13 @@ std::string ZshSpec(const FlagText& flag) {
   if (!IsFlag(flag)) return "'*:" + ZshDoc(flag.name) + ":" + action + "'";
   std::string spec = "*" + flag.name + "[" + ZshDoc(flag.doc) + "]";
   if (!flag.type.empty()) spec += ":" + message + ":" + action;
-  return Quoted(spec);
+  return ShellWord(spec);
 }
 
 std::string ZshScript(const std::vector<VerbText>& verbs) {
   std::string names, cases;
   for (const VerbText& verb : verbs) {
-    names += "    " + Quoted(verb.name + ":" + ZshDoc(verb.line)) + "\n";
+    names += "    " + ShellWord(verb.name + ":" + ZshDoc(verb.line)) + "\n";
     cases += "    " + verb.name + ")\n      _arguments";
     for (const FlagText& flag : verb.flags) {
       if (IsFlag(flag) || flag.name[0] != '-') cases += " \\\n        " + ZshSpec(flag);
@@ -135,19 +136,19 @@ std::string FishScript(const std::vector<VerbText>& verbs) {
       "~/.config/fish/completions/lyrefit.fish\n";
   for (const VerbText& verb : verbs) {
     text += "complete -c lyrefit -n __fish_use_subcommand -f -a " + verb.name + " -d " +
-            FishQuoted(verb.line) + "\n";
+            FishWord(verb.line) + "\n";
   }
   for (const VerbText& verb : verbs) {
     const std::string begin =
         "complete -c lyrefit -n '__fish_seen_subcommand_from " + verb.name + "'";
     const std::vector<std::string> own = OwnWords(verb);
-    if (!own.empty()) text += begin + " -f -a " + FishQuoted(JoinWords(own)) + "\n";
+    if (!own.empty()) text += begin + " -f -a " + FishWord(JoinWords(own)) + "\n";
     for (const FlagText& flag : verb.flags) {
       if (!IsFlag(flag)) continue;
-      text += begin + " -l " + flag.name.substr(2) + " -d " + FishQuoted(flag.doc);
+      text += begin + " -l " + flag.name.substr(2) + " -d " + FishWord(flag.doc);
       if (flag.file) text += " -r -F";
       if (!flag.file && !flag.type.empty()) text += " -x";
-      if (!flag.choices.empty()) text += " -a " + FishQuoted(JoinWords(flag.choices));
+      if (!flag.choices.empty()) text += " -a " + FishWord(JoinWords(flag.choices));
       text += "\n";
     }
   }

@@ -10,7 +10,7 @@ namespace {
 std::string YesNo(bool value) { return value ? "yes" : "no"; }
 
 // One line of fields that are texts already.
-std::string Line(const std::vector<std::string>& fields) {
+std::string CsvLine(const std::vector<std::string>& fields) {
   std::string line = fields.front();
   for (std::size_t i = 1; i < fields.size(); ++i) line += "," + fields[i];
   return line + "\n";
@@ -35,10 +35,10 @@ std::string StrengthText(const Cause& cause) {
 }
 
 std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
-  return Line({CsvField(name), CsvField(cause.id), CsvField(cause.title), YesNo(named),
-               SizedFields(cause.current_effect), SizedFields(cause.power_effect),
-               CsvField(cause.corrected_p), CsvField(StrengthText(cause)),
-               CsvField(JoinWith(cause.equivalents, " ")), CsvField(cause.sentence)});
+  return CsvLine({CsvField(name), CsvField(cause.id), CsvField(cause.title), YesNo(named),
+                  SizedFields(cause.current_effect), SizedFields(cause.power_effect),
+                  CsvField(cause.corrected_p), CsvField(StrengthText(cause)),
+                  CsvField(JoinWith(cause.equivalents, " ")), CsvField(cause.sentence)});
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::string CausesCsv(const std::vector<std::string>& names,
     for (const Cause& cause : verdict.causes) csv += CauseLine(names[i], cause, true);
     for (const Cause& cause : verdict.below_floor) csv += CauseLine(names[i], cause, false);
     if (!verdict.causes.empty() || !verdict.below_floor.empty()) continue;
-    csv += Line(
+    csv += CsvLine(
         {CsvField(names[i]), "", "", "no", ",,", ",,", "", "", "", CsvField(verdict.sentence)});
   }
   return csv;
@@ -65,10 +65,10 @@ std::string OddSweepsCsv(const OddSweeps& odd) {
   for (const HealthyComparison& sweep : odd.sweeps) {
     const HealthyCause none{"", "", kUnknown, kUnknown, kUnknown, "", kUnknown, 0};
     const HealthyCause& cause = sweep.causes.empty() ? none : sweep.causes.front();
-    csv += Line({CsvField(sweep.name), YesNo(sweep.differs), CsvField(sweep.p_value),
-                 CsvField(cause.id), CsvField(cause.size), CsvField(cause.low_95),
-                 CsvField(cause.high_95), CsvField(cause.unit), CsvField(cause.power),
-                 CsvField(sweep.sentence)});
+    csv += CsvLine({CsvField(sweep.name), YesNo(sweep.differs), CsvField(sweep.p_value),
+                    CsvField(cause.id), CsvField(cause.size), CsvField(cause.low_95),
+                    CsvField(cause.high_95), CsvField(cause.unit), CsvField(cause.power),
+                    CsvField(sweep.sentence)});
   }
   return csv;
 }
@@ -85,8 +85,8 @@ std::string CertificateCsv(const Certificate& certificate) {
   }
   csv += "\n";
   const Floor& floor = certificate.floor;
-  csv += Line({"floor", YesNo(floor.certified), CsvField(floor.rmse_A),
-               CsvField(floor.lower_bound_A), CsvField(floor.gap), "0"});
+  csv += CsvLine({"floor", YesNo(floor.certified), CsvField(floor.rmse_A),
+                  CsvField(floor.lower_bound_A), CsvField(floor.gap), "0"});
   csv.insert(csv.size() - 1, std::string(infos.size(), ','));
   for (const ModelCertificate& model : certificate.models) {
     std::vector<std::string> fields = {ToText(model.model),    YesNo(model.certified),
@@ -95,7 +95,7 @@ std::string CertificateCsv(const Certificate& certificate) {
     for (std::size_t k = 0; k < infos.size(); ++k) {
       fields.push_back(k < model.parameters.size() ? CsvField(model.parameters[k]) : "");
     }
-    csv += Line(fields);
+    csv += CsvLine(fields);
   }
   return csv;
 }
@@ -105,10 +105,10 @@ std::string CoverageCsv(const CoverageReport& report) {
       "parameter,name,unit,fitted,not_identifiable,counted,covered,coverage,low_95,high_95,"
       "median_half_width\n";
   for (const ParameterCoverage& p : report.parameters) {
-    csv += Line({CsvField(p.info.symbol), CsvField(p.info.name), CsvField(p.info.unit),
-                 std::to_string(p.fitted), std::to_string(p.not_identifiable),
-                 std::to_string(p.counted), std::to_string(p.covered), CsvField(p.coverage),
-                 CsvField(p.low_95), CsvField(p.high_95), CsvField(p.median_half_width)});
+    csv += CsvLine({CsvField(p.info.symbol), CsvField(p.info.name), CsvField(p.info.unit),
+                    std::to_string(p.fitted), std::to_string(p.not_identifiable),
+                    std::to_string(p.counted), std::to_string(p.covered), CsvField(p.coverage),
+                    CsvField(p.low_95), CsvField(p.high_95), CsvField(p.median_half_width)});
   }
   return csv;
 }
@@ -121,9 +121,9 @@ std::string DataSheetCsv(const DataSheetFit& fit) {
         std::find_if(fit.ranges.begin(), fit.ranges.end(),
                      [&info](const DataSheetRange& r) { return r.name == info.name; });
     const bool ranged = range != fit.ranges.end();
-    csv += Line({CsvField(info.symbol), CsvField(info.name), CsvField(info.unit),
-                 CsvField(fit.shared[k]), CsvField(ranged ? range->low : kUnknown),
-                 CsvField(ranged ? range->high : kUnknown)});
+    csv += CsvLine({CsvField(info.symbol), CsvField(info.name), CsvField(info.unit),
+                    CsvField(fit.shared[k]), CsvField(ranged ? range->low : kUnknown),
+                    CsvField(ranged ? range->high : kUnknown)});
   }
   return csv;
 }

@@ -19,8 +19,8 @@ const std::vector<Question>& Questions() {
       {"What are the parameters of my cell or module?",
        {{"fit", "from a measured curve", "lyrefit fit module.csv --cells 60 --temperature-C 45"},
         {"datasheet", "from what its data sheet prints",
-         "lyrefit datasheet --isc 9.05 --voc 37.8 --imp 8.58 --vmp 30.3 --alpha 0.06% --beta "
-         "-0.31% --cells 60"}}},
+         "lyrefit datasheet --isc 9.05 --voc 37.8 --imp 8.58 --vmp 30.3 \\\n"
+         "                   --alpha 0.06% --beta -0.31% --cells 60"}}},
       {"Can I trust them?",
        {{"certify", "is there a better fit than this? a proof",
          "lyrefit certify module.csv --cells 60 --temperature-C 45"},

@@ -87,8 +87,9 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
       flag.Type(*row.unit != '\0' ? row.unit : "NUMBER");
       if (IsList(row)) flag.OneEach();
       if (row.Is(OptionTrait::kUnchecked)) return flag;
-      if (!row.Is(OptionTrait::kQuiet))
+      if (!row.Is(OptionTrait::kQuiet)) {
         return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
+      }
       if constexpr (std::is_same_v<Field, int Options::*>) {
         return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
       } else {

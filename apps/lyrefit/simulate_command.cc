@@ -117,7 +117,7 @@ Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
   return {};
 }
 
-Expected<SimulateOptions> Options(const VerbLine& verb, const SimulateRequest& request) {
+Expected<SimulateOptions> WholeOptions(const VerbLine& verb, const SimulateRequest& request) {
   SimulateOptions options = request.options;
   TRY(TakeFrom(verb, request, &options));
   options.force_effects = options.force_effects || verb.Forced();
@@ -144,7 +144,7 @@ Expected<SimulateOptions> Options(const VerbLine& verb, const SimulateRequest& r
 
 Expected<int> RunSimulate(VerbLine& verb, SimulateRequest& request) {
   EndOnSignals();
-  TRY(const SimulateOptions options, Options(verb, request));
+  TRY(const SimulateOptions options, WholeOptions(verb, request));
   TRY(CheckTargets(&verb, request.out_file));
   TRY(const IvCurve curve, Simulate(options));
   TRY(WriteOutput(request.out_file, CurveToCsv(curve)));

@@ -62,7 +62,7 @@ TEST(CoverageVerb, WritesTheParametersAsATable) {
   const AppResult result = RunApp("coverage --sets 2 --curves 5 --csv -");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ::testing::StartsWith("parameter,name,unit,fitted,not_identifiable,"));
-  EXPECT_THAT(result.out, HasSubstr(",resistance_series,ohm,2,"));
+  EXPECT_THAT(result.out, HasSubstr("\nRs,R_s,ohm,2,"));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(DataSheetVerb, WritesTheParametersAsATable) {
       "--cells 36 --csv -");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ::testing::StartsWith("parameter,name,unit,value,low,high\n"));
-  for (const char* name : {"\nn,", ",resistance_series,ohm,", ",alpha_sc,"}) {
+  for (const char* name : {"\nn1,n,,", "\nRs,R_s,ohm,", ",alpha_sc,A/K,0.002,,"}) {
     EXPECT_THAT(result.out, ::testing::HasSubstr(name));
   }
 }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <sstream>
 
+#include "line_errors.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
 
@@ -25,68 +26,6 @@ Error CommandLineError(const CLI::ParseError& error) {
   if (repeated != std::string::npos)
     message = message.substr(0, repeated) + ": given more than once";
   return {message, {}};
-}
-
-// Letters to insert, delete, replace or exchange with their neighbour to make `b` of `a`.
-std::size_t Distance(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      if (i == 0 || j == 0) {
-        d[i][j] = i + j;
-        continue;
-      }
-      const bool same = a[i - 1] == b[j - 1];
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
-}
-
-// The first word of the line that is no flag.
-std::string FirstWord(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (argv[i][0] != '-') return argv[i];
-  }
-  return "";
-}
-
-// What was meant by a word that is no verb, or which there are.
-Error NoSuchVerb(const CLI::App& app, const std::string& word) {
-  std::string near, all;
-  std::size_t nearest = 3;  // more than two letters off is another word
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    const std::string& name = verb->get_name();
-    if (verb->get_group() != kAbout) all += (all.empty() ? "" : ", ") + name;
-    const bool begun = word.size() >= 2 && name.rfind(word, 0) == 0;
-    const std::size_t distance = begun ? 0 : Distance(word, name);
-    if (distance >= std::min(nearest, name.size())) continue;
-    nearest = distance;
-    near = name;
-  }
-  if (word.empty()) return {"expected a verb: " + all, {}};
-  if (near.empty()) return {"no verb '" + word + "': expected " + all, {}};
-  return {"no verb '" + word + "'; did you mean " + near + "?", {}};
-}
-
-Error NoVerb(const CLI::App& app, int argc, char** argv) {
-  return NoSuchVerb(app, FirstWord(argc, argv));
-}
-
-// Flags that many verbs have alike: of a verb that has one not, what it writes instead.
-std::optional<Error> OtherTarget(const Verb& verb, const CLI::App& app,
-                                 const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return {};
-  for (const char* flag : {"--json", "--csv", "--plot", "--brief", "--full-json", "--quiet"}) {
-    for (const std::string& word : app.remaining(true)) {
-      if (word.substr(0, word.find('=')) != flag) continue;
-      return Error{std::string(flag) + ": " + verb.name + " has none; it writes " + verb.writes,
-                   {}};
-    }
-  }
-  return {};
 }
 
 std::string NotNegative(const std::string& text) {
@@ -122,6 +61,12 @@ struct CommandLine::Impl {
   CLI::App app{"lyrefit: diode-model parameters from measured photovoltaic I-V curves", "lyrefit"};
   std::vector<std::unique_ptr<VerbLine>> verbs;
   int verbosity = 0;
+
+  std::vector<const Verb*> Verbs() const {
+    std::vector<const Verb*> all;
+    for (const std::unique_ptr<VerbLine>& verb : verbs) all.push_back(verb->impl_->verb);
+    return all;
+  }
 };
 
 Flag& Flag::Group(const std::string& heading) {
@@ -372,9 +317,10 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
       return text.str();
     }
     const VerbLine* const verb = Chosen();
-    if (verb == nullptr) return tl::unexpected(NoVerb(impl_->app, argc, argv));
-    if (auto other = OtherTarget(*verb->impl_->verb, impl_->app, error)) {
-      return tl::unexpected(std::move(*other));
+    if (verb == nullptr) return tl::unexpected(NoSuchVerb(FirstWord(argc, argv), impl_->Verbs()));
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+      auto other = OtherTarget(*verb->impl_->verb, impl_->app.remaining(true));
+      if (other) return tl::unexpected(std::move(*other));
     }
     return tl::unexpected(CommandLineError(error));
   }
@@ -388,9 +334,9 @@ Expected<int> CommandLine::Run() const { return Chosen()->impl_->run(); }
 
 Expected<std::string> CommandLine::Help(const std::string& verb) const {
   for (const std::unique_ptr<VerbLine>& known : impl_->verbs) {
-    if (known->impl_->verb->name == verb) return known->impl_->app->help();
+    if (known->impl_->verb->name == verb) return known->impl_->app->help(impl_->app.get_name());
   }
-  return tl::unexpected(NoSuchVerb(impl_->app, verb));
+  return tl::unexpected(NoSuchVerb(verb, impl_->Verbs()));
 }
 
 std::vector<VerbText> CommandLine::Verbs() const {

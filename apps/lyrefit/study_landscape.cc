@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/landscape.h"
 #include "pagmo_searcher.h"
 #include "study_flags.h"
@@ -54,9 +55,7 @@ Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags) {
   if (flags.landscape == "all") {
     for (const LandscapeProblem& problem : LandscapeProblems()) names.push_back(problem.name);
   } else {
-    auto list = ParseList("--landscape", flags.landscape);
-    if (!list) return tl::unexpected(list.error());
-    names = std::move(*list);
+    TRY(names, ParseList("--landscape", flags.landscape));
   }
   std::vector<CompareCurve> subjects;
   for (auto name = names.begin(); name != names.end(); ++name) {

@@ -1,11 +1,11 @@
-#include "audit_command.h"
-
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/report/audit_csv.h"
 #include "lyrefit/study/report/audit_json.h"
 #include "lyrefit/study/report/audit_text.h"
-#include "output.h"
+#include "lyrefit/study/audit.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -24,51 +24,41 @@ constexpr char kAuditFooter[] =
     "\n"
     "Exit codes: 0 all rows were read, whatever the verdicts; 1 some row could not be.";
 
+struct AuditRequest {
+  std::string rows_file;
+  AuditOptions options;
+  ReportFlags output;
+};
+
+void DeclareAudit(VerbLine* verb, AuditRequest* request) {
+  ReportFlags& output = request->output;
+  verb->AddOption("ROWS", &request->rows_file, "table of published rows, see below")
+      .Required()
+      .Reads();
+  AddTableFlags(verb, kAuditOptionTable, &request->options);
+  verb->AddOption("--json", &output.json_file, "the audit as JSON; - for standard output, alone")
+      .Writes();
+  AddCsvFlag(verb, "the findings as a table", &output);
+  verb->AddSwitch("--brief", &output.brief, "one line a row instead of the whole report")
+      .Group("Output");
+  verb->AddQuietSwitch();
+}
+
+Expected<int> RunAudit(VerbLine& verb, AuditRequest& request) {
+  const ReportFlags& output = request.output;
+  EndOnSignals();
+  TRY(verb.CheckFiles());
+  TRY(const AuditReport report, Audit(request.rows_file, request.options));
+  TRY(WriteWanted(output.json_file, [&] { return AuditJson(report); }));
+  TRY(WriteWanted(output.csv_file, [&] { return AuditCsv(report); }));
+  TRY(WriteText(verb, [&] { return output.brief ? BriefAudit(report) : AuditText(report); }));
+  return report.bad_rows.empty() ? kExitFine : kExitBadInput;
+}
+
 }  // namespace
 
-AuditCommand::AuditCommand(CommandLine* line)
-    : verb_(line->AddVerb("audit",
-                          "Check published parameter rows: does the claimed RMSE come out?")) {
-  verb_->AddOption("ROWS", &rows_file_, "table of published rows, see below").Required().Reads();
-  AddListFlag(verb_, "--curves", "a folder to look for the devices' curves in; may be repeated",
-              &options_.curve_folders)
-      .Type("DIR");
-  verb_
-      ->AddReader("--constants", EnumReader<ConstantSet>(&options_.constants),
-                  "values of k and q of rows that do not say: " + AllTexts<ConstantSet>() +
-                      " (default: any)")
-      .Type("NAME");
-  AddEnumFlag(verb_, "--objective", "which RMSE the claims are of", &options_.objective);
-  verb_->AddOption("--json", &json_file_, "the audit as JSON; - for standard output, alone")
-      .Writes();
-  verb_->AddOption("--csv", &csv_file_, "the findings as a table; - for standard output, alone")
-      .Writes();
-  verb_->AddSwitch("--brief", &brief_, "one line a row instead of the whole report")
-      .Group("Output");
-  verb_->AddQuietSwitch();
-  verb_->Footer(kAuditFooter);
-}
-
-int AuditCommand::Run() {
-  EndOnSignals();
-  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
-  const Expected<AuditReport> report = Audit(rows_file_, options_);
-  if (!report) return Refuse(report.error());
-  if (!json_file_.empty()) {
-    if (auto written = WriteOutput(json_file_, AuditJson(*report)); !written) {
-      return Refuse(written.error());
-    }
-  }
-  if (!csv_file_.empty()) {
-    if (auto written = WriteOutput(csv_file_, AuditCsv(*report)); !written) {
-      return Refuse(written.error());
-    }
-  }
-  if (verb_->TextWanted()) {
-    auto written = WriteOutput("-", brief_ ? BriefAudit(*report) : AuditText(*report));
-    if (!written) return Refuse(written.error());
-  }
-  return report->bad_rows.empty() ? kExitFine : kExitBadInput;
-}
+const Verb kAuditVerb = {"audit", "Check published parameter rows: does the claimed RMSE come out?",
+                         kAuditFooter, "the findings as text, --json and --csv",
+                         Declare<AuditRequest, DeclareAudit, RunAudit>};
 
 }  // namespace lyrefit

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "flags.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {
@@ -26,10 +26,12 @@ Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string&
         fmt::format("--bounds {}: there is no {} beside the curve; there are {}physical and wide",
                     name, file.string(), others));
   }
-  Expected<BoundsSpec> spec = ReadBoundsFile(file.string());
-  if (spec) spec->name = name;
+  TRY(BoundsSpec spec, ReadBoundsFile(file.string()));
+  spec.name = name;
   return spec;
 }
+
+}  // namespace
 
 Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file) {
   if (name == "physical" || name == "wide") {
@@ -48,30 +50,14 @@ Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& cur
   return ReadBoundsFile(name);
 }
 
-}  // namespace
-
-void AddBoundsFlags(Verb* verb, const std::string& group, BoundsFlags* flags) {
+void AddBoundsFlag(VerbLine* verb, const std::string& group, std::string* name) {
   verb->AddOption(
-          "--bounds", &flags->name,
+          "--bounds", name,
           "physical (derived from the curve), wide, paper or literature (published with the "
           "curve), or a JSON file (default physical)")
       .Type("NAME|FILE")
       .Group(group)
       .Reads();
-  AddListFlag(verb, "--bound", "range of one parameter, Rs=0:0.5; once for each", &flags->ranges)
-      .Type("P=LOWER:UPPER")
-      .Group(group);
-}
-
-Expected<BoundsSpec> BoundsFromFlags(const BoundsFlags& flags, const std::string& curve_file) {
-  Expected<BoundsSpec> spec = NamedBounds(flags.name, curve_file);
-  if (!spec) return spec;
-  for (const std::string& text : flags.ranges) {
-    const auto range = ParseRange("--bound", text);
-    if (!range) return tl::unexpected(range.error());
-    spec->overrides[range->first] = range->second;
-  }
-  return spec;
 }
 
 }  // namespace lyrefit

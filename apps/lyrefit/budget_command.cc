@@ -1,12 +1,12 @@
-#include "budget_command.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "lyrefit/study/report/compare_text.h"
-#include "output.h"
+#include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -25,11 +25,34 @@ constexpr char kBudgetFooter[] =
     "A hit is a run within 1e-6 (search alone) or 1e-9 (polished) of the reference; of problems\n"
     "with effects and of --landscape one within 1e-6 of the best known optimum of its device.";
 
+struct BudgetRequest {
+  StudyFlags study;
+  std::string budgets = "10,30,100,300,1000,3000,10000,30000,100000";
+};
+
+void DeclareBudget(VerbLine* verb, BudgetRequest* request) {
+  StudyFlags& study = request->study;
+  study.options.plain_polish = true;
+  study.options.rankings = false;
+  AddStudyFlags(verb, &study);
+  AddLandscapeFlags(verb, &study);
+  AddAlgorithmsFlag(verb, &study);
+  verb->AddOption("--budgets", &request->budgets,
+                  "list of evaluations; the population is about their root (default " +
+                      request->budgets + ", with --landscape " + kLandscapeBudgets + ")")
+      .Type("LIST")
+      .Group("Search");
+  AddSearchRows(verb, {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
+                &study);
+  verb->AddOption("--plot", &study.output.plot_file,
+                  "success rate over evaluations as a picture, .svg or .png")
+      .Draws();
+}
+
 Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
-  const auto numbers = ParseNumbers("--budgets", text);
-  if (!numbers) return tl::unexpected(numbers.error());
+  TRY(const auto numbers, ParseNumbers("--budgets", text));
   std::vector<std::int64_t> budgets;
-  for (const double number : *numbers) {
+  for (const double number : numbers) {
     if (!(number >= kLeast && number <= kMost && number == std::floor(number))) {
       return Fail(fmt::format("--budgets: expected whole numbers from {:g} to {:g}, found {:g}",
                               kLeast, kMost, number));
@@ -39,59 +62,39 @@ Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
   return budgets;
 }
 
-}  // namespace
-
-BudgetCommand::BudgetCommand(CommandLine* line)
-    : verb_(
-          line->AddVerb("budget", "Evaluations each algorithm needs, by how far it is polished")) {
-  flags_.options.plain_polish = true;
-  flags_.options.rankings = false;
-  AddStudyFlags(verb_, &flags_);
-  AddLandscapeFlags(verb_, &flags_);
-  AddAlgorithmsFlag(verb_, &flags_);
-  verb_
-      ->AddOption("--budgets", &budgets_,
-                  "list of evaluations; the population is about their root (default " + budgets_ +
-                      ", with --landscape " + kLandscapeBudgets + ")")
-      .Type("LIST")
-      .Group("Search");
-  AddSearchRows(verb_,
-                {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
-                &flags_);
-  verb_
-      ->AddOption("--plot", &plot_file_, "success rate over evaluations as a picture, .svg or .png")
-      .Draws();
-  verb_->Footer(kBudgetFooter);
-}
-
-Expected<std::vector<Contender>> BudgetCommand::Contenders() const {
-  const auto names = ParseList("--algorithms", flags_.algorithms);
-  if (!names) return tl::unexpected(names.error());
-  const auto budgets = ParseBudgets(budgets_);
-  if (!budgets) return tl::unexpected(budgets.error());
+Expected<std::vector<Contender>> BudgetContenders(const StudyFlags& study,
+                                                  const std::string& budget_list) {
+  TRY(const auto names, ParseList("--algorithms", study.algorithms));
+  TRY(const auto budgets, ParseBudgets(budget_list));
   std::vector<Contender> contenders;
-  for (const std::string& name : *names) {
+  for (const std::string& name : names) {
     if (name == ToText(ContenderKind::kShape) || name == ToText(ContenderKind::kDefault)) {
-      contenders.push_back(*ParseContender(name, flags_.search, flags_.birds));  // has no budget
+      contenders.push_back(*ParseContender(name, study.search, study.birds));  // has no budget
       continue;
     }
-    for (const std::int64_t budget : *budgets) {
-      auto contender = ParseContender(name, BudgetSearch(budget, flags_.search), flags_.birds);
-      if (!contender) return tl::unexpected(contender.error());
-      contender->name = fmt::format("{}@{}", name, budget);
-      contender->budget = budget;
-      contenders.push_back(std::move(*contender));
+    for (const std::int64_t budget : budgets) {
+      TRY(Contender contender,
+          ParseContender(name, BudgetSearch(budget, study.search), study.birds));
+      contender.name = fmt::format("{}@{}", name, budget);
+      contender.budget = budget;
+      contenders.push_back(std::move(contender));
     }
   }
   return contenders;
 }
 
-int BudgetCommand::Run() {
-  if (auto checked = CheckLandscape(*verb_, &flags_); !checked) return Refuse(checked.error());
-  if (!flags_.landscape.empty() && !verb_->Given("--budgets")) budgets_ = kLandscapeBudgets;
-  const auto contenders = Contenders();
-  if (!contenders) return Refuse(contenders.error());
-  return RunStudy(*verb_, flags_, *contenders, BudgetText, {{plot_file_, PlotBudget}});
+Expected<int> RunBudget(VerbLine& verb, BudgetRequest& request) {
+  StudyFlags& study = request.study;
+  TRY(CheckLandscape(verb, &study));
+  const bool usual = study.landscape.empty() || verb.Given("--budgets");
+  TRY(const auto contenders, BudgetContenders(study, usual ? request.budgets : kLandscapeBudgets));
+  return RunStudy(verb, study, contenders, BudgetText, {{study.output.plot_file, PlotBudget}});
 }
+
+}  // namespace
+
+const Verb kBudgetVerb = {"budget", "Evaluations each algorithm needs, by how far it is polished",
+                          kBudgetFooter, "its tables as text, --json, --csv and --plot",
+                          Declare<BudgetRequest, DeclareBudget, RunBudget>};
 
 }  // namespace lyrefit

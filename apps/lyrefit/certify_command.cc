@@ -1,11 +1,12 @@
-#include "certify_command.h"
-
+#include "csv_tables.h"
+#include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/report/certificate_json.h"
 #include "lyrefit/report/certificate_plot.h"
 #include "lyrefit/report/documents.h"
-#include "output.h"
-#include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -17,56 +18,49 @@ constexpr char kCertifyFooter[] =
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 something could not be certified.";
 
+struct CertifyRequest {
+  CurveFlags curve;
+  CertifyOptions options;
+  ReportFlags output;
+};
+
+void DeclareCertify(VerbLine* verb, CertifyRequest* request) {
+  AddCurveFlags(verb, &request->curve);
+  AddTableFlags(verb, kCertifyOptionTable, &request->options);
+  AddReportFlags(verb, "certificate", "the floor and the models as a table, a row each",
+                 "dual certificate", &request->output);
+}
+
 bool AllCertified(const Certificate& certificate) {
   bool all = certificate.floor.certified && !certificate.interrupted;
   for (const ModelCertificate& model : certificate.models) all = all && model.certified;
   return all;
 }
 
+Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
+  const ReportFlags& output = request.output;
+  if (request.curve.list_columns) {
+    return PrintColumns({request.curve.file}, request.curve.reading);
+  }
+  TRY(verb.CheckFiles());
+  TRY(const IvCurve curve, ReadFlaggedCurve(request.curve));
+  const InterruptGuard guard;
+  TRY(const Certificate certificate, Certify(curve, request.options, TerminalObserver()));
+  TRY(WriteWanted(output.json_file, [&] { return CertificateJson(certificate); }));
+  TRY(WriteWanted(output.csv_file, [&] { return CertificateCsv(certificate); }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotCertificate(certificate, file); }));
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefCertificate(certificate) : CertificateText(certificate);
+  }));
+  if (certificate.interrupted) return kExitInterrupted;
+  return AllCertified(certificate) ? kExitFine : kExitNotUsable;
+}
+
 }  // namespace
 
-CertifyCommand::CertifyCommand(CommandLine* line)
-    : verb_(line->AddVerb("certify", "Prove how low the measured-current RMSE of a curve can go")) {
-  AddCurveFlags(verb_, &curve_);
-  verb_
-      ->AddOption("--models", &models_,
-                  "models to certify beside the floor (default " + models_ + ")")
-      .Type("LIST")
-      .Group("Proof");
-  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Proof");
-  AddTableFlags(verb_, kCertifyOptionTable, "Proof", &options_);
-  AddReportFlags(verb_, "certificate", "dual certificate", &output_);
-  verb_->Footer(kCertifyFooter);
-}
-
-Expected<void> CertifyCommand::Write(const Certificate& certificate) const {
-  if (!output_.json_file.empty()) {
-    if (auto written = WriteOutput(output_.json_file, CertificateJson(certificate)); !written) {
-      return written;
-    }
-  }
-  if (!output_.plot_file.empty()) {
-    if (auto drawn = PlotCertificate(certificate, output_.plot_file); !drawn) return drawn;
-  }
-  if (!verb_->TextWanted()) return {};
-  return WriteOutput("-",
-                     output_.brief ? BriefCertificate(certificate) : CertificateText(certificate));
-}
-
-int CertifyCommand::Run() {
-  if (curve_.list_columns) return PrintColumns({curve_.file}, curve_.reading);
-  const auto models = ParseModels(models_);
-  if (!models) return Refuse(models.error());
-  options_.models = *models;
-  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
-  const Expected<IvCurve> curve = ReadFlaggedCurve(curve_);
-  if (!curve) return Refuse(curve.error());
-  const InterruptGuard guard;
-  const Expected<Certificate> certificate = Certify(*curve, options_, TerminalObserver());
-  if (!certificate) return Refuse(certificate.error());
-  if (auto written = Write(*certificate); !written) return Refuse(written.error());
-  if (certificate->interrupted) return kExitInterrupted;
-  return AllCertified(*certificate) ? kExitFine : kExitNotUsable;
-}
+const Verb kCertifyVerb = {"certify", "Prove how low the measured-current RMSE of a curve can go",
+                           kCertifyFooter, "the certificate as text, --json, --csv and --plot",
+                           Declare<CertifyRequest, DeclareCertify, RunCertify>};
 
 }  // namespace lyrefit

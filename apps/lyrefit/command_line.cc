@@ -5,6 +5,7 @@
 #include <deque>
 #include <sstream>
 
+#include "line_errors.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
 
@@ -12,6 +13,7 @@ namespace lyrefit {
 namespace {
 
 constexpr char kOutput[] = "Output";  // the heading of the files in --help
+constexpr char kAbout[] = "About lyrefit";
 
 // What CLI11 found wrong, in our words where its own say little.
 Error CommandLineError(const CLI::ParseError& error) {
@@ -26,51 +28,6 @@ Error CommandLineError(const CLI::ParseError& error) {
   return {message, {}};
 }
 
-// Letters to insert, delete, replace or exchange with their neighbour to make `b` of `a`.
-std::size_t Distance(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      if (i == 0 || j == 0) {
-        d[i][j] = i + j;
-        continue;
-      }
-      const bool same = a[i - 1] == b[j - 1];
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
-}
-
-// The first word of the line that is no flag.
-std::string FirstWord(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (argv[i][0] != '-') return argv[i];
-  }
-  return "";
-}
-
-// A line without a verb of ours: which was meant, or which there are.
-Error NoVerb(const CLI::App& app, int argc, char** argv) {
-  const std::string word = FirstWord(argc, argv);
-  std::string near, all;
-  std::size_t nearest = 3;  // more than two letters off is another word
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    const std::string& name = verb->get_name();
-    all += (all.empty() ? "" : ", ") + name;
-    const bool begun = word.size() >= 2 && name.rfind(word, 0) == 0;
-    const std::size_t distance = begun ? 0 : Distance(word, name);
-    if (distance >= std::min(nearest, name.size())) continue;
-    nearest = distance;
-    near = name;
-  }
-  if (word.empty()) return {"expected a verb: " + all, {}};
-  if (near.empty()) return {"no verb '" + word + "': expected " + all, {}};
-  return {"no verb '" + word + "'; did you mean " + near + "?", {}};
-}
-
 std::string NotNegative(const std::string& text) {
   return !text.empty() && text.front() == '-' ? "expected a whole number from 0, found " + text
                                               : std::string();
@@ -79,26 +36,37 @@ std::string NotNegative(const std::string& text) {
 }  // namespace
 
 struct Flag::Impl {
-  CLI::Option* option;
+  CLI::Option* option = nullptr;
   FlagTarget target;  // none: a null pointer
   bool reads = false;
   bool curves = false;
   bool writes = false;
   bool draws = false;
+  std::vector<std::string> choices;
 };
 
-struct Verb::Impl {
+struct VerbLine::Impl {
+  const CommandLine* line;
+  const Verb* verb;
   CLI::App* app;
+  std::function<Expected<int>()> run;
   std::deque<Flag::Impl> flags;  // addresses stay
   std::vector<OutputFile> more_outputs;
+  std::deque<std::pair<bool, std::function<void()>>> switches;  // given, and what it sets
   bool force = false;
   bool quiet = false;
 };
 
 struct CommandLine::Impl {
   CLI::App app{"lyrefit: diode-model parameters from measured photovoltaic I-V curves", "lyrefit"};
-  std::vector<std::unique_ptr<Verb>> verbs;
+  std::vector<std::unique_ptr<VerbLine>> verbs;
   int verbosity = 0;
+
+  std::vector<const Verb*> Verbs() const {
+    std::vector<const Verb*> all;
+    for (const std::unique_ptr<VerbLine>& verb : verbs) all.push_back(verb->impl_->verb);
+    return all;
+  }
 };
 
 Flag& Flag::Group(const std::string& heading) {
@@ -146,6 +114,14 @@ Flag& Flag::Draws() {
   return Writes();
 }
 
+Flag& Flag::OneOf(const std::string& texts) {
+  std::istringstream list(texts);
+  for (std::string text; std::getline(list >> std::ws, text, ',');) {
+    impl_->choices.push_back(text);
+  }
+  return *this;
+}
+
 Flag& Flag::Between(int least, int most) {
   impl_->option->check(CLI::Range(least, most).description(""));
   return *this;
@@ -167,15 +143,17 @@ Flag& Flag::Within(double lower, double upper) {
   return *this;
 }
 
-Verb::Verb(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Verb::~Verb() = default;
+VerbLine::VerbLine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+VerbLine::~VerbLine() = default;
 
-Flag Verb::Declare(void* option, FlagTarget target) {
-  impl_->flags.push_back({static_cast<CLI::Option*>(option), target});
+Flag VerbLine::Declare(void* option, FlagTarget target) {
+  impl_->flags.emplace_back();
+  impl_->flags.back().option = static_cast<CLI::Option*>(option);
+  impl_->flags.back().target = target;
   return Flag(&impl_->flags.back());
 }
 
-Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
+Flag VerbLine::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
   CLI::Option* const option =
       std::visit([&](auto* value) { return impl_->app->add_option(name, *value, doc); }, target);
   // The parser would take -1 for the largest number there is.
@@ -183,25 +161,41 @@ Flag Verb::AddOption(const std::string& name, FlagTarget target, const std::stri
   return Declare(option, target);
 }
 
-Flag Verb::AddReader(const std::string& name, FlagReader read, const std::string& doc) {
+Flag VerbLine::AddReader(const std::string& name, FlagReader read, const std::string& doc) {
   const auto parse = [name, read = std::move(read)](const std::string& text) {
     const Expected<void> done = read(text);
-    if (!done) throw CLI::ValidationError(name, done.error().message);
+    if (!done) throw CLI::ValidationError(name, done.error().ToString());
   };
   return Declare(impl_->app->add_option_function<std::string>(name, parse, doc), {});
 }
 
-Flag Verb::AddSwitch(const std::string& name, bool* target, const std::string& doc) {
+Flag VerbLine::AddListReader(const std::string& name, FlagReader read, const std::string& doc) {
+  const auto parse = [name, read = std::move(read)](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const Expected<void> done = read(text);
+      if (!done) throw CLI::ValidationError(name, done.error().ToString());
+    }
+  };
+  CLI::Option* const option =
+      impl_->app->add_option_function<std::vector<std::string>>(name, parse, doc);
+  return Declare(option, {}).OneEach();
+}
+
+Flag VerbLine::AddSwitch(const std::string& name, bool* target, const std::string& doc) {
   return Declare(impl_->app->add_flag(name, *target, doc), {});
 }
 
-void Verb::Footer(const std::string& text) { impl_->app->footer(text); }
+Flag VerbLine::AddSwitch(const std::string& name, std::function<void()> set,
+                         const std::string& doc) {
+  impl_->switches.push_back({false, std::move(set)});
+  return AddSwitch(name, &impl_->switches.back().first, doc);
+}
 
-void Verb::AlsoWrites(const std::string& flag, const std::string& path) {
+void VerbLine::AlsoWrites(const std::string& flag, const std::string& path) {
   impl_->more_outputs.push_back({flag, path});
 }
 
-FilePlan Verb::Files() const {
+FilePlan VerbLine::Files() const {
   FilePlan plan;
   plan.force = impl_->force;
   for (const Flag::Impl& flag : impl_->flags) {
@@ -210,18 +204,15 @@ FilePlan Verb::Files() const {
       plan.outputs.push_back({flag.option->get_name(), path, flag.draws});
     }
     if (!flag.reads) continue;
-    if (const auto* path = std::get_if<std::string*>(&flag.target)) {
-      plan.inputs.push_back({**path, flag.curves});
-    }
-    if (const auto* paths = std::get_if<std::vector<std::string>*>(&flag.target)) {
-      for (const std::string& path : **paths) plan.inputs.push_back({path, flag.curves});
+    for (const std::string& path : flag.option->results()) {
+      plan.inputs.push_back({path, flag.curves});
     }
   }
   plan.outputs.insert(plan.outputs.end(), impl_->more_outputs.begin(), impl_->more_outputs.end());
   return plan;
 }
 
-Expected<void> Verb::CheckNames() const {
+Expected<void> VerbLine::CheckNames() const {
   for (const Flag::Impl& flag : impl_->flags) {
     if (!flag.reads && !flag.writes) continue;
     for (const std::string& value : flag.option->results()) {
@@ -232,34 +223,58 @@ Expected<void> Verb::CheckNames() const {
   return {};
 }
 
-Expected<void> Verb::CheckFiles() const {
+Expected<void> VerbLine::CheckFiles() const {
   if (auto named = CheckNames(); !named) return named;
   return CheckFilePlan(Files());
 }
 
-void Verb::AddQuietSwitch() {
+void VerbLine::AddQuietSwitch() {
   AddSwitch("--quiet", &impl_->quiet, "no text, no progress").Group(kOutput);
 }
 
-bool Verb::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
+bool VerbLine::TextWanted() const { return !impl_->quiet && !StandardOutputTaken(); }
 
-bool Verb::StandardOutputTaken() const {
+bool VerbLine::StandardOutputTaken() const {
   const FilePlan plan = Files();
   return std::any_of(plan.outputs.begin(), plan.outputs.end(),
                      [](const OutputFile& output) { return output.path == "-"; });
 }
 
-bool Verb::Forced() const { return impl_->force; }
+bool VerbLine::Forced() const { return impl_->force; }
 
-void Verb::AddForce() {
+void VerbLine::AddForce() {
   const auto writes = [](const Flag::Impl& flag) { return flag.writes; };
   if (std::none_of(impl_->flags.begin(), impl_->flags.end(), writes)) return;
   impl_->app->add_flag("--force", impl_->force, "replace even what this run reads")->group(kOutput);
 }
 
-bool Verb::Given(const std::string& name) const { return impl_->app->count(name) > 0; }
+bool VerbLine::Given(const std::string& name) const { return impl_->app->count(name) > 0; }
 
-bool Verb::Chosen() const { return impl_->app->parsed(); }
+std::vector<FlagText> VerbLine::Texts() const {
+  std::vector<FlagText> texts;
+  for (const CLI::Option* option : impl_->app->get_options()) {
+    FlagText text{option->get_name(),
+                  option->get_type_name(),
+                  option->get_description(),
+                  option->get_group(),
+                  false,
+                  {}};
+    if (option->get_items_expected_max() == 0) text.type.clear();
+    for (const Flag::Impl& flag : impl_->flags) {
+      if (flag.option != option) continue;
+      text.file = flag.reads || flag.writes || text.type == "DIR";
+      text.choices = flag.choices;
+    }
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+bool VerbLine::Has(const std::string& name) const {
+  return impl_->app->get_option_no_throw(name) != nullptr;
+}
+
+const CommandLine& VerbLine::line() const { return *impl_->line; }
 
 CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Impl>()) {
   CLI::App& app = impl_->app;
@@ -272,36 +287,73 @@ CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Imp
 
 CommandLine::~CommandLine() = default;
 
-Verb* CommandLine::AddVerb(const std::string& name, const std::string& doc) {
-  auto verb = std::make_unique<Verb::Impl>();
-  verb->app = impl_->app.add_subcommand(name, doc);
-  impl_->verbs.push_back(std::make_unique<Verb>(std::move(verb)));
-  return impl_->verbs.back().get();
+void CommandLine::Add(const Verb& verb) {
+  auto made = std::make_unique<VerbLine::Impl>();
+  made->line = this;
+  made->verb = &verb;
+  made->app = impl_->app.add_subcommand(verb.name, verb.line);
+  made->app->footer(verb.footer);
+  if (!verb.work) made->app->group(kAbout);
+  impl_->verbs.push_back(std::make_unique<VerbLine>(std::move(made)));
+  VerbLine* const line = impl_->verbs.back().get();
+  line->impl_->run = verb.declare(line);
+  line->AddForce();
+}
+
+const VerbLine* CommandLine::Chosen() const {
+  for (const std::unique_ptr<VerbLine>& verb : impl_->verbs) {
+    if (verb->impl_->app->parsed()) return verb.get();
+  }
+  return nullptr;
 }
 
 Expected<std::string> CommandLine::Parse(int argc, char** argv) {
-  for (const std::unique_ptr<Verb>& verb : impl_->verbs) verb->AddForce();
   try {
     impl_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      const bool verb = !impl_->app.get_subcommands().empty();
-      return tl::unexpected(verb ? CommandLineError(error) : NoVerb(impl_->app, argc, argv));
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      impl_->app.exit(error, text, text);
+      return text.str();
     }
-    std::ostringstream text;  // --help, --version
-    impl_->app.exit(error, text, text);
-    return text.str();
+    const VerbLine* const verb = Chosen();
+    if (verb == nullptr) return tl::unexpected(NoSuchVerb(FirstWord(argc, argv), impl_->Verbs()));
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+      auto other = OtherTarget(*verb->impl_->verb, impl_->app.remaining(true));
+      if (other) return tl::unexpected(std::move(*other));
+    }
+    return tl::unexpected(CommandLineError(error));
+  }
+  for (const auto& [given, set] : Chosen()->impl_->switches) {
+    if (given) set();
   }
   return std::string();
 }
 
-std::string CommandLine::Help() const { return impl_->app.help(); }
+Expected<int> CommandLine::Run() const { return Chosen()->impl_->run(); }
+
+Expected<std::string> CommandLine::Help(const std::string& verb) const {
+  for (const std::unique_ptr<VerbLine>& known : impl_->verbs) {
+    if (known->impl_->verb->name == verb) return known->impl_->app->help(impl_->app.get_name());
+  }
+  return tl::unexpected(NoSuchVerb(verb, impl_->Verbs()));
+}
+
+std::vector<VerbText> CommandLine::Verbs() const {
+  std::vector<VerbText> verbs;
+  for (const std::unique_ptr<VerbLine>& verb : impl_->verbs) {
+    const Verb& data = *verb->impl_->verb;
+    verbs.push_back({data.name, data.line, data.footer, data.work, verb->Texts()});
+  }
+  return verbs;
+}
 
 int CommandLine::verbosity() const { return impl_->verbosity; }
 
 bool CommandLine::quiet() const {
-  return std::any_of(impl_->verbs.begin(), impl_->verbs.end(),
-                     [](const auto& verb) { return verb->Chosen() && verb->impl_->quiet; });
+  return std::any_of(impl_->verbs.begin(), impl_->verbs.end(), [](const auto& verb) {
+    return verb->impl_->app->parsed() && verb->impl_->quiet;
+  });
 }
 
 }  // namespace lyrefit

@@ -1,8 +1,8 @@
-#include "compare_command.h"
-
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "lyrefit/study/report/compare_text.h"
-#include "output.h"
+#include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -18,40 +18,43 @@ constexpr char kCompareFooter[] =
     "Every algorithm has the same budget and, in run r, the same first points. RMSEs are of the\n"
     "objective that is named beside them.";
 
-}  // namespace
+struct CompareRequest {
+  StudyFlags study;
+  std::string convergence_file;
+};
 
-CompareCommand::CompareCommand(CommandLine* line)
-    : verb_(line->AddVerb("compare",
-                          "Compare search algorithms, pure and polished, over many runs")) {
-  flags_.search.population = 100;
-  flags_.search.iterations = 1000;
-  AddStudyFlags(verb_, &flags_).Required();
-  AddAlgorithmsFlag(verb_, &flags_);
-  AddSearchRows(verb_,
+void DeclareCompare(VerbLine* verb, CompareRequest* request) {
+  StudyFlags& study = request->study;
+  study.search.population = 100;
+  study.search.iterations = 1000;
+  AddStudyFlags(verb, &study).Required();
+  AddAlgorithmsFlag(verb, &study);
+  AddSearchRows(verb,
                 {"population", "iterations", "memory-rate", "distance-coefficient", "de-scale",
                  "de-crossover", "max-evaluations", "elites"},
-                &flags_);
-  verb_
-      ->AddOption("--target-gap", &flags_.options.target_gap,
-                  "relative distance from the reference that counts as reached (default " +
-                      NumberText(flags_.options.target_gap) + ")")
-      .Type("NUMBER")
-      .Group("Runs");
-  AddPolishLevelFlags(verb_, &flags_);
-  const auto picture = [this](const char* flag, std::string* target, const char* doc) {
-    verb_->AddOption(flag, target, doc).Draws();
-  };
-  picture("--plot", &plot_file_, "box plots of all runs as a picture, .svg or .png");
-  picture("--convergence-plot", &convergence_file_,
-          "the median course of the searches as a picture, .svg or .png");
-  verb_->Footer(kCompareFooter);
+                &study);
+  AddNamedFlags(verb, kCompareOptionTable, {"target-gap", "polish", "plain-polish"},
+                &study.options);
+  verb->AddOption("--plot", &study.output.plot_file,
+                  "box plots of all runs as a picture, .svg or .png")
+      .Draws();
+  verb->AddOption("--convergence-plot", &request->convergence_file,
+                  "the median course of the searches as a picture, .svg or .png")
+      .Draws();
 }
 
-int CompareCommand::Run() {
-  const auto contenders = ParseContenders(flags_);
-  if (!contenders) return Refuse(contenders.error());
-  return RunStudy(*verb_, flags_, *contenders, CompareText,
-                  {{plot_file_, PlotBoxes}, {convergence_file_, PlotConvergence}});
+Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
+  TRY(const auto contenders, ParseContenders(request.study));
+  return RunStudy(
+      verb, request.study, contenders, CompareText,
+      {{request.study.output.plot_file, PlotBoxes}, {request.convergence_file, PlotConvergence}});
 }
+
+}  // namespace
+
+const Verb kCompareVerb = {
+    "compare", "Compare search algorithms, pure and polished, over many runs", kCompareFooter,
+    "its tables as text, --json, --csv, --plot and --convergence-plot",
+    Declare<CompareRequest, DeclareCompare, RunCompare>};
 
 }  // namespace lyrefit

@@ -1,10 +1,11 @@
-#include "coverage_command.h"
-
+#include "csv_tables.h"
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/study/report/coverage_text.h"
-#include "output.h"
+#include "lyrefit/study/coverage.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -20,69 +21,42 @@ constexpr char kCoverageFooter[] =
     "Every set is simulated from known parameters on the irradiances and temperatures of IEC\n"
     "61853-1, with noise, and fitted jointly. Same seed, same answer on any number of threads.";
 
+struct CoverageRequest {
+  CoverageOptions options;
+  ReportFlags output;
+};
+
+void DeclareCoverage(VerbLine* verb, CoverageRequest* request) {
+  CoverageOptions& options = request->options;
+  ReportFlags& output = request->output;
+  AddTableFlags(verb, kCoverageOptionTable, &options, "Device");
+  AddTableFlags(verb, kCoverageOptionTable, &options, "Sets");
+  AddResumeFlag(verb, "set", &options.journal);
+  AddTableFlags(verb, kCoverageOptionTable, &options);
+  verb->AddOption("--json", &output.json_file, "everything as JSON; - for standard output, alone")
+      .Writes();
+  AddCsvFlag(verb, "the parameters as a table, a row each", &output);
+  verb->AddQuietSwitch();
+}
+
+Expected<int> RunCoverage(VerbLine& verb, CoverageRequest& request) {
+  const ReportFlags& output = request.output;
+  TRY(verb.CheckFiles());
+  const InterruptGuard guard;
+  TRY(const CoverageReport report,
+      Coverage(request.options, FitFamily, TerminalObserver({"coverage"})));
+  PrintRemarks(report.remarks);
+  TRY(WriteWanted(output.json_file, [&] { return CoverageJson(report); }));
+  TRY(WriteWanted(output.csv_file, [&] { return CoverageCsv(report); }));
+  TRY(WriteText(verb, [&] { return CoverageText(report); }));
+  if (report.interrupted) return kExitInterrupted;
+  return report.failed < static_cast<int>(report.sets.size()) ? kExitFine : kExitNotUsable;
+}
+
 }  // namespace
 
-CoverageCommand::CoverageCommand(CommandLine* line)
-    : verb_(line->AddVerb("coverage",
-                          "Count how often the 95 % intervals of joint fits hold the truth")) {
-  AddEnumFlag(verb_, "--law", "how parameters follow irradiance and temperature",
-              &options_.family.law)
-      .Group("Device");
-  AddEnumFlag(verb_, "--model", "number of diodes; td cannot be fitted jointly",
-              &options_.family.model)
-      .Group("Device");
-  AddListFlag(verb_, "--set",
-              "value of a shared parameter, Iph=8; once for each; default: "
-              "a module drawn for every set",
-              &set_list_)
-      .Type("P=VALUE")
-      .Group("Device");
-  verb_->AddOption("--cells", &options_.cells_in_series, "cells in series, with --set (72)")
-      .Type("N")
-      .Group("Device");
-  AddTableFlags(verb_, kCoverageOptionTable, "Sets", &options_);
-  verb_
-      ->AddOption("--threads", &options_.threads,
-                  "0: all cores; never changes a result but the seconds (default 0)")
-      .Between(0, 1024)
-      .Type("N")
-      .Group("Sets");
-  AddResumeFlag(verb_, "set", &options_.journal);
-  verb_
-      ->AddSwitch("--temperature-offset", &options_.family.temperature_offset,
-                  "fit one common error of the temperatures")
-      .Group("Fit");
-  verb_
-      ->AddSwitch("--irradiance-offset", &options_.family.irradiance_offset,
-                  "fit one common error of the irradiances")
-      .Group("Fit");
-  verb_->AddOption("--json", &json_file_, "everything as JSON; - for standard output, alone")
-      .Writes();
-  verb_->AddQuietSwitch();
-  verb_->Footer(kCoverageFooter);
-}
-
-int CoverageCommand::Run() {
-  for (const std::string& text : set_list_) {
-    const auto assignment = ParseAssignment("--set", text);
-    if (!assignment) return Refuse(assignment.error());
-    options_.module[assignment->first] = assignment->second;
-  }
-  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
-  const InterruptGuard guard;
-  const auto report = Coverage(options_, FitFamily, TerminalObserver({"coverage"}));
-  if (!report) return Refuse(report.error());
-  PrintRemarks(report->remarks);
-  if (!json_file_.empty()) {
-    auto written = WriteOutput(json_file_, CoverageJson(*report));
-    if (!written) return Refuse(written.error());
-  }
-  if (verb_->TextWanted()) {
-    auto written = WriteOutput("-", CoverageText(*report));
-    if (!written) return Refuse(written.error());
-  }
-  if (report->interrupted) return kExitInterrupted;
-  return report->failed < static_cast<int>(report->sets.size()) ? kExitFine : kExitNotUsable;
-}
+const Verb kCoverageVerb = {
+    "coverage", "Count how often the 95 % intervals of joint fits hold the truth", kCoverageFooter,
+    "the counts as text, --json and --csv", Declare<CoverageRequest, DeclareCoverage, RunCoverage>};
 
 }  // namespace lyrefit

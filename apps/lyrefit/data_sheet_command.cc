@@ -1,17 +1,18 @@
-#include "data_sheet_command.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "csv_tables.h"
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/data_sheet_json.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/pvlib_json.h"
-#include "output.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -47,49 +48,66 @@ Expected<Printed> ParsePrinted(const char* flag, const std::string& text, double
   return Printed{*value * unit, HalfUnit(number) * std::fabs(unit)};
 }
 
-}  // namespace
+struct DataSheetRequest {
+  // As printed: the digits say how far each value is rounded.
+  std::string isc;
+  std::string voc;
+  std::string imp;
+  std::string vmp;
+  std::string alpha;
+  std::string beta;
+  std::string gamma;
+  std::string name = "module";
+  std::string technology;
+  int cells = 1;
+  bool exact = false;
+  ConstantSet constants = ConstantSet::kCodata;
+  ReportFlags output;
+  std::string pvlib_file;
+};
 
-DataSheetCommand::DataSheetCommand(CommandLine* line)
-    : verb_(line->AddVerb("datasheet",
-                          "Find a module's parameters from what its data "
-                          "sheet prints, without any curve")) {
-  const auto add = [this](const char* flag, std::string* target, const char* doc) {
-    return verb_->AddOption(flag, target, doc).Type("NUMBER").Group("Data sheet");
-  };
-  add("--isc", &isc_, "short-circuit current in A").Required();
-  add("--voc", &voc_, "open-circuit voltage in V").Required();
-  add("--imp", &imp_, "current at the maximum power in A").Required();
-  add("--vmp", &vmp_, "voltage at the maximum power in V").Required();
-  add("--alpha", &alpha_, "temperature coefficient of Isc in A/K, or in percent: 0.05%").Required();
-  add("--beta", &beta_, "temperature coefficient of Voc in V/K, or in percent: -0.3%").Required();
-  add("--gamma", &gamma_, "temperature coefficient of Pmp in percent per kelvin, only compared");
-  verb_->AddOption("--cells", &cells_, "cells in series")
-      .Required()
-      .Between(1, 100000)
-      .Type("N")
-      .Group("Data sheet");
-  verb_->AddSwitch("--exact", &exact_, "the values are not rounded to the digits given")
-      .Group("Data sheet");
-  AddEnumFlag(verb_, "--constants", "values of k and q", &constants_).Group("Data sheet");
-  const auto add_text = [this](const char* flag, std::string* target, const char* doc,
-                               const char* type) {
-    verb_->AddOption(flag, target, doc).Type(type).Group("Output");
-  };
-  add_text("--name", &name_, "of the module, for pvlib (default module)", "TEXT");
-  add_text("--technology", &technology_, "of the module, for pvlib: Mono-c-Si", "TEXT");
-  verb_->AddOption("--json", &json_file_, "the answer as JSON; - for standard output, alone")
+using Request = DataSheetRequest;
+inline constexpr OptionRow<DataSheetRequest> kDataSheetTable[] = {
+    OptionRow<Request>("Data sheet"),
+    {"isc", "NUMBER", "short-circuit current in A", &Request::isc},
+    {"voc", "NUMBER", "open-circuit voltage in V", &Request::voc},
+    {"imp", "NUMBER", "current at the maximum power in A", &Request::imp},
+    {"vmp", "NUMBER", "voltage at the maximum power in V", &Request::vmp},
+    {"alpha", "NUMBER", "temperature coefficient of Isc in A/K, or in percent: 0.05%",
+     &Request::alpha},
+    {"beta", "NUMBER", "temperature coefficient of Voc in V/K, or in percent: -0.3%",
+     &Request::beta},
+    {"gamma", "NUMBER", "temperature coefficient of Pmp in percent per kelvin, only compared",
+     &Request::gamma},
+    {"cells", "N", "cells in series", &Request::cells, 1, 100000,
+     OptionTrait::kQuiet | OptionTrait::kNoDefault},
+    {"exact", "", "the values are not rounded to the digits given", &Request::exact},
+    {"constants", "NAME", "values of k and q", EnumOption<&Request::constants>()},
+    OptionRow<Request>("Output"),
+    {"name", "TEXT", "of the module, for pvlib (default module)", &Request::name},
+    {"technology", "TEXT", "of the module, for pvlib: Mono-c-Si", &Request::technology},
+};
+
+void DeclareDataSheet(VerbLine* verb, DataSheetRequest* request) {
+  ReportFlags& output = request->output;
+  ForRows(kDataSheetTable, [&](const OptionRow<Request>& row, const std::string& heading) {
+    Flag flag = AddRowFlag(verb, row, heading, request);
+    for (const char* needed : {"isc", "voc", "imp", "vmp", "alpha", "beta", "cells"}) {
+      if (row.name == std::string(needed)) flag.Required();
+    }
+  });
+  verb->AddOption("--json", &output.json_file, "the answer as JSON; - for standard output, alone")
       .Writes();
-  verb_
-      ->AddOption("--pvlib", &pvlib_file_,
+  verb->AddOption("--pvlib", &request->pvlib_file,
                   "the parameters as pvlib takes them, JSON; - for standard output, alone")
       .Writes();
-  verb_->AddQuietSwitch();
-  verb_->Footer(kDataSheetFooter);
+  AddCsvFlag(verb, "the parameters as a table, a row each", &output);
+  verb->AddQuietSwitch();
 }
 
-Expected<DataSheet> DataSheetCommand::Sheet() const {
+Expected<DataSheet> Sheet(const DataSheetRequest& request) {
   DataSheet sheet;
-  sheet.cells_in_series = cells_;
+  sheet.cells_in_series = request.cells;
   DataSheetValues& values = sheet.values;
   DataSheetValues& half = sheet.half_unit;
   const struct {
@@ -97,52 +115,52 @@ Expected<DataSheet> DataSheetCommand::Sheet() const {
     const std::string& text;
     double DataSheetValues::*field;
     double DataSheetValues::*whole;  // of what it may be a part
-  } rows[] = {
-      {"--isc", isc_, &DataSheetValues::short_circuit_current_A, nullptr},
-      {"--voc", voc_, &DataSheetValues::open_circuit_voltage_V, nullptr},
-      {"--imp", imp_, &DataSheetValues::max_power_current_A, nullptr},
-      {"--vmp", vmp_, &DataSheetValues::max_power_voltage_V, nullptr},
-      {"--alpha", alpha_, &DataSheetValues::alpha_sc_A_K,
-       &DataSheetValues::short_circuit_current_A},
-      {"--beta", beta_, &DataSheetValues::beta_oc_V_K, &DataSheetValues::open_circuit_voltage_V}};
+  } rows[] = {{"--isc", request.isc, &DataSheetValues::short_circuit_current_A, nullptr},
+              {"--voc", request.voc, &DataSheetValues::open_circuit_voltage_V, nullptr},
+              {"--imp", request.imp, &DataSheetValues::max_power_current_A, nullptr},
+              {"--vmp", request.vmp, &DataSheetValues::max_power_voltage_V, nullptr},
+              {"--alpha", request.alpha, &DataSheetValues::alpha_sc_A_K,
+               &DataSheetValues::short_circuit_current_A},
+              {"--beta", request.beta, &DataSheetValues::beta_oc_V_K,
+               &DataSheetValues::open_circuit_voltage_V}};
   for (const auto& row : rows) {
     const double whole = row.whole == nullptr ? 0 : values.*row.whole;
-    const Expected<Printed> printed = ParsePrinted(row.flag, row.text, whole);
-    if (!printed) return tl::unexpected(printed.error());
-    values.*row.field = printed->value;
-    half.*row.field = exact_ ? 0 : printed->half_unit;
+    TRY(const Printed printed, ParsePrinted(row.flag, row.text, whole));
+    values.*row.field = printed.value;
+    half.*row.field = request.exact ? 0 : printed.half_unit;
   }
-  if (gamma_.empty()) return sheet;
-  const Expected<Printed> gamma = ParsePrinted("--gamma", gamma_);
-  if (!gamma) return tl::unexpected(gamma.error());
-  sheet.gamma_pmp_percent_K = gamma->value;
+  if (request.gamma.empty()) return sheet;
+  TRY(const Printed gamma, ParsePrinted("--gamma", request.gamma));
+  sheet.gamma_pmp_percent_K = gamma.value;
   return sheet;
 }
 
-Expected<void> DataSheetCommand::Write(const DataSheetFit& fit) const {
-  if (!json_file_.empty()) {
-    if (auto written = WriteOutput(json_file_, DataSheetJson(fit)); !written) return written;
-  }
-  if (!pvlib_file_.empty()) {
-    const auto keywords = PvlibParameters(fit.translation, fit.shared);
-    if (!keywords) return tl::unexpected(keywords.error());
-    const auto row = CecRow(fit.translation, fit.shared, name_, technology_);
-    const std::string json = PvlibJson(name_, fit.translation.spec.law, *keywords, row);
-    if (auto written = WriteOutput(pvlib_file_, json); !written) return written;
-  }
-  if (!verb_->TextWanted()) return {};
-  return WriteOutput("-", DataSheetText(fit));
+Expected<std::string> PvlibText(const DataSheetRequest& request, const DataSheetFit& fit) {
+  TRY(const auto keywords, PvlibParameters(fit.translation, fit.shared));
+  const auto row = CecRow(fit.translation, fit.shared, request.name, request.technology);
+  return PvlibJson(request.name, fit.translation.spec.law, keywords, row);
 }
 
-int DataSheetCommand::Run() {
+Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
   EndOnSignals();
-  if (auto checked = verb_->CheckFiles(); !checked) return Refuse(checked.error());
-  const Expected<DataSheet> sheet = Sheet();
-  if (!sheet) return Refuse(sheet.error());
-  const Expected<DataSheetFit> fit = FitDataSheet(*sheet, constants_);
-  if (!fit) return Refuse(fit.error());
-  if (auto written = Write(*fit); !written) return Refuse(written.error());
-  return fit->largest_relative_error < kNotSolved ? kExitFine : kExitNotUsable;
+  TRY(verb.CheckFiles());
+  TRY(const DataSheet sheet, Sheet(request));
+  TRY(const DataSheetFit fit, FitDataSheet(sheet, request.constants));
+  TRY(WriteWanted(request.output.json_file, [&] { return DataSheetJson(fit); }));
+  TRY(WriteWanted(request.output.csv_file, [&] { return DataSheetCsv(fit); }));
+  if (!request.pvlib_file.empty()) {
+    TRY(const std::string json, PvlibText(request, fit));
+    TRY(WriteOutput(request.pvlib_file, json));
+  }
+  TRY(WriteText(verb, [&] { return DataSheetText(fit); }));
+  return fit.largest_relative_error < kNotSolved ? kExitFine : kExitNotUsable;
 }
+
+}  // namespace
+
+const Verb kDataSheetVerb = {
+    "datasheet", "Find a module's parameters from what its data sheet prints, without any curve",
+    kDataSheetFooter, "the parameters as text, --json, --csv and --pvlib",
+    Declare<DataSheetRequest, DeclareDataSheet, RunDataSheet>};
 
 }  // namespace lyrefit

@@ -1,19 +1,18 @@
-#include "diagnose_command.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
+#include "csv_tables.h"
+#include "diagnose_request.h"
 #include "effect_text.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/report/diagnosis_json.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_report.h"
-#include "output.h"
-#include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -39,112 +38,45 @@ std::string Stem(const std::string& file) {
   return (path.has_filename() ? path : path.parent_path()).stem().string();
 }
 
-}  // namespace
+// The measurements of a run: their files, as the answers name them, and what came of them.
+struct Diagnoses {
+  std::vector<std::string> names;
+  std::vector<Diagnosis> found;
+  int exit_code = kExitFine;
+};
 
-DiagnoseCommand::DiagnoseCommand(CommandLine* line)
-    : verb_(line->AddVerb("diagnose",
-                          "Say what a diode model gets wrong in a measurement, and why")) {
-  verb_->AddOption("CURVE", &files_, "files or folders, a measurement each; - for standard input")
+void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
+  verb->AddOption("CURVE", &request->files,
+                  "files or folders, a measurement each; - for standard input")
       .ReadsCurves();
-  verb_->AddSwitch("--together", &together_,
-                   "all files are one measurement: lit and dark, up and down, a family");
-  AddColumnFlags(verb_, &reading_, &list_columns_);
-  AddConditionFlags(verb_, &conditions_);
-  AddDiagnosisFlags();
-  AddHealthyFlags();
-  AddCatalogueFlags();
-  AddReportFlags(verb_, "diagnosis", "diagnosis", &output_);
-  AddFullJsonSwitch(verb_, &output_);
-  verb_
-      ->AddOption("--extend", &extend_file_,
-                  "the model with its causes, fitted, as the JSON of fit; - for standard output, "
-                  "alone")
-      .Writes();
-  verb_
-      ->AddOption("--answers", &answers_file_,
-                  "the bare answers by file as JSON, each cause with what it could be too; - for "
-                  "standard output, alone")
-      .Writes();
-  verb_->Footer(kDiagnoseFooter);
-}
-
-void DiagnoseCommand::AddDiagnosisFlags() {
-  const auto parse_base = [this](const std::string& text) -> Expected<void> {
-    const std::optional<Model> model = FromText<Model>(text);
-    if (!model || *model == Model::kTripleDiode) {
-      return Fail("expected sd or dd, found '" + text + "'");
-    }
-    options_.base = *model;
-    return {};
-  };
-  verb_
-      ->AddReader("--base", parse_base,
-                  "the model that is diagnosed: sd, or dd with n2 = 2 (default sd)")
-      .Type("NAME")
-      .Group("Diagnosis");
-  verb_
-      ->AddOption(
-          "--noise", &noise_,
-          "errors of the readings: white, each its own; field, beside it light that wanders "
-          "and a module that departs from the model; or a JSON file with their sizes "
-          "(default field)")
-      .Type("NAME|FILE")
-      .Group("Diagnosis")
-      .Reads();
-  verb_->AddOption("--effects", &effects_, "those to try (default: all that the data can show)")
-      .Type("ID[,ID]")
-      .Group("Diagnosis");
-  AddTableFlags(verb_, kDiagnoseOptionRows, "Diagnosis", &options_);
-  verb_
-      ->AddSwitch("--no-held-out", &no_held_out_,
-                  "do not measure the gain on readings that were not fitted")
-      .Group("Diagnosis");
-  verb_
-      ->AddSwitch(
-          "--plan", &options_.plan,
-          "simulate which further measurement tells the first cause from what looks like it")
-      .Group("Diagnosis");
-  verb_
-      ->AddOption("--threads", &options_.threads,
-                  "0: all cores; never changes a result (default 0)")
-      .Between(0, 1024)
-      .Type("N")
-      .Group("Diagnosis");
-}
-
-void DiagnoseCommand::AddCatalogueFlags() {
-  verb_->AddSwitch("--list", &list_, "list the effects that are known").Group("Catalogue");
-  verb_->AddOption("--explain", &explain_, "say all about one effect")
+  verb->AddSwitch("--together", &request->together,
+                  "all files are one measurement: lit and dark, up and down, a family");
+  AddColumnFlags(verb, &request->reading, &request->list_columns);
+  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  AddTableFlags(verb, kDiagnoseOptionTable, &request->options);
+  AddHealthyFlags(verb, request);
+  verb->AddSwitch("--list", &request->list, "list the effects that are known").Group("Catalogue");
+  verb->AddOption("--explain", &request->explain, "say all about one effect")
       .Type("EFFECT")
+      .OneOf(EffectIds())
       .Group("Catalogue");
-}
-
-Expected<void> DiagnoseCommand::CheckFlags() {
-  if (files_.empty()) return Fail("CURVE is required: a file or folder to diagnose");
-  if (Several() && !(output_.plot_file.empty() && extend_file_.empty())) {
-    return Fail("--plot and --extend are for one CURVE");
-  }
-  options_.held_out = !no_held_out_;
-  options_.extend = !extend_file_.empty();
-  Expected<ErrorSpec> errors = ErrorsNamed(noise_);
-  if (!errors) return Fail("--noise: " + errors.error().ToString());
-  options_.noise = std::move(*errors);
-  if (!effects_.empty()) {
-    auto ids = ParseList("--effects", effects_);
-    if (!ids) return tl::unexpected(ids.error());
-    options_.effects = std::move(*ids);
-  }
-  if (auto checked = CheckEffects("--effects", options_.effects); !checked) return checked;
-  if (auto checked = CheckNames(); !checked) return checked;
-  if (auto checked = CheckHealthyFlags(); !checked) return checked;
-  return verb_->CheckFiles();
+  AddReportFlags(verb, "diagnosis", "the causes as a table, a row each", "diagnosis",
+                 &request->output);
+  AddFullJsonSwitch(verb, &request->output);
+  const auto add_file = [verb](const char* flag, std::string* file, const char* doc) {
+    verb->AddOption(flag, file, std::string(doc) + "; - for standard output, alone").Writes();
+  };
+  add_file("--extend", &request->extend_file,
+           "the model with its causes, fitted, as the JSON of fit");
+  add_file("--answers", &request->answers_file,
+           "the bare answers by file as JSON, each cause with what it could be too");
 }
 
 // Answers are told apart by their names.
-Expected<void> DiagnoseCommand::CheckNames() const {
-  if (answers_file_.empty()) return {};
+Expected<void> CheckNames(const DiagnoseRequest& request) {
+  if (request.answers_file.empty()) return {};
   std::set<std::string> names;
-  for (const std::string& file : files_) {
+  for (const std::string& file : request.files) {
     if (!names.insert(Stem(file)).second) {
       return Fail(fmt::format("--answers: two files are named '{}'", Stem(file)), file);
     }
@@ -152,95 +84,110 @@ Expected<void> DiagnoseCommand::CheckNames() const {
   return {};
 }
 
-Expected<CurveSet> DiagnoseCommand::Read(const std::vector<std::string>& files) const {
-  if (files.size() > 1) return ReadMeasurement(files, reading_);
-  if (files.front() != "-") return ReadMeasurement(files.front(), reading_);
-  Expected<IvCurve> curve = ReadCurveOrInput("-", reading_);
-  if (!curve) return tl::unexpected(curve.error());
-  return SetOfOne(std::move(*curve));
+Expected<void> CheckRequest(const VerbLine& verb, const DiagnoseRequest& request) {
+  if (request.files.empty()) return Fail("CURVE is required: a file or folder to diagnose");
+  if (request.Several() && !(request.output.plot_file.empty() && request.extend_file.empty())) {
+    return Fail("--plot and --extend are for one CURVE");
+  }
+  TRY(CheckEffects("--effects", request.options.effects));
+  TRY(CheckNames(request));
+  TRY(CheckHealthyFlags(request));
+  return verb.CheckFiles();
 }
 
-Expected<Diagnosis> DiagnoseCommand::DiagnoseFiles(const std::vector<std::string>& files) const {
+Expected<CurveSet> Read(const DiagnoseRequest& request, const std::vector<std::string>& files) {
+  if (files.size() > 1) return ReadMeasurement(files, request.reading);
+  if (files.front() != "-") return ReadMeasurement(files.front(), request.reading);
+  TRY(IvCurve curve, ReadCurveOrInput("-", request.reading));
+  return SetOfOne(std::move(curve));
+}
+
+Expected<Diagnosis> DiagnoseFiles(const DiagnoseRequest& request,
+                                  const std::vector<std::string>& files) {
   const std::string& file = files.front();
-  Expected<CurveSet> set = Read(files);
-  if (!set) return tl::unexpected(set.error());
-  if (conditions_.irradiance_W_m2 && set->curves.size() > 1) {
+  TRY(CurveSet set, Read(request, files));
+  if (request.conditions.irradiance_W_m2 && set.curves.size() > 1) {
     return Fail(fmt::format("--irradiance-Wm2 is for one curve, this measurement has {}",
-                            set->curves.size()),
+                            set.curves.size()),
                 file);
   }
-  if (auto applied = ApplyConditionFlags(conditions_, &*set); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  Expected<Diagnosis> diagnosis = Diagnose(*set, options_, TerminalObserver());
+  TRY(ApplyConditionFlags(request.conditions, &set));
+  Expected<Diagnosis> diagnosis = Diagnose(set, request.options, TerminalObserver());
   if (!diagnosis && diagnosis.error().file.empty()) diagnosis.error().file = file;
   return diagnosis;
 }
 
-Expected<void> DiagnoseCommand::WriteText(const std::vector<Diagnosis>& diagnoses) const {
-  std::string text;
-  for (const Diagnosis& diagnosis : diagnoses) {
-    const bool brief = output_.brief || Several();
-    text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis);
-  }
-  return WriteOutput("-", text);
-}
-
-Expected<void> DiagnoseCommand::Write(const std::vector<std::string>& names,
-                                      const std::vector<Diagnosis>& diagnoses) const {
-  if (diagnoses.empty()) return {};
-  const Diagnosis& first = diagnoses.front();
-  if (!output_.json_file.empty()) {
-    const std::string json = Several() ? DiagnosisJson(diagnoses) : DiagnosisJson(first);
-    if (auto written = WriteOutput(output_.json_file, json); !written) return written;
-  }
-  if (!extend_file_.empty()) {
-    auto written = WriteOutput(extend_file_, JsonReport(first.extended, output_.points()));
-    if (!written) return written;
-  }
-  if (!answers_file_.empty()) {
-    auto written = WriteOutput(answers_file_, AnswersJson(names, diagnoses));
-    if (!written) return written;
-  }
-  if (!output_.plot_file.empty()) {
-    if (auto drawn = PlotDiagnosis(first, output_.plot_file); !drawn) return drawn;
-  }
-  return verb_->TextWanted() ? WriteText(diagnoses) : Expected<void>();
-}
-
-int DiagnoseCommand::Run() {
-  if (list_ || !explain_.empty()) {
-    const Expected<std::string> text = list_ ? EffectList() : ExplainEffect(explain_);
-    if (!text) return Refuse(text.error());
-    const auto written = WriteOutput("-", *text);
-    return written ? kExitFine : Refuse(written.error());
-  }
-  if (auto checked = CheckFlags(); !checked) return Refuse(checked.error());
-  const InterruptGuard guard;
-  if (module_) return RunModule();
-  if (!healthy_files_.empty()) return RunHealthy();
-  std::vector<std::string> names;
-  std::vector<Diagnosis> diagnoses;
-  int exit_code = kExitFine;
+// A measurement that cannot be diagnosed keeps no other from it.
+Diagnoses DiagnoseAll(const DiagnoseRequest& request) {
+  Diagnoses all;
   std::vector<std::vector<std::string>> measurements;
-  if (together_) measurements = {files_};
-  for (const std::string& file : files_) {
-    if (!together_) measurements.push_back({file});
+  if (request.together) measurements = {request.files};
+  for (const std::string& file : request.files) {
+    if (!request.together) measurements.push_back({file});
   }
   for (const std::vector<std::string>& files : measurements) {
-    Expected<Diagnosis> diagnosis = DiagnoseFiles(files);
+    Expected<Diagnosis> diagnosis = DiagnoseFiles(request, files);
     if (!diagnosis) {
-      exit_code = Refuse(diagnosis.error());
+      all.exit_code = Refuse(diagnosis.error());
       continue;
     }
-    if (!diagnosis->extended.usable && exit_code == kExitFine) exit_code = kExitNotUsable;
-    names.push_back(Stem(files.front()));
-    diagnoses.push_back(std::move(*diagnosis));
-    if (diagnoses.back().interrupted) break;
+    if (!diagnosis->extended.usable && all.exit_code == kExitFine) {
+      all.exit_code = kExitNotUsable;
+    }
+    all.names.push_back(Stem(files.front()));
+    all.found.push_back(std::move(*diagnosis));
+    if (all.found.back().interrupted) break;
   }
-  if (auto written = Write(names, diagnoses); !written) return Refuse(written.error());
-  if (!diagnoses.empty() && diagnoses.back().interrupted) return kExitInterrupted;
-  return exit_code;
+  return all;
 }
+
+Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request, const Diagnoses& all) {
+  if (all.found.empty()) return {};
+  const Diagnosis& first = all.found.front();
+  const ReportFlags& output = request.output;
+  TRY(WriteWanted(output.json_file, [&] {
+    return request.Several() ? DiagnosisJson(all.found) : DiagnosisJson(first);
+  }));
+  TRY(WriteWanted(output.csv_file, [&] { return CausesCsv(all.names, all.found); }));
+  TRY(WriteWanted(request.extend_file,
+                  [&] { return JsonReport(first.extended, output.points()); }));
+  TRY(WriteWanted(request.answers_file, [&] { return AnswersJson(all.names, all.found); }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotDiagnosis(first, file); }));
+  return WriteText(verb, [&] {
+    std::string text;
+    for (const Diagnosis& diagnosis : all.found) {
+      const bool brief = output.brief || request.Several();
+      text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis);
+    }
+    return text;
+  });
+}
+
+Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
+  if (request.list || !request.explain.empty()) {
+    TRY(const std::string text,
+        request.list ? Expected<std::string>(EffectList()) : ExplainEffect(request.explain));
+    TRY(WriteOutput("-", text));
+    return kExitFine;
+  }
+  request.options.extend = !request.extend_file.empty();
+  request.healthy.threads = request.options.threads;
+  TRY(CheckRequest(verb, request));
+  const InterruptGuard guard;
+  if (request.module) return RunModule(verb, request);
+  if (!request.healthy_files.empty()) return RunHealthy(verb, request);
+  const Diagnoses all = DiagnoseAll(request);
+  TRY(Write(verb, request, all));
+  if (!all.found.empty() && all.found.back().interrupted) return kExitInterrupted;
+  return all.exit_code;
+}
+
+}  // namespace
+
+const Verb kDiagnoseVerb = {"diagnose",
+                            "Say what a diode model gets wrong in a measurement, and why",
+                            kDiagnoseFooter, "the diagnosis as text, --json, --csv and --plot",
+                            Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>};
 
 }  // namespace lyrefit

@@ -1,119 +1,108 @@
 #include <fmt/format.h>
 
-#include "diagnose_command.h"
+#include "csv_tables.h"
+#include "diagnose_request.h"
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/healthy_json.h"
 #include "lyrefit/report/json_report.h"
-#include "output.h"
 
 namespace lyrefit {
+namespace {
 
-void DiagnoseCommand::AddHealthyFlags() {
+Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
+                                          const std::vector<std::string>& files,
+                                          const ConditionFlags& conditions) {
+  std::vector<IvCurve> sweeps;
+  for (const std::string& file : files) {
+    CurveSet set;
+    if (HoldsCurveSet(file, request.reading)) {
+      TRY(set, ReadCurveSet(file, request.reading));
+    } else {
+      TRY(IvCurve curve, ReadCurve(file, request.reading));
+      set = SetOfOne(std::move(curve));
+    }
+    TRY(ApplyConditionFlags(conditions, &set));
+    for (IvCurve& curve : set.curves) sweeps.push_back(std::move(curve));
+  }
+  return sweeps;
+}
+
+Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
+                     const HealthyComparison& comparison, const Diagnosis& diagnosis) {
+  const ReportFlags& output = request.output;
+  TRY(WriteWanted(output.json_file, [&] { return HealthyJson(comparison, diagnosis); }));
+  TRY(WriteWanted(output.csv_file, [&] { return CausesCsv({comparison.name}, {diagnosis}); }));
+  TRY(WriteWanted(request.extend_file,
+                  [&] { return JsonReport(diagnosis.extended, output.points()); }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotDiagnosis(diagnosis, file); }));
+  return WriteText(verb, [&] {
+    return output.brief ? BriefHealthy(comparison) + BriefDiagnosis(diagnosis)
+                        : HealthyText(comparison) + "\n" + DiagnosisText(diagnosis);
+  });
+}
+
+}  // namespace
+
+void AddHealthyFlags(VerbLine* verb, DiagnoseRequest* request) {
   constexpr char kGroup[] = "Against its own past";
-  verb_
-      ->AddOption("--healthy", &healthy_files_,
+  verb->AddOption("--healthy", &request->healthy_files,
                   "healthy sweeps of the same module or its neighbours, files or folders: CURVE is "
                   "compared with them, and diagnosed without what they all have")
       .ReadsCurves()
       .Group(kGroup);
-  verb_
-      ->AddSwitch("--module", &module_,
+  verb->AddSwitch("--module", &request->module,
                   "all curves of CURVE are sweeps of one module: find the odd ones")
       .Group(kGroup);
-  AddTableFlags(verb_, kHealthyOptionRows, kGroup, &healthy_);
+  AddTableFlags(verb, kHealthyOptionTable, &request->healthy);
 }
 
-Expected<void> DiagnoseCommand::CheckHealthyFlags() const {
-  if (!module_ && healthy_files_.empty()) return {};
-  if (module_ && !healthy_files_.empty()) return Fail("only one of --healthy and --module");
-  if (together_ || !answers_file_.empty()) {
+Expected<void> CheckHealthyFlags(const DiagnoseRequest& request) {
+  const bool module = request.module;
+  if (!module && request.healthy_files.empty()) return {};
+  if (module && !request.healthy_files.empty()) return Fail("only one of --healthy and --module");
+  if (request.together || !request.answers_file.empty()) {
     return Fail("--together and --answers are not for --healthy and --module");
   }
-  if (module_ && !(output_.plot_file.empty() && extend_file_.empty())) {
+  if (module && !(request.output.plot_file.empty() && request.extend_file.empty())) {
     return Fail("--plot and --extend are not for --module");
   }
-  if (!module_ && files_.size() > 1) {
+  if (!module && request.files.size() > 1) {
     return Fail("--healthy compares one CURVE; for many sweeps of one module: --module");
   }
   return {};
 }
 
-Expected<std::vector<IvCurve>> DiagnoseCommand::ReadSweeps(const std::vector<std::string>& files,
-                                                           const ConditionFlags& conditions) const {
-  std::vector<IvCurve> sweeps;
-  for (const std::string& file : files) {
-    Expected<CurveSet> set;
-    if (HoldsCurveSet(file, reading_)) {
-      set = ReadCurveSet(file, reading_);
-    } else {
-      Expected<IvCurve> curve = ReadCurve(file, reading_);
-      if (!curve) return tl::unexpected(curve.error());
-      set = SetOfOne(std::move(*curve));
-    }
-    if (!set) return tl::unexpected(set.error());
-    if (auto applied = ApplyConditionFlags(conditions, &*set); !applied) {
-      return tl::unexpected(applied.error());
-    }
-    for (IvCurve& curve : set->curves) sweeps.push_back(std::move(curve));
-  }
-  return sweeps;
+Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
+  const ReportFlags& output = request.output;
+  TRY(const auto sweeps, ReadSweeps(request, request.files, request.conditions));
+  TRY(const OddSweeps odd, FindOddSweeps(sweeps, request.healthy));
+  TRY(WriteWanted(output.json_file, [&] { return OddSweepsJson(odd); }));
+  TRY(WriteWanted(output.csv_file, [&] { return OddSweepsCsv(odd); }));
+  TRY(WriteText(verb, [&] { return output.brief ? BriefOddSweeps(odd) : OddSweepsText(odd); }));
+  return kExitFine;
 }
 
-int DiagnoseCommand::RunModule() {
-  healthy_.threads = options_.threads;
-  const auto sweeps = ReadSweeps(files_, conditions_);
-  if (!sweeps) return Refuse(sweeps.error());
-  const auto odd = FindOddSweeps(*sweeps, healthy_);
-  if (!odd) return Refuse(odd.error());
-  if (!output_.json_file.empty()) {
-    const auto written = WriteOutput(output_.json_file, OddSweepsJson(*odd));
-    if (!written) return Refuse(written.error());
+Expected<int> RunHealthy(const VerbLine& verb, const DiagnoseRequest& request) {
+  TRY(const auto sweep, ReadSweeps(request, request.files, request.conditions));
+  if (sweep.size() != 1) {
+    return Fail(
+        fmt::format("--healthy compares one sweep, this measurement has {} curves", sweep.size()),
+        request.files.front());
   }
-  if (!verb_->TextWanted()) return kExitFine;
-  const auto text = WriteOutput("-", output_.brief ? BriefOddSweeps(*odd) : OddSweepsText(*odd));
-  return text ? kExitFine : Refuse(text.error());
-}
-
-int DiagnoseCommand::RunHealthy() {
-  healthy_.threads = options_.threads;
-  const auto sweep = ReadSweeps(files_, conditions_);
-  if (!sweep) return Refuse(sweep.error());
-  if (sweep->size() != 1) {
-    return Refuse(Error{
-        fmt::format("--healthy compares one sweep, this measurement has {} curves", sweep->size()),
-        files_.front()});
-  }
-  ConditionFlags module = conditions_;  // light and temperature are this sweep's
+  ConditionFlags module = request.conditions;  // light and temperature are this sweep's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
-  const auto healthy = ReadSweeps(healthy_files_, module);
-  if (!healthy) return Refuse(healthy.error());
-  const auto comparison = CompareWithHealthy(sweep->front(), *healthy, healthy_);
-  if (!comparison) return Refuse(comparison.error());
-  const auto diagnosis = Diagnose(comparison->without_common, options_, TerminalObserver());
-  if (!diagnosis) return Refuse(diagnosis.error());
-  const auto write = [&]() -> Expected<void> {
-    if (!output_.json_file.empty()) {
-      const std::string json = HealthyJson(*comparison, *diagnosis);
-      if (auto written = WriteOutput(output_.json_file, json); !written) return written;
-    }
-    if (!extend_file_.empty()) {
-      const std::string fit = JsonReport(diagnosis->extended, output_.points());
-      if (auto written = WriteOutput(extend_file_, fit); !written) return written;
-    }
-    if (!output_.plot_file.empty()) {
-      if (auto drawn = PlotDiagnosis(*diagnosis, output_.plot_file); !drawn) return drawn;
-    }
-    if (!verb_->TextWanted()) return {};
-    return WriteOutput("-", output_.brief
-                                ? BriefHealthy(*comparison) + BriefDiagnosis(*diagnosis)
-                                : HealthyText(*comparison) + "\n" + DiagnosisText(*diagnosis));
-  };
-  if (auto written = write(); !written) return Refuse(written.error());
-  if (diagnosis->interrupted) return kExitInterrupted;
-  return diagnosis->extended.usable ? kExitFine : kExitNotUsable;
+  TRY(const auto healthy, ReadSweeps(request, request.healthy_files, module));
+  TRY(const auto comparison, CompareWithHealthy(sweep.front(), healthy, request.healthy));
+  TRY(const Diagnosis diagnosis,
+      Diagnose(comparison.without_common, request.options, TerminalObserver()));
+  TRY(Write(verb, request, comparison, diagnosis));
+  if (diagnosis.interrupted) return kExitInterrupted;
+  return diagnosis.extended.usable ? kExitFine : kExitNotUsable;
 }
 
 }  // namespace lyrefit

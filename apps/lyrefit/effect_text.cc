@@ -46,14 +46,18 @@ Section ParameterSection(const Effect& effect) {
 
 }  // namespace
 
+std::string EffectIds() {
+  std::string known;
+  for (const Effect* effect : Catalogue()) {
+    known += (known.empty() ? "" : ", ") + std::string(effect->id);
+  }
+  return known;
+}
+
 Expected<void> CheckEffects(const std::string& flag, const std::vector<std::string>& ids) {
   for (const std::string& id : ids) {
     if (FindEffect(id) != nullptr) continue;
-    std::string known;
-    for (const Effect* effect : Catalogue()) {
-      known += (known.empty() ? "" : ", ") + std::string(effect->id);
-    }
-    return Fail(fmt::format("{}: expected one of {}, found '{}'", flag, known, id));
+    return Fail(fmt::format("{}: expected one of {}, found '{}'", flag, EffectIds(), id));
   }
   return {};
 }

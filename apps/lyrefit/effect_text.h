@@ -11,6 +11,9 @@ namespace lyrefit {
 // are.
 Expected<std::string> ExplainEffect(const std::string& id);
 
+// "shading, substrings, ...": their ids.
+std::string EffectIds();
+
 // All effects as a table.
 std::string EffectList();
 

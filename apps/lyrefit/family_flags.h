@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "flags.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 
@@ -30,24 +31,19 @@ struct EnumTable<Family> {
 struct FamilyFlags {
   std::optional<Family> family;
   FamilyOptions options;  // where the flags write
-  std::string irradiance_accuracy;
-  std::vector<std::string> leave_out;  // each one id or several with commas
-  bool no_free_fits = false;
   std::vector<std::string> against_files;
-  std::string csv_file;
   std::string pvlib_file;
   std::string truth_file;
 };
 
-void AddFamilyFlags(Verb* verb, FamilyFlags* flags);
+// With --csv, which families have in common with curves fitted one by one.
+void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output);
 
 // Whether the flags given to the verb go together: those of one curve with those of a set.
-Expected<void> CheckFamilyFlags(const Verb& verb, const FamilyFlags& flags);
+Expected<void> CheckFamilyFlags(const VerbLine& verb, const FamilyFlags& flags);
 
 // The options of the joint fit: family flags, and those that the verb has for one curve as well.
-// `ranges` are those of --bound.
-Expected<FamilyOptions> FamilyOptionsFromFlags(const Verb& verb, const FamilyFlags& flags,
-                                               const FitOptions& fit,
-                                               const std::vector<std::string>& ranges);
+Expected<FamilyOptions> FamilyOptionsFromFlags(const VerbLine& verb, const FamilyFlags& flags,
+                                               const FitOptions& fit);
 
 }  // namespace lyrefit

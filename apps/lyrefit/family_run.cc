@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "interrupt.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/family/fit_free.h"
@@ -24,18 +25,14 @@ namespace {
 
 Expected<CurveSet> ReadSet(const CurveFlags& flags) {
   if (HoldsCurveSet(flags.file, flags.reading)) return ReadCurveSet(flags.file, flags.reading);
-  Expected<IvCurve> curve = ReadCurveOrInput(flags.file, flags.reading);
-  if (!curve) return tl::unexpected(curve.error());
-  return SetOfOne(std::move(*curve));
+  TRY(IvCurve curve, ReadCurveOrInput(flags.file, flags.reading));
+  return SetOfOne(std::move(curve));
 }
 
 // The set with what the flags say of every curve.
 Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
-  Expected<CurveSet> set = ReadSet(flags);
-  if (!set) return set;
-  if (auto applied = ApplyConditionFlags(flags.conditions, &*set); !applied) {
-    return tl::unexpected(applied.error());
-  }
+  TRY(CurveSet set, ReadSet(flags));
+  TRY(ApplyConditionFlags(flags.conditions, &set));
   return set;
 }
 
@@ -52,7 +49,7 @@ Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOp
   return FitFamily(set, options, TerminalObserver());
 }
 
-Expected<void> CheckFiles(const Verb& verb, const FamilyFlags& flags) {
+Expected<void> CheckFiles(const VerbLine& verb, const FamilyFlags& flags) {
   if (!flags.truth_file.empty() && verb.StandardOutputTaken()) {
     return Fail("--truth prints to standard output, which is taken: name files for the others");
   }
@@ -70,49 +67,36 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
 }
 
 // What pvlib cannot take is known last: all else is written by then.
-Expected<void> Write(const Verb& verb, const FamilyReport& report, const CurveSet& set,
+Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const CurveSet& set,
                      const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
                      const ReportFlags& output) {
-  if (!output.json_file.empty()) {
-    if (auto written = WriteOutput(output.json_file, FamilyJson(report)); !written) return written;
-  }
-  if (!flags.csv_file.empty()) {
-    if (auto written = WriteOutput(flags.csv_file, FreeFitsCsv(report)); !written) return written;
-  }
-  if (!output.plot_file.empty()) {
-    if (auto drawn = PlotFamily(report, set, output.plot_file); !drawn) return drawn;
-  }
-  if (verb.TextWanted()) {
-    const std::string text = output.brief ? BriefFamily(report) : FamilyText(report);
-    if (auto written = WriteOutput("-", text); !written) return written;
-  }
+  TRY(WriteWanted(output.json_file, [&] { return FamilyJson(report); }));
+  TRY(WriteWanted(output.csv_file, [&] { return FreeFitsCsv(report); }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotFamily(report, set, file); }));
+  TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
   if (truth) {
     const std::string text = TruthText(CompareWithTruth(report, *truth));
-    if (auto written = WriteOutput("-", "\n" + text); !written) return written;
+    TRY(WriteOutput("-", "\n" + text));
   }
   return flags.pvlib_file.empty() ? Expected<void>() : WritePvlib(report, set, flags.pvlib_file);
 }
 
 }  // namespace
 
-int RunFamily(const Verb& verb, const CurveFlags& flagged, const FamilyFlags& flags,
-              const FamilyOptions& options, const ReportFlags& output) {
-  if (auto checked = CheckFiles(verb, flags); !checked) return Refuse(checked.error());
-  const Expected<CurveSet> set = ReadFlaggedSet(flagged);
-  if (!set) return Refuse(set.error());
+Expected<int> RunFamily(const VerbLine& verb, const CurveFlags& flagged, const FamilyFlags& flags,
+                        const FamilyOptions& options, const ReportFlags& output) {
+  TRY(CheckFiles(verb, flags));
+  TRY(const CurveSet set, ReadFlaggedSet(flagged));
   std::optional<std::vector<TruthRow>> truth;
   if (!flags.truth_file.empty()) {
-    Expected<std::vector<TruthRow>> rows = ReadTruth(flags.truth_file);
-    if (!rows) return Refuse(rows.error());
-    truth = std::move(*rows);
+    TRY(truth, ReadTruth(flags.truth_file));
   }
   const InterruptGuard guard;
-  const Expected<FamilyReport> report = FitSet(*set, *flags.family, options);
-  if (!report) return Refuse(report.error());
-  if (auto written = Write(verb, *report, *set, truth, flags, output); !written)
-    return Refuse(written.error());
-  if (report->interrupted) return kExitInterrupted;
-  return report->usable ? kExitFine : kExitNotUsable;
+  TRY(const FamilyReport report, FitSet(set, *flags.family, options));
+  TRY(Write(verb, report, set, truth, flags, output));
+  if (report.interrupted) return kExitInterrupted;
+  return report.usable ? kExitFine : kExitNotUsable;
 }
 
 Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {

@@ -1,14 +1,19 @@
-#include "fit_command.h"
-
 #include <fmt/format.h>
 
+#include "bounds_flag.h"
+#include "family_flags.h"
 #include "family_run.h"
 #include "fit_files.h"
+#include "flags.h"
 #include "interrupt.h"
-#include "lyrefit/report/documents.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/report/fits_table.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
+#include "lyrefit/report/documents.h"
 #include "output.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -28,248 +33,164 @@ constexpr char kFitFooter[] =
     "fit\n"
     "is not usable.";
 
-}  // namespace
+struct FitRequest {
+  std::vector<std::string> files;
+  CurveFlags curve;  // of one file, or of each
+  bool auto_model = false;
+  std::string bounds = "physical";  // the name or file of --bounds
+  FitOptions options;
+  FamilyFlags family;
+  ReportFlags output;
+};
 
-FitCommand::FitCommand(CommandLine* line)
-    : verb_(line->AddVerb("fit", "Fit diode-model parameters to a measured I-V curve")) {
-  verb_
-      ->AddOption("CURVE", &files_,
+void AddModelFlags(VerbLine* verb, FitRequest* fit) {
+  const auto read_model = [fit](const std::string& text) -> Expected<void> {
+    const std::optional<Model> model = FromText<Model>(text);
+    fit->auto_model = text == "auto";
+    if (!model && !fit->auto_model) {
+      return Fail("expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
+    }
+    fit->options.model = model.value_or(Model::kSingleDiode);
+    return {};
+  };
+  verb->AddReader("--model", read_model,
+                  "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
+      .Type("NAME")
+      .OneOf(AllTexts<Model>() + ", auto")
+      .Group("Model");
+  AddNamedFlags(verb, kFitOptionTable, {"objective", "constants"}, &fit->options);
+  AddBoundsFlag(verb, "Model", &fit->bounds);
+  AddNamedFlags(verb, kFitOptionTable, {"bound", "fix"}, &fit->options);
+  AddTableFlags(verb, kFitOptionTable, &fit->options, "Model");
+}
+
+void DeclareFit(VerbLine* verb, FitRequest* fit) {
+  verb->AddOption("CURVE", &fit->files,
                   "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
                   "input; several: a line each")
       .Required()
       .ReadsCurves();
-  AddReadingFlags(verb_, &curve_);
-  AddModelFlags();
-  AddSearchFlags();
-  AddPolishFlags();
-  AddFamilyFlags(verb_, &family_);
-  AddReportFlags(verb_, "report", "fit", &output_);
-  AddFullJsonSwitch(verb_, &output_);
-  verb_->Footer(kFitFooter);
+  AddReadingFlags(verb, &fit->curve);
+  AddModelFlags(verb, fit);
+  AddTableFlags(verb, kFitOptionTable, &fit->options, "Search");
+  AddTableFlags(verb, kSearchOptionTable, &fit->options.search);
+  AddTableFlags(verb, kFitOptionTable, &fit->options);
+  AddFamilyFlags(verb, &fit->family, &fit->output);
+  AddReportFlags(verb, "report", "", "fit", &fit->output);
+  AddFullJsonSwitch(verb, &fit->output);
 }
 
-void FitCommand::AddModelFlags() {
-  const auto parse_model = [this](const std::string& text) -> Expected<void> {
-    const std::optional<Model> model = FromText<Model>(text);
-    auto_model_ = text == "auto";
-    if (!model && !auto_model_) {
-      return Fail("expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
-    }
-    options_.model = model.value_or(Model::kSingleDiode);
-    return {};
-  };
-  verb_
-      ->AddReader("--model", parse_model,
-                  "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
-      .Type("NAME")
-      .Group("Model");
-  AddEnumFlag(verb_, "--objective", "which residual is squared", &options_.objective)
-      .Group("Model");
-  AddEnumFlag(verb_, "--constants", "values of k and q", &options_.constants).Group("Model");
-  AddBoundsFlags(verb_, "Model", &bounds_);
-  AddListFlag(verb_, "--fix", "holds a parameter, n2=2; once for each", &fix_list_)
-      .Type("P=VALUE")
-      .Group("Model");
-  AddWithFlag(verb_, "Model", &with_list_);
+// What one flag says of the options of another.
+Expected<void> Settle(const VerbLine& verb, FitRequest* fit) {
+  FitOptions& options = fit->options;
+  if (options.with.empty()) return {};
+  options.force_effects = verb.Forced();
+  const SearchOptions usual = FitOptions::SearchBesideShapes();
+  if (!verb.Given("--population")) options.search.population = usual.population;
+  if (!verb.Given("--iterations")) options.search.iterations = usual.iterations;
+  if (!fit->auto_model) return {};
+  return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
 }
 
-void FitCommand::AddSearchFlags() {
-  AddEnumFlag(verb_, "--algorithm", "how to search", &options_.search.algorithm).Group("Search");
-  AddBirdsFlag(verb_, &options_.birds);
-  AddTableFlags(verb_, kSearchOptionTable, "Search", &options_.search);
-}
-
-void FitCommand::AddPolishFlags() {
-  verb_->AddSwitch("--no-polish", &no_polish_, "answer with the search's best bird")
-      .Group("Polish");
-  verb_
-      ->AddSwitch("--floor", &options_.floor,
-                  "also prove how low the measured-current RMSE can go within the bounds")
-      .Group("Polish");
-  verb_
-      ->AddOption("--noise", &noise_,
-                  "errors of the readings that the polish weighs by: white, field (found from the "
-                  "residuals), or a JSON file with their sizes (default white)")
-      .Type("NAME|FILE")
-      .Group("Polish")
-      .Reads();
-  AddEnumFlag(verb_, "--loss", "of the polish", &options_.loss).Group("Polish");
-  verb_
-      ->AddOption("--loss-scale", &options_.loss_scale,
-                  "noise units beyond which a robust loss bends (default " +
-                      NumberText(options_.loss_scale) + ")")
-      .Type("NUMBER")
-      .Group("Polish");
-  AddEnumFlag(verb_, "--intervals", "95 % intervals", &options_.intervals).Group("Polish");
-  verb_
-      ->AddOption("--threads", &options_.threads,
-                  "0: all cores; never changes a result (default 0)")
-      .Between(0, 1024)
-      .Type("N")
-      .Group("Polish");
-  std::string kernels;
-  for (const Kernel& kernel : AvailableKernels()) {
-    kernels += std::string(kernels.empty() ? "" : ", ") + kernel.name;
-  }
-  verb_
-      ->AddOption("--kernel", &kernel_,
-                  "instruction set of the heavy loops; never changes a result: " + kernels +
-                      " (default: the fastest)")
-      .Type("NAME")
-      .Group("Polish");
-}
-
-Expected<void> FitCommand::SetFixed() {
-  for (const std::string& text : fix_list_) {
-    const auto assignment = ParseAssignment("--fix", text);
-    if (!assignment) return tl::unexpected(assignment.error());
-    options_.fixed[assignment->first] = assignment->second;
-  }
-  auto with = ParseWith(with_list_);
-  if (!with) return tl::unexpected(with.error());
-  options_.with = std::move(*with);
-  options_.force_effects = verb_->Forced() && !options_.with.empty();
-  if (!options_.with.empty()) {
-    const SearchOptions usual = FitOptions::SearchBesideShapes();
-    if (!verb_->Given("--population")) options_.search.population = usual.population;
-    if (!verb_->Given("--iterations")) options_.search.iterations = usual.iterations;
-  }
-  if (auto_model_ && !options_.with.empty()) {
-    return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
-  }
-  return {};
-}
-
-Expected<void> FitCommand::SetErrors() {
-  Expected<ErrorSpec> errors = ErrorsNamed(noise_);
-  if (!errors) return Fail("--noise: " + errors.error().ToString());
-  options_.errors = std::move(*errors);
-  return {};
-}
-
-Expected<void> FitCommand::SetKernel() {
-  if (kernel_.empty()) return {};
-  std::string names;
-  for (const Kernel& kernel : AvailableKernels()) {
-    if (kernel_ == kernel.name) {
-      options_.kernel = &kernel;
-      return {};
-    }
-    names += (names.empty() ? "" : ", ") + std::string(kernel.name);
-  }
-  return Fail(fmt::format("--kernel: this processor runs {}, not '{}'", names, kernel_));
-}
-
-Expected<FitReport> FitCommand::FitFile(const std::string& file, int threads,
-                                        const Observer& observer) const {
-  FitOptions options = options_;
+Expected<FitReport> FitFile(const FitRequest& fit, const std::string& file, int threads,
+                            const Observer& observer) {
+  FitOptions options = fit.options;
   options.threads = threads;
-  Expected<BoundsSpec> bounds = BoundsFromFlags(bounds_, file);
-  if (!bounds) return tl::unexpected(bounds.error());
-  options.bounds = std::move(*bounds);
-  CurveFlags flags = curve_;
+  TRY(options.bounds, NamedBounds(fit.bounds, file));
+  for (const auto& [name, range] : fit.options.bounds.overrides) {
+    options.bounds.overrides[name] = range;
+  }
+  CurveFlags flags = fit.curve;
   flags.file = file;
   const Expected<IvCurve> curve = ReadFlaggedCurve(flags);
   if (!curve) return tl::unexpected(WhyNotOneCurve(flags, curve.error()));
-  return auto_model_ ? FitAuto(*curve, options, observer) : Fit(*curve, options, observer);
+  return fit.auto_model ? FitAuto(*curve, options, observer) : Fit(*curve, options, observer);
 }
 
-Expected<void> FitCommand::Write(const std::vector<FittedFile>& fits) const {
-  const bool one = files_.size() == 1;
-  if (!output_.json_file.empty()) {
-    const std::string json =
-        one ? JsonReport(*fits.front().report, output_.points()) : FitsJson(fits, output_.points());
-    if (auto written = WriteOutput(output_.json_file, json); !written) return written;
-  }
-  if (!family_.csv_file.empty()) {
-    if (auto written = WriteOutput(family_.csv_file, FitsCsv(fits)); !written) return written;
-  }
-  if (!output_.plot_file.empty()) {
-    if (auto drawn = PlotFit(*fits.front().report, output_.plot_file); !drawn) return drawn;
-  }
-  if (!verb_->TextWanted()) return {};
-  std::string text;
-  for (const FittedFile& fit : fits) {
-    if (!fit.report) continue;
-    text += one && !output_.brief ? FullReport(*fit.report) : BriefReport(*fit.report);
-  }
-  return WriteOutput("-", text);
+Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
+                     const std::vector<FittedFile>& fits) {
+  const ReportFlags& output = fit.output;
+  const bool one = fit.files.size() == 1;
+  TRY(WriteWanted(output.json_file, [&] {
+    return one ? JsonReport(*fits.front().report, output.points())
+               : FitsJson(fits, output.points());
+  }));
+  TRY(WriteWanted(output.csv_file, [&] { return FitsCsv(fits); }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotFit(*fits.front().report, file); }));
+  return WriteText(verb, [&] {
+    std::string text;
+    for (const FittedFile& file : fits) {
+      if (!file.report) continue;
+      text += one && !output.brief ? FullReport(*file.report) : BriefReport(*file.report);
+    }
+    return text;
+  });
 }
 
-int FitCommand::RunFamilyFit() {
-  if (auto_model_) {
-    return Refuse(
-        {"--model auto is for one curve: --family auto chooses among laws and diodes", {}});
+Expected<int> RunFamilyFit(const VerbLine& verb, FitRequest* fit) {
+  if (fit->auto_model) {
+    return Fail("--model auto is for one curve: --family auto chooses among laws and diodes");
   }
-  if (files_.size() > 1) {
-    return Refuse({"--family takes one set of curves: put the files into a folder", {}});
+  if (fit->files.size() > 1) {
+    return Fail("--family takes one set of curves: put the files into a folder");
   }
-  curve_.file = files_.front();
-  for (const auto& checked : {SetFixed(), SetErrors()}) {
-    if (!checked) return Refuse(checked.error());
-  }
-  const Expected<FamilyOptions> options =
-      FamilyOptionsFromFlags(*verb_, family_, options_, bounds_.ranges);
-  if (!options) return Refuse(options.error());
-  return RunFamily(*verb_, curve_, family_, *options, output_);
+  fit->curve.file = fit->files.front();
+  TRY(Settle(verb, fit));
+  TRY(const FamilyOptions options, FamilyOptionsFromFlags(verb, fit->family, fit->options));
+  return RunFamily(verb, fit->curve, fit->family, options, fit->output);
 }
 
-int FitCommand::RunOne() {
+Expected<int> RunOne(const VerbLine& verb, const FitRequest& fit) {
   const InterruptGuard guard;
-  Expected<FitReport> report = FitFile(files_.front(), options_.threads, TerminalObserver());
-  if (!report) return Refuse(report.error());
-  const int exit_code = report->interrupted ? kExitInterrupted
-                        : report->usable    ? kExitFine
-                                            : kExitNotUsable;
-  if (auto written = Write({{files_.front(), std::move(report)}}); !written) {
-    return Refuse(written.error());
-  }
+  TRY(FitReport report, FitFile(fit, fit.files.front(), fit.options.threads, TerminalObserver()));
+  const int exit_code = report.interrupted ? kExitInterrupted
+                        : report.usable    ? kExitFine
+                                           : kExitNotUsable;
+  TRY(Write(verb, fit, {{fit.files.front(), std::move(report)}}));
   return exit_code;
 }
 
-Expected<void> FitCommand::CheckMany() const {
-  for (const char* flag : {"--plot", "--curve"}) {
-    if (verb_->Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
-  }
-  return {};
-}
-
 // A file that cannot be fitted keeps no other from it.
-int FitCommand::RunMany() {
-  if (auto checked = CheckMany(); !checked) return Refuse(checked.error());
+Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
+  for (const char* flag : {"--plot", "--curve"}) {
+    if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
+  }
   const InterruptGuard guard;
   const std::vector<FittedFile> fits =
-      FitFiles(files_, options_.threads, TerminalObserver({"fit"}),
-               [this](const std::string& file, const Observer& observer) {
-                 return FitFile(file, 1, observer);
+      FitFiles(fit.files, fit.options.threads, TerminalObserver({"fit"}),
+               [&fit](const std::string& file, const Observer& observer) {
+                 return FitFile(fit, file, 1, observer);
                });
   int exit_code = kExitFine;
-  bool interrupted = fits.size() < files_.size();
-  for (const FittedFile& fit : fits) {
-    if (!fit.report) {
-      exit_code = Refuse(fit.report.error());
+  bool interrupted = fits.size() < fit.files.size();
+  for (const FittedFile& file : fits) {
+    if (!file.report) {
+      exit_code = Refuse(file.report.error());
       continue;
     }
-    interrupted = interrupted || fit.report->interrupted;
-    if (!fit.report->usable && exit_code == kExitFine) {
+    interrupted = interrupted || file.report->interrupted;
+    if (!file.report->usable && exit_code == kExitFine) {
       exit_code = kExitNotUsable;
     }
   }
-  if (auto written = Write(fits); !written) return Refuse(written.error());
+  TRY(Write(verb, fit, fits));
   return interrupted ? kExitInterrupted : exit_code;
 }
 
-int FitCommand::Run() {
-  if (curve_.list_columns) return PrintColumns(files_, curve_.reading);
-  if (auto checked = CheckFamilyFlags(*verb_, family_); !checked) {
-    return Refuse(checked.error());
-  }
-  if (family_.family) return RunFamilyFit();
-  options_.polish = !no_polish_;
-  for (const auto& checked : {SetFixed(), SetErrors(), SetKernel(), verb_->CheckFiles()}) {
-    if (!checked) return Refuse(checked.error());
-  }
-  return files_.size() == 1 ? RunOne() : RunMany();
+Expected<int> RunFit(VerbLine& verb, FitRequest& fit) {
+  if (fit.curve.list_columns) return PrintColumns(fit.files, fit.curve.reading);
+  TRY(CheckFamilyFlags(verb, fit.family));
+  if (fit.family.family) return RunFamilyFit(verb, &fit);
+  TRY(Settle(verb, &fit));
+  TRY(verb.CheckFiles());
+  return fit.files.size() == 1 ? RunOne(verb, fit) : RunMany(verb, fit);
 }
+
+}  // namespace
+
+const Verb kFitVerb = {"fit", "Fit diode-model parameters to a measured I-V curve", kFitFooter,
+                       "the report as text, --json, --csv and --plot",
+                       Declare<FitRequest, DeclareFit, RunFit>};
 
 }  // namespace lyrefit

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/report/plot.h"
-#include "output.h"
 
 namespace lyrefit {
 namespace {
@@ -55,87 +54,13 @@ Expected<void> CheckConditionFlags(const ConditionFlags& flags) {
 
 }  // namespace
 
-Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target) {
+Flag AddResumeFlag(VerbLine* verb, const std::string& unit, std::string* target) {
   return verb
       ->AddOption("--resume", target,
                   "a journal: every finished " + unit +
                       " is added to it, and none that stands in it is done again; begun where "
                       "there is none")
       .Writes();
-}
-
-Flag AddBirdsFlag(Verb* verb, Birds* target) {
-  return AddEnumFlag(verb, "--birds",
-                     "a bird is a complete device, or a place in the hard parameters (Rs, n, "
-                     "effects), where Iph, Is and Rsh are solved for",
-                     target)
-      .Group("Search");
-}
-
-Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
-                 std::vector<std::string>* target) {
-  return verb->AddOption(flag, target, doc).OneEach().Type("TEXT ...");
-}
-
-Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std::string& flag,
-                                                                       const std::string& text) {
-  constexpr char kExample[] = "PARAMETER=LOWER:UPPER such as Rs=0:0.5";
-  const std::vector<std::string> sides = Split(text, '=');
-  if (sides.size() != 2 || sides[0].empty()) return Misread(flag, kExample, text);
-  const std::vector<std::string> ends = Split(sides[1], ':');
-  if (ends.size() != 2) return Misread(flag, kExample, text);
-  const std::optional<double> lower = ParseNumber(ends[0]);
-  const std::optional<double> upper = ParseNumber(ends[1]);
-  if (!lower || !upper) return Misread(flag, kExample, text);
-  return std::pair(sides[0], std::pair(*lower, *upper));
-}
-
-Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag,
-                                                         const std::string& text) {
-  const std::vector<std::string> sides = Split(text, '=');
-  const std::optional<double> value = sides.size() == 2 ? ParseNumber(sides[1]) : std::nullopt;
-  if (!value || sides[0].empty()) return Misread(flag, "PARAMETER=VALUE such as n2=2", text);
-  return std::pair(sides[0], *value);
-}
-
-Flag AddWithFlag(Verb* verb, const std::string& group, std::vector<std::string>* target) {
-  return AddListFlag(
-             verb, "--with",
-             "an effect beside the diodes, as diagnose --explain names it: alone, with what "
-             "the shape of the curve suggests free; or with parameters held (d=0.3) or "
-             "within a range (d=0:0.5); once for each",
-             target)
-      .Type("EFFECT[:P=VALUE|LOW:HIGH,...]")
-      .Group(group);
-}
-
-Expected<std::vector<EffectUse>> ParseWith(const std::vector<std::string>& texts) {
-  std::vector<EffectUse> uses;
-  for (const std::string& text : texts) {
-    const std::size_t colon = text.find(':');
-    EffectUse use;
-    use.effect = FindEffect(text.substr(0, colon));
-    if (use.effect == nullptr) {
-      return Fail("--with: there is no effect '" + text.substr(0, colon) +
-                  "'; lyrefit diagnose --explain lists them");
-    }
-    for (std::size_t at = colon; at != std::string::npos;) {
-      const std::size_t next = text.find(',', at + 1);
-      const std::string item = text.substr(at + 1, next - at - 1);
-      if (item.find(':') != std::string::npos) {
-        const auto range = ParseRange("--with", item);
-        if (!range) return tl::unexpected(range.error());
-        use.ranges[range->first] = range->second;
-      } else {
-        const auto assignment = ParseAssignment("--with", item);
-        if (!assignment) return tl::unexpected(assignment.error());
-        use.ranges[assignment->first] = {assignment->second, assignment->second};
-      }
-      at = next;
-    }
-    uses.push_back(std::move(use));
-  }
-  return uses;
 }
 
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text) {
@@ -155,21 +80,8 @@ Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::str
   return steps;
 }
 
-void AddConditionFlags(Verb* verb, ConditionFlags* flags) {
-  verb->AddOption("--cells", &flags->cells, "cells in series").Type("N").Group("Conditions");
-  verb->AddOption("--temperature-C", &flags->temperature_C, "cell temperature in degrees Celsius")
-      .Type("T")
-      .Group("Conditions");
-  verb->AddOption("--irradiance-Wm2", &flags->irradiance_W_m2, "irradiance in W/m2")
-      .Type("G")
-      .Group("Conditions");
-  verb->AddSwitch("--as-is", &flags->as_is,
-                  "take the readings as they are: what would be refused becomes a warning")
-      .Group("Conditions");
-}
-
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) {
-  if (auto checked = CheckConditionFlags(flags); !checked) return checked;
+  TRY(CheckConditionFlags(flags));
   curve->as_is = flags.as_is;
   if (flags.cells) {
     curve->conditions.cells_in_series = *flags.cells;
@@ -191,60 +103,33 @@ Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) 
 
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
   for (IvCurve& curve : set->curves) {
-    if (auto applied = ApplyConditionFlags(flags, &curve); !applied) return applied;
+    TRY(ApplyConditionFlags(flags, &curve));
   }
   IvCurve common;  // carries the assumptions that hold for the whole set
   common.assumptions = set->assumptions;
-  if (auto applied = ApplyConditionFlags(flags, &common); !applied) return applied;
+  TRY(ApplyConditionFlags(flags, &common));
   set->assumptions = common.assumptions;
   return {};
 }
 
-void AddColumnFlags(Verb* verb, ReadOptions* options, bool* list_columns) {
-  verb->AddOption("--column", &options->column,
-                  "which of several currents, or pairs of voltage and current, side by side")
-      .Type("NAME|N")
-      .Group("Reading");
-  verb->AddOption("--voltage-column", &options->voltage_column,
-                  "the column of the voltage, by name or number, where its name does not tell")
-      .Type("NAME|N")
-      .Group("Reading");
-  verb->AddOption("--current-column", &options->current_column, "the same for the current")
-      .Type("NAME|N")
-      .Group("Reading");
-  verb->AddOption("--voltage-unit", &options->voltage_unit,
-                  "its unit, where the file names none: V, mV, uV or kV")
-      .Type("UNIT")
-      .Group("Reading");
-  verb->AddOption("--current-unit", &options->current_unit,
-                  "that of the current: A, mA, uA, nA, kA, mA/cm2, A/m2, ...")
-      .Type("UNIT")
-      .Group("Reading");
-  verb->AddSwitch("--skip-missing", &options->skip_missing,
-                  "leave out rows whose voltage or current is empty, NaN or an overflow code")
-      .Group("Reading");
-  verb->AddOption("--area-cm2", &options->area_cm2,
-                  "area of the cell in cm2, which makes currents of current densities")
-      .Between(1e-9, 1e9)
-      .Type("A")
-      .Group("Reading");
+void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns) {
+  AddTableFlags(verb, kReadOptionTable, options);
   verb->AddSwitch("--list-columns", list_columns,
                   "list the columns of the table and what each is read as, and stop")
       .Group("Reading");
 }
 
-int PrintColumns(const std::vector<std::string>& files, const ReadOptions& options) {
+Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOptions& options) {
   std::string text;
   for (const std::string& file : files) {
-    const auto columns = ListColumns(file, options);
-    if (!columns) return Refuse(columns.error());
+    TRY(const auto columns, ListColumns(file, options));
     if (files.size() > 1) text += file + ":\n";
-    for (const ColumnNote& column : *columns) {
+    for (const ColumnNote& column : columns) {
       text += fmt::format("{:>4}  {:<32}  {}\n", column.place, column.name, column.use);
     }
   }
-  const auto written = WriteOutput("-", text);
-  return written ? kExitFine : Refuse(written.error());
+  TRY(WriteOutput("-", text));
+  return kExitFine;
 }
 
 Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options) {
@@ -254,7 +139,7 @@ Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& o
   return ReadCurveText(std::move(*bytes), "standard input", options);
 }
 
-void AddCurveFlags(Verb* verb, CurveFlags* flags) {
+void AddCurveFlags(VerbLine* verb, CurveFlags* flags) {
   verb->AddOption("CURVE", &flags->file,
                   "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
                   "input")
@@ -263,37 +148,39 @@ void AddCurveFlags(Verb* verb, CurveFlags* flags) {
   AddReadingFlags(verb, flags);
 }
 
-void AddReadingFlags(Verb* verb, CurveFlags* flags) {
+void AddReadingFlags(VerbLine* verb, CurveFlags* flags) {
   verb->AddOption("--curve", &flags->index, "which curve of a file that holds several")
       .Type("INDEX")
       .Group("Reading");
   AddColumnFlags(verb, &flags->reading, &flags->list_columns);
-  AddConditionFlags(verb, &flags->conditions);
+  AddTableFlags(verb, kConditionFlagTable, &flags->conditions);
 }
 
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
   ReadOptions reading = flags.reading;
   reading.curve = flags.index;
-  Expected<IvCurve> curve = ReadCurveOrInput(flags.file, reading);
-  if (!curve) return curve;
-  if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) {
-    return tl::unexpected(applied.error());
-  }
+  TRY(IvCurve curve, ReadCurveOrInput(flags.file, reading));
+  TRY(ApplyConditionFlags(flags.conditions, &curve));
   return curve;
 }
 
-void AddFullJsonSwitch(Verb* verb, ReportFlags* flags) {
+void AddFullJsonSwitch(VerbLine* verb, ReportFlags* flags) {
   verb->AddSwitch("--full-json", &flags->full_json,
                   fmt::format("repeat every reading of curves of more than {} in JSON files",
                               kMostJsonPoints))
       .Group("Output");
 }
 
-void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
-                    ReportFlags* flags) {
+void AddCsvFlag(VerbLine* verb, const std::string& table, ReportFlags* flags) {
+  verb->AddOption("--csv", &flags->csv_file, table + "; - for standard output, alone").Writes();
+}
+
+void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,
+                    const std::string& picture, ReportFlags* flags) {
   verb->AddOption("--json", &flags->json_file,
                   "the " + what + " as JSON; - for standard output, alone")
       .Writes();
+  if (!table.empty()) AddCsvFlag(verb, table, flags);
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");

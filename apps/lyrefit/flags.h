@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glog/logging.h>
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,91 +16,141 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/law/extension.h"
 #include "lyrefit/report/json_report.h"
+#include "output.h"
 
 namespace lyrefit {
 
-// `text` as one of an enumeration's texts.
-template <class E>
-Expected<E> ParseEnum(const std::string& text) {
-  const std::optional<E> value = FromText<E>(text);
-  if (!value) return Fail("expected one of " + AllTexts<E>() + ", found '" + text + "'");
-  return *value;
-}
-
-// Reads one of an enumeration's texts into `target`, an E or a std::optional<E>.
-template <class E, class Target>
-FlagReader EnumReader(Target* target) {
-  return [target](const std::string& text) -> Expected<void> {
-    const Expected<E> value = ParseEnum<E>(text);
-    if (!value) return tl::unexpected(value.error());
-    *target = *value;
-    return {};
-  };
-}
-
-// A flag that takes one of an enumeration's texts.
-template <class E>
-Flag AddEnumFlag(Verb* verb, const std::string& flag, const std::string& doc, E* target) {
-  const std::string help = doc + ": " + AllTexts<E>() + " (default " + ToText(*target) + ")";
-  return verb->AddReader(flag, EnumReader<E>(target), help).Type("NAME");
-}
-
-// "doc [lower, upper] (default value)"; a range that is hardly a limit is left out.
+// What --help says of a row: "doc: texts allowed [lower, upper] (default value)". `defaults` holds
+// the values from before the line is read. A range that is hardly a limit is left out.
 template <class Options>
 std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
   std::string help = row.doc;
-  if (std::isfinite(row.lower) && row.upper < 1e12) {
-    help += " [" + NumberText(row.lower) + ", " + NumberText(row.upper) + "]";
+  const auto* const text = std::get_if<OptionText<Options>>(&row.field);
+  if (text != nullptr && text->allowed != nullptr) help += ": " + text->allowed();
+  if (row.Is(OptionTrait::kNoDefault) || IsList(row)) return help;
+  if (row.usual != nullptr) return help + " (default" + row.usual + ")";
+  if (text != nullptr) {
+    const std::vector<std::string> usual = text->write(defaults);
+    return usual.empty() ? help : help + " (default " + usual.front() + ")";
   }
+  const bool ranged = !row.Is(OptionTrait::kQuiet) && std::isfinite(row.lower);
   std::visit(
-      [&](auto field) {
-        const auto value = defaults.*field;
-        // Infinity, or the largest whole number, stands for "no limit".
-        const bool none = std::fabs(static_cast<double>(value)) > 1e18;
-        help += none ? " (default: none)" : " (default " + NumberText(value) + ")";
+      [&](const auto& field) {
+        if constexpr (IsNumberField<std::decay_t<decltype(field)>>::value) {
+          if (ranged && row.upper < 1e12) {
+            help += " [" + NumberText(row.lower) + ", " + NumberText(row.upper) + "]";
+          }
+          const auto value = defaults.*field;
+          // Infinity, or the largest whole number, stands for "no limit".
+          const bool none = std::fabs(static_cast<double>(value)) > 1e18;
+          help += none ? " (default: none)" : " (default " + NumberText(value) + ")";
+        }
       },
       row.field);
   return help;
 }
 
-// One flag for every row of an option table: name, help, unit and range come from the row.
-template <class Options, class Table>
-void AddTableFlags(Verb* verb, const Table& table, const std::string& group, Options* options) {
-  const Options defaults;
-  for (const OptionRow<Options>& row : table) {
-    const FlagTarget target =
-        std::visit([options](auto field) { return FlagTarget(&(options->*field)); }, row.field);
-    verb->AddOption(std::string("--") + row.name, target, RowHelp(row, defaults))
-        .Within(row.lower, row.upper)
-        .Type(*row.unit != '\0' ? row.unit : "NUMBER")
-        .Group(group);
+// The flag of one row.
+template <class Options>
+std::string FlagName(const OptionRow<Options>& row, const Options& defaults) {
+  const auto* const member = std::get_if<bool Options::*>(&row.field);
+  const bool off = member != nullptr && defaults.*(*member);
+  return std::string(off ? "--no-" : "--") + row.name;
+}
+
+// One flag for one row: name, help, unit and range come from it, the group too unless it is empty.
+template <class Options>
+Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string& group,
+                Options* options) {
+  const std::string name = FlagName(row, *options);
+  const std::string help = RowHelp(row, *options);
+  const auto declare = [&](const auto& field) -> Flag {
+    using Field = std::decay_t<decltype(field)>;
+    if constexpr (std::is_same_v<Field, OptionText<Options>>) {
+      const auto read = [options, read = field.read](const std::string& text) {
+        return read(text, options);
+      };
+      Flag flag =
+          field.many ? verb->AddListReader(name, read, help) : verb->AddReader(name, read, help);
+      if (field.allowed != nullptr) flag.OneOf(field.allowed());
+      return flag.Type(row.unit);
+    } else if constexpr (std::is_same_v<Field, OptionSwitch<Options>>) {
+      return verb->AddSwitch(
+          name, [=, set = field.set] { set(options, true); }, help);
+    } else if constexpr (std::is_same_v<Field, bool Options::*>) {
+      if (!(options->*field)) return verb->AddSwitch(name, &(options->*field), help);
+      return verb->AddSwitch(
+          name, [=] { options->*field = false; }, help);
+    } else if constexpr (std::is_member_pointer_v<Field>) {
+      Flag flag = verb->AddOption(name, &(options->*field), help);
+      flag.Type(*row.unit != '\0' ? row.unit : "NUMBER");
+      if (IsList(row)) flag.OneEach();
+      if (row.Is(OptionTrait::kUnchecked)) return flag;
+      if (!row.Is(OptionTrait::kQuiet)) {
+        return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
+      }
+      if constexpr (std::is_same_v<Field, int Options::*>) {
+        return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
+      } else {
+        return flag.Between(row.lower, row.upper);
+      }
+    } else {
+      LOG(FATAL) << "the row '" << row.name << "' has no flag";
+    }
+  };
+  Flag flag = std::visit(declare, row.field);
+  return group.empty() ? flag : flag.Group(group);
+}
+
+// Calls see(row, heading it stands below) for every row that is one.
+template <class Table, class See>
+void ForRows(const Table& table, const See& see) {
+  std::string heading;
+  for (const auto& row : table) {
+    if (row.IsHeading()) {
+      heading = row.name;
+    } else {
+      see(row, heading);
+    }
   }
 }
 
+// The row with this name; nullptr where there is none.
+template <class Table>
+auto* FindRow(const Table& table, const std::string& name) {
+  decltype(&table[0]) found = nullptr;
+  ForRows(table, [&](const auto& row, const std::string&) {
+    if (row.name == name) found = &row;
+  });
+  return found;
+}
+
+// The flags of these rows, in this order, each under its heading.
+template <class Options, class Table>
+void AddNamedFlags(VerbLine* verb, const Table& table, const std::vector<std::string>& names,
+                   Options* options) {
+  for (const std::string& name : names) {
+    ForRows(table, [&](const OptionRow<Options>& row, const std::string& heading) {
+      if (row.name == name) AddRowFlag(verb, row, heading, options);
+    });
+  }
+}
+
+// The flags of all rows of an option table, or of those below one heading, that the verb has not
+// declared yet.
+template <class Options, class Table>
+void AddTableFlags(VerbLine* verb, const Table& table, Options* options,
+                   const std::string& only = "") {
+  ForRows(table, [&](const OptionRow<Options>& row, const std::string& heading) {
+    const bool nest = std::holds_alternative<OptionNest<Options>>(row.field);
+    if (row.Is(OptionTrait::kNoFlag) || nest || (!only.empty() && heading != only)) return;
+    if (!verb->Has(FlagName(row, *options))) AddRowFlag(verb, row, heading, options);
+  });
+}
+
 // --resume FILE: where a study is written to run by run (or set by set), and taken up from.
-Flag AddResumeFlag(Verb* verb, const std::string& unit, std::string* target);
-
-// --birds, of the verbs that search curves.
-Flag AddBirdsFlag(Verb* verb, Birds* target);
-
-// A flag that may be given several times, one value each.
-Flag AddListFlag(Verb* verb, const std::string& flag, const std::string& doc,
-                 std::vector<std::string>* target);
-
-// "Rs=0:0.5" given to `flag`, as symbol, lower and upper.
-Expected<std::pair<std::string, std::pair<double, double>>> ParseRange(const std::string& flag,
-                                                                       const std::string& text);
-
-// "n2=2" given to `flag`, as symbol and value.
-Expected<std::pair<std::string, double>> ParseAssignment(const std::string& flag,
-                                                         const std::string& text);
-
-// --with EFFECT[:NAME=VALUE|LOW:HIGH,...], once for each.
-Flag AddWithFlag(Verb* verb, const std::string& group, std::vector<std::string>* target);
-Expected<std::vector<EffectUse>> ParseWith(const std::vector<std::string>& texts);
+Flag AddResumeFlag(VerbLine* verb, const std::string& unit, std::string* target);
 
 // "0:0.6:50" given to `flag`: that many even steps, both ends included.
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text);
@@ -111,7 +163,16 @@ struct ConditionFlags {
   bool as_is = false;
 };
 
-void AddConditionFlags(Verb* verb, ConditionFlags* flags);
+inline constexpr OptionRow<ConditionFlags> kConditionFlagTable[] = {
+    OptionRow<ConditionFlags>("Conditions"),
+    {"cells", "N", "cells in series", &ConditionFlags::cells, OptionTrait::kUnchecked},
+    {"temperature-C", "T", "cell temperature in degrees Celsius", &ConditionFlags::temperature_C,
+     OptionTrait::kUnchecked},
+    {"irradiance-Wm2", "G", "irradiance in W/m2", &ConditionFlags::irradiance_W_m2,
+     OptionTrait::kUnchecked},
+    {"as-is", "", "take the readings as they are: what would be refused becomes a warning",
+     &ConditionFlags::as_is},
+};
 
 // Checks the flags and puts them into `curve`, where they replace what was assumed.
 Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve);
@@ -127,23 +188,25 @@ struct CurveFlags {
   ConditionFlags conditions;
 };
 
-// Which columns of a table are read, and the area that makes currents of densities.
-void AddColumnFlags(Verb* verb, ReadOptions* options, bool* list_columns);
+// Which columns of a table are read, and the area that makes currents of densities; and
+// --list-columns.
+void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns);
 
 // The columns of every file and what each is read as, on standard output; the exit code.
-int PrintColumns(const std::vector<std::string>& files, const ReadOptions& options);
+Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOptions& options);
 
 // A curve from a file or folder, or from standard input where `file` is "-".
 Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options);
 
-void AddCurveFlags(Verb* verb, CurveFlags* flags);
+void AddCurveFlags(VerbLine* verb, CurveFlags* flags);
 // The same without the file.
-void AddReadingFlags(Verb* verb, CurveFlags* flags);
+void AddReadingFlags(VerbLine* verb, CurveFlags* flags);
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
-// What a verb on one curve writes.
+// What a verb with a report writes.
 struct ReportFlags {
   std::string json_file;
+  std::string csv_file;
   std::string plot_file;
   bool brief = false;
   bool full_json = false;
@@ -151,9 +214,26 @@ struct ReportFlags {
 };
 
 // --full-json, where the JSON of a fit repeats its readings.
-void AddFullJsonSwitch(Verb* verb, ReportFlags* flags);
-// `what` names the report in the help, `picture` the plot.
-void AddReportFlags(Verb* verb, const std::string& what, const std::string& picture,
-                    ReportFlags* flags);
+void AddFullJsonSwitch(VerbLine* verb, ReportFlags* flags);
+// --json, --csv where `table` says what it holds, --plot, --brief and --quiet. `what` names the
+// report in the help, `picture` the plot.
+void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,
+                    const std::string& picture, ReportFlags* flags);
+void AddCsvFlag(VerbLine* verb, const std::string& table, ReportFlags* flags);
+
+// Writes what is wanted: `make` is called if there is a file to write it into.
+template <class Make>
+Expected<void> WriteWanted(const std::string& file, const Make& make) {
+  return file.empty() ? Expected<void>() : WriteOutput(file, make());
+}
+template <class Draw>
+Expected<void> DrawWanted(const std::string& file, const Draw& draw) {
+  return file.empty() ? Expected<void>() : draw(file);
+}
+// The text on standard output, unless something else has it or --quiet is said.
+template <class Make>
+Expected<void> WriteText(const VerbLine& verb, const Make& make) {
+  return verb.TextWanted() ? WriteOutput("-", make()) : Expected<void>();
+}
 
 }  // namespace lyrefit

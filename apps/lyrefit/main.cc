@@ -1,24 +1,13 @@
-#include <fmt/format.h>
 #include <glog/logging.h>
 
 #include <exception>
-#include <functional>
-#include <memory>
 #include <string>
 
-#include "audit_command.h"
-#include "budget_command.h"
-#include "certify_command.h"
+#include "about.h"
 #include "command_line.h"
-#include "compare_command.h"
-#include "coverage_command.h"
-#include "data_sheet_command.h"
-#include "diagnose_command.h"
-#include "fit_command.h"
 #include "interrupt.h"
 #include "output.h"
-#include "sensitivity_command.h"
-#include "simulate_command.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -34,18 +23,6 @@ constexpr char kFooter[] =
     "\n"
     "lyrefit VERB --help lists every flag of a verb.";
 
-// What runs when its verb is on the line.
-struct Command {
-  std::function<bool()> chosen;
-  std::function<int()> run;
-};
-
-template <class T>
-Command MakeCommand(CommandLine* line) {
-  const auto command = std::make_shared<T>(line);
-  return {[command] { return command->Chosen(); }, [command] { return command->Run(); }};
-}
-
 void StartLogging(const char* program, int verbosity) {
   FLAGS_logtostderr = true;
   // The solver logs every step it had to take back as an error; the report says what came of it.
@@ -54,30 +31,28 @@ void StartLogging(const char* program, int verbosity) {
   google::InitGoogleLogging(program);
 }
 
+// The text itself as the answer.
+int Print(const std::string& text) {
+  const auto written = WriteOutput("-", text);
+  return written ? kExitFine : Refuse(written.error());
+}
+
 int Main(int argc, char** argv) {
+  if (argc == 1) return Print(FirstPage());
   CommandLine line(kFooter);
-  const Command commands[] = {
-      MakeCommand<FitCommand>(&line),       MakeCommand<SimulateCommand>(&line),
-      MakeCommand<CertifyCommand>(&line),   MakeCommand<CompareCommand>(&line),
-      MakeCommand<BudgetCommand>(&line),    MakeCommand<SensitivityCommand>(&line),
-      MakeCommand<DataSheetCommand>(&line), MakeCommand<AuditCommand>(&line),
-      MakeCommand<CoverageCommand>(&line),  MakeCommand<DiagnoseCommand>(&line),
-  };
+  for (const Verb* verb :
+       {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb, &kSensitivityVerb,
+        &kDataSheetVerb, &kAuditVerb, &kCoverageVerb, &kDiagnoseVerb, &kHelpVerb,
+        &kCompletionVerb, &kManVerb}) {
+    line.Add(*verb);
+  }
   const Expected<std::string> asked = line.Parse(argc, argv);
-  if (!asked) {
-    if (argc == 1) fmt::print(stderr, "{}\n", line.Help());
-    return Refuse(asked.error());
-  }
-  if (!asked->empty()) {
-    const auto written = WriteOutput("-", *asked);
-    return written ? kExitFine : Refuse(written.error());
-  }
+  if (!asked) return Refuse(asked.error());
+  if (!asked->empty()) return Print(*asked);
   StartLogging(argv[0], line.verbosity());
   if (line.quiet()) SilenceProgress();
-  for (const Command& command : commands) {
-    if (command.chosen()) return command.run();
-  }
-  return kExitBadInput;  // the parser has asked for a verb
+  const Expected<int> exit_code = line.Run();
+  return exit_code ? *exit_code : Refuse(exit_code.error());
 }
 
 }  // namespace

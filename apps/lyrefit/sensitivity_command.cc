@@ -1,7 +1,7 @@
-#include "sensitivity_command.h"
-
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/report/compare_text.h"
-#include "output.h"
+#include "study_flags.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -14,35 +14,44 @@ constexpr char kSensitivityFooter[] =
     "A memory rate of 0 switches the memory-based strategy off, a distance coefficient of 0 the\n"
     "diversity strategy.";
 
-}  // namespace
+struct SensitivityRequest {
+  StudyFlags study;
+  std::string memory_rates = "0,0.25,0.5,0.75,1";
+  std::string distance_coefficients = "0,0.25,0.5,0.75,1";
+};
 
-SensitivityCommand::SensitivityCommand(CommandLine* line)
-    : verb_(line->AddVerb("sensitivity", "MLO over a grid of its settings Pm and gamma")) {
-  flags_.models = "td";
-  flags_.search.population = 100;
-  flags_.search.iterations = 1000;
-  flags_.options.rankings = false;
-  AddStudyFlags(verb_, &flags_).Required();
-  const auto list = [this](const char* flag, const char* doc, std::string* target) {
-    verb_->AddOption(flag, target, std::string(doc) + " (default " + *target + ")")
+void DeclareSensitivity(VerbLine* verb, SensitivityRequest* request) {
+  StudyFlags& study = request->study;
+  study.options.models = {Model::kTripleDiode};
+  study.search.population = 100;
+  study.search.iterations = 1000;
+  study.options.rankings = false;
+  AddStudyFlags(verb, &study).Required();
+  const auto list = [verb](const char* flag, const char* doc, std::string* target) {
+    verb->AddOption(flag, target, std::string(doc) + " (default " + *target + ")")
         .Type("LIST")
         .Group("Search");
   };
-  list("--memory-rates", "list of Pm, rate of the memory-based strategy", &memory_rates_);
+  list("--memory-rates", "list of Pm, rate of the memory-based strategy", &request->memory_rates);
   list("--distance-coefficients", "list of gamma, reach of the diversity strategy",
-       &distance_coefficients_);
-  AddSearchRows(verb_, {"population", "iterations", "max-evaluations", "elites"}, &flags_);
-  verb_->AddSwitch("--no-polish", &flags_.no_polish, "the search alone").Group("Polish");
-  verb_->Footer(kSensitivityFooter);
+       &request->distance_coefficients);
+  AddSearchRows(verb, {"population", "iterations", "max-evaluations", "elites"}, &study);
+  AddNamedFlags(verb, kCompareOptionTable, {"polish"}, &study.options);
 }
 
-int SensitivityCommand::Run() {
-  const auto rates = ParseNumbers("--memory-rates", memory_rates_);
-  if (!rates) return Refuse(rates.error());
-  const auto coefficients = ParseNumbers("--distance-coefficients", distance_coefficients_);
-  if (!coefficients) return Refuse(coefficients.error());
-  return RunStudy(*verb_, flags_, SensitivityContenders(*rates, *coefficients, flags_.search),
-                  SensitivityText, {});
+Expected<int> RunSensitivity(VerbLine& verb, SensitivityRequest& request) {
+  TRY(const auto rates, ParseNumbers("--memory-rates", request.memory_rates));
+  TRY(const auto coefficients,
+      ParseNumbers("--distance-coefficients", request.distance_coefficients));
+  return RunStudy(verb, request.study,
+                  SensitivityContenders(rates, coefficients, request.study.search), SensitivityText,
+                  {});
 }
+
+}  // namespace
+
+const Verb kSensitivityVerb = {"sensitivity", "MLO over a grid of its settings Pm and gamma",
+                               kSensitivityFooter, "its tables as text, --json and --csv",
+                               Declare<SensitivityRequest, DeclareSensitivity, RunSensitivity>};
 
 }  // namespace lyrefit

@@ -1,14 +1,15 @@
-#include "simulate_command.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
 
+#include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
-#include "output.h"
+#include "lyrefit/fit/simulate.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -39,68 +40,54 @@ bool IsOwnWork(const std::string& table) {
   return csv && json && *csv == CurveToCsv(*curve) && *json == CurveSidecarJson(*curve);
 }
 
-}  // namespace
+struct SimulateRequest {
+  SimulateOptions options;
+  ConditionFlags conditions;
+  std::string from_file;
+  std::string from_curve;
+  std::string layout_file;
+  std::string voltages;
+  std::string out_file = "-";
+};
 
-SimulateCommand::SimulateCommand(CommandLine* line)
-    : verb_(line->AddVerb("simulate", "Write the curve of a device, with noise if wanted")) {
-  AddEnumFlag(verb_, "--model", "number of diodes", &flags_.model).Group("Device");
-  AddListFlag(verb_, "--set", "value of one parameter, Iph=0.76; once for each", &set_list_)
-      .Type("P=VALUE")
-      .Group("Device");
-  verb_->AddOption("--from", &from_file_, "parameters and conditions of a JSON fit report")
+void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
+  AddNamedFlags(verb, kSimulateOptionTable, {"model", "set"}, &request->options);
+  verb->AddOption("--from", &request->from_file, "parameters and conditions of a JSON fit report")
       .Group("Device")
       .Type("FILE")
       .Reads();
-  verb_->AddOption("--curve", &from_curve_, "which curve of a report of many, by its id")
+  verb->AddOption("--curve", &request->from_curve, "which curve of a report of many, by its id")
       .Group("Device")
       .Type("ID");
-  AddEnumFlag(verb_, "--constants", "values of k and q", &flags_.constants).Group("Device");
-  AddWithFlag(verb_, "Device", &with_list_);
-  verb_
-      ->AddOption("--string", &layout_file_,
+  AddTableFlags(verb, kSimulateOptionTable, &request->options, "Device");
+  verb->AddOption("--string", &request->layout_file,
                   "cells that are not alike, their bypass diodes and reverse law, as JSON")
       .Group("Device")
       .Type("FILE")
       .Reads();
-  AddConditionFlags(verb_, &conditions_);
-  verb_->AddOption("--voltages", &voltages_, "even steps in volt, both ends included")
+  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  verb->AddOption("--voltages", &request->voltages, "even steps in volt, both ends included")
       .Type("FROM:TO:COUNT")
       .Group("Points");
-  verb_
-      ->AddOption("--points", &flags_.points,
-                  "points from 0 V to a little beyond open circuit (default 100)")
-      .Type("N")
-      .Excludes("--voltages")
-      .Group("Points");
-  verb_
-      ->AddOption("--noise-A", &flags_.noise_A,
-                  "standard deviation of the current in A (default 0)")
-      .Type("S")
-      .Group("Noise");
-  verb_
-      ->AddOption("--noise-relative", &flags_.noise_relative,
-                  "standard deviation as a part of the current (default 0)")
-      .Type("R")
-      .Group("Noise");
-  verb_->AddOption("--seed", &flags_.seed, "seed of the noise (default 0)")
-      .Type("S")
-      .Group("Noise");
-  verb_->AddOption("--out", &out_file_, "where to write; - for standard output (default -)")
+  AddRowFlag(verb, *FindRow(kSimulateOptionTable, "points"), "Points", &request->options)
+      .Excludes("--voltages");
+  AddTableFlags(verb, kSimulateOptionTable, &request->options);
+  verb->AddOption("--out", &request->out_file, "where to write; - for standard output (default -)")
       .Writes();
-  verb_->Footer(kSimulateFooter);
 }
 
-Expected<void> SimulateCommand::CheckTargets() const {
-  if (out_file_ == "-") return verb_->CheckFiles();
-  const std::string sidecar = SidecarOf(out_file_);
-  if (out_file_ == sidecar) {
-    return Fail("--out: expected a table that ends in .csv, found .json", out_file_);
+Expected<void> CheckTargets(VerbLine* verb, const std::string& out_file) {
+  if (out_file == "-") return verb->CheckFiles();
+  const std::string sidecar = SidecarOf(out_file);
+  if (out_file == sidecar) {
+    return Fail("--out: expected a table that ends in .csv, found .json", out_file);
   }
-  verb_->AlsoWrites("--out", sidecar);
-  if (auto checked = verb_->CheckFiles(); !checked || verb_->Forced()) return checked;
-  for (const std::string& file : {out_file_, sidecar}) {
+  verb->AlsoWrites("--out", sidecar);
+  TRY(verb->CheckFiles());
+  if (verb->Forced()) return {};
+  for (const std::string& file : {out_file, sidecar}) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error) || IsOwnWork(out_file_)) continue;
+    if (!std::filesystem::is_regular_file(file, error) || IsOwnWork(out_file)) continue;
     return Fail(
         "--out: the file is there and holds something else than a simulated curve: name "
         "another file, or say --force to replace it",
@@ -109,71 +96,67 @@ Expected<void> SimulateCommand::CheckTargets() const {
   return {};
 }
 
-Expected<SimulateOptions> SimulateCommand::Options() const {
-  SimulateOptions options = flags_;
-  if (from_file_.empty() && !from_curve_.empty()) {
+// What the report of --from says, where no flag says otherwise.
+Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
+                        SimulateOptions* options) {
+  if (request.from_file.empty() && !request.from_curve.empty()) {
     return Fail("--curve is about a report of many curves: it needs --from");
   }
-  if (!from_file_.empty()) {
-    Expected<SimulateOptions> fit = ReadFitForSimulation(from_file_, from_curve_);
-    if (!fit) return fit;
-    options.parameters = fit->parameters;
-    options.conditions = fit->conditions;
-    options.with = fit->with;
-    options.taken = fit->taken;
-    options.shared = fit->shared;
-    options.force_effects = fit->force_effects;
-    if (!verb_->Given("--model")) options.model = fit->model;
-    if (!verb_->Given("--constants")) options.constants = fit->constants;
+  if (request.from_file.empty()) return {};
+  TRY(SimulateOptions fit, ReadFitForSimulation(request.from_file, request.from_curve));
+  for (const auto& [name, value] : options->parameters) fit.parameters[name] = value;
+  options->parameters = fit.parameters;
+  options->conditions = fit.conditions;
+  fit.with.insert(fit.with.end(), options->with.begin(), options->with.end());
+  options->with = fit.with;
+  options->taken = fit.taken;
+  options->shared = fit.shared;
+  options->force_effects = fit.force_effects;
+  if (!verb.Given("--model")) options->model = fit.model;
+  if (!verb.Given("--constants")) options->constants = fit.constants;
+  return {};
+}
+
+Expected<SimulateOptions> WholeOptions(const VerbLine& verb, const SimulateRequest& request) {
+  SimulateOptions options = request.options;
+  TRY(TakeFrom(verb, request, &options));
+  options.force_effects = options.force_effects || verb.Forced();
+  if (!request.layout_file.empty()) {
+    TRY(StringLayout layout, ReadStringLayout(request.layout_file));
+    options.layout = std::make_shared<const StringLayout>(std::move(layout));
   }
-  auto with = ParseWith(with_list_);
-  if (!with) return tl::unexpected(with.error());
-  options.with.insert(options.with.end(), with->begin(), with->end());
-  options.force_effects = options.force_effects || verb_->Forced();
-  if (!layout_file_.empty()) {
-    auto layout = ReadStringLayout(layout_file_);
-    if (!layout) return tl::unexpected(layout.error());
-    options.layout = std::make_shared<const StringLayout>(std::move(*layout));
-  }
-  for (const std::string& text : set_list_) {
-    const auto assignment = ParseAssignment("--set", text);
-    if (!assignment) return tl::unexpected(assignment.error());
-    options.parameters[assignment->first] = assignment->second;
-  }
-  if (!voltages_.empty()) {
-    const auto steps = ParseSteps("--voltages", voltages_);
-    if (!steps) return tl::unexpected(steps.error());
-    options.voltage_V = *steps;
+  if (!request.voltages.empty()) {
+    TRY(options.voltage_V, ParseSteps("--voltages", request.voltages));
   }
   IvCurve told;
   told.conditions = options.conditions;
-  if (auto applied = ApplyConditionFlags(conditions_, &told); !applied) {
-    return tl::unexpected(applied.error());
-  }
+  TRY(ApplyConditionFlags(request.conditions, &told));
   options.conditions = told.conditions;
-  const bool cells_told = !from_file_.empty() || conditions_.cells.has_value();
+  const bool cells_told = !request.from_file.empty() || request.conditions.cells.has_value();
   if (options.layout != nullptr && !cells_told) {
     options.conditions.cells_in_series = options.layout->cells_in_series;
   }
-  if (out_file_ != "-") options.name = std::filesystem::path(out_file_).stem().string();
+  if (request.out_file != "-") {
+    options.name = std::filesystem::path(request.out_file).stem().string();
+  }
   return options;
 }
 
-int SimulateCommand::Run() {
+Expected<int> RunSimulate(VerbLine& verb, SimulateRequest& request) {
   EndOnSignals();
-  const Expected<SimulateOptions> options = Options();
-  if (!options) return Refuse(options.error());
-  if (auto checked = CheckTargets(); !checked) return Refuse(checked.error());
-  const Expected<IvCurve> curve = Simulate(*options);
-  if (!curve) return Refuse(curve.error());
-  if (auto written = WriteOutput(out_file_, CurveToCsv(*curve)); !written) {
-    return Refuse(written.error());
-  }
-  if (out_file_ == "-") return kExitFine;
-  if (auto written = WriteTextFile(SidecarOf(out_file_), CurveSidecarJson(*curve)); !written) {
-    return Refuse(written.error());
-  }
+  TRY(const SimulateOptions options, WholeOptions(verb, request));
+  TRY(CheckTargets(&verb, request.out_file));
+  TRY(const IvCurve curve, Simulate(options));
+  TRY(WriteOutput(request.out_file, CurveToCsv(curve)));
+  if (request.out_file == "-") return kExitFine;
+  TRY(WriteTextFile(SidecarOf(request.out_file), CurveSidecarJson(curve)));
   return kExitFine;
 }
+
+}  // namespace
+
+const Verb kSimulateVerb = {"simulate", "Write the curve of a device, with noise if wanted",
+                            kSimulateFooter, "the curve alone, as a table: --out FILE.csv",
+                            Declare<SimulateRequest, DeclareSimulate, RunSimulate>};
 
 }  // namespace lyrefit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/nearest_curve.h"
 #include "lyrefit/curve/number_text.h"
@@ -37,47 +38,39 @@ Expected<void> Choose(const CurveSet& set, std::size_t curve, const std::string&
 Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const StudyFlags& flags) {
   std::vector<std::size_t> chosen;
   if (!flags.curve_ids.empty()) {
-    const auto ids = ParseList("--curves", flags.curve_ids);
-    if (!ids) return tl::unexpected(ids.error());
-    for (const std::string& id : *ids) {
-      const auto found = FindCurve(set, id);
-      if (!found) return tl::unexpected(found.error());
-      auto taken = Choose(set, *found, "--curves " + id, &chosen);
-      if (!taken) return tl::unexpected(taken.error());
+    TRY(const auto ids, ParseList("--curves", flags.curve_ids));
+    for (const std::string& id : ids) {
+      TRY(const auto found, FindCurve(set, id));
+      TRY(Choose(set, found, "--curves " + id, &chosen));
     }
   }
   if (flags.at.empty()) return chosen;
-  const auto conditions = ParseStudyConditions(flags.at);
-  if (!conditions) return tl::unexpected(conditions.error());
-  for (const StudyCondition& at : *conditions) {
-    const auto found = NearestCurve(set, at.irradiance_W_m2, at.temperature_C);
-    if (!found) return tl::unexpected(found.error());
+  TRY(const auto conditions, ParseStudyConditions(flags.at));
+  for (const StudyCondition& at : conditions) {
+    TRY(const auto found, NearestCurve(set, at.irradiance_W_m2, at.temperature_C));
     const std::string flag = fmt::format("--at {:g}x{:g}", at.irradiance_W_m2, at.temperature_C);
-    auto taken = Choose(set, *found, flag, &chosen);
-    if (!taken) return tl::unexpected(taken.error());
+    TRY(Choose(set, found, flag, &chosen));
   }
   return chosen;
 }
 
 Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& flags,
                    std::vector<CompareCurve>* curves) {
-  Expected<BoundsSpec> bounds = BoundsFromFlags(flags.bounds, file);
-  if (!bounds) return tl::unexpected(bounds.error());
-  curves->push_back(MakeSubject(std::move(curve), std::move(*bounds)));
+  TRY(BoundsSpec bounds, NamedBounds(flags.bounds, file));
+  for (const auto& [name, range] : flags.ranges) bounds.overrides[name] = range;
+  curves->push_back(MakeSubject(std::move(curve), std::move(bounds)));
   return {};
 }
 
 Expected<void> AddFromSet(const std::string& file, const StudyFlags& flags,
                           std::vector<CompareCurve>* curves) {
-  const Expected<CurveSet> set = ReadCurveSet(file);
-  if (!set) return tl::unexpected(set.error());
-  const auto chosen = ChosenCurves(*set, flags);
-  if (!chosen) return tl::unexpected(chosen.error());
-  for (const std::size_t i : *chosen) {
-    IvCurve curve = set->curves[i];
-    if (auto applied = ApplyConditionFlags(flags.conditions, &curve); !applied) return applied;
-    curve.name = LabelInSet(*set, curve);
-    if (auto added = Add(std::move(curve), file, flags, curves); !added) return added;
+  TRY(const auto set, ReadCurveSet(file));
+  TRY(const auto chosen, ChosenCurves(set, flags));
+  for (const std::size_t i : chosen) {
+    IvCurve curve = set.curves[i];
+    TRY(ApplyConditionFlags(flags.conditions, &curve));
+    curve.name = LabelInSet(set, curve);
+    TRY(Add(std::move(curve), file, flags, curves));
   }
   return {};
 }
@@ -90,20 +83,18 @@ Expected<void> AddCurve(const std::string& file, const StudyFlags& flags,
                 file);
   }
   if (!curve) return tl::unexpected(curve.error());
-  if (auto applied = ApplyConditionFlags(flags.conditions, &*curve); !applied) return applied;
+  TRY(ApplyConditionFlags(flags.conditions, &*curve));
   return Add(std::move(*curve), file, flags, curves);
 }
 
 }  // namespace
 
 Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text) {
-  const auto parts = ParseList("--at", text);
-  if (!parts) return tl::unexpected(parts.error());
+  TRY(const auto parts, ParseList("--at", text));
   std::vector<StudyCondition> conditions;
-  for (const std::string& part : *parts) {
-    const auto condition = ParseStudyCondition(part);
-    if (!condition) return tl::unexpected(condition.error());
-    conditions.push_back(*condition);
+  for (const std::string& part : parts) {
+    TRY(const auto condition, ParseStudyCondition(part));
+    conditions.push_back(condition);
   }
   return conditions;
 }
@@ -114,8 +105,7 @@ Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags) {
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {
     // A file that does not look like a set, with curves asked of it: the set's reader says why not.
-    auto added = choosing ? AddFromSet(file, flags, &curves) : AddCurve(file, flags, &curves);
-    if (!added) return tl::unexpected(added.error());
+    TRY(choosing ? AddFromSet(file, flags, &curves) : AddCurve(file, flags, &curves));
   }
   return curves;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,38 +17,47 @@ struct StudyFlags {
   std::vector<std::string> curve_files;  // curves, or sets of curves
   std::string at;                        // of sets: the curves nearest to these conditions
   std::string curve_ids;                 // of sets: the curves with these ids
-  std::string models = "sd,dd,td";
   std::string algorithms = "lo,lo+mblss,lo+dmlss,mlo,de,random";
-  BoundsFlags bounds;
+  std::string bounds = "physical";
+  BoundsSpec::Table ranges;  // of single parameters
   ConditionFlags conditions;
   CompareOptions options;
   SearchOptions search;
   Birds birds = Birds::kAll;  // of --algorithms that are searches
-  std::vector<std::string> with;
-  std::string landscape;  // made problems instead of curves: "strings_2,strings_3", "all"
-  int devices = 50;       // of each
-  bool no_polish = false;
-  std::string json_file;
-  std::string csv_file;
+  std::string landscape;      // made problems instead of curves: "strings_2,strings_3", "all"
+  int devices = 50;           // of each
+  ReportFlags output;
+};
+
+inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
+    OptionRow<StudyFlags>("Curves"),
+    {"at", "LIST",
+     "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as far as 1 K)",
+     &StudyFlags::at},
+    {"curves", "LIST", "of a set of curves: those with these ids", &StudyFlags::curve_ids},
+    {"devices", "N", "made devices of each problem", &StudyFlags::devices, 1, 10000,
+     OptionTrait::kQuiet | OptionTrait::kNoFlag},
+    OptionRow<StudyFlags>("Model"),
+    {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
+     RangesOption<&StudyFlags::ranges>(), OptionTrait::kNoFlag},
+    OptionRow<StudyFlags>("Search"),
+    {"birds", "NAME", kBirdsDoc, EnumOption<&StudyFlags::birds>(), OptionTrait::kNoFlag},
 };
 
 // Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves
 // comes back: whether it is required is the verb's to say.
-Flag AddStudyFlags(Verb* verb, StudyFlags* flags);
+Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags);
 // --landscape, --devices and --multistart. What goes without them is refused by CheckLandscape().
-void AddLandscapeFlags(Verb* verb, StudyFlags* flags);
+void AddLandscapeFlags(VerbLine* verb, StudyFlags* flags);
 // Either curves or made problems, and nothing said of these that they say themselves. Of a study of
 // problems with effects the defaults of runs and multistart.
-Expected<void> CheckLandscape(const Verb& verb, StudyFlags* flags);
-void AddAlgorithmsFlag(Verb* verb, StudyFlags* flags);
+Expected<void> CheckLandscape(const VerbLine& verb, StudyFlags* flags);
+void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags);
 // The rows of the search's option table with these names; `flags->search` holds the defaults.
-void AddSearchRows(Verb* verb, const std::vector<std::string>& names, StudyFlags* flags);
-void AddPolishLevelFlags(Verb* verb, StudyFlags* flags);
+void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags);
 
 // "a,b" as its parts; empty parts are refused in the name of `flag`.
 Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text);
-// "sd,dd" given to --models.
-Expected<std::vector<Model>> ParseModels(const std::string& text);
 Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text);
 
 // One point of irradiance and temperature.
@@ -75,12 +83,13 @@ Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags);
 // One file to write when all is done.
 struct StudyPicture {
   std::string path;  // empty: not wanted
-  std::function<Expected<void>(const Comparison&, const std::string& path)> draw;
+  Expected<void> (*draw)(const Comparison&, const std::string& path);
 };
 
 // Reads the curves, compares, writes what is wanted; returns the exit code.
-int RunStudy(const Verb& verb, const StudyFlags& flags, const std::vector<Contender>& contenders,
-             const std::function<std::string(const Comparison&)>& text,
-             const std::vector<StudyPicture>& pictures);
+Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
+                       const std::vector<Contender>& contenders,
+                       std::string (*text)(const Comparison&),
+                       const std::vector<StudyPicture>& pictures);
 
 }  // namespace lyrefit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/study/landscape.h"
 #include "pagmo_searcher.h"
 #include "study_flags.h"
@@ -13,7 +14,7 @@ constexpr int kMultistart = 100;
 
 }  // namespace
 
-void AddLandscapeFlags(Verb* verb, StudyFlags* flags) {
+void AddLandscapeFlags(VerbLine* verb, StudyFlags* flags) {
   std::string names;
   for (const LandscapeProblem& problem : LandscapeProblems()) names += problem.name + ", ";
   verb->AddOption("--landscape", &flags->landscape,
@@ -22,25 +23,17 @@ void AddLandscapeFlags(Verb* verb, StudyFlags* flags) {
                       names + "or all")
       .Type("LIST")
       .Group("Curves");
-  verb->AddOption("--devices", &flags->devices, "made devices of each problem (default 50)")
-      .Between(1, 10000)
-      .Type("N")
-      .Group("Curves");
-  verb->AddOption("--multistart", &flags->options.multistart,
-                  "random points polished to their end to know the best optimum of a problem that "
-                  "no certificate is at hand for (default 100 with effects or --landscape, else 0)")
-      .Between(0, 1000000)
-      .Type("N")
-      .Group("Runs");
+  AddNamedFlags(verb, kStudyFlagTable, {"devices"}, flags);
+  AddNamedFlags(verb, kCompareOptionTable, {"multistart"}, &flags->options);
 }
 
-Expected<void> CheckLandscape(const Verb& verb, StudyFlags* flags) {
+Expected<void> CheckLandscape(const VerbLine& verb, StudyFlags* flags) {
   const bool made = !flags->landscape.empty();
   if (made != flags->curve_files.empty()) {
     return Fail(made ? "--landscape: makes its own curves, and goes without CURVE"
                      : "CURVE is required, or --landscape");
   }
-  if ((made || !flags->with.empty()) && !verb.Given("--multistart")) {
+  if ((made || !flags->options.with.empty()) && !verb.Given("--multistart")) {
     flags->options.multistart = kMultistart;
   }
   if (!made) return {};
@@ -48,7 +41,7 @@ Expected<void> CheckLandscape(const Verb& verb, StudyFlags* flags) {
     if (!verb.Given(flag)) continue;
     return Fail(fmt::format("{}: every problem of --landscape has its own", flag));
   }
-  flags->models = ToText(Model::kSingleDiode);  // of none: every device has its own
+  flags->options.models = {Model::kSingleDiode};  // of none: every device has its own
   if (!verb.Given("--runs")) flags->options.runs = 1;
   if (!verb.Given("--algorithms")) {
     flags->algorithms = "shape,default,mlo,lo,de,random";
@@ -62,9 +55,7 @@ Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags) {
   if (flags.landscape == "all") {
     for (const LandscapeProblem& problem : LandscapeProblems()) names.push_back(problem.name);
   } else {
-    auto list = ParseList("--landscape", flags.landscape);
-    if (!list) return tl::unexpected(list.error());
-    names = std::move(*list);
+    TRY(names, ParseList("--landscape", flags.landscape));
   }
   std::vector<CompareCurve> subjects;
   for (auto name = names.begin(); name != names.end(); ++name) {

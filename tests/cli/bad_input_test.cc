@@ -182,7 +182,7 @@ TEST(BadInput, Folder) {
 }
 
 TEST(BadInput, NoVerbOrNoCurve) {
-  for (const char* arguments : {"", "fit", "frobnicate"}) {
+  for (const char* arguments : {"-v", "fit", "frobnicate"}) {
     const AppResult result = RunApp(arguments);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.out, "");

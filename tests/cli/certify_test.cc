@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+
 #include "run_app.h"
 
 namespace lyrefit {
@@ -72,6 +76,24 @@ TEST(FitVerb, PrintsTheFloorWhenAsked) {
   const AppResult result = RunApp("fit " + kRtc + " --floor --intervals none");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, HasSubstr("Floor: no number of diodes with n in [1, 2]"));
+}
+
+TEST(CertifyVerb, WritesTheFloorAndTheModelsAsATable) {
+  const AppResult result = RunApp("certify " + kRtc + " --models sd --csv -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::string head, floor, sd, rest;
+  std::getline(lines, head);
+  std::getline(lines, floor);
+  std::getline(lines, sd);
+  EXPECT_EQ(head,
+            "model,certified,rmse_A,lower_bound_A,gap,above_floor,Iph_A,Is1_A,n1,Rs_ohm,Rsh_ohm");
+  EXPECT_THAT(floor, StartsWith("floor,yes,0.00098248487"));
+  EXPECT_THAT(sd, StartsWith("sd,yes,0.00098602187"));
+  for (const std::string& line : {floor, sd}) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 10) << line;
+  }
+  EXPECT_FALSE(std::getline(lines, rest));
 }
 
 }  // namespace

@@ -58,5 +58,12 @@ TEST(CoverageVerb, RefusesWhatCannotBeSimulated) {
   EXPECT_EQ(RunApp("coverage --sets 0").exit_code, 1);
 }
 
+TEST(CoverageVerb, WritesTheParametersAsATable) {
+  const AppResult result = RunApp("coverage --sets 2 --curves 5 --csv -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ::testing::StartsWith("parameter,name,unit,fitted,not_identifiable,"));
+  EXPECT_THAT(result.out, HasSubstr("\nRs,R_s,ohm,2,"));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -69,5 +69,16 @@ TEST(DataSheetVerb, WritesWhatPvlibTakes) {
   EXPECT_EQ(j["cec"]["Technology"], "Multi-c-Si");
 }
 
+TEST(DataSheetVerb, WritesTheParametersAsATable) {
+  const AppResult result = RunApp(
+      "datasheet --isc 4.75 --voc 21.6 --imp 4.26 --vmp 17.6 --alpha 0.002 --beta -0.076 "
+      "--cells 36 --csv -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ::testing::StartsWith("parameter,name,unit,value,low,high\n"));
+  for (const char* name : {"\nn1,n,,", "\nRs,R_s,ohm,", ",alpha_sc,A/K,0.002,,"}) {
+    EXPECT_THAT(result.out, ::testing::HasSubstr(name));
+  }
+}
+
 }  // namespace
 }  // namespace lyrefit

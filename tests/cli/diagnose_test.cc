@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -190,6 +191,27 @@ TEST(DiagnoseVerb, RepeatsItself) {
   RemoveSeconds(&one);
   RemoveSeconds(&two);
   EXPECT_EQ(one, two);
+}
+
+TEST(DiagnoseVerb, WritesTheCausesAsATable) {
+  const std::string shaded = DataFolder("diagnosis") + "/shaded_module.csv";
+  const AppResult result = RunApp("diagnose '" + shaded + "' --no-held-out --csv -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ::testing::StartsWith("measurement,cause,title,named,current_effect,"));
+  EXPECT_THAT(result.out, ::testing::HasSubstr("\nshaded_module,shading,partial shading,yes,0.00"));
+  const AppResult clean =
+      RunApp("diagnose '" + DataFolder("rtc_france") + "' --effects clip --no-held-out --csv -");
+  EXPECT_THAT(clean.out, ::testing::HasSubstr("\nrtc_france,,,no,,,,,,,,,,"));
+}
+
+TEST(DiagnoseVerb, EchoesItsBaseItsEffectsAndThatNothingIsHeldOut) {
+  const AppResult result = RunApp("diagnose '" + DataFolder("rtc_france") +
+                                  "' --base dd --effects clip,drift --no-held-out --json -");
+  const auto options = nlohmann::json::parse(result.out, nullptr, false)["non_default_options"];
+  std::map<std::string, std::string> echoed;
+  for (const auto& option : options) echoed[option["name"]] = option["value"];
+  EXPECT_EQ(echoed, (std::map<std::string, std::string>{
+                        {"base", "dd"}, {"effects", "clip,drift"}, {"held-out", "no"}}));
 }
 
 }  // namespace

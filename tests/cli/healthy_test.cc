@@ -41,6 +41,8 @@ TEST(DiagnoseModule, FindsTheOddSweep) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith("13: Unlike the 19 sweeps nearest to it"));
   EXPECT_THAT(result.out, HasSubstr("1 of 20 sweeps odd"));
+  const AppResult as_table = RunApp("diagnose " + kSweeps + " --module --csv -");
+  EXPECT_THAT(as_table.out, ::testing::StartsWith("sweep,differs,p_value,cause,size,"));
   const AppResult as_json = RunApp("diagnose " + kSweeps + " --module --json -");
   EXPECT_EQ(json::parse(as_json.out)["sweeps"][0]["name"], "13");
 }

@@ -6,6 +6,9 @@
 
 namespace lyrefit {
 
+// More than any machine has; what a flag takes.
+constexpr int kMostThreads = 1024;
+
 // What every `threads` among options must be: 0, all cores, or more.
 Expected<void> ValidateThreads(int threads);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +21,12 @@ struct CertifyOptions {
   std::int64_t effort = 50000;  // convex problems solved for one floor or model before giving up
 };
 
-inline const std::array<OptionRow<CertifyOptions>, 6> kCertifyOptionTable = {{
+inline constexpr OptionRow<CertifyOptions> kCertifyOptionTable[] = {
+    OptionRow<CertifyOptions>("Proof"),
+    {"models", "LIST", "models to certify beside the floor",
+     EnumListOption<&CertifyOptions::models>(), OptionTrait::kNoEcho},
+    {"constants", "NAME", "values of k and q", EnumOption<&CertifyOptions::constants>(),
+     OptionTrait::kNoEcho},
     {"n-lower", "", "smallest ideality factor", &CertifyOptions::n_lower, 0.05, 100},
     {"n-upper", "", "largest ideality factor", &CertifyOptions::n_upper, 0.05, 100},
     {"rs-lower", "ohm", "smallest series resistance", &CertifyOptions::rs_lower_ohm, 0, 1e12},
@@ -31,6 +35,6 @@ inline const std::array<OptionRow<CertifyOptions>, 6> kCertifyOptionTable = {{
      1e-12, 0.1},
     {"effort", "", "convex problems solved for one floor or model before giving up",
      &CertifyOptions::effort, 10, 1e9},
-}};
+};
 
 }  // namespace lyrefit

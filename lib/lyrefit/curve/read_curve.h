@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
@@ -33,6 +34,27 @@ struct ReadOptions {
   bool skip_missing = false;
   std::optional<double> area_cm2;  // of the cell; makes currents of current densities
   std::uintmax_t largest_file_bytes = 64U << 20;
+};
+
+inline constexpr OptionRow<ReadOptions> kReadOptionTable[] = {
+    OptionRow<ReadOptions>("Reading"),
+    {"curve", "INDEX", "which curve of a file that holds several", &ReadOptions::curve,
+     OptionTrait::kNoFlag},
+    {"column", "NAME|N", "which of several currents, or pairs of voltage and current, side by side",
+     &ReadOptions::column},
+    {"voltage-column", "NAME|N",
+     "the column of the voltage, by name or number, where its name does not tell",
+     &ReadOptions::voltage_column},
+    {"current-column", "NAME|N", "the same for the current", &ReadOptions::current_column},
+    {"voltage-unit", "UNIT", "its unit, where the file names none: V, mV, uV or kV",
+     &ReadOptions::voltage_unit},
+    {"current-unit", "UNIT", "that of the current: A, mA, uA, nA, kA, mA/cm2, A/m2, ...",
+     &ReadOptions::current_unit},
+    {"skip-missing", "",
+     "leave out rows whose voltage or current is empty, NaN or an overflow code",
+     &ReadOptions::skip_missing},
+    {"area-cm2", "A", "area of the cell in cm2, which makes currents of current densities",
+     &ReadOptions::area_cm2, 1e-9, 1e9, OptionTrait::kQuiet},
 };
 
 // Reads one measured curve from

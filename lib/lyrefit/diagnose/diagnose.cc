@@ -141,29 +141,6 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
   }
 }
 
-void EchoOptions(const DiagnoseOptions& options, std::vector<OptionEcho>* echoes) {
-  if (options.noise.kind != ErrorKind::kField) {
-    echoes->push_back({"noise", options.noise.name, DiagnoseOptions().noise.name});
-  }
-  if (options.base != Model::kSingleDiode) {
-    echoes->push_back({"base", ToText(options.base), ToText(Model::kSingleDiode)});
-  }
-  if (!options.effects.empty()) {
-    std::string ids;
-    for (const std::string& id : options.effects) ids += (ids.empty() ? "" : ",") + id;
-    echoes->push_back({"effects", ids, "all"});
-  }
-  if (!options.own_effects.empty()) {
-    std::string ids;
-    for (const Effect* own : options.own_effects)
-      ids += (ids.empty() ? "" : ",") + std::string(own->id);
-    echoes->push_back({"own-effects", ids, "none"});
-  }
-  if (options.plan) echoes->push_back({"plan", "yes", "no"});
-  if (!options.held_out) echoes->push_back({"held-out", "no", "yes"});
-  AppendNonDefaults(options, kDiagnoseOptionRows, echoes);
-}
-
 SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions& options,
                                 const std::vector<const Effect*>& candidates, Watch* watch) {
   SelectOptions select;
@@ -190,7 +167,7 @@ Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
   diagnosis.floor_current = options.floor_current;
   diagnosis.floor_power = options.floor_power;
   diagnosis.cells_in_series = measurement.readings.scale.cells;
-  EchoOptions(options, &diagnosis.non_default_options);
+  diagnosis.non_default_options = NonDefaults(options, kDiagnoseOptionTable);
   for (const IvCurve& curve : set.curves) {
     for (const std::string& sentence : SentencesOf(curve.assumptions)) {
       auto& all = diagnosis.assumptions;
@@ -236,7 +213,7 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
 }
 
 Expected<void> CheckOptions(const DiagnoseOptions& options) {
-  TRY(ValidateOptions(options, kDiagnoseOptionRows));
+  TRY(ValidateOptions(options, kDiagnoseOptionTable));
   TRY(ValidateThreads(options.threads));
   if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
   return {};
@@ -275,6 +252,29 @@ void MarkInterrupted(Diagnosis* diagnosis) {
 }
 
 }  // namespace
+
+Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options) {
+  const std::optional<Model> model = FromText<Model>(text);
+  if (!model || *model == Model::kTripleDiode) {
+    return Fail("expected sd or dd, found '" + text + "'");
+  }
+  options->base = *model;
+  return {};
+}
+
+Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options) {
+  options->effects.clear();
+  if (text.empty()) return {};
+  TRY(options->effects, SplitList(text));
+  return {};
+}
+
+std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options) {
+  if (options.own_effects.empty()) return {"none"};
+  std::vector<std::string> ids;
+  for (const Effect* own : options.own_effects) ids.push_back(own->id);
+  return {JoinList(ids)};
+}
 
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {

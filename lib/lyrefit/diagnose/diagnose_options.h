@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/device.h"
 
@@ -45,7 +47,31 @@ inline DiagnoseOptions LaboratoryOptions() {
   return options;
 }
 
-inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
+// The diodes that a diagnosis may start from, and effects by their ids: see the table.
+Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options);
+Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options);
+std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options);
+
+inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
+    OptionRow<DiagnoseOptions>("Diagnosis"),
+    {"base", "NAME", "the model that is diagnosed: sd, or dd with n2 = 2",
+     OptionText<DiagnoseOptions>{ReadBaseModel,
+                                 [](const DiagnoseOptions& options) -> std::vector<std::string> {
+                                   return {ToText(options.base)};
+                                 }}},
+    {"noise", "NAME|FILE",
+     "errors of the readings: white, each its own; field, beside it light that wanders and a "
+     "module that departs from the model; or a JSON file with their sizes",
+     NoiseOption<&DiagnoseOptions::noise>()},
+    {"effects", "ID[,ID]", "those to try",
+     OptionText<DiagnoseOptions>{ReadEffectIds,
+                                 [](const DiagnoseOptions& options) -> std::vector<std::string> {
+                                   if (options.effects.empty()) return {"all"};
+                                   return {JoinList(options.effects)};
+                                 }},
+     OptionTrait::kNone, ": all that the data can show"},
+    {"own-effects", "", "effects of one's own", OptionText<DiagnoseOptions>{nullptr, OwnEffectIds},
+     OptionTrait::kNoFlag},
     {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
      0.5},
     {"seed", "", "seed of the simulated nulls and of the search", &DiagnoseOptions::seed, 0,
@@ -58,6 +84,14 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionRows[] = {
     {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
     {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,
      100},
+    {"held-out", "", "do not measure the gain on readings that were not fitted",
+     &DiagnoseOptions::held_out},
+    {"plan", "", "simulate which further measurement tells the first cause from what looks like it",
+     &DiagnoseOptions::plan},
+    {"extend", "", "search and polish the extended model", &DiagnoseOptions::extend,
+     OptionTrait::kNoFlag | OptionTrait::kNoEcho},
+    {"threads", "N", "0: all cores; never changes a result", &DiagnoseOptions::threads, 0,
+     kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
 };
 
 }  // namespace lyrefit

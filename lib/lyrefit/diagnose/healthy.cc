@@ -145,7 +145,7 @@ Expected<void> CheckReach(const SweepState& sweep,
 }
 
 Expected<void> CheckOptions(const HealthyOptions& options) {
-  TRY(ValidateOptions(options, kHealthyOptionRows));
+  TRY(ValidateOptions(options, kHealthyOptionTable));
   return ValidateThreads(options.threads);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/parallel.h"
 
 namespace lyrefit {
 
@@ -9,9 +10,12 @@ struct HealthyOptions {
   int threads = 0;      // 0: all cores; never changes a result
 };
 
-inline constexpr OptionRow<HealthyOptions> kHealthyOptionRows[] = {
+inline constexpr OptionRow<HealthyOptions> kHealthyOptionTable[] = {
+    OptionRow<HealthyOptions>("Against its own past"),
     {"healthy-level", "", "rate of false alarms of the comparison with healthy sweeps",
      &HealthyOptions::level, 1e-6, 0.5},
+    {"threads", "N", "0: all cores; never changes a result", &HealthyOptions::threads, 0,
+     kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoFlag | OptionTrait::kNoEcho},
 };
 
 }  // namespace lyrefit

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/error.h"
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/error_spec.h"
@@ -82,6 +83,93 @@ struct FamilyOptions {
     search.iterations = 60;
     return search;
   }
+};
+
+// "2" or "2%".
+Expected<void> ReadIrradianceAccuracy(const std::string& text, FamilyOptions* options);
+// "17,18": several ids, or one.
+Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options);
+
+inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
+    OptionRow<FamilyOptions>("Family"),
+    {"family", "NAME", "how parameters follow irradiance and temperature",
+     EnumOption<&FamilyOptions::law>(), OptionTrait::kNoFlag},
+    {"model", "NAME", "number of diodes", EnumOption<&FamilyOptions::model>(),
+     OptionTrait::kNoFlag},
+    {"shunt", "NAME", "how the shunt follows irradiance", EnumOption<&FamilyOptions::shunt>(),
+     OptionTrait::kNone, " inverse for desoto, exponential for pvsyst"},
+    {"recombination", "", "pvsyst's recombination loss in the i-layer of thin films",
+     &FamilyOptions::recombination},
+    {"objective", "NAME", "which residual is squared", EnumOption<&FamilyOptions::objective>(),
+     OptionTrait::kNoFlag},
+    {"constants", "NAME", "values of k and q", EnumOption<&FamilyOptions::constants>(),
+     OptionTrait::kNoFlag},
+    {"fix", "P=VALUE", "holds a parameter, EgRef=1.121; once for each",
+     AssignmentsOption<&FamilyOptions::fixed>(), OptionTrait::kNoFlag},
+    {"free", "P", "fit a parameter that else is held, EgRef; once for each", &FamilyOptions::freed},
+    {"with", kEffectsUnit, kEffectsDoc, EffectsOption<&FamilyOptions::with>(),
+     OptionTrait::kNoFlag},
+    {"force", "", "also effects that data of this kind cannot show", &FamilyOptions::force_effects,
+     OptionTrait::kNoFlag},
+    {"bound", "P=LOWER:UPPER", "range of one shared parameter, Rs=0:0.5; once for each",
+     RangesOption<&FamilyOptions::bounds>(), OptionTrait::kNoFlag},
+    {"weights", "NAME", "how curves count: every point alike, or relative to Isc",
+     EnumOption<&FamilyOptions::weights>()},
+    {"algorithm", "NAME", "how to search",
+     EnumOption<&FamilyOptions::search, &SearchOptions::algorithm>(), OptionTrait::kNoFlag},
+    {"search-options", "", "the search's own options",
+     OptionNest<FamilyOptions>{[](const FamilyOptions& options, const FamilyOptions& defaults,
+                                  std::vector<OptionEcho>* echoes) {
+       AppendNonDefaults(options.search, defaults.search, kSearchOptionTable, echoes);
+     }}},
+    {"search", "", "a search of one's own",
+     OptionText<FamilyOptions>{nullptr,
+                               [](const FamilyOptions& options) -> std::vector<std::string> {
+                                 return {options.searcher ? "of its own" : ""};
+                               }},
+     OptionTrait::kNoFlag},
+    {"starts", "NAME", "where the joint fit begins", EnumOption<&FamilyOptions::starts>(),
+     OptionTrait::kNoFlag},
+    {"search-curves", "N", "well-spread curves that the search sees", &FamilyOptions::search_curves,
+     2, 1e6, OptionTrait::kQuiet},
+    {"fit-curves", "N", "well-spread curves that are fitted, the others are tested; 0: all",
+     &FamilyOptions::fit_curves, 0, 1e6, OptionTrait::kQuiet},
+    {"irradiance-offset", "", "fit one error of the irradiance sensor, common to all curves",
+     &FamilyOptions::irradiance_offset},
+    {"temperature-offset", "", "fit one error of the temperature sensor, common to all curves",
+     &FamilyOptions::temperature_offset},
+    {"irradiance-accuracy", "PERCENT", "standard deviation of each irradiance, in percent: 2 or 2%",
+     OptionText<FamilyOptions>{ReadIrradianceAccuracy,
+                               [](const FamilyOptions& options) -> std::vector<std::string> {
+                                 return {NumberText(100 * options.irradiance_accuracy)};
+                               }},
+     OptionTrait::kNoDefault},
+    {"temperature-accuracy", "K", "standard deviation of each temperature, in kelvin",
+     &FamilyOptions::temperature_accuracy_K, 0, 50, OptionTrait::kQuiet | OptionTrait::kNoDefault},
+    {"random-baseline", "", "the best of as many random points beside the search's figure",
+     &FamilyOptions::random_baseline, OptionTrait::kNoFlag},
+    {"intervals", "", "95 % intervals", &FamilyOptions::intervals, OptionTrait::kNoFlag},
+    {"free-fits", "", "do not also fit every curve on its own, the floor of the joint fit",
+     &FamilyOptions::free_fits},
+    {"folds", "N", "whole curves left out in turn, to test the answer; 0: none",
+     &FamilyOptions::folds, 0, 1e6, OptionTrait::kQuiet},
+    {"leave-out", "ID[,ID]", "curves that are not fitted",
+     OptionText<FamilyOptions>{ReadLeaveOut,
+                               [](const FamilyOptions& options) { return options.leave_out; },
+                               nullptr, true}},
+    {"against", "FILE", "parameters from elsewhere, tested on the same curves",
+     OptionText<FamilyOptions>{nullptr,
+                               [](const FamilyOptions& options) {
+                                 std::vector<std::string> names;
+                                 for (const NamedParameters& other : options.against) {
+                                   names.push_back(other.name);
+                                 }
+                                 return names;
+                               },
+                               nullptr, true},
+     OptionTrait::kNoFlag},
+    {"threads", "N", "0: all cores; never changes a result", &FamilyOptions::threads, 0,
+     kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoFlag | OptionTrait::kNoEcho},
 };
 
 }  // namespace lyrefit

@@ -10,12 +10,12 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/family/family_echo.h"
 #include "lyrefit/family/family_effects.h"
 #include "lyrefit/family/family_errors.h"
 #include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
+#include "lyrefit/family/family_warnings.h"
 #include "lyrefit/family/free_fits.h"
 #include "lyrefit/family/joint_fit.h"
 #include "lyrefit/family/odd_curves.h"
@@ -228,7 +228,7 @@ FamilyReport Head(const Job& job) {
   report.assumptions.insert(report.assumptions.end(), job.family.notes.begin(),
                             job.family.notes.end());
   report.search_options = job.options.search;
-  report.non_default_options = FamilyEcho(job.options);
+  report.non_default_options = NonDefaults(job.options, kFamilyOptionTable);
   report.with = job.options.with;
   const std::optional<Device>& extended = job.family.translation.extended;
   if (extended) report.taken = extended->extension->set;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/refine/error_terms.h"
 
 namespace lyrefit {
@@ -26,5 +29,20 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 
 // "white", "field", or such a file.
 Expected<ErrorSpec> ErrorsNamed(const std::string& name);
+
+// What the readings' errors are, by name or file: see base/option.h.
+template <auto Member>
+constexpr auto NoiseOption() {
+  using Options = ClassOf<Member>;
+  return OptionText<Options>{
+      [](const std::string& text, Options* options) -> Expected<void> {
+        Expected<ErrorSpec> errors = ErrorsNamed(text);
+        if (!errors) return tl::unexpected<Error>(errors.error());
+        options->*Member = std::move(*errors);
+        return {};
+      },
+      [](const Options& options) -> std::vector<std::string> { return {(options.*Member).name}; },
+      nullptr, false};
+}
 
 }  // namespace lyrefit

@@ -11,7 +11,6 @@
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
-#include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/form_problem.h"
@@ -213,7 +212,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.constants = options.constants;
   report.bounds_name = options.bounds.name;
   report.search_options = options.search;
-  EchoOptions(options, &report);
+  report.non_default_options = NonDefaults(options, kFitOptionTable);
 
   TRY(const auto birds, RunSearch(&job, &report));
   const PolishStart& best = birds.front();

@@ -8,7 +8,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/fit/fit_echo.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/form_problem.h"
 #include "lyrefit/fit/reading_errors.h"
@@ -56,6 +55,19 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
   const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
   const auto& [lower, upper] = ends;
   return {lower, upper, lower, upper, own.scale, own.whole};
+}
+
+// Refuses options that do not go with weighing by errors.
+Expected<void> CheckErrorSpec(const FitOptions& options) {
+  if (options.errors.kind == ErrorKind::kWhite) return {};
+  if (options.objective == Objective::kMeasuredCurrent) {
+    return Fail(
+        "noise weighs the solved current alone: the errors of a reading stand on both sides of the "
+        "measured-current equation");
+  }
+  if (options.loss != Loss::kSquared) return Fail("noise weighs squared residuals: leave out loss");
+  if (!options.polish) return Fail("noise weighs the polish, which is switched off");
+  return {};
 }
 
 }  // namespace

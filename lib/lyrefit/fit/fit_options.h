@@ -6,7 +6,11 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/curve/setting_text.h"
 #include "lyrefit/fit/bounds.h"
+#include "lyrefit/fit/effect_text.h"
 #include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/extension.h"
@@ -37,6 +41,12 @@ enum class StartsFrom {
   kShape,   // places that the shape of the curve suggests (plateaus, shoulders), without the search
 };
 
+template <>
+struct EnumTable<StartsFrom> {
+  static constexpr EnumText<StartsFrom> kRows[] = {
+      {StartsFrom::kAll, "all"}, {StartsFrom::kSearch, "search"}, {StartsFrom::kShape, "shape"}};
+};
+
 // What a bird of the search stands for.
 enum class Birds {
   kAll,   // a complete device
@@ -47,6 +57,11 @@ template <>
 struct EnumTable<Birds> {
   static constexpr EnumText<Birds> kRows[] = {{Birds::kAll, "all"}, {Birds::kHard, "hard"}};
 };
+
+// What --help says of them.
+inline constexpr char kBirdsDoc[] =
+    "a bird is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
+    "Is and Rsh are solved for";
 
 enum class Intervals { kNone, kSymmetric, kProfile };
 
@@ -96,6 +111,75 @@ struct FitOptions {
     search.iterations = 6;
     return search;
   }
+};
+
+inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
+    OptionRow<FitOptions>("Model"),
+    {"model", "NAME", "number of diodes", EnumOption<&FitOptions::model>(), OptionTrait::kNoEcho},
+    {"objective", "NAME", "which residual is squared", EnumOption<&FitOptions::objective>()},
+    {"constants", "NAME", "values of k and q", EnumOption<&FitOptions::constants>()},
+    {"bounds", "NAME|FILE", "the box that is searched",
+     OptionText<FitOptions>{nullptr,
+                            [](const FitOptions& options) -> std::vector<std::string> {
+                              return {options.bounds.name};
+                            }},
+     OptionTrait::kNoFlag},
+    {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
+     RangesOption<&FitOptions::bounds, &BoundsSpec::overrides>()},
+    {"with", kEffectsUnit, kEffectsDoc, EffectsOption<&FitOptions::with>()},
+    {"force", "", "also effects that data of this kind cannot show", &FitOptions::force_effects,
+     OptionTrait::kNoFlag},
+    {"fix", "P=VALUE", "holds a parameter, n2=2; once for each",
+     AssignmentsOption<&FitOptions::fixed>()},
+    OptionRow<FitOptions>("Search"),
+    {"searcher", "", "a search of one's own",
+     OptionText<FitOptions>{nullptr,
+                            [](const FitOptions& options) -> std::vector<std::string> {
+                              return {options.searcher ? "custom" : ""};
+                            }},
+     OptionTrait::kNoFlag},
+    {"plain-polish", "", "also one bounded least-squares solve from the best bird",
+     &FitOptions::plain_polish, OptionTrait::kNoFlag},
+    {"algorithm", "NAME", "how to search",
+     EnumOption<&FitOptions::search, &SearchOptions::algorithm>()},
+    {"birds", "NAME", kBirdsDoc, EnumOption<&FitOptions::birds>()},
+    {"search", "", "the search's own options",
+     OptionNest<FitOptions>{[](const FitOptions& options, const FitOptions& defaults,
+                               std::vector<OptionEcho>* echoes) {
+       AppendNonDefaults(options.search,
+                         options.with.empty() ? defaults.search : FitOptions::SearchBesideShapes(),
+                         kSearchOptionTable, echoes);
+     }}},
+    {"random-baseline", "", "the best of as many random points beside the search's figure",
+     &FitOptions::random_baseline, OptionTrait::kNoFlag},
+    {"starts", "NAME", "where the polish of a model with effects begins",
+     EnumOption<&FitOptions::starts>(), OptionTrait::kNoFlag | OptionTrait::kNoEcho},
+    OptionRow<FitOptions>("Polish"),
+    {"polish", "", "answer with the search's best bird", &FitOptions::polish},
+    {"floor", "", "also prove how low the measured-current RMSE can go within the bounds",
+     &FitOptions::floor},
+    {"noise", "NAME|FILE",
+     "errors of the readings that the polish weighs by: white, field (found from the residuals), "
+     "or a JSON file with their sizes",
+     NoiseOption<&FitOptions::errors>()},
+    {"loss", "NAME", "of the polish", EnumOption<&FitOptions::loss>()},
+    {"loss-scale", "NUMBER", "noise units beyond which a robust loss bends",
+     &FitOptions::loss_scale, OptionTrait::kUnchecked},
+    {"intervals", "NAME", "95 % intervals", EnumOption<&FitOptions::intervals>()},
+    {"threads", "N", "0: all cores; never changes a result", &FitOptions::threads, 0, kMostThreads,
+     OptionTrait::kQuiet | OptionTrait::kNoEcho},
+    {"kernel", "NAME", "instruction set of the heavy loops; never changes a result",
+     OptionText<FitOptions>{[](const std::string& text, FitOptions* options) -> Expected<void> {
+                              const Expected<const Kernel*> kernel = KernelNamed(text);
+                              if (!kernel) return tl::unexpected<Error>(kernel.error());
+                              options->kernel = *kernel;
+                              return {};
+                            },
+                            [](const FitOptions& options) -> std::vector<std::string> {
+                              return {options.kernel == nullptr ? "" : options.kernel->name};
+                            },
+                            KernelNames},
+     OptionTrait::kNoEcho, ": the fastest"},
 };
 
 }  // namespace lyrefit

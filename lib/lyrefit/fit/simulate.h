@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/setting_text.h"
+#include "lyrefit/fit/effect_text.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/extension.h"
 
@@ -48,6 +51,26 @@ struct SimulateOptions {
   double noise_relative = 0;  // standard deviation, part of |current|
   std::uint64_t seed = 0;     // of the noise
   std::string name = "simulated";
+};
+
+inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
+    OptionRow<SimulateOptions>("Device"),
+    {"model", "NAME", "number of diodes", EnumOption<&SimulateOptions::model>()},
+    {"set", "P=VALUE", "value of one parameter, Iph=0.76; once for each",
+     AssignmentsOption<&SimulateOptions::parameters>()},
+    {"constants", "NAME", "values of k and q", EnumOption<&SimulateOptions::constants>()},
+    {"with", kEffectsUnit, kEffectsDoc, EffectsOption<&SimulateOptions::with>()},
+    {"force", "", "also effects that such data cannot show", &SimulateOptions::force_effects,
+     OptionTrait::kNoFlag},
+    OptionRow<SimulateOptions>("Points"),
+    {"points", "N", "points from 0 V to a little beyond open circuit", &SimulateOptions::points,
+     OptionTrait::kUnchecked},
+    OptionRow<SimulateOptions>("Noise"),
+    {"noise-A", "S", "standard deviation of the current in A", &SimulateOptions::noise_A,
+     OptionTrait::kUnchecked},
+    {"noise-relative", "R", "standard deviation as a part of the current",
+     &SimulateOptions::noise_relative, OptionTrait::kUnchecked},
+    {"seed", "S", "seed of the noise", &SimulateOptions::seed, OptionTrait::kUnchecked},
 };
 
 // The curve of a device under the given conditions: I(V) solved to rounding, then noise. Same

@@ -85,6 +85,21 @@ const std::vector<Kernel>& AvailableKernels() {
 
 const Kernel& FastestKernel() { return AvailableKernels().back(); }
 
+std::string KernelNames() {
+  std::string names;
+  for (const Kernel& kernel : AvailableKernels()) {
+    names += std::string(names.empty() ? "" : ", ") + kernel.name;
+  }
+  return names;
+}
+
+Expected<const Kernel*> KernelNamed(const std::string& name) {
+  for (const Kernel& kernel : AvailableKernels()) {
+    if (name == kernel.name) return &kernel;
+  }
+  return Fail("this processor runs " + KernelNames() + ", not '" + name + "'");
+}
+
 namespace {
 
 // Weighted like the kernels' sums.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "lyrefit/base/error.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/solve.h"
@@ -40,6 +42,8 @@ struct Kernel {
 // Every kernel this processor can run, slowest ("portable") first.
 const std::vector<Kernel>& AvailableKernels();
 const Kernel& FastestKernel();
+std::string KernelNames();  // "portable, avx2"
+Expected<const Kernel*> KernelNamed(const std::string& name);
 
 // Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. Of
 // an extended device (extension.h) the points are its measurement's, and there is no

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -53,7 +52,9 @@ struct SearchOptions {
   int elites = 4;    // how many distinct birds to return, the best included
 };
 
-inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
+// The algorithm has its row where these options are part of others.
+inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
+    OptionRow<SearchOptions>("Search"),
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
     {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
     {"population", "birds", "number of birds", &SearchOptions::population, 4, 100000},
@@ -72,6 +73,6 @@ inline const std::array<OptionRow<SearchOptions>, 13> kSearchOptionTable = {{
     {"patience", "iterations", "stop after so many iterations without gain; 0: never",
      &SearchOptions::patience, 0, 1e8},
     {"elites", "birds", "distinct birds handed to the polish", &SearchOptions::elites, 1, 1000},
-}};
+};
 
 }  // namespace lyrefit

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "lyrefit/base/version.h"
-#include "lyrefit/family/family_echo.h"
 
 namespace lyrefit {
 namespace {
@@ -29,7 +28,7 @@ std::string SetText(const CurveSet& set) {
 
 std::string FamilyText(const FamilyOptions& options) {
   std::string text;
-  for (const OptionEcho& echo : FamilyEcho(options)) {
+  for (const OptionEcho& echo : NonDefaults(options, kFamilyOptionTable)) {
     text += (text.empty() ? "" : ", ") + echo.name + " " + echo.value;
   }
   return text;

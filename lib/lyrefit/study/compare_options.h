@@ -87,4 +87,35 @@ struct CompareOptions {
   std::string journal_section = "comparison";  // of a file that several studies share
 };
 
+inline constexpr OptionRow<CompareOptions> kCompareOptionTable[] = {
+    OptionRow<CompareOptions>("Model"),
+    {"models", "LIST", "list of sd, dd, td", EnumListOption<&CompareOptions::models>()},
+    {"objective", "NAME", "which residual is squared", EnumOption<&CompareOptions::objective>()},
+    {"constants", "NAME", "values of k and q", EnumOption<&CompareOptions::constants>()},
+    {"with", kEffectsUnit, kEffectsDoc, EffectsOption<&CompareOptions::with>()},
+    {"force", "", "also effects that data of this kind cannot show", &CompareOptions::force_effects,
+     OptionTrait::kNoFlag},
+    OptionRow<CompareOptions>("Runs"),
+    {"runs", "NUMBER", "runs of each algorithm on each problem", &CompareOptions::runs,
+     OptionTrait::kUnchecked},
+    {"seed", "NUMBER", "seed of all runs; run r has its own stream", &CompareOptions::seed,
+     OptionTrait::kUnchecked},
+    {"threads", "N", "0: all cores; never changes a result but the seconds",
+     &CompareOptions::threads, 0, kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
+    {"multistart", "N",
+     "random points polished to their end to know the best optimum of a problem that no "
+     "certificate is at hand for (default 100 with effects or --landscape, else 0)",
+     &CompareOptions::multistart, 0, 1e6,
+     OptionTrait::kQuiet | OptionTrait::kNoDefault | OptionTrait::kNoFlag},
+    {"target-gap", "NUMBER", "relative distance from the reference that counts as reached",
+     &CompareOptions::target_gap, OptionTrait::kUnchecked | OptionTrait::kNoFlag},
+    {"rankings", "", "rank tests of the contenders against each other", &CompareOptions::rankings,
+     OptionTrait::kNoFlag},
+    OptionRow<CompareOptions>("Polish"),
+    {"polish", "", "the search alone", &CompareOptions::polish},
+    {"plain-polish", "",
+     "also one bounded least-squares solve from the best bird, and nothing more",
+     &CompareOptions::plain_polish},
+};
+
 }  // namespace lyrefit

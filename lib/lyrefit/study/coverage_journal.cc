@@ -1,7 +1,6 @@
 #include "lyrefit/study/coverage_journal.h"
 
 #include "lyrefit/base/version.h"
-#include "lyrefit/family/family_echo.h"
 
 namespace lyrefit {
 
@@ -11,11 +10,17 @@ JournalLine CoverageHead(const CoverageOptions& options) {
                       {"law", ToText(options.family.law)},
                       {"model", ToText(options.family.model)}};
   for (const OptionRow<CoverageOptions>& row : kCoverageOptionTable) {
-    if (std::string(row.name) == "sets") continue;
-    std::visit([&](auto field) { head[row.name] = options.*field; }, row.field);
+    if (std::string(row.name) == "sets" || row.Is(OptionTrait::kNoEcho)) continue;
+    std::visit(
+        [&](const auto& field) {
+          if constexpr (IsNumberField<std::decay_t<decltype(field)>>::value) {
+            head[row.name] = options.*field;
+          }
+        },
+        row.field);
   }
   for (const auto& [name, value] : options.module) head["set " + name] = value;
-  for (const OptionEcho& echo : FamilyEcho(options.family)) {
+  for (const OptionEcho& echo : NonDefaults(options.family, kFamilyOptionTable)) {
     JournalLine& value = head["fit " + echo.name];  // some are given more than once
     value = value.is_string() ? value.get<std::string>() + ", " + echo.value : echo.value;
   }

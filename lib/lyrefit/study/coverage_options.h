@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/parallel.h"
 #include "lyrefit/family/family_options.h"
 
 namespace lyrefit {
@@ -30,7 +30,18 @@ struct CoverageOptions {
   FamilyOptions family;
 };
 
-inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
+inline constexpr OptionRow<CoverageOptions> kCoverageOptionTable[] = {
+    OptionRow<CoverageOptions>("Device"),
+    {"law", "NAME", "how parameters follow irradiance and temperature",
+     EnumOption<&CoverageOptions::family, &FamilyOptions::law>()},
+    {"model", "NAME", "number of diodes; td cannot be fitted jointly",
+     EnumOption<&CoverageOptions::family, &FamilyOptions::model>()},
+    {"set", "P=VALUE",
+     "value of a shared parameter, Iph=8; once for each; default: a module drawn for every set",
+     AssignmentsOption<&CoverageOptions::module>()},
+    {"cells", "N", "cells in series, with --set (72)", &CoverageOptions::cells_in_series,
+     OptionTrait::kUnchecked | OptionTrait::kNoDefault},
+    OptionRow<CoverageOptions>("Sets"),
     {"sets", "", "simulated sets", &CoverageOptions::sets, 1, 1e6},
     {"seed", "", "seed of everything that is drawn; set s has its own stream",
      &CoverageOptions::seed, 0, 1.8446744073709552e19},
@@ -44,6 +55,13 @@ inline const std::array<OptionRow<CoverageOptions>, 7> kCoverageOptionTable = {{
      &CoverageOptions::temperature_error_K, -20, 20},
     {"irradiance-error", "W/m2", "hidden: the irradiances read that much too high",
      &CoverageOptions::irradiance_error_W_m2, -80, 80},
-}};
+    {"threads", "N", "0: all cores; never changes a result but the seconds",
+     &CoverageOptions::threads, 0, kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
+    OptionRow<CoverageOptions>("Fit"),
+    {"temperature-offset", "", "fit one common error of the temperatures",
+     SwitchOption<&CoverageOptions::family, &FamilyOptions::temperature_offset>()},
+    {"irradiance-offset", "", "fit one common error of the irradiances",
+     SwitchOption<&CoverageOptions::family, &FamilyOptions::irradiance_offset>()},
+};
 
 }  // namespace lyrefit

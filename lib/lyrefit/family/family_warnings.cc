@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_echo.h"
+#include "lyrefit/family/family_warnings.h"
 
 #include <fmt/format.h>
 
@@ -8,49 +8,6 @@
 #include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
-
-std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options) {
-  const FamilyOptions defaults;
-  std::vector<OptionEcho> echoes;
-  const auto echo = [&](const char* name, const std::string& value, const std::string& usual) {
-    if (value != usual) echoes.push_back({name, value, usual});
-  };
-  echo("family", ToText(options.law), ToText(defaults.law));
-  echo("model", ToText(options.model), ToText(defaults.model));
-  if (options.shunt) echo("shunt", ToText(*options.shunt), "");
-  echo("recombination", options.recombination ? "yes" : "no", "no");
-  echo("objective", ToText(options.objective), ToText(defaults.objective));
-  echo("constants", ToText(options.constants), ToText(defaults.constants));
-  for (const auto& [key, value] : options.fixed) {
-    echo("fix", fmt::format("{}={:g}", key, value), "");
-  }
-  for (const std::string& name : options.freed) echo("free", name, "");
-  for (const EffectUse& use : options.with) echo("with", DescribeUse(use), "");
-  echo("force", options.force_effects ? "yes" : "no", "no");
-  for (const auto& [key, range] : options.bounds) {
-    echo("bound", fmt::format("{}={:g}:{:g}", key, range.first, range.second), "");
-  }
-  echo("weights", ToText(options.weights), ToText(defaults.weights));
-  echo("algorithm", ToText(options.search.algorithm), ToText(defaults.search.algorithm));
-  AppendNonDefaults(options.search, defaults.search, kSearchOptionTable, &echoes);
-  if (options.searcher) echo("search", "of its own", "");
-  if (options.starts != StartsFrom::kAll) {
-    echo("starts", options.starts == StartsFrom::kShape ? "shape" : "search", "all");
-  }
-  echo("search-curves", NumberText(options.search_curves), NumberText(defaults.search_curves));
-  echo("fit-curves", NumberText(options.fit_curves), NumberText(defaults.fit_curves));
-  echo("irradiance-offset", options.irradiance_offset ? "yes" : "no", "no");
-  echo("temperature-offset", options.temperature_offset ? "yes" : "no", "no");
-  echo("irradiance-accuracy", NumberText(100 * options.irradiance_accuracy), "0");
-  echo("temperature-accuracy", NumberText(options.temperature_accuracy_K), "0");
-  echo("random-baseline", options.random_baseline ? "yes" : "no", "yes");
-  echo("intervals", options.intervals ? "yes" : "no", "yes");
-  echo("free-fits", options.free_fits ? "yes" : "no", "yes");
-  echo("folds", NumberText(options.folds), NumberText(defaults.folds));
-  for (const std::string& id : options.leave_out) echo("leave-out", id, "");
-  for (const NamedParameters& other : options.against) echo("against", other.name, "");
-  return echoes;
-}
 
 namespace {
 

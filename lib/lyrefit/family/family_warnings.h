@@ -8,9 +8,6 @@
 
 namespace lyrefit {
 
-// Options that differ from their defaults.
-std::vector<OptionEcho> FamilyEcho(const FamilyOptions& options);
-
 // What a reader of the report should not overlook, in plain sentences.
 std::vector<std::string> FamilyWarnings(const FamilyReport& report, const FamilyOptions& options);
 

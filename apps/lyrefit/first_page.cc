@@ -1,0 +1,70 @@
+#include "about.h"
+
+namespace lyrefit {
+namespace {
+
+// A question that people come with, and the verbs that answer it.
+struct Answer {
+  const char* verb;
+  const char* does;
+  const char* example;
+};
+struct Question {
+  const char* question;
+  std::vector<Answer> answers;
+};
+
+const std::vector<Question>& Questions() {
+  static const std::vector<Question> questions = {
+      {"What are the parameters of my cell or module?",
+       {{"fit", "from a measured curve", "lyrefit fit module.csv --cells 60 --temperature-C 45"},
+        {"datasheet", "from what its data sheet prints",
+         "lyrefit datasheet --isc 9.05 --voc 37.8 --imp 8.58 --vmp 30.3 \\\n"
+         "                   --alpha 0.06% --beta -0.31% --cells 60"}}},
+      {"Can I trust them?",
+       {{"certify", "is there a better fit than this? a proof",
+         "lyrefit certify module.csv --cells 60 --temperature-C 45"},
+        {"coverage", "do the intervals hold the truth as often as they say?",
+         "lyrefit coverage --sets 500"}}},
+      {"What is wrong with this curve?",
+       {{"diagnose", "shading, series resistance, a bad sensor, ...: what, how large, how sure",
+         "lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --plot diagnosis.svg"}}},
+      {"What would it deliver elsewhere?",
+       {{"fit", "one device behind curves at many irradiances and temperatures",
+         "lyrefit fit folder_of_curves --family desoto --pvlib module.json"},
+        {"simulate", "the curve of a device, with its faults and noise",
+         "lyrefit simulate --from fit.json --with shading:d=0.3,w=0.3333 --out shaded.csv"}}},
+      {"Which algorithm should I use?",
+       {{"compare", "many runs of each, with tests of which is better",
+         "lyrefit compare data/rtc_france --runs 50"},
+        {"budget", "how many evaluations each needs",
+         "lyrefit budget data/rtc_france --algorithms mlo,de,random"},
+        {"sensitivity", "what its settings do",
+         "lyrefit sensitivity data/rtc_france --models sd"}}},
+      {"Does a published table hold?",
+       {{"audit", "does the claimed RMSE come out of the printed parameters?",
+         "lyrefit audit data/paper/rows.csv"},
+        {"reproduce", "a whole publication over again", "lyrefit reproduce data/paper"}}},
+  };
+  return questions;
+}
+
+}  // namespace
+
+std::string FirstPage() {
+  std::string text = "lyrefit: diode-model parameters from measured photovoltaic I-V curves\n";
+  for (const Question& question : Questions()) {
+    text += std::string("\n") + question.question + "\n";
+    for (const Answer& answer : question.answers) {
+      text += "  " + std::string(answer.verb) +
+              std::string(13 - std::string(answer.verb).size(), ' ') + answer.does + "\n" +
+              std::string(15, ' ') + answer.example + "\n";
+    }
+  }
+  return text +
+         "\nlyrefit --help lists the verbs, lyrefit VERB --help every flag of one.\n"
+         "lyrefit help terms says what the words in reports mean.\n"
+         "lyrefit completion bash|zsh|fish and lyrefit man write what their names say.\n";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "command_line.h"
+
+namespace lyrefit {
+
+// The verbs, each in a file of its own: NAME_command.cc.
+extern const Verb kFitVerb;
+extern const Verb kSimulateVerb;
+extern const Verb kCertifyVerb;
+extern const Verb kCompareVerb;
+extern const Verb kBudgetVerb;
+extern const Verb kSensitivityVerb;
+extern const Verb kDataSheetVerb;
+extern const Verb kAuditVerb;
+extern const Verb kCoverageVerb;
+extern const Verb kDiagnoseVerb;
+// About lyrefit itself.
+extern const Verb kHelpVerb;
+extern const Verb kCompletionVerb;
+extern const Verb kManVerb;
+
+}  // namespace lyrefit

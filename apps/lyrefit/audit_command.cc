@@ -1,10 +1,10 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/study/audit.h"
 #include "lyrefit/study/report/audit_csv.h"
 #include "lyrefit/study/report/audit_json.h"
 #include "lyrefit/study/report/audit_text.h"
-#include "lyrefit/study/audit.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/study/report/coverage_text.h"
 #include "lyrefit/study/coverage.h"
+#include "lyrefit/study/report/coverage_text.h"
 #include "verbs.h"
 
 namespace lyrefit {

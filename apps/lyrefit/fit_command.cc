@@ -8,10 +8,10 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/fits_table.h"
 #include "lyrefit/report/json_report.h"
 #include "lyrefit/report/plot.h"
-#include "lyrefit/report/documents.h"
 #include "output.h"
 #include "verbs.h"
 

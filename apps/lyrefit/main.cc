@@ -40,10 +40,9 @@ int Print(const std::string& text) {
 int Main(int argc, char** argv) {
   if (argc == 1) return Print(FirstPage());
   CommandLine line(kFooter);
-  for (const Verb* verb :
-       {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb, &kSensitivityVerb,
-        &kDataSheetVerb, &kAuditVerb, &kCoverageVerb, &kDiagnoseVerb, &kHelpVerb,
-        &kCompletionVerb, &kManVerb}) {
+  for (const Verb* verb : {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb,
+                           &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb, &kCoverageVerb,
+                           &kDiagnoseVerb, &kHelpVerb, &kCompletionVerb, &kManVerb}) {
     line.Add(*verb);
   }
   const Expected<std::string> asked = line.Parse(argc, argv);

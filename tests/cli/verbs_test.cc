@@ -44,7 +44,7 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   EXPECT_EQ(bare.err, "");
   EXPECT_EQ(bare.out, RunApp("help").out);
   for (const char* verb : {"fit", "simulate", "certify", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "reproduce", "coverage", "diagnose"}) {
+                           "datasheet", "audit", "coverage", "diagnose"}) {
     EXPECT_THAT(bare.out, HasSubstr(std::string("\n  ") + verb + " ")) << verb;
     EXPECT_THAT(bare.out, HasSubstr(std::string(" lyrefit ") + verb + " ")) << verb;
   }
@@ -79,8 +79,6 @@ TEST(Verbs, WithoutATargetSayWhatTheyWriteInstead) {
       {"compare x.csv --brief",
        "--brief: compare has none; it writes its tables as text, --json, --csv, --plot and "
        "--convergence-plot"},
-      {"reproduce x --csv=a.csv",
-       "--csv: reproduce has none; it writes README.md and its pictures into the folder of --out"},
   };
   for (const auto& one : cases) {
     const AppResult result = RunApp(one.arguments);

@@ -66,7 +66,6 @@ set(LYREFIT_PUBLIC_HEADERS
   report/audit_csv.h
   report/audit_json.h
   report/audit_text.h
-  report/certificate_json.h
   report/certificate_plot.h
   report/certificate_text.h
   report/compare_csv.h
@@ -74,21 +73,16 @@ set(LYREFIT_PUBLIC_HEADERS
   report/compare_plot.h
   report/compare_text.h
   report/coverage_text.h
-  report/data_sheet_json.h
   report/data_sheet_text.h
-  report/diagnosis_json.h
   report/diagnosis_plot.h
   report/diagnosis_text.h
   report/family_csv.h
-  report/family_json.h
   report/family_plot.h
   report/family_text.h
   report/fits_table.h
-  report/healthy_json.h
   report/healthy_text.h
-  report/json_report.h
+  report/json.h
   report/plot.h
-  report/pvlib_json.h
   report/text_report.h
   report/truth_text.h
   search/search.h

@@ -1,9 +1,9 @@
 #include "certify_command.h"
 
 #include "interrupt.h"
-#include "lyrefit/report/certificate_json.h"
 #include "lyrefit/report/certificate_plot.h"
 #include "lyrefit/report/certificate_text.h"
+#include "lyrefit/report/json.h"
 #include "output.h"
 #include "study_flags.h"
 

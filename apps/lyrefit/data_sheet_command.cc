@@ -8,9 +8,8 @@
 #include "interrupt.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/pvlib_parameters.h"
-#include "lyrefit/report/data_sheet_json.h"
 #include "lyrefit/report/data_sheet_text.h"
-#include "lyrefit/report/pvlib_json.h"
+#include "lyrefit/report/json.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -8,10 +8,9 @@
 
 #include "effect_text.h"
 #include "interrupt.h"
-#include "lyrefit/report/diagnosis_json.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/diagnosis_text.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 #include "output.h"
 #include "study_flags.h"
 

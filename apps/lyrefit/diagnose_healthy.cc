@@ -4,9 +4,8 @@
 #include "interrupt.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/diagnosis_text.h"
-#include "lyrefit/report/healthy_json.h"
 #include "lyrefit/report/healthy_text.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 #include "output.h"
 
 namespace lyrefit {

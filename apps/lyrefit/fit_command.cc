@@ -5,7 +5,7 @@
 #include "family_run.h"
 #include "fit_files.h"
 #include "interrupt.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/report/text_report.h"
 #include "output.h"

@@ -16,7 +16,7 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/law/extension.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 

@@ -1,4 +1,4 @@
-#include "lyrefit/report/certificate_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 

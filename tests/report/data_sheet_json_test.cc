@@ -1,4 +1,4 @@
-#include "lyrefit/report/data_sheet_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(DataSheetJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DataSheetJson(SampleDataSheetFit()));
   EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "law", "model", "cells_in_series", "constants",
                           "parameters", "checks", "largest_relative_error", "warnings"}));
-  EXPECT_EQ(Keys(j["parameters"]["R_s"]), (Set{"symbol", "unit", "value", "low", "high"}));
+  EXPECT_EQ(Keys(j["parameters"]["R_s"]), (Set{"symbol", "name", "unit", "value", "low", "high"}));
   EXPECT_EQ(j["parameters"]["R_s"]["high"], 0.41);
   EXPECT_TRUE(j["parameters"]["R_sh_ref"]["value"].is_null());
   EXPECT_TRUE(j["parameters"]["EgRef"]["low"].is_null());

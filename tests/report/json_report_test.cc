@@ -1,4 +1,4 @@
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 

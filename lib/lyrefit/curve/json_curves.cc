@@ -246,9 +246,7 @@ class JsonCurveFinder {
           return Fail(
               fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
                           "missing, leave them out with --skip-missing",
-                          column.label, i,
-                          Quoted(table.columns[place][i]->dump(-1, ' ', false,
-                                                               json::error_handler_t::replace))),
+                          column.label, i, Quoted(OneLine(*table.columns[place][i]))),
               path_);
         }
         values->push_back(value);

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/effects/catalogue.h"
@@ -71,21 +72,17 @@ Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
   const json object = At(report.fit, "/curve/conditions");
   if (!object.is_object()) return Fail("expected an object in curve.conditions", report.path);
   const JsonFields fields(object, report.text, report.path);
-  const auto cells = fields.WholeNumber({"cells_in_series"});
-  if (!cells) return tl::unexpected(cells.error());
-  const auto strings = fields.WholeNumber({"strings_in_parallel"});
-  if (!strings) return tl::unexpected(strings.error());
-  const auto temperature_C = fields.Number({"cell_temperature_C"});
-  if (!temperature_C) return tl::unexpected(temperature_C.error());
-  const auto irradiance = fields.Number({"irradiance_Wm2"});
-  if (!irradiance) return tl::unexpected(irradiance.error());
-  if (!*cells || !*temperature_C) {
+  TRY(const auto cells, fields.WholeNumber({"cells_in_series"}));
+  TRY(const auto strings, fields.WholeNumber({"strings_in_parallel"}));
+  TRY(const auto temperature_C, fields.Number({"cell_temperature_C"}));
+  TRY(const auto irradiance, fields.Number({"irradiance_Wm2"}));
+  if (!cells || !temperature_C) {
     return Fail("expected cells_in_series and cell_temperature_C in curve.conditions", report.path);
   }
-  conditions->cells_in_series = **cells;
-  conditions->strings_in_parallel = strings->value_or(1);
-  conditions->cell_temperature_K = **temperature_C + kZeroCelsius_K;
-  conditions->irradiance_W_m2 = irradiance->value_or(1000);
+  conditions->cells_in_series = *cells;
+  conditions->strings_in_parallel = strings.value_or(1);
+  conditions->cell_temperature_K = *temperature_C + kZeroCelsius_K;
+  conditions->irradiance_W_m2 = irradiance.value_or(1000);
   return {};
 }
 
@@ -105,10 +102,13 @@ Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) 
   for (const json& cause : causes) {
     EffectUse use;
     use.effect = cause.is_string() ? FindEffect(cause.get<std::string>()) : nullptr;
-    if (use.effect == nullptr) return Fail("there is no effect " + cause.dump(), report.path);
+    if (use.effect == nullptr) return Fail("there is no effect " + OneLine(cause), report.path);
     for (const EffectParameter& info : use.effect->parameters) {
-      const Expected<double> found = value(fmt::format("{}_{}", use.effect->id, info.name));
-      if (!found) return tl::unexpected(found.error());
+      const Expected<double> found = value(fmt::format("{}.{}", use.effect->id, info.symbol));
+      if (!found) {
+        return Fail(found.error().message + " (if an earlier lyrefit wrote it: fit it again)",
+                    report.path);
+      }
       use.ranges[info.symbol] = {*found, *found};
     }
     uses.push_back(std::move(use));
@@ -125,7 +125,7 @@ void TakeBypassDiodes(const Report& report, IvCurve* curve) {
 Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
   const json curves = At(report.fit, "/curves");
   if (curves.is_number() && curves.get<double>() > 1) {
-    return Fail("a model of " + curves.dump() +
+    return Fail("a model of " + OneLine(curves) +
                     " curves whose measurement the report does not hold: expected one with effects",
                 report.path);
   }
@@ -134,17 +134,15 @@ Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
         fmt::format("a report of one curve, in which there is no curve {} to choose", report.curve),
         report.path);
   }
-  if (auto read = ReadConditions(report, &options->conditions); !read) return read;
+  TRY(ReadConditions(report, &options->conditions));
   for (const ParameterInfo& info : MakeDevice(options->model, options->conditions).parameters) {
-    const Expected<double> value = AnsweredValue(report, info.name);
-    if (!value) return tl::unexpected(value.error());
-    options->parameters[info.symbol] = *value;
+    TRY(const auto value, AnsweredValue(report, info.name));
+    options->parameters[info.symbol] = value;
   }
-  auto uses =
-      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
-  if (!uses) return tl::unexpected(uses.error());
-  if (uses->empty()) return {};
-  options->with = std::move(*uses);
+  const auto answered = [&](const std::string& name) { return AnsweredValue(report, name); };
+  TRY(auto uses, ReadUses(report, answered));
+  if (uses.empty()) return {};
+  options->with = std::move(uses);
   IvCurve taken;
   taken.name = options->name;
   taken.conditions = options->conditions;
@@ -204,23 +202,19 @@ Expected<CurveSet> ReadTaken(const Report& report) {
 
 // One law behind many curves, with effects.
 Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
-  const auto chosen = Chosen(report, At(report.fit, "/law/curves"));
-  if (!chosen) return tl::unexpected(chosen.error());
-  auto set = ReadTaken(report);
-  if (!set) return tl::unexpected(set.error());
+  TRY(const auto chosen, Chosen(report, At(report.fit, "/law/curves")));
+  TRY(auto set, ReadTaken(report));
   const json parameters = At(report.fit, "/parameters");
   for (const auto& [name, parameter] : parameters.items()) {
     const std::string symbol = TextAt(parameter, "/symbol");
-    if (symbol.find('.') != std::string::npos || symbol == "dEg") continue;  // the law's own
-    const Expected<double> value = AnsweredValue(report, name);
-    if (!value) return tl::unexpected(value.error());
-    options->parameters[symbol] = *value;
+    if (parameter.contains("effect") || symbol == "dEg") continue;  // the law's own
+    TRY(const auto value, AnsweredValue(report, name));
+    options->parameters[symbol] = value;
   }
-  auto uses =
-      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
-  if (!uses) return tl::unexpected(uses.error());
-  options->with = std::move(*uses);
-  options->conditions = set->curves[*chosen].conditions;
+  const auto answered = [&](const std::string& name) { return AnsweredValue(report, name); };
+  TRY(auto uses, ReadUses(report, answered));
+  options->with = std::move(uses);
+  options->conditions = set.curves[chosen].conditions;
   SharedLaw shared;
   shared.law.model = options->model;
   shared.law.constants = options->constants;
@@ -228,8 +222,8 @@ Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
       FromText<ShuntLaw>(TextAt(report.fit, "/law/shunt")).value_or(ShuntLaw::kConstant);
   shared.law.bandgap_slope_per_K = NumberOr(report.fit, "/law/bandgap_slope_per_K", 0);
   shared.reference_K = NumberOr(report.fit, "/law/reference_temperature_C", 25) + kZeroCelsius_K;
-  shared.set = std::move(*set);
-  shared.curve = *chosen;
+  shared.set = std::move(set);
+  shared.curve = chosen;
   options->shared = std::move(shared);
   return {};
 }
@@ -237,9 +231,8 @@ Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
 // One curve of a family by its own parameters: those the law leads to, or of a fit of its own.
 Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   const json curves = At(report.fit, "/curves");
-  const auto chosen = Chosen(report, curves);
-  if (!chosen) return tl::unexpected(chosen.error());
-  const json& curve = curves[*chosen];
+  TRY(const auto chosen, Chosen(report, curves));
+  const json& curve = curves[chosen];
   if (TextAt(curve, "/role") == "left-out") {
     return Fail(fmt::format("curve {} was left out: {}", report.curve, TextAt(curve, "/reason")),
                 report.path);
@@ -260,17 +253,14 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   at.irradiance_W_m2 = with_offsets("/irradiance_Wm2", "irradiance_offset_Wm2") +
                        NumberOr(report.fit, "/sensor_offsets/irradiance_Wm2/value", 0);
   for (const ParameterInfo& info : MakeDevice(options->model, {}).parameters) {
-    const Expected<double> found = value(info.name);
-    if (!found) return tl::unexpected(found.error());
-    options->parameters[info.symbol] = *found;
+    TRY(const auto found, value(info.name));
+    options->parameters[info.symbol] = found;
   }
-  auto uses = ReadUses(report, value);
-  if (!uses) return tl::unexpected(uses.error());
-  if (uses->empty()) return {};
-  options->with = std::move(*uses);
-  auto set = ReadTaken(report);
-  if (!set) return tl::unexpected(set.error());
-  for (IvCurve& one : set->curves) {
+  TRY(auto uses, ReadUses(report, value));
+  if (uses.empty()) return {};
+  options->with = std::move(uses);
+  TRY(auto set, ReadTaken(report));
+  for (IvCurve& one : set.curves) {
     if (one.name == TextAt(curve, "/id")) options->taken = std::move(one);
   }
   options->force_effects = true;  // they were fitted to it
@@ -280,11 +270,9 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
 }  // namespace
 
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const std::string& curve) {
-  const Expected<std::string> text = ReadTextFile(path, kLargestFitFile);
-  if (!text) return tl::unexpected(text.error());
-  Expected<json> fit = ParseJson(*text, path);
-  if (!fit) return tl::unexpected(fit.error());
-  const Report report{std::move(*fit), *text, path, curve};
+  TRY(const auto text, ReadTextFile(path, kLargestFitFile));
+  TRY(auto fit, ParseJson(text, path));
+  const Report report{std::move(fit), text, path, curve};
   const std::optional<Model> model = FromText<Model>(TextAt(report.fit, "/model"));
   const std::optional<ConstantSet> constants =
       FromText<ConstantSet>(TextAt(report.fit, "/constants"));
@@ -296,10 +284,9 @@ Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const st
   options.constants = *constants;
   const bool shared = At(report.fit, "/law/reference_temperature_C").is_number();
   const bool many = At(report.fit, "/curves").is_array();
-  const Expected<void> read = shared ? ReadShared(report, &options)
-                              : many ? ReadMember(report, &options)
-                                     : ReadOne(report, &options);
-  if (!read) return tl::unexpected(read.error());
+  TRY(shared ? ReadShared(report, &options)
+      : many ? ReadMember(report, &options)
+             : ReadOne(report, &options));
   return options;
 }
 

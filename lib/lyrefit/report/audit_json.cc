@@ -18,16 +18,16 @@ Json ConstantsOrNull(const std::optional<ConstantSet>& constants) {
 }
 
 // Rounded where the subtraction from kelvin leaves 33.00000000000006.
-Json Celsius(double value) { return Number(std::round(value * 1e9) / 1e9); }
+Json Celsius(double value) { return std::round(value * 1e9) / 1e9; }
 
 Json LeftBoundsJson(const std::vector<LeftBound>& left) {
   Json list = Json::array();
   for (const LeftBound& bound : left) {
     list.push_back({{"name", bound.info.name},
                     {"symbol", bound.info.symbol},
-                    {"value", Number(bound.value)},
-                    {"lower", Number(bound.lower)},
-                    {"upper", Number(bound.upper)}});
+                    {"value", bound.value},
+                    {"lower", bound.lower},
+                    {"upper", bound.upper}});
   }
   return list;
 }
@@ -37,7 +37,7 @@ Json ReadingJson(const AuditReading& reading, const Device& device) {
   for (const ConstantSet set : reading.constants) constants.push_back(ToText(set));
   Json parameters = Json::object();
   for (int i = 0; i < device.size(); ++i) {
-    parameters[device.parameters[i].name] = Number(reading.parameters[i]);
+    parameters[device.parameters[i].name] = reading.parameters[i];
   }
   return {{"changes", reading.changes},
           {"curve", reading.curve},
@@ -48,9 +48,9 @@ Json ReadingJson(const AuditReading& reading, const Device& device) {
           {"constants_shown", ToText(reading.shown)},
           {"parameters", std::move(parameters)},
           {"rmse",
-           {{"measured_current_A", Number(reading.rmse.measured_current_A)},
-            {"solved_current_A", Number(reading.rmse.solved_current_A)}}},
-          {"tolerance_A", Number(reading.tolerance_A)},
+           {{"measured_current_A", reading.rmse.measured_current_A},
+            {"solved_current_A", reading.rmse.solved_current_A}}},
+          {"tolerance_A", reading.tolerance_A},
           {"left_bounds", LeftBoundsJson(reading.left_bounds)}};
 }
 
@@ -59,33 +59,32 @@ Json ExplanationJson(const AuditExplanation& explanation, const Device& device) 
   json["low_temperature_C"] = Celsius(explanation.low_temperature_C);
   json["high_temperature_C"] = Celsius(explanation.high_temperature_C);
   json["readings_tried"] = explanation.readings_tried;
-  json["accidental_matches"] = Number(explanation.chance);
+  json["accidental_matches"] = explanation.chance;
   return json;
 }
 
 Json TemperaturesJson(const std::optional<AuditTemperatures>& temperatures) {
   if (!temperatures) return nullptr;
   Json at_claim = Json::array();
-  for (const double celsius : temperatures->at_claim_C) at_claim.push_back(Number(celsius));
+  for (const double celsius : temperatures->at_claim_C) at_claim.push_back(celsius);
   return {{"at_claim_C", std::move(at_claim)},
           {"best_C", Celsius(temperatures->best_C)},
-          {"best_rmse_A", Number(temperatures->best_A)}};
+          {"best_rmse_A", temperatures->best_A}};
 }
 
 Json RowJson(const AuditRow& row) {
-  return {{"line", row.line},
-          {"source", row.source},
-          {"device", row.device},
-          {"model", ToText(row.model)},
-          {"algorithm", row.algorithm},
-          {"note", row.note},
-          {"claimed",
-           {{"text", row.rmse.text},
-            {"rmse_A", Number(row.rmse.value)},
-            {"half_unit_A", Number(row.rmse.half_unit)}}},
-          {"temperature_C", OrNull(row.temperature_C)},
-          {"cells_in_series", OrNull(row.cells)},
-          {"constants", ConstantsOrNull(row.constants)}};
+  return {
+      {"line", row.line},
+      {"source", row.source},
+      {"device", row.device},
+      {"model", ToText(row.model)},
+      {"algorithm", row.algorithm},
+      {"note", row.note},
+      {"claimed",
+       {{"text", row.rmse.text}, {"rmse_A", row.rmse.value}, {"half_unit_A", row.rmse.half_unit}}},
+      {"temperature_C", OrNull(row.temperature_C)},
+      {"cells_in_series", OrNull(row.cells)},
+      {"constants", ConstantsOrNull(row.constants)}};
 }
 
 Json FindingJson(const AuditFinding& finding) {
@@ -102,10 +101,10 @@ Json FindingJson(const AuditFinding& finding) {
           {"explanations", std::move(explanations)},
           {"nearest", finding.nearest ? ExplanationJson(*finding.nearest, device) : Json(nullptr)},
           {"temperatures", TemperaturesJson(finding.temperatures)},
-          {"short_circuit_current_A", Number(finding.short_circuit_A)},
+          {"short_circuit_current_A", finding.short_circuit_A},
           {"other_device",
            finding.other_device ? ReadingJson(*finding.other_device, device) : Json(nullptr)},
-          {"optimum_rmse_A", Number(finding.optimum_A)}};
+          {"optimum_rmse_A", finding.optimum_A}};
 }
 
 }  // namespace
@@ -134,7 +133,7 @@ std::string AuditJson(const AuditReport& report) {
     json["summary"][key] = CountFindings(report, row.value);
   }
   // Rows and paths may hold bytes that are not UTF-8.
-  return JsonText(json);
+  return Dump(json);
 }
 
 }  // namespace lyrefit

@@ -7,18 +7,18 @@
 namespace lyrefit {
 namespace {
 
-Json Seconds(double value) { return {{"seconds", Number(value)}}; }
+Json Seconds(double value) { return {{"seconds", value}}; }
 
 Json ReferenceJson(const ProblemResult& problem) {
   const Reference& reference = problem.reference;
   Json parameters = Json::object();
   for (std::size_t i = 0; i < reference.parameters.size() && i < problem.parameters.size(); ++i) {
-    parameters[problem.parameters[i]] = Number(reference.parameters[i]);
+    parameters[problem.parameters[i]] = reference.parameters[i];
   }
-  return {{"rmse_A", Number(reference.rmse_A)},
+  return {{"rmse_A", reference.rmse_A},
           {"certified", reference.certified},
-          {"lower_bound_A", Number(reference.lower_bound_A)},
-          {"floor_A", Number(reference.floor_A)},
+          {"lower_bound_A", reference.lower_bound_A},
+          {"floor_A", reference.floor_A},
           {"origin", reference.origin},
           {"parameters", std::move(parameters)}};
 }
@@ -26,9 +26,12 @@ Json ReferenceJson(const ProblemResult& problem) {
 // Null where that stage was not asked for.
 Json SpreadJson(const Spread& spread) {
   if (std::isnan(spread.min)) return nullptr;
-  return {{"min_A", Number(spread.min)},       {"mean_A", Number(spread.mean)},
-          {"median_A", Number(spread.median)}, {"max_A", Number(spread.max)},
-          {"std_A", Number(spread.std)},       {"within_1e9", spread.within_1e9},
+  return {{"min_A", spread.min},
+          {"mean_A", spread.mean},
+          {"median_A", spread.median},
+          {"max_A", spread.max},
+          {"std_A", spread.std},
+          {"within_1e9", spread.within_1e9},
           {"within_1e6", spread.within_1e6}};
 }
 
@@ -37,10 +40,10 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
   for (const RunRecord& run : runs) {
     const bool hit = run.evaluations_to_target >= 0;
     list.push_back({{"run", run.run},
-                    {"searched_A", Number(run.searched_A)},
-                    {"plain_polished_A", Number(run.plain_polished_A)},
-                    {"best_bird_polished_A", Number(run.own_polished_A)},
-                    {"refined_A", Number(run.polished_A)},
+                    {"searched_A", run.searched_A},
+                    {"plain_polished_A", run.plain_polished_A},
+                    {"best_bird_polished_A", run.own_polished_A},
+                    {"refined_A", run.polished_A},
                     {"evaluations", run.evaluations},
                     {"curve_evaluations", run.curve_evaluations},
                     {"evaluations_to_target", hit ? Json(run.evaluations_to_target) : Json()},
@@ -50,8 +53,8 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
     Json& json = list.back();
     json["plain"] = Seconds(run.plain_seconds);
     json["best_bird"] = Seconds(run.own_seconds);
-    json["best_bird_parameters"] = Numbers(run.own_parameters);
-    json["refined_parameters"] = Numbers(run.parameters);
+    json["best_bird_parameters"] = run.own_parameters;
+    json["refined_parameters"] = run.parameters;
   }
   return list;
 }
@@ -74,25 +77,25 @@ Json ContenderJson(const ContenderResult& contender, const ProblemResult& proble
   Json best = Json::array();
   for (const MedianPoint& point : contender.trace) {
     evaluations.push_back(point.evaluations);
-    best.push_back(Number(point.best_A));
+    best.push_back(point.best_A);
   }
-  return {{"name", contender.name},
-          {"algorithm", contender.algorithm},
-          {"settings", SettingsJson(contender.search)},
-          {"birds", ToText(contender.birds)},
-          {"searched", SpreadJson(contender.searched)},
-          {"plain_polished", SpreadJson(contender.plain_polished)},
-          {"best_bird_polished", SpreadJson(contender.own_polished)},
-          {"refined", SpreadJson(contender.polished)},
-          {"evaluations", Number(contender.evaluations)},
-          {"curve_evaluations", Number(contender.curve_evaluations)},
-          {"target",
-           {{"hits", contender.target_hits},
-            {"expected_evaluations", Number(contender.expected_evaluations)}}},
-          {"search", Seconds(contender.search_seconds)},
-          {"refine", Seconds(contender.polish_seconds)},
-          {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
-          {"runs", RunsJson(contender.runs, !problem.problem.empty())}};
+  return {
+      {"name", contender.name},
+      {"algorithm", contender.algorithm},
+      {"settings", SettingsJson(contender.search)},
+      {"birds", ToText(contender.birds)},
+      {"searched", SpreadJson(contender.searched)},
+      {"plain_polished", SpreadJson(contender.plain_polished)},
+      {"best_bird_polished", SpreadJson(contender.own_polished)},
+      {"refined", SpreadJson(contender.polished)},
+      {"evaluations", contender.evaluations},
+      {"curve_evaluations", contender.curve_evaluations},
+      {"target",
+       {{"hits", contender.target_hits}, {"expected_evaluations", contender.expected_evaluations}}},
+      {"search", Seconds(contender.search_seconds)},
+      {"refine", Seconds(contender.polish_seconds)},
+      {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
+      {"runs", RunsJson(contender.runs, !problem.problem.empty())}};
 }
 
 std::vector<std::string> ContenderNames(const ProblemResult& problem) {
@@ -136,12 +139,12 @@ std::string CompareJson(const Comparison& comparison) {
   json["constants"] = ToText(options.constants);
   json["seed"] = options.seed;
   json["runs"] = options.runs;
-  json["target_gap"] = Number(options.target_gap);
+  json["target_gap"] = options.target_gap;
   json["polish"] = options.polish;
   json["plain_polish"] = options.plain_polish;
   for (const EffectUse& use : options.with) json["with"].push_back(DescribeUse(use));
   json["interrupted"] = comparison.interrupted;
-  json["seconds"] = Number(comparison.seconds);
+  json["seconds"] = comparison.seconds;
   json["warnings"] = comparison.doubts;
   json["problems"] = Json::array();
   for (const ProblemResult& problem : comparison.problems) {
@@ -150,7 +153,7 @@ std::string CompareJson(const Comparison& comparison) {
   if (Json pools = PoolsJson(comparison); !pools.empty()) json["pools"] = std::move(pools);
   if (options.multistart > 0) json["multistart"] = options.multistart;
   // Names and files may hold bytes that are not UTF-8.
-  return JsonText(json, 1);
+  return Dump(json);
 }
 
 }  // namespace lyrefit

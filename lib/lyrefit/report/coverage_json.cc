@@ -8,7 +8,7 @@ Json OptionsOf(const CoverageOptions& options) {
   Json module = nullptr;
   if (!options.module.empty()) {
     module = {{"cells_in_series", options.cells_in_series}};
-    for (const auto& [name, value] : options.module) module[name] = Number(value);
+    for (const auto& [name, value] : options.module) module[name] = value;
   }
   return {{"law", ToText(options.family.law)},
           {"model", ToText(options.family.model)},
@@ -31,20 +31,20 @@ Json ParameterJson(const ParameterCoverage& p) {
           {"not_identifiable", p.not_identifiable},
           {"counted", p.counted},
           {"covered", p.covered},
-          {"coverage", Number(p.coverage)},
-          {"coverage_low_95", Number(p.low_95)},
-          {"coverage_high_95", Number(p.high_95)},
-          {"median_half_width", Number(p.median_half_width)}};
+          {"coverage", p.coverage},
+          {"coverage_low_95", p.low_95},
+          {"coverage_high_95", p.high_95},
+          {"median_half_width", p.median_half_width}};
 }
 
 Json SetJson(const CoverageSet& set, const std::vector<ParameterCoverage>& parameters) {
   Json rows = Json::object();
   for (std::size_t i = 0; i < set.rows.size(); ++i) {
     const CoverageRow& row = set.rows[i];
-    rows[parameters[i].info.name] = {{"truth", Number(row.truth)},
-                                     {"value", Number(row.interval.value)},
-                                     {"low_95", Number(row.interval.low_95)},
-                                     {"high_95", Number(row.interval.high_95)},
+    rows[parameters[i].info.name] = {{"truth", row.truth},
+                                     {"value", row.interval.value},
+                                     {"low_95", row.interval.low_95},
+                                     {"high_95", row.interval.high_95},
                                      {"fixed", row.fixed},
                                      {"identifiable", row.identifiable}};
   }
@@ -52,7 +52,7 @@ Json SetJson(const CoverageSet& set, const std::vector<ParameterCoverage>& param
           {"curves", set.curves},
           {"error", set.error.empty() ? Json(nullptr) : Json(set.error)},
           {"parameters", std::move(rows)},
-          {"seconds", Number(set.seconds)}};
+          {"seconds", set.seconds}};
 }
 
 }  // namespace
@@ -61,11 +61,14 @@ std::string CoverageJson(const CoverageReport& report) {
   Json parameters = Json::array(), sets = Json::array();
   for (const ParameterCoverage& p : report.parameters) parameters.push_back(ParameterJson(p));
   for (const CoverageSet& set : report.sets) sets.push_back(SetJson(set, report.parameters));
-  const Json json = {{"lyrefit_version", report.version},   {"options", OptionsOf(report.options)},
-                     {"interrupted", report.interrupted},   {"failed", report.failed},
-                     {"parameters", std::move(parameters)}, {"sets", std::move(sets)},
-                     {"seconds", Number(report.seconds)}};
-  return JsonText(json, 1);
+  const Json json = {{"lyrefit_version", report.version},
+                     {"options", OptionsOf(report.options)},
+                     {"interrupted", report.interrupted},
+                     {"failed", report.failed},
+                     {"parameters", std::move(parameters)},
+                     {"sets", std::move(sets)},
+                     {"seconds", report.seconds}};
+  return Dump(json);
 }
 
 }  // namespace lyrefit

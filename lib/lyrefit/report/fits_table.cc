@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lyrefit/report/csv_parts.h"
-#include "lyrefit/report/fit_json_parts.h"
+#include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -110,7 +110,7 @@ std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points) {
     }
     list.push_back(std::move(item));
   }
-  return JsonText(list);
+  return Dump(list);
 }
 
 }  // namespace lyrefit

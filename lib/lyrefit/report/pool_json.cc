@@ -13,12 +13,11 @@ Json FailuresJson(const Failures& failures) {
           {"commonest",
            {{"runs", failures.commonest},
             {"device", failures.commonest_device},
-            {"excess", Number(failures.commonest_excess)}}},
-          {"excess",
-           {{"median", Number(failures.median_excess)}, {"max", Number(failures.worst_excess)}}},
+            {"excess", failures.commonest_excess}}},
+          {"excess", {{"median", failures.median_excess}, {"max", failures.worst_excess}}},
           {"deviation",
-           {{"median", Number(failures.median_deviation)},
-            {"max", Number(failures.worst_deviation)},
+           {{"median", failures.median_deviation},
+            {"max", failures.worst_deviation},
             {"parameter", failures.worst_parameter}}}};
 }
 
@@ -29,12 +28,12 @@ Json LevelJson(const std::optional<PooledLevel>& level) {
   Json json = {{"runs", level->runs},
                {"hits", level->hits},
                {"excess",
-                {{"min", Number(excess.min)},
-                 {"mean", Number(excess.mean)},
-                 {"median", Number(excess.median)},
-                 {"max", Number(excess.max)},
-                 {"std", Number(excess.std)}}},
-               {"seconds", Number(level->seconds)}};
+                {{"min", excess.min},
+                 {"mean", excess.mean},
+                 {"median", excess.median},
+                 {"max", excess.max},
+                 {"std", excess.std}}},
+               {"seconds", level->seconds}};
   if (level->failures.runs > 0) json["failures"] = FailuresJson(level->failures);
   return json;
 }
@@ -44,8 +43,8 @@ Json ContenderJson(const PooledContender& contender) {
           {"algorithm", contender.algorithm},
           {"kind", ToText(contender.kind)},
           {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
-          {"evaluations", Number(contender.evaluations)},
-          {"curve_evaluations", Number(contender.curve_evaluations)},
+          {"evaluations", contender.evaluations},
+          {"curve_evaluations", contender.curve_evaluations},
           {"searched", LevelJson(contender.At(PolishLevel::kSearch))},
           {"plain_polished", LevelJson(contender.At(PolishLevel::kPlain))},
           {"best_bird_polished", LevelJson(contender.At(PolishLevel::kOwn))},
@@ -59,7 +58,7 @@ Json AnswerJson(const PooledProblem& pool) {
   answer["peer"] = {{"name", ratio->peer->contender->name},
                     {"hits", ratio->peer->figures().hits},
                     {"repeats", ratio->repeats},
-                    {"times_faster", Number(ratio->times)},
+                    {"times_faster", ratio->times},
                     {"sentence", PeerText(pool)}};
   return answer;
 }

@@ -28,26 +28,22 @@ std::string JsonKey(const ParameterInfo& info) {
   return info.symbol.find('.') == std::string::npos ? info.name : info.symbol;
 }
 
-std::string EffectSymbol(const std::string& effect, const std::string& symbol) {
-  return effect + "." + symbol;
+Json EffectParameterJson(const std::string& effect, const std::string& symbol,
+                         const std::string& name, const std::string& unit) {
+  return {{"effect", effect}, {"symbol", symbol}, {"name", name}, {"unit", unit}};
 }
 
-// Symbol and name of an effect's parameter begin with the effect (see AddInfos), which stands by
-// itself here.
+// Symbol and name of an effect's parameter begin with the effect (see AddInfos).
 void to_json(Json& j, const ParameterInfo& info) {
   const std::size_t dot = info.symbol.find('.');
-  j = Json::object();
   if (dot == std::string::npos) {
-    j["symbol"] = info.symbol;
-    j["name"] = info.name;
-  } else {
-    const std::string effect = info.symbol.substr(0, dot);
-    const bool prefixed = info.name.rfind(effect + "_", 0) == 0;
-    j["effect"] = effect;
-    j["symbol"] = info.symbol.substr(dot + 1);
-    j["name"] = prefixed ? info.name.substr(dot + 1) : info.name;
+    j = {{"symbol", info.symbol}, {"name", info.name}, {"unit", info.unit}};
+    return;
   }
-  j["unit"] = info.unit;
+  const std::string effect = info.symbol.substr(0, dot);
+  const bool prefixed = info.name.rfind(effect + "_", 0) == 0;
+  j = EffectParameterJson(effect, info.symbol.substr(dot + 1),
+                          prefixed ? info.name.substr(dot + 1) : info.name, info.unit);
 }
 
 void to_json(Json& j, const Estimate& e) {

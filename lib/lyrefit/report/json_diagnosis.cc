@@ -40,7 +40,7 @@ namespace {
 Json CauseParametersJson(const std::string& effect, const std::vector<CauseParameter>& parameters) {
   Json list = Json::array();
   for (const CauseParameter& p : parameters) {
-    Json one = ParameterInfo{EffectSymbol(effect, p.symbol), p.name, p.unit, ""};
+    Json one = EffectParameterJson(effect, p.symbol, p.name, p.unit);
     one.update({{"value", p.value},
                 {"low_95", p.low_95},
                 {"high_95", p.high_95},

@@ -63,8 +63,9 @@ void to_json(Json& j, const TracePoint& point);
 
 // "resistance_series" or, of an effect, "shading.d": what a parameter's object stands under.
 std::string JsonKey(const ParameterInfo& info);
-// "shading.d" of an effect's id and a parameter's symbol.
-std::string EffectSymbol(const std::string& effect, const std::string& symbol);
+// What an effect's parameter is, where it is known by the names it has there.
+Json EffectParameterJson(const std::string& effect, const std::string& symbol,
+                         const std::string& name, const std::string& unit);
 
 Json LargestErrorJson(const ResidualStatistics& residuals);
 Json SearchJson(const SearchOptions& options, const SearchSummary& search,

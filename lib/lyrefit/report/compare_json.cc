@@ -1,38 +1,65 @@
 #include "lyrefit/report/compare_json.h"
 
+#include <cmath>
+
 #include "lyrefit/report/json_parts.h"
 #include "lyrefit/report/pool_json.h"
 #include "lyrefit/report/rank_json.h"
 
 namespace lyrefit {
+
+// Null where that stage was not asked for.
+void to_json(Json& j, const Spread& spread) {
+  j = nullptr;
+  if (std::isnan(spread.min)) return;
+  j = {{"min_A", spread.min},
+       {"mean_A", spread.mean},
+       {"median_A", spread.median},
+       {"max_A", spread.max},
+       {"std_A", spread.std},
+       {"within_1e9", spread.within_1e9},
+       {"within_1e6", spread.within_1e6}};
+}
+
+// The settings that tell contenders apart; seed and run stand elsewhere.
+void to_json(Json& j, const SearchOptions& search) {
+  const bool limited = search.max_evaluations < SearchOptions().max_evaluations;
+  j = {{"population", search.population},
+       {"iterations", search.iterations},
+       {"memory_rate", search.memory_rate},
+       {"distance_coefficient", search.distance_coefficient},
+       {"de_scale", search.de_scale},
+       {"de_crossover", search.de_crossover},
+       {"max_evaluations", limited ? Json(search.max_evaluations) : Json()},
+       {"elites", search.elites}};
+}
+
 namespace {
 
 Json Seconds(double value) { return {{"seconds", value}}; }
 
+// Values alone, under what their parameters stand under.
+Json ReferenceParametersJson(const ProblemResult& problem) {
+  std::vector<ParameterInfo> effects;
+  AddInfos(problem.with, &effects);
+  const std::vector<double>& values = problem.reference.parameters;
+  Json json = Json::object();
+  for (std::size_t i = 0; i < values.size() && i < problem.parameters.size(); ++i) {
+    const int effect = problem.first_effect < 0 ? -1 : static_cast<int>(i) - problem.first_effect;
+    const bool of_effect = effect >= 0 && effect < static_cast<int>(effects.size());
+    json[of_effect ? JsonKey(effects[effect]) : problem.parameters[i]] = values[i];
+  }
+  return json;
+}
+
 Json ReferenceJson(const ProblemResult& problem) {
   const Reference& reference = problem.reference;
-  Json parameters = Json::object();
-  for (std::size_t i = 0; i < reference.parameters.size() && i < problem.parameters.size(); ++i) {
-    parameters[problem.parameters[i]] = reference.parameters[i];
-  }
   return {{"rmse_A", reference.rmse_A},
           {"certified", reference.certified},
           {"lower_bound_A", reference.lower_bound_A},
           {"floor_A", reference.floor_A},
           {"origin", reference.origin},
-          {"parameters", std::move(parameters)}};
-}
-
-// Null where that stage was not asked for.
-Json SpreadJson(const Spread& spread) {
-  if (std::isnan(spread.min)) return nullptr;
-  return {{"min_A", spread.min},
-          {"mean_A", spread.mean},
-          {"median_A", spread.median},
-          {"max_A", spread.max},
-          {"std_A", spread.std},
-          {"within_1e9", spread.within_1e9},
-          {"within_1e6", spread.within_1e6}};
+          {"parameters", ReferenceParametersJson(problem)}};
 }
 
 Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
@@ -59,22 +86,8 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
   return list;
 }
 
-// The settings that tell contenders apart; seed and run stand elsewhere.
-Json SettingsJson(const SearchOptions& search) {
-  const bool limited = search.max_evaluations < SearchOptions().max_evaluations;
-  return {{"population", search.population},
-          {"iterations", search.iterations},
-          {"memory_rate", search.memory_rate},
-          {"distance_coefficient", search.distance_coefficient},
-          {"de_scale", search.de_scale},
-          {"de_crossover", search.de_crossover},
-          {"max_evaluations", limited ? Json(search.max_evaluations) : Json()},
-          {"elites", search.elites}};
-}
-
-Json ContenderJson(const ContenderResult& contender, const ProblemResult& problem) {
-  Json evaluations = Json::array();
-  Json best = Json::array();
+Json ContenderJson(const ContenderResult& contender, bool pooled) {
+  Json evaluations = Json::array(), best = Json::array();
   for (const MedianPoint& point : contender.trace) {
     evaluations.push_back(point.evaluations);
     best.push_back(point.best_A);
@@ -82,12 +95,12 @@ Json ContenderJson(const ContenderResult& contender, const ProblemResult& proble
   return {
       {"name", contender.name},
       {"algorithm", contender.algorithm},
-      {"settings", SettingsJson(contender.search)},
-      {"birds", ToText(contender.birds)},
-      {"searched", SpreadJson(contender.searched)},
-      {"plain_polished", SpreadJson(contender.plain_polished)},
-      {"best_bird_polished", SpreadJson(contender.own_polished)},
-      {"refined", SpreadJson(contender.polished)},
+      {"settings", contender.search},
+      {"birds", contender.birds},
+      {"searched", contender.searched},
+      {"plain_polished", contender.plain_polished},
+      {"best_bird_polished", contender.own_polished},
+      {"refined", contender.polished},
       {"evaluations", contender.evaluations},
       {"curve_evaluations", contender.curve_evaluations},
       {"target",
@@ -95,7 +108,7 @@ Json ContenderJson(const ContenderResult& contender, const ProblemResult& proble
       {"search", Seconds(contender.search_seconds)},
       {"refine", Seconds(contender.polish_seconds)},
       {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
-      {"runs", RunsJson(contender.runs, !problem.problem.empty())}};
+      {"runs", RunsJson(contender.runs, pooled)}};
 }
 
 std::vector<std::string> ContenderNames(const ProblemResult& problem) {
@@ -104,56 +117,54 @@ std::vector<std::string> ContenderNames(const ProblemResult& problem) {
   return names;
 }
 
-Json ProblemJson(const ProblemResult& problem) {
-  Json contenders = Json::array();
-  for (const ContenderResult& c : problem.contenders)
-    contenders.push_back(ContenderJson(c, problem));
-  Json json = {{"curve", problem.curve_name},
-               {"model", ToText(problem.model)},
-               {"bounds", problem.bounds_name},
-               {"complete", problem.complete},
-               {"reference", ReferenceJson(problem)},
-               {"contenders", std::move(contenders)},
-               {"ranking",
-                {{"searched", RankingJson(ContenderNames(problem), problem.searched)},
-                 {"refined", RankingJson(ContenderNames(problem), problem.polished)}}}};
-  if (problem.problem.empty()) return json;
-  json["problem"] = problem.problem;
-  if (const Reference& reference = problem.reference; reference.points > 0) {
-    json["reference"]["multistart"] = {{"found_by_it_alone", reference.by_multistart},
-                                       {"random_points", reference.points},
-                                       {"visits", reference.visits}};
-  }
-  json["objective"] = ToText(problem.objective);
-  for (const EffectUse& use : problem.with) json["with"].push_back(DescribeUse(use));
-  return json;
-}
-
 }  // namespace
 
-std::string CompareJson(const Comparison& comparison) {
-  const CompareOptions& options = comparison.options;
-  Json json;
-  json["lyrefit_version"] = comparison.version;
-  json["objective"] = ToText(options.objective);
-  json["constants"] = ToText(options.constants);
-  json["seed"] = options.seed;
-  json["runs"] = options.runs;
-  json["target_gap"] = options.target_gap;
-  json["polish"] = options.polish;
-  json["plain_polish"] = options.plain_polish;
-  for (const EffectUse& use : options.with) json["with"].push_back(DescribeUse(use));
-  json["interrupted"] = comparison.interrupted;
-  json["seconds"] = comparison.seconds;
-  json["warnings"] = comparison.doubts;
-  json["problems"] = Json::array();
-  for (const ProblemResult& problem : comparison.problems) {
-    json["problems"].push_back(ProblemJson(problem));
+void to_json(Json& j, const ProblemResult& problem) {
+  const bool pooled = !problem.problem.empty();
+  const std::vector<std::string> names = ContenderNames(problem);
+  Json contenders = Json::array();
+  for (const ContenderResult& c : problem.contenders) {
+    contenders.push_back(ContenderJson(c, pooled));
   }
-  if (Json pools = PoolsJson(comparison); !pools.empty()) json["pools"] = std::move(pools);
-  if (options.multistart > 0) json["multistart"] = options.multistart;
-  // Names and files may hold bytes that are not UTF-8.
-  return Dump(json);
+  j = {{"curve", problem.curve_name},
+       {"model", problem.model},
+       {"bounds", problem.bounds_name},
+       {"complete", problem.complete},
+       {"reference", ReferenceJson(problem)},
+       {"contenders", std::move(contenders)},
+       {"ranking",
+        {{"searched", RankingJson(names, problem.searched)},
+         {"refined", RankingJson(names, problem.polished)}}}};
+  if (!pooled) return;
+  j["problem"] = problem.problem;
+  if (const Reference& reference = problem.reference; reference.points > 0) {
+    j["reference"]["multistart"] = {{"found_by_it_alone", reference.by_multistart},
+                                    {"random_points", reference.points},
+                                    {"visits", reference.visits}};
+  }
+  j["objective"] = problem.objective;
+  for (const EffectUse& use : problem.with) j["with"].push_back(DescribeUse(use));
 }
+
+void to_json(Json& j, const Comparison& comparison) {
+  const CompareOptions& options = comparison.options;
+  j = {{"lyrefit_version", comparison.version},
+       {"objective", options.objective},
+       {"constants", options.constants},
+       {"seed", options.seed},
+       {"runs", options.runs},
+       {"target_gap", options.target_gap},
+       {"polish", options.polish},
+       {"plain_polish", options.plain_polish}};
+  for (const EffectUse& use : options.with) j["with"].push_back(DescribeUse(use));
+  j["interrupted"] = comparison.interrupted;
+  j["seconds"] = comparison.seconds;
+  j["warnings"] = comparison.doubts;
+  j["problems"] = comparison.problems;
+  if (Json pools = PoolsJson(comparison); !pools.empty()) j["pools"] = std::move(pools);
+  if (options.multistart > 0) j["multistart"] = options.multistart;
+}
+
+std::string CompareJson(const Comparison& comparison) { return Dump(comparison); }
 
 }  // namespace lyrefit

@@ -107,6 +107,9 @@ install(TARGETS lyrefit EXPORT lyrefit-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# What the records look like that are written as JSON.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/schema" DESTINATION ${CMAKE_INSTALL_DATADIR}/lyrefit
+        FILES_MATCHING PATTERN "*.json")
 install(EXPORT lyrefit-targets NAMESPACE lyrefit:: DESTINATION ${LYREFIT_PACKAGE_DIR})
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.in"

@@ -102,6 +102,27 @@ TEST(JsonReport, NamesParametersAsPvlibDoes) {
   EXPECT_TRUE(Parsed(report)["singlediode"].is_null());
 }
 
+// One shape wherever a parameter stands.
+TEST(JsonReport, SaysOfAParameterWhatItIs) {
+  FitReport report = SampleReport();
+  Estimate depth;
+  depth.info = {"shading.d", "shading_shading_depth", "", "light that is missing"};
+  depth.refined = 0.25;
+  report.estimates.push_back(depth);
+  const json parameters = Parsed(report)["parameters"];
+  const json& rs = parameters["resistance_series"];
+  EXPECT_EQ(rs["symbol"], "Rs");
+  EXPECT_EQ(rs["name"], "resistance_series");
+  EXPECT_EQ(rs["unit"], "ohm");
+  EXPECT_FALSE(rs.contains("effect"));
+  const json& d = parameters["shading.d"];
+  EXPECT_EQ(d["effect"], "shading");
+  EXPECT_EQ(d["symbol"], "d");
+  EXPECT_EQ(d["name"], "shading_depth");
+  EXPECT_EQ(d["refined"], 0.25);
+  EXPECT_TRUE(d["searched"].is_null());
+}
+
 TEST(JsonReport, BringsBackTheSameBits) {
   const FitReport report = SampleReport();
   const json j = Parsed(report);

@@ -38,28 +38,18 @@ namespace {
 
 Json Seconds(double value) { return {{"seconds", value}}; }
 
-// Values alone, under what their parameters stand under.
-Json ReferenceParametersJson(const ProblemResult& problem) {
-  std::vector<ParameterInfo> effects;
-  AddInfos(problem.with, &effects);
-  const std::vector<double>& values = problem.reference.parameters;
-  Json json = Json::object();
-  for (std::size_t i = 0; i < values.size() && i < problem.parameters.size(); ++i) {
-    const int effect = problem.first_effect < 0 ? -1 : static_cast<int>(i) - problem.first_effect;
-    const bool of_effect = effect >= 0 && effect < static_cast<int>(effects.size());
-    json[of_effect ? JsonKey(effects[effect]) : problem.parameters[i]] = values[i];
-  }
-  return json;
-}
-
 Json ReferenceJson(const ProblemResult& problem) {
   const Reference& reference = problem.reference;
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < reference.parameters.size() && i < problem.parameters.size(); ++i) {
+    parameters[problem.parameters[i]] = reference.parameters[i];
+  }
   return {{"rmse_A", reference.rmse_A},
           {"certified", reference.certified},
           {"lower_bound_A", reference.lower_bound_A},
           {"floor_A", reference.floor_A},
           {"origin", reference.origin},
-          {"parameters", ReferenceParametersJson(problem)}};
+          {"parameters", std::move(parameters)}};
 }
 
 Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {

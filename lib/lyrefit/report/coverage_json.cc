@@ -49,7 +49,7 @@ void to_json(Json& j, const CoverageReport& report) {
   for (const CoverageSet& set : report.sets) {
     Json rows = Json::object();
     for (std::size_t i = 0; i < set.rows.size(); ++i) {
-      rows[JsonKey(report.parameters[i].info)] = set.rows[i];
+      rows[ParameterKey(report.parameters[i].info)] = set.rows[i];
     }
     sets.push_back({{"cells_in_series", set.cells_in_series},
                     {"curves", set.curves},

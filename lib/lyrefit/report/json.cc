@@ -24,10 +24,6 @@ void to_json(Json& j, const OptionEcho& option) {
   j = {{"name", option.name}, {"value", option.value}, {"default", option.default_value}};
 }
 
-std::string JsonKey(const ParameterInfo& info) {
-  return info.symbol.find('.') == std::string::npos ? info.name : info.symbol;
-}
-
 Json EffectParameterJson(const std::string& effect, const std::string& symbol,
                          const std::string& name, const std::string& unit) {
   return {{"effect", effect}, {"symbol", symbol}, {"name", name}, {"unit", unit}};

@@ -34,7 +34,7 @@ void to_json(Json& j, const ModelCertificate& model) {
        {"parameters", Json::object()}};
   const Device device = MakeDevice(model.model, {});
   for (int i = 0; i < device.size(); ++i) {
-    Json& parameter = j["parameters"][JsonKey(device.parameters[i])] = device.parameters[i];
+    Json& parameter = j["parameters"][ParameterKey(device.parameters[i])] = device.parameters[i];
     parameter["value"] = model.parameters[i];
   }
 }

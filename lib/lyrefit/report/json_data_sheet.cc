@@ -13,7 +13,7 @@ Json DataSheetParametersJson(const DataSheetFit& fit) {
     for (const DataSheetRange& range : fit.ranges) {
       if (range.name == info.name) one.update({{"low", range.low}, {"high", range.high}});
     }
-    parameters[JsonKey(info)] = std::move(one);
+    parameters[ParameterKey(info)] = std::move(one);
   }
   return parameters;
 }

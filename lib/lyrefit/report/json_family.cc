@@ -78,7 +78,7 @@ Json SharedJson(const FamilyReport& report) {
     Json one = report.estimates[i];
     one["jackknife"] = i < report.jackknife.size() ? Json(report.jackknife[i]) : Json();
     one["under_errors"] = i < report.under_errors.size() ? Json(report.under_errors[i]) : Json();
-    parameters[JsonKey(report.estimates[i].info)] = std::move(one);
+    parameters[ParameterKey(report.estimates[i].info)] = std::move(one);
   }
   return parameters;
 }
@@ -88,7 +88,7 @@ Json ValuesJson(const std::vector<ParameterInfo>& infos, const std::vector<doubl
   if (values.empty()) return nullptr;
   Json json = Json::object();
   for (std::size_t i = 0; i < infos.size() && i < values.size(); ++i) {
-    json[JsonKey(infos[i])] = values[i];
+    json[ParameterKey(infos[i])] = values[i];
   }
   return json;
 }

@@ -45,7 +45,7 @@ Json FitParametersJson(const FitReport& report) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < report.estimates.size(); ++i) {
     const Estimate& e = report.estimates[i];
-    Json& parameter = parameters[JsonKey(e.info)] = e;
+    Json& parameter = parameters[ParameterKey(e.info)] = e;
     if (!report.polished) parameter["refined"] = nullptr;
     if (report.under_errors.empty()) continue;
     const Estimate& under = report.under_errors[i];

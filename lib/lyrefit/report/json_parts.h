@@ -61,8 +61,6 @@ void to_json(Json& j, const ResidualStatistics& residuals);  // all but the larg
 void to_json(Json& j, const ErrorReport& errors);
 void to_json(Json& j, const TracePoint& point);
 
-// "resistance_series" or, of an effect, "shading.d": what a parameter's object stands under.
-std::string JsonKey(const ParameterInfo& info);
 // What an effect's parameter is, where it is known by the names it has there.
 Json EffectParameterJson(const std::string& effect, const std::string& symbol,
                          const std::string& name, const std::string& unit);

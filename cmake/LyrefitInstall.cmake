@@ -50,22 +50,16 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/write_curve.h
   family/read_pvlib.h
   # writers of records
-  report/certificate_json.h
+  report/json.h
   report/certificate_plot.h
-  report/data_sheet_json.h
-  report/diagnosis_json.h
   report/diagnosis_plot.h
   report/document.h
   report/documents.h
   report/family_csv.h
-  report/family_json.h
   report/family_plot.h
   report/fits_table.h
-  report/healthy_json.h
-  report/json_report.h
   report/plot.h
   report/plot/figure.h
-  report/pvlib_json.h
   # laws, and what an effect of one's own is written with
   law/curve_shape.h
   law/device.h
@@ -136,6 +130,9 @@ install(TARGETS lyrefit lyrefit_study EXPORT lyrefit-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# What the records look like that are written as JSON.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/schema" DESTINATION ${CMAKE_INSTALL_DATADIR}/lyrefit
+        FILES_MATCHING PATTERN "*.json")
 install(EXPORT lyrefit-targets NAMESPACE lyrefit:: DESTINATION ${LYREFIT_PACKAGE_DIR})
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.in"

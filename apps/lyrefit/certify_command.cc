@@ -3,7 +3,7 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/report/certificate_json.h"
+#include "lyrefit/report/json.h"
 #include "lyrefit/report/certificate_plot.h"
 #include "lyrefit/report/documents.h"
 #include "verbs.h"

@@ -6,8 +6,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/healthy_json.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/fits_table.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 #include "lyrefit/report/plot.h"
 #include "output.h"
 #include "verbs.h"

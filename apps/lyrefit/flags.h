@@ -16,7 +16,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -172,7 +172,7 @@ TEST(DiagnoseVerb, ExtendsTheModelByItsCauses) {
   const json fit = json::parse(RunApp(verb + "--extend -").out, nullptr, false);
   ASSERT_TRUE(fit.is_object());
   const std::string parameters = fit["parameters"].dump();
-  for (const char* name : {"photocurrent", "resistance_series", "irr_step_relative_step"}) {
+  for (const char* name : {"photocurrent", "resistance_series", "irr_step.s"}) {
     EXPECT_THAT(parameters, HasSubstr(name));
   }
   EXPECT_EQ(fit["causes"], json({"irr_step"}));

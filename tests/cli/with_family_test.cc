@@ -76,7 +76,7 @@ TEST_F(WithFamily, AJointFitIsReportedDrawnAndSimulatedAgain) {
   EXPECT_THAT(FileText(folder_.Path("fit.svg")), HasSubstr("desoto sd + nonohmic_shunt"));
   const json report = Read("fit.json");
   EXPECT_EQ(report["causes"], json::array({"nonohmic_shunt"}));
-  const json& strength = report["parameters"]["nonohmic_shunt_shunt_strength"];
+  const json& strength = report["parameters"]["nonohmic_shunt.k"];
   EXPECT_LT(strength["low_95"], 0.15);
   EXPECT_GT(strength["high_95"], 0.15);
   EXPECT_LT(strength["jackknife"]["low_95"], strength["refined"]);

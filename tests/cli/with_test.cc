@@ -42,13 +42,13 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   EXPECT_EQ(report["law"]["bypass_diodes"], 3);
   EXPECT_EQ(report["singlediode"]["resistance_series"],
             report["parameters"]["resistance_series"]["refined"]);  // of the base
-  const json& depth = report["parameters"]["shading_shading_depth"];
+  const json& depth = report["parameters"]["shading.d"];
   EXPECT_LT(depth["low_95"], depth["refined"]);
   EXPECT_GT(depth["high_95"], depth["refined"]);
   // By its name alone: its forms, and a share of the three substrings that are counted.
   EXPECT_THAT(fit.out, HasSubstr("d, w, Vb free <-\n"));
   EXPECT_EQ(report["forms"].size(), 2u);
-  const json& share = report["parameters"]["shading_shaded_share"];
+  const json& share = report["parameters"]["shading.w"];
   EXPECT_NEAR(share["whole"].get<double>(), 1.0 / 3, 1e-15);
   EXPECT_TRUE(share["low_95"].is_null());
   EXPECT_FALSE(share["fixed"].get<bool>());

@@ -109,7 +109,7 @@ TEST(RecogniseColumnTest, LeavesOtherColumnsAlone) {
                             "I_sc", "Voc", "V_2x", "ambient temperature (C)", "illuminance_lux",
                             "timestamp", "date", "index", "x", "(", "%"}) {
     SCOPED_TRACE(label);
-    EXPECT_EQ(RecogniseColumn(label).kind, ColumnKind::kUnknown);
+    EXPECT_EQ(RecogniseColumn(label).kind, ColumnKind::kUnrecognised);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(RecogniseColumnTest, RefusesUnitsItCannotConvert) {
                             "Temperature (F)", "Irradiance (lux)", "sigma (%)"}) {
     SCOPED_TRACE(label);
     const Column column = RecogniseColumn(label);
-    EXPECT_NE(column.kind, ColumnKind::kUnknown);
+    EXPECT_NE(column.kind, ColumnKind::kUnrecognised);
     EXPECT_THAT(column.refusal, HasSubstr(label));
     EXPECT_THAT(column.refusal, HasSubstr("expected"));
   }
@@ -163,8 +163,8 @@ TEST(RecogniseColumnTest, TheNumberOfAPixelStandsApart) {
       {"Ch2 Voltage [V]", ColumnKind::kVoltage, "2"},
       {"SMU-1 Current (1) (1)", ColumnKind::kCurrent, "1.1.1"},
       {"J_3 (mA/cm2)", ColumnKind::kCurrentDensity, "3"},
-      {"T1 (C)", ColumnKind::kUnknown, ""},
-      {"W/m2", ColumnKind::kUnknown, ""},
+      {"T1 (C)", ColumnKind::kUnrecognised, ""},
+      {"W/m2", ColumnKind::kUnrecognised, ""},
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.label);

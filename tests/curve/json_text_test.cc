@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace lyrefit {
 namespace {
 
@@ -73,6 +75,15 @@ TEST(NumberOrTextTest, TakesBothButOnlyFiniteNumbers) {
   EXPECT_FALSE(NumberOrText("nan"));
   EXPECT_FALSE(NumberOrText(true));
   EXPECT_FALSE(NumberOrText(nullptr));
+}
+
+TEST(DumpTest, WritesTextThatIsAlwaysJson) {
+  EXPECT_EQ(Dump({{"name", "caf\xe9"}, {"unknown", std::nan("")}, {"perfect", HUGE_VAL}}),
+            "{\n  \"name\": \"caf\xef\xbf\xbd\",\n  \"unknown\": null,\n  \"perfect\": null\n}\n");
+}
+
+TEST(OneLineTest, QuotesAValue) {
+  EXPECT_EQ(OneLine(nlohmann::json{{"a", {1, nullptr}}}), "{\"a\":[1,null]}");
 }
 
 }  // namespace

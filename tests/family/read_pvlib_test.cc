@@ -10,7 +10,7 @@
 #include "../temp_folder.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/law/current.h"
-#include "lyrefit/report/pvlib_json.h"
+#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 namespace {

@@ -54,7 +54,7 @@ json Shared() {
             {"alpha_sc", value("alpha", 0.002)},
             {"EgRef", value("Eg", 1.121)},
             {"dEgdT", value("dEg", -2.677e-4)},
-            {"sensor_offset_irradiance_offset", value("sensor_offset.c", 25)}}},
+            {"sensor_offset.c", {{"effect", "sensor_offset"}, {"symbol", "c"}, {"refined", 25}}}}},
           {"law",
            {{"effects", {"sensor_offset"}},
             {"cells_in_series", 36},
@@ -109,6 +109,11 @@ TEST(ReadFitForSimulation, SaysWhatIsWrongWithAReportOfMany) {
   report = Shared();
   report["law"]["curves"][1]["current_A"] = {1.0};
   EXPECT_THAT(error(report, "a"), HasSubstr("family.json"));
+  report = Shared();
+  report["parameters"].erase("sensor_offset.c");
+  report["parameters"]["sensor_offset_irradiance_offset"] = {{"symbol", "sensor_offset.c"},
+                                                             {"refined", 25}};
+  EXPECT_THAT(error(report, "a"), HasSubstr("if an earlier lyrefit wrote it: fit it again"));
   report = Shared();
   report["parameters"].erase("EgRef");
   EXPECT_THAT(error(report, "a"), HasSubstr("no value for Eg"));

@@ -216,7 +216,7 @@ Column Recognise(std::string_view label, std::vector<LabelWord> words) {
     if (known == nullptr) continue;
     column.kind = known->text == "t" ? TimeOrTemperature(words) : known->kind;
     const bool named = TakeRest(words, count, &column) && !IsVague(column, known->text);
-    if (!named) column.kind = ColumnKind::kUnknown;
+    if (!named) column.kind = ColumnKind::kUnrecognised;
     SettleDensity(&column);
     return column;
   }
@@ -229,7 +229,7 @@ Column RecogniseColumn(std::string_view label) {
   std::vector<LabelWord> words = SplitLabel(label);
   DropQualifiers(&words);
   Column column = Recognise(label, words);
-  if (column.kind != ColumnKind::kUnknown) return column;
+  if (column.kind != ColumnKind::kUnrecognised) return column;
   const std::string number = TakeNumber(&words);
   if (number.empty()) return column;
   Column numbered = Recognise(label, words);

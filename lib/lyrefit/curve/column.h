@@ -6,7 +6,7 @@
 namespace lyrefit {
 
 enum class ColumnKind {
-  kUnknown,
+  kUnrecognised,
   kVoltage,
   kCurrent,
   kSigma,
@@ -22,7 +22,7 @@ enum class ColumnKind {
 // What a header cell says about its column. A value in the file becomes factor * value + offset in
 // V, A, A/cm2, s, W/m2 or degrees Celsius.
 struct Column {
-  ColumnKind kind = ColumnKind::kUnknown;
+  ColumnKind kind = ColumnKind::kUnrecognised;
   std::string label;  // as in the file
   std::string unit;   // as understood, empty where the label names none
   double factor = 1;

@@ -202,8 +202,7 @@ Expected<void> FillCurve(const std::string& path, const JsonTable& table,
         return Fail(fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
                                 "missing, leave them out with --skip-missing",
                                 column.label, i,
-                                Quoted(table.columns[place][i]->dump(
-                                    -1, ' ', false, json::error_handler_t::replace))),
+                                Quoted(OneLine(*table.columns[place][i]))),
                     path);
       }
       values->push_back(value);

@@ -62,10 +62,18 @@ class Inspector : public nlohmann::json_sax<json> {
 std::string Shown(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
-  return Quoted(value.dump(-1, ' ', false, json::error_handler_t::replace));
+  return Quoted(OneLine(value));
 }
 
 }  // namespace
+
+std::string OneLine(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string Dump(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 Expected<json> ParseJson(const std::string& text, const std::string& file) {
   Inspector inspector;

@@ -35,6 +35,13 @@ class JsonFields {
   const std::string& file_;
 };
 
+// A value as messages quote it: in one line, what is not UTF-8 replaced.
+std::string OneLine(const nlohmann::json& value);
+
+// The text of a JSON file: indented by two, with an end of line. What is not UTF-8 in it, such as
+// the name of a file, is replaced; a number that is not finite is null.
+std::string Dump(const nlohmann::ordered_json& json);
+
 // A JSON number, or a text that holds one, as ivcurves files do.
 std::optional<double> NumberOrText(const nlohmann::json& value);
 

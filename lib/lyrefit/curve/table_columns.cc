@@ -26,8 +26,8 @@ bool SameSide(ColumnKind a, ColumnKind b) { return a == b || (IsCurrent(a) && Is
 
 // What a column may be by its unit and by the letter its name begins with.
 struct Guess {
-  ColumnKind by_unit = ColumnKind::kUnknown;
-  ColumnKind by_letter = ColumnKind::kUnknown;
+  ColumnKind by_unit = ColumnKind::kUnrecognised;
+  ColumnKind by_letter = ColumnKind::kUnrecognised;
   std::string suffix;  // behind the letter
   const Unit* unit = nullptr;
 };
@@ -52,7 +52,7 @@ Guess GuessAt(std::string_view label) {
     guess.unit = found;
   }
   const char letter = name[0];
-  ColumnKind by_letter = ColumnKind::kUnknown;
+  ColumnKind by_letter = ColumnKind::kUnrecognised;
   if (letter == 'v' || letter == 'u') by_letter = ColumnKind::kVoltage;
   if (letter == 'i') by_letter = ColumnKind::kCurrent;
   if (letter == 'j') by_letter = ColumnKind::kCurrentDensity;
@@ -76,12 +76,12 @@ void TakePair(const std::vector<Guess>& guesses, int voltage, int current,
               std::vector<Column>* columns) {
   for (Column& column : *columns) {
     if (column.kind == ColumnKind::kVoltage || IsCurrent(column.kind)) {
-      column.kind = ColumnKind::kUnknown;
+      column.kind = ColumnKind::kUnrecognised;
     }
   }
   Become(ColumnKind::kVoltage, guesses[voltage].unit, &(*columns)[voltage]);
   const Guess& guess = guesses[current];
-  const ColumnKind kind = guess.by_unit != ColumnKind::kUnknown ? guess.by_unit : guess.by_letter;
+  const ColumnKind kind = guess.by_unit != ColumnKind::kUnrecognised ? guess.by_unit : guess.by_letter;
   Become(kind, guess.unit, &(*columns)[current]);
 }
 
@@ -164,7 +164,7 @@ void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns)
     const auto place = wish->empty() ? std::nullopt : FindColumn(*columns, *wish);
     if (!place) continue;
     for (Column& column : *columns) {
-      if (SameSide(column.kind, kind)) column.kind = ColumnKind::kUnknown;
+      if (SameSide(column.kind, kind)) column.kind = ColumnKind::kUnrecognised;
     }
     (*columns)[*place] = ColumnSaidToBe(kind, (*columns)[*place].label);
   }

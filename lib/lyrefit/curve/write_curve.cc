@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/curve/json_text.h"
+
 namespace lyrefit {
 namespace {
 
@@ -78,7 +80,7 @@ std::string CurveSidecarJson(const IvCurve& curve) {
   sidecar["nominal_temperature_C"] = Celsius(curve.conditions.cell_temperature_K);
   sidecar["nominal_irradiance_Wm2"] = curve.conditions.irradiance_W_m2;
   AddNotes(curve.notes, &sidecar);
-  return sidecar.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return Dump(sidecar);
 }
 
 }  // namespace lyrefit

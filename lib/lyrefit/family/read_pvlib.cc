@@ -50,7 +50,7 @@ class Reader {
         fields_.Refuse(keyword.name, fmt::format("a number {} {:g}", range, least)).value());
   }
 
-  // Infinite where it is null, as pvlib_json writes it.
+  // Infinite where it is null, as PvlibJson writes it.
   double TakeShunt() {
     const auto found = dictionary_.find("R_sh_ref");
     if (found != dictionary_.end() && found->is_null()) return kInfinity;
@@ -96,7 +96,7 @@ class Reader {
   std::optional<Error> error_;
 };
 
-// The keywords of all functions. pvlib_json writes some beside "parameters"; files written before
+// The keywords of all functions. PvlibJson writes some beside "parameters"; files written before
 // it did so, and pvlib's own, have all in one place.
 Expected<json> KeywordsIn(const json& document, const std::string& text, const std::string& path) {
   if (!document.contains("parameters")) return document;

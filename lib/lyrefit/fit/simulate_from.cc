@@ -72,15 +72,14 @@ Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
   const json object = At(report.fit, "/curve/conditions");
   if (!object.is_object()) return Fail("expected an object in curve.conditions", report.path);
   const JsonFields fields(object, report.text, report.path);
-  const auto cells = fields.WholeNumber({"cells_in_series"});
-  if (!cells) return tl::unexpected(cells.error());
+  TRY(const auto cells, fields.WholeNumber({"cells_in_series"}));
   TRY(const auto strings, fields.WholeNumber({"strings_in_parallel"}));
   TRY(const auto temperature_C, fields.Number({"cell_temperature_C"}));
   TRY(const auto irradiance, fields.Number({"irradiance_Wm2"}));
-  if (!*cells || !temperature_C) {
+  if (!cells || !temperature_C) {
     return Fail("expected cells_in_series and cell_temperature_C in curve.conditions", report.path);
   }
-  conditions->cells_in_series = **cells;
+  conditions->cells_in_series = *cells;
   conditions->strings_in_parallel = strings.value_or(1);
   conditions->cell_temperature_K = *temperature_C + kZeroCelsius_K;
   conditions->irradiance_W_m2 = irradiance.value_or(1000);
@@ -103,10 +102,14 @@ Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) 
   for (const json& cause : causes) {
     EffectUse use;
     use.effect = cause.is_string() ? FindEffect(cause.get<std::string>()) : nullptr;
-    if (use.effect == nullptr) return Fail("there is no effect " + cause.dump(), report.path);
+    if (use.effect == nullptr) return Fail("there is no effect " + OneLine(cause), report.path);
     for (const EffectParameter& info : use.effect->parameters) {
-      TRY(const double found, value(fmt::format("{}_{}", use.effect->id, info.name)));
-      use.ranges[info.symbol] = {found, found};
+      const Expected<double> found = value(fmt::format("{}.{}", use.effect->id, info.symbol));
+      if (!found) {
+        return Fail(found.error().message + " (if an earlier lyrefit wrote it: fit it again)",
+                    report.path);
+      }
+      use.ranges[info.symbol] = {*found, *found};
     }
     uses.push_back(std::move(use));
   }
@@ -122,7 +125,7 @@ void TakeBypassDiodes(const Report& report, IvCurve* curve) {
 Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
   const json curves = At(report.fit, "/curves");
   if (curves.is_number() && curves.get<double>() > 1) {
-    return Fail("a model of " + curves.dump() +
+    return Fail("a model of " + OneLine(curves) +
                     " curves whose measurement the report does not hold: expected one with effects",
                 report.path);
   }
@@ -133,14 +136,13 @@ Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
   }
   TRY(ReadConditions(report, &options->conditions));
   for (const ParameterInfo& info : MakeDevice(options->model, options->conditions).parameters) {
-    TRY(const double value, AnsweredValue(report, info.name));
+    TRY(const auto value, AnsweredValue(report, info.name));
     options->parameters[info.symbol] = value;
   }
-  auto uses =
-      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
-  if (!uses) return tl::unexpected(uses.error());
-  if (uses->empty()) return {};
-  options->with = std::move(*uses);
+  const auto answered = [&](const std::string& name) { return AnsweredValue(report, name); };
+  TRY(auto uses, ReadUses(report, answered));
+  if (uses.empty()) return {};
+  options->with = std::move(uses);
   IvCurve taken;
   taken.name = options->name;
   taken.conditions = options->conditions;
@@ -205,14 +207,13 @@ Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
   const json parameters = At(report.fit, "/parameters");
   for (const auto& [name, parameter] : parameters.items()) {
     const std::string symbol = TextAt(parameter, "/symbol");
-    if (symbol.find('.') != std::string::npos || symbol == "dEg") continue;  // the law's own
-    TRY(const double value, AnsweredValue(report, name));
+    if (parameter.contains("effect") || symbol == "dEg") continue;  // the law's own
+    TRY(const auto value, AnsweredValue(report, name));
     options->parameters[symbol] = value;
   }
-  auto uses =
-      ReadUses(report, [&](const std::string& name) { return AnsweredValue(report, name); });
-  if (!uses) return tl::unexpected(uses.error());
-  options->with = std::move(*uses);
+  const auto answered = [&](const std::string& name) { return AnsweredValue(report, name); };
+  TRY(auto uses, ReadUses(report, answered));
+  options->with = std::move(uses);
   options->conditions = set.curves[chosen].conditions;
   SharedLaw shared;
   shared.law.model = options->model;
@@ -252,7 +253,7 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   at.irradiance_W_m2 = with_offsets("/irradiance_Wm2", "irradiance_offset_Wm2") +
                        NumberOr(report.fit, "/sensor_offsets/irradiance_Wm2/value", 0);
   for (const ParameterInfo& info : MakeDevice(options->model, {}).parameters) {
-    TRY(const double found, value(info.name));
+    TRY(const auto found, value(info.name));
     options->parameters[info.symbol] = found;
   }
   TRY(auto uses, ReadUses(report, value));
@@ -269,10 +270,9 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
 }  // namespace
 
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const std::string& curve) {
-  TRY(const std::string text, ReadTextFile(path, kLargestFitFile));
-  Expected<json> fit = ParseJson(text, path);
-  if (!fit) return tl::unexpected(fit.error());
-  const Report report{std::move(*fit), text, path, curve};
+  TRY(const auto text, ReadTextFile(path, kLargestFitFile));
+  TRY(auto fit, ParseJson(text, path));
+  const Report report{std::move(fit), text, path, curve};
   const std::optional<Model> model = FromText<Model>(TextAt(report.fit, "/model"));
   const std::optional<ConstantSet> constants =
       FromText<ConstantSet>(TextAt(report.fit, "/constants"));
@@ -284,10 +284,9 @@ Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const st
   options.constants = *constants;
   const bool shared = At(report.fit, "/law/reference_temperature_C").is_number();
   const bool many = At(report.fit, "/curves").is_array();
-  const Expected<void> read = shared ? ReadShared(report, &options)
-                              : many ? ReadMember(report, &options)
-                                     : ReadOne(report, &options);
-  if (!read) return tl::unexpected(read.error());
+  TRY(shared ? ReadShared(report, &options)
+      : many ? ReadMember(report, &options)
+             : ReadOne(report, &options));
   return options;
 }
 

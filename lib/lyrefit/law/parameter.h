@@ -40,6 +40,11 @@ struct ParameterInfo {
   std::array<int, 2> with = {-1, -1};
 };
 
+// What it stands under in records: its name or, of an effect's, "shading.d", EFFECT.SYMBOL.
+inline const std::string& ParameterKey(const ParameterInfo& info) {
+  return info.symbol.find('.') == std::string::npos ? info.name : info.symbol;
+}
+
 // The scale on which the sum of squares around an optimum is closest to a parabola, which intervals
 // and profiles are laid out on: the logarithm of a saturation current, the conductance of a shunt,
 // the rest as they are.

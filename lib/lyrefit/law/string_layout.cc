@@ -29,9 +29,9 @@ struct Node {
   const std::string* path;
 
   tl::unexpected<Error> Refuse(const std::string& expected) const {
-    return Fail((place.empty() ? "" : place + ": ") + "expected " + expected + ", found " +
-                    value->dump(-1, ' ', false, json::error_handler_t::replace),
-                *path);
+    return Fail(
+        (place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + OneLine(*value),
+        *path);
   }
   Node At(std::size_t index) const {
     return {&value->at(index), fmt::format("{}[{}]", place, index), path};

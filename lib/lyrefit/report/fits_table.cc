@@ -7,7 +7,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/report/csv_parts.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/fit_json_parts.h"
+#include "lyrefit/report/json_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -164,7 +164,7 @@ std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points) {
     }
     list.push_back(std::move(item));
   }
-  return JsonText(list);
+  return Dump(list);
 }
 
 }  // namespace lyrefit

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 

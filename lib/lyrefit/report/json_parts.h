@@ -1,35 +1,86 @@
 #pragma once
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "lyrefit/base/option.h"
-#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/law/extension.h"
+#include "lyrefit/report/json.h"
 
-// What the JSON writers share.
+// How records become JSON: a function to_json for each record, which nlohmann finds by the record's
+// type wherever one stands in another, in a list or in an optional. A number that is not finite is
+// written as null, and so is an optional without a value; an enumeration is its text.
+namespace nlohmann {
+
+template <class T>
+struct adl_serializer<std::optional<T>> {
+  template <class J>
+  static void to_json(J& json, const std::optional<T>& value) {
+    if (value) {
+      json = *value;
+    } else {
+      json = nullptr;
+    }
+  }
+};
+
+template <class E>
+struct adl_serializer<
+    E, std::enable_if_t<std::is_enum_v<E> && (sizeof(lyrefit::EnumTable<E>::kRows) > 0)>> {
+  template <class J>
+  static void to_json(J& json, E value) {
+    json = lyrefit::ToText(value);
+  }
+};
+
+}  // namespace nlohmann
+
+// The to_json of a record whose keys are the names of these fields.
+#define LYREFIT_JSON_FIELDS(Record, ...)                                     \
+  void to_json(Json& nlohmann_json_j, const Record& nlohmann_json_t) {       \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
+  }
+
 namespace lyrefit {
 
 using Json = nlohmann::ordered_json;
 
-// JSON knows neither NaN nor infinity: null.
-inline Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+// json.cc: what several records hold.
+void to_json(Json& j, const IvCurve& curve);  // name, source, conditions and assumptions
+void to_json(Json& j, const OptionEcho& option);
+void to_json(Json& j, const ParameterInfo& info);
+void to_json(Json& j, const Estimate& estimate);
+void to_json(Json& j, const RmsePair& rmse);
+void to_json(Json& j, const KeyPoints& points);
+void to_json(Json& j, const Correlation& correlation);
+void to_json(Json& j, const ResidualStatistics& residuals);  // all but the largest error
+void to_json(Json& j, const ErrorReport& errors);
+void to_json(Json& j, const TracePoint& point);
 
-inline Json Numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(Number(value));
-  return list;
-}
+// What an effect's parameter is, where it is known by the names it has there.
+Json EffectParameterJson(const std::string& effect, const std::string& symbol,
+                         const std::string& name, const std::string& unit);
 
-// The text of a report, with an end of line. What is not UTF-8 in it, such as a file's name, is
-// replaced.
-std::string JsonText(const Json& json, int indent = 2);
+Json LargestErrorJson(const ResidualStatistics& residuals);
+Json SearchJson(const SearchOptions& options, const SearchSummary& search,
+                std::int64_t curve_evaluations);
 
-// Options that differ from their defaults.
-Json OptionsJson(const std::vector<OptionEcho>& options);
+// Temperatures: rounded where the subtraction from kelvin leaves 33.00000000000006.
+double RoundCelsius(double celsius);
 
-// Name, source, conditions and assumptions of a curve.
-Json CurveJson(const IvCurve& curve);
+// Effects and the measurement of many curves in which they act, so that whoever reads the report
+// can simulate each of them. `shared`: one law stands behind all; without it each curve has its
+// own.
+Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const Extension* shared);
+
+// json_fit.cc
+Json FitJson(const FitReport& report, JsonPoints points);
+
+// json_diagnosis.cc
+void to_json(Json& j, const Diagnosis& diagnosis);
 
 }  // namespace lyrefit

@@ -126,7 +126,7 @@ void NameParameters(const CompareCurve& subject, const CompareOptions& options,
     if (!problem->with.empty()) problem->first_effect = static_cast<int>(infos.size());
     AddInfos(problem->with, &infos);
   }
-  for (const ParameterInfo& info : infos) problem->parameters.push_back(info.name);
+  for (const ParameterInfo& info : infos) problem->parameters.push_back(ParameterKey(info));
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ struct ProblemResult {
   Objective objective = Objective::kMeasuredCurrent;
   std::vector<EffectUse> with;
   bool family = false;
-  std::vector<std::string> parameters;  // names, in the order of Reference::parameters
+  std::vector<std::string> parameters;  // keys, in the order of Reference::parameters
   int first_effect = -1;                // where those of the effects begin; -1: none
   Reference reference;
   std::vector<ContenderResult> contenders;

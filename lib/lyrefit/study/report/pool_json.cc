@@ -5,52 +5,50 @@
 #include "lyrefit/study/report/rank_json.h"
 
 namespace lyrefit {
+
+void to_json(Json& j, const Failures& failures) {
+  j = {{"runs", failures.runs},
+       {"basins", failures.basins},
+       {"commonest",
+        {{"runs", failures.commonest},
+         {"device", failures.commonest_device},
+         {"excess", failures.commonest_excess}}},
+       {"excess", {{"median", failures.median_excess}, {"max", failures.worst_excess}}},
+       {"deviation",
+        {{"median", failures.median_deviation},
+         {"max", failures.worst_deviation},
+         {"parameter", failures.worst_parameter}}}};
+}
+
+void to_json(Json& j, const PooledLevel& level) {
+  const Spread& excess = level.excess;
+  j = {{"runs", level.runs},
+       {"hits", level.hits},
+       {"excess",
+        {{"min", excess.min},
+         {"mean", excess.mean},
+         {"median", excess.median},
+         {"max", excess.max},
+         {"std", excess.std}}},
+       {"seconds", level.seconds}};
+  if (level.failures.runs > 0) j["failures"] = level.failures;
+}
+
+// Null are the levels a contender does not have.
+void to_json(Json& j, const PooledContender& contender) {
+  j = {{"name", contender.name},
+       {"algorithm", contender.algorithm},
+       {"kind", contender.kind},
+       {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
+       {"evaluations", contender.evaluations},
+       {"curve_evaluations", contender.curve_evaluations},
+       {"searched", contender.At(PolishLevel::kSearch)},
+       {"plain_polished", contender.At(PolishLevel::kPlain)},
+       {"best_bird_polished", contender.At(PolishLevel::kOwn)},
+       {"refined", contender.At(PolishLevel::kHybrid)}};
+}
+
 namespace {
-
-Json FailuresJson(const Failures& failures) {
-  return {{"runs", failures.runs},
-          {"basins", failures.basins},
-          {"commonest",
-           {{"runs", failures.commonest},
-            {"device", failures.commonest_device},
-            {"excess", Number(failures.commonest_excess)}}},
-          {"excess",
-           {{"median", Number(failures.median_excess)}, {"max", Number(failures.worst_excess)}}},
-          {"deviation",
-           {{"median", Number(failures.median_deviation)},
-            {"max", Number(failures.worst_deviation)},
-            {"parameter", failures.worst_parameter}}}};
-}
-
-// Null where the contender has no such level.
-Json LevelJson(const std::optional<PooledLevel>& level) {
-  if (!level) return nullptr;
-  const Spread& excess = level->excess;
-  Json json = {{"runs", level->runs},
-               {"hits", level->hits},
-               {"excess",
-                {{"min", Number(excess.min)},
-                 {"mean", Number(excess.mean)},
-                 {"median", Number(excess.median)},
-                 {"max", Number(excess.max)},
-                 {"std", Number(excess.std)}}},
-               {"seconds", Number(level->seconds)}};
-  if (level->failures.runs > 0) json["failures"] = FailuresJson(level->failures);
-  return json;
-}
-
-Json ContenderJson(const PooledContender& contender) {
-  return {{"name", contender.name},
-          {"algorithm", contender.algorithm},
-          {"kind", ToText(contender.kind)},
-          {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
-          {"evaluations", Number(contender.evaluations)},
-          {"curve_evaluations", Number(contender.curve_evaluations)},
-          {"searched", LevelJson(contender.At(PolishLevel::kSearch))},
-          {"plain_polished", LevelJson(contender.At(PolishLevel::kPlain))},
-          {"best_bird_polished", LevelJson(contender.At(PolishLevel::kOwn))},
-          {"refined", LevelJson(contender.At(PolishLevel::kHybrid))}};
-}
 
 Json AnswerJson(const PooledProblem& pool) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
@@ -59,7 +57,7 @@ Json AnswerJson(const PooledProblem& pool) {
   answer["peer"] = {{"name", ratio->peer->contender->name},
                     {"hits", ratio->peer->figures().hits},
                     {"repeats", ratio->repeats},
-                    {"times_faster", Number(ratio->times)},
+                    {"times_faster", ratio->times},
                     {"sentence", PeerText(pool)}};
   return answer;
 }
@@ -83,17 +81,13 @@ Json PoolsJson(const Comparison& comparison) {
   if (pools.empty()) return Json::object();
   Json problems = Json::array();
   for (const PooledProblem& pool : pools) {
-    Json contenders = Json::array();
-    for (const PooledContender& contender : pool.contenders) {
-      contenders.push_back(ContenderJson(contender));
-    }
     problems.push_back({{"problem", pool.name},
-                        {"objective", ToText(pool.devices[0]->objective)},
+                        {"objective", pool.devices[0]->objective},
                         {"devices", pool.devices.size()},
                         {"certified", pool.certified},
                         {"hit_within", kPoolHit},
                         {"answer", {{"seconds", AnswerJson(pool)}}},
-                        {"contenders", std::move(contenders)}});
+                        {"contenders", pool.contenders}});
   }
   return {{"problems", std::move(problems)}, {"rankings", RankingsJson(pools)}};
 }

@@ -8,12 +8,12 @@ Json PairsJson(const std::vector<std::string>& names, const Ranking& ranking) {
   for (const RankPair& pair : ranking.pairs) {
     list.push_back({{"first", names[pair.first]},
                     {"second", names[pair.second]},
-                    {"mean_rank_difference", Number(pair.difference)},
-                    {"low_95", Number(pair.low_95)},
-                    {"high_95", Number(pair.high_95)},
-                    {"p_value", Number(pair.p_value)},
-                    {"p_sidak", Number(pair.p_sidak)},
-                    {"p_holm", Number(pair.p_holm)}});
+                    {"mean_rank_difference", pair.difference},
+                    {"low_95", pair.low_95},
+                    {"high_95", pair.high_95},
+                    {"p_value", pair.p_value},
+                    {"p_sidak", pair.p_sidak},
+                    {"p_holm", pair.p_holm}});
   }
   return list;
 }
@@ -27,13 +27,13 @@ Json SignedRanksJson(const std::vector<std::string>& names, const Ranking& ranki
                     {"pairs", test.pairs},
                     {"zeros", test.zeros},
                     {"ties", test.ties},
-                    {"rank_sum_plus", Number(test.rank_sum_plus)},
-                    {"rank_sum_minus", Number(test.rank_sum_minus)},
-                    {"p_value", Number(test.p_value)},
+                    {"rank_sum_plus", test.rank_sum_plus},
+                    {"rank_sum_minus", test.rank_sum_minus},
+                    {"p_value", test.p_value},
                     {"exact", test.exact},
-                    {"p_normal", Number(test.p_normal)},
-                    {"smallest_p", Number(test.smallest_p)},
-                    {"p_holm", Number(pair.p_holm)}});
+                    {"p_normal", test.p_normal},
+                    {"smallest_p", test.smallest_p},
+                    {"p_holm", pair.p_holm}});
   }
   return list;
 }
@@ -44,9 +44,9 @@ Json RankingJson(const std::vector<std::string>& names, const Ranking& ranking) 
   if (ranking.friedman.contenders == 0) return nullptr;
   return {{"friedman",
            {{"blocks", ranking.friedman.blocks},
-            {"mean_rank", Numbers(ranking.friedman.mean_rank)},
-            {"chi_square", Number(ranking.friedman.chi_square)},
-            {"p_value", Number(ranking.friedman.p_value)}}},
+            {"mean_rank", ranking.friedman.mean_rank},
+            {"chi_square", ranking.friedman.chi_square},
+            {"p_value", ranking.friedman.p_value}}},
           {"dunn", PairsJson(names, ranking)},
           {"wilcoxon", SignedRanksJson(names, ranking)}};
 }

@@ -1,4 +1,4 @@
-#include "lyrefit/report/certificate_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +32,7 @@ TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
                  "problems_solved"}));
   EXPECT_EQ(Keys(j["models"][0]), (Set{"model", "rmse_A", "lower_bound_A", "gap", "above_floor",
                                        "certified", "problems_solved", "parameters"}));
+  EXPECT_EQ(Keys(j["models"][0]["parameters"]["n"]), (Set{"symbol", "name", "unit", "value"}));
   EXPECT_EQ(Keys(j["models"][1]["parameters"]),
             (Set{"photocurrent", "saturation_current", "n", "resistance_series", "resistance_shunt",
                  "saturation_current_2", "n_2"}));

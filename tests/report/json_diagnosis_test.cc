@@ -1,4 +1,4 @@
-#include "lyrefit/report/diagnosis_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sample_diagnosis.h"
+#include "sample_healthy.h"
 
 namespace lyrefit {
 namespace {
@@ -17,6 +18,14 @@ Set Keys(const json& j) {
   Set keys;
   for (const auto& [key, value] : j.items()) keys.insert(key);
   return keys;
+}
+
+// The parameter with this symbol.
+json Of(const json& parameters, const std::string& symbol) {
+  for (const json& parameter : parameters) {
+    if (parameter["symbol"] == symbol) return parameter;
+  }
+  return {};
 }
 
 TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
@@ -44,9 +53,9 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
                                      "departure", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
-            (Set{"id", "title", "sentence", "equivalents", "separate_by", "strength", "interval",
-                 "units", "at_bound", "corrected_p", "evidence", "acts", "points", "in_words",
-                 "current_effect", "power_effect", "recoverable_power_W"}));
+            (Set{"id", "title", "sentence", "equivalents", "separate_by", "parameters",
+                 "corrected_p", "evidence", "acts", "points", "in_words", "current_effect",
+                 "power_effect", "recoverable_power_W"}));
   EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
             (Set{"id", "biases", "sentence", "separate_by"}));
   EXPECT_EQ(Keys(j["trials"][0]),
@@ -70,24 +79,35 @@ TEST(DiagnosisJson, TellsTheCauseWithItsInterval) {
   const json& cause = j["verdict"]["causes"][0];
   EXPECT_EQ(cause["id"], "irr_step");
   EXPECT_EQ(cause["equivalents"], json({"drift"}));
-  EXPECT_EQ(cause["strength"], json({{"d", -0.019}, {"V1", 12.1}}));
-  EXPECT_EQ(cause["interval"]["d"], json({-0.0212, -0.0168}));
-  EXPECT_EQ(cause["units"]["V1"], "V");
-  EXPECT_EQ(cause["at_bound"]["V1"], true);
-  EXPECT_EQ(j["gain"]["parameter_shift"]["Rs"]["before"], 0.262);
+  ASSERT_EQ(cause["parameters"].size(), 2U);
+  const json &depth = cause["parameters"][0], &from = cause["parameters"][1];
+  EXPECT_EQ(Keys(depth),
+            (Set{"effect", "symbol", "name", "unit", "value", "low_95", "high_95", "at_bound"}));
+  EXPECT_EQ(depth["effect"], "irr_step");
+  EXPECT_EQ(depth["symbol"], "d");
+  EXPECT_EQ(depth["value"], -0.019);
+  EXPECT_EQ(depth["low_95"], -0.0212);
+  EXPECT_EQ(depth["high_95"], -0.0168);
+  EXPECT_EQ(from["symbol"], "V1");
+  EXPECT_EQ(from["value"], 12.1);
+  EXPECT_EQ(from["unit"], "V");
+  EXPECT_EQ(from["at_bound"], true);
+  const json& shift = Of(j["gain"]["parameter_shift"], "Rs");
+  EXPECT_EQ(Keys(shift), (Set{"symbol", "name", "unit", "before", "after", "standard_error"}));
+  EXPECT_EQ(shift["before"], 0.262);
   EXPECT_EQ(j["points"]["voltage_V"].size(), 60U);
-  EXPECT_EQ(j["trials"][0]["parameters"]["k"]["unit"], "A/V");
+  EXPECT_EQ(Of(j["trials"][0]["parameters"], "k")["unit"], "A/V");
 }
 
 TEST(DiagnosisJson, WritesNullForWhatIsNotKnown) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
   EXPECT_TRUE(j["points"]["time_s"][0].is_null());
-  EXPECT_TRUE(j["gain"]["parameter_shift"]["Pmax"]["standard_error"].is_null());
+  EXPECT_TRUE(Of(j["gain"]["parameter_shift"], "Pmax")["standard_error"].is_null());
   const json& untried = j["trials"][3];
   EXPECT_EQ(untried["tried"], false);
   EXPECT_EQ(untried["why_not"], "needs sweeps in both directions");
   EXPECT_TRUE(untried["rmse_A"].is_null());
-  EXPECT_TRUE(untried["parameters"].is_object());
+  EXPECT_EQ(untried["parameters"], json::array());
   EXPECT_TRUE(j["trials"][0]["why_not"].is_null());
 }
 
@@ -109,6 +129,31 @@ TEST(AnswersJson, ListsEachCauseWithItsEquivalents) {
   EXPECT_EQ(j["a"], json::parse(R"([["irr_step", "drift"]])"));
   EXPECT_EQ(j["b"], json::array());
   EXPECT_EQ(j["c"].size(), 2U);
+}
+
+TEST(HealthyJson, HoldsTheComparisonAndTheDiagnosis) {
+  const json j = json::parse(HealthyJson(SampleHealthy(), SampleDiagnosis()));
+  EXPECT_EQ(j["diagnosis"]["name"], "sample_module");
+  const json& c = j["comparison"];
+  EXPECT_EQ(c["name"], "today");
+  EXPECT_EQ(c["differs"], true);
+  EXPECT_EQ(c["p_value"], 3e-6);
+  EXPECT_EQ(c["common"], 0.0011);
+  EXPECT_EQ(c["references"].size(), 12U);
+  EXPECT_EQ(c["rows"][0]["symbol"], "FF");
+  EXPECT_EQ(c["rows"][0]["expected"], 73.7);
+  EXPECT_EQ(c["rows"][0]["power"], -0.0068);
+  EXPECT_TRUE(c["rows"][1]["power"].is_null());
+  EXPECT_EQ(c["causes"][0]["id"], "series_resistance");
+  EXPECT_EQ(c["causes"][0]["size"], 8);
+}
+
+TEST(OddSweepsJson, ListsAllSweeps) {
+  const json j = json::parse(OddSweepsJson(SampleOddSweeps()));
+  EXPECT_EQ(j["odd"], 1);
+  ASSERT_EQ(j["sweeps"].size(), 2U);
+  EXPECT_EQ(j["sweeps"][1]["differs"], false);
+  EXPECT_EQ(j["rejected"][0], "night: the curve is dark");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lyrefit/report/json_report.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -100,6 +100,27 @@ TEST(JsonReport, NamesParametersAsPvlibDoes) {
                                    "saturation_current_3", "n", "n_2", "n_3", "resistance_series",
                                    "resistance_shunt"}));
   EXPECT_TRUE(Parsed(report)["singlediode"].is_null());
+}
+
+// One shape wherever a parameter stands.
+TEST(JsonReport, SaysOfAParameterWhatItIs) {
+  FitReport report = SampleReport();
+  Estimate depth;
+  depth.info = {"shading.d", "shading_shading_depth", "", "light that is missing"};
+  depth.refined = 0.25;
+  report.estimates.push_back(depth);
+  const json parameters = Parsed(report)["parameters"];
+  const json& rs = parameters["resistance_series"];
+  EXPECT_EQ(rs["symbol"], "Rs");
+  EXPECT_EQ(rs["name"], "resistance_series");
+  EXPECT_EQ(rs["unit"], "ohm");
+  EXPECT_FALSE(rs.contains("effect"));
+  const json& d = parameters["shading.d"];
+  EXPECT_EQ(d["effect"], "shading");
+  EXPECT_EQ(d["symbol"], "d");
+  EXPECT_EQ(d["name"], "shading_depth");
+  EXPECT_EQ(d["refined"], 0.25);
+  EXPECT_TRUE(d["searched"].is_null());
 }
 
 TEST(JsonReport, BringsBackTheSameBits) {

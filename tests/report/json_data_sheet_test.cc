@@ -1,4 +1,4 @@
-#include "lyrefit/report/pvlib_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,30 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "lyrefit/family/pvlib_parameters.h"
+#include "sample_data_sheet.h"
 
 namespace lyrefit {
 namespace {
 
 using nlohmann::json;
+using Set = std::set<std::string>;
+
+Set Keys(const json& j) {
+  Set keys;
+  for (const auto& [key, value] : j.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(DataSheetJson, HoldsExactlyTheKeysOfTheContract) {
+  const json j = json::parse(DataSheetJson(SampleDataSheetFit()));
+  EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "law", "model", "cells_in_series", "constants",
+                          "parameters", "checks", "largest_relative_error", "warnings"}));
+  EXPECT_EQ(Keys(j["parameters"]["R_s"]), (Set{"symbol", "name", "unit", "value", "low", "high"}));
+  EXPECT_EQ(j["parameters"]["R_s"]["high"], 0.41);
+  EXPECT_TRUE(j["parameters"]["R_sh_ref"]["value"].is_null());
+  EXPECT_TRUE(j["parameters"]["EgRef"]["low"].is_null());
+  EXPECT_EQ(j["checks"]["beta_oc"]["printed"], -0.076);
+}
 
 const std::vector<NamedValue> kKeywords = {{"alpha_sc", 0.0025},
                                            {"R_sh_ref", std::numeric_limits<double>::infinity()},
@@ -28,12 +46,6 @@ TEST(PvlibJson, NamesTheFunctionAndItsKeywords) {
   EXPECT_EQ(j["cec"]["Name"], "sample_module");
   EXPECT_EQ(j["cec"]["a_ref"], 0.97);
   EXPECT_EQ(j["cec_reason"], "");
-}
-
-std::set<std::string> Keys(const json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
 }
 
 // Another keyword would be a TypeError in Python.

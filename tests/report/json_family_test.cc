@@ -1,4 +1,4 @@
-#include "lyrefit/report/family_json.h"
+#include "lyrefit/report/json.h"
 
 #include <gtest/gtest.h>
 
@@ -38,9 +38,9 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["parameters"]),
             (Set{"I_L_ref", "I_o_ref", "n", "R_s", "R_sh_ref", "alpha_sc", "EgRef", "dEgdT"}));
   EXPECT_EQ(Keys(j["parameters"]["R_s"]),
-            (Set{"symbol", "unit", "searched", "refined", "standard_error", "low_95", "high_95",
-                 "interval", "at_bound", "bound_side", "identifiable", "reason", "fixed", "lower",
-                 "upper", "whole", "jackknife", "under_errors"}));
+            (Set{"symbol", "name", "unit", "searched", "refined", "standard_error", "low_95",
+                 "high_95", "interval", "at_bound", "bound_side", "identifiable", "reason", "fixed",
+                 "lower", "upper", "whole", "jackknife", "under_errors"}));
   EXPECT_EQ(Keys(j["sensor_offsets"]), (Set{"irradiance_Wm2", "temperature_K"}));
   EXPECT_EQ(Keys(j["rmse"]), (Set{"random_baseline", "searched", "searched_all", "refined"}));
   EXPECT_EQ(Keys(j["rmse"]["refined"]), (Set{"measured_current_A", "solved_current_A", "curves"}));

@@ -1,0 +1,66 @@
+#include "lyrefit/report/json_parts.h"
+
+namespace lyrefit {
+
+void to_json(Json& j, const FloorDiode& diode) {
+  j = {{"n", diode.n},
+       {"saturation_current", diode.saturation_current_A},
+       {"current_at_reference_A", diode.current_A}};
+}
+
+void to_json(Json& j, const Floor& floor) {
+  j = {{"rmse_A", floor.rmse_A},
+       {"lower_bound_A", floor.lower_bound_A},
+       {"gap", floor.gap},
+       {"certified", floor.certified},
+       {"photocurrent", floor.photocurrent_A},
+       {"resistance_series", floor.resistance_series_ohm},
+       {"conductance_shunt", floor.conductance_shunt_S},
+       {"diodes", floor.diodes},
+       {"duality_gap", floor.duality_gap},
+       {"largest_correlation", floor.largest_correlation},
+       {"dual_A", floor.dual_A},
+       {"problems_solved", floor.solved}};
+}
+
+void to_json(Json& j, const ModelCertificate& model) {
+  j = {{"model", model.model},
+       {"rmse_A", model.rmse_A},
+       {"lower_bound_A", model.lower_bound_A},
+       {"gap", model.gap},
+       {"above_floor", model.above_floor},
+       {"certified", model.certified},
+       {"problems_solved", model.solved},
+       {"parameters", Json::object()}};
+  const Device device = MakeDevice(model.model, {});
+  for (int i = 0; i < device.size(); ++i) {
+    Json& parameter = j["parameters"][ParameterKey(device.parameters[i])] = device.parameters[i];
+    parameter["value"] = model.parameters[i];
+  }
+}
+
+void to_json(Json& j, const Certificate& certificate) {
+  const CertifyOptions& options = certificate.options;
+  const IvCurve& curve = certificate.curve;
+  j = {{"lyrefit_version", certificate.version},
+       {"curve", curve},
+       {"objective", Objective::kMeasuredCurrent},
+       {"constants", options.constants},
+       {"n_lower", options.n_lower},
+       {"n_upper", options.n_upper},
+       {"rs_lower_ohm", options.rs_lower_ohm},
+       {"rs_upper_ohm", certificate.rs_upper_ohm},
+       {"reference_voltage_V", certificate.reference_voltage_V},
+       {"module_thermal_voltage_V", certificate.module_thermal_voltage_V},
+       {"floor", certificate.floor},
+       {"models", certificate.models},
+       {"options", certificate.non_default_options},
+       {"interrupted", certificate.interrupted},
+       {"warnings", certificate.doubts},
+       {"seconds", certificate.seconds},
+       {"data", {{"voltage_V", curve.voltage_V}, {"current_A", curve.current_A}}}};
+}
+
+std::string CertificateJson(const Certificate& certificate) { return Dump(certificate); }
+
+}  // namespace lyrefit

@@ -1,0 +1,86 @@
+#include "lyrefit/base/version.h"
+#include "lyrefit/report/json_parts.h"
+
+namespace lyrefit {
+namespace {
+
+Json DataSheetParametersJson(const DataSheetFit& fit) {
+  Json parameters = Json::object();
+  for (int i = 0; i < fit.translation.size(); ++i) {
+    const ParameterInfo& info = fit.translation.parameters[i];
+    Json one = info;
+    one.update({{"value", fit.shared[i]}, {"low", nullptr}, {"high", nullptr}});
+    for (const DataSheetRange& range : fit.ranges) {
+      if (range.name == info.name) one.update({{"low", range.low}, {"high", range.high}});
+    }
+    parameters[ParameterKey(info)] = std::move(one);
+  }
+  return parameters;
+}
+
+}  // namespace
+
+void to_json(Json& j, const DataSheetFit& fit) {
+  const TranslationSpec& spec = fit.translation.spec;
+  j = {{"lyrefit_version", Version()}, {"law", spec.law},
+       {"model", spec.model},          {"cells_in_series", spec.cells_in_series},
+       {"constants", spec.constants},  {"parameters", DataSheetParametersJson(fit)},
+       {"checks", Json::object()},     {"largest_relative_error", fit.largest_relative_error},
+       {"warnings", fit.warnings}};
+  for (const DataSheetCheck& check : fit.checks) {
+    j["checks"][check.name] = {
+        {"unit", check.unit}, {"printed", check.asked}, {"given", check.given}};
+  }
+}
+
+std::string DataSheetJson(const DataSheetFit& fit) { return Dump(fit); }
+
+namespace {
+
+constexpr char kCells[] = "cells_in_series";
+
+Json NamedJson(const std::vector<NamedValue>& values) {
+  Json json = Json::object();
+  for (const NamedValue& value : values) json[value.name] = value.value;
+  if (const auto cells = json.find(kCells); cells != json.end()) {
+    *cells = static_cast<int>(cells->get<double>());
+  }
+  return json;
+}
+
+// Puts each value where its function takes it: what calcparams does not know raises a TypeError.
+void AddKeywords(const Json& values, bool pvsyst, Json* json) {
+  Json arguments = Json::object(), bishop88 = Json::object();
+  for (const auto& [name, value] : values.items()) {
+    if (name == kCells) (*json)[kCells] = value;
+    if (name == "d2mutau" || name == "NsVbi") {
+      bishop88[name] = value;
+    } else if (name != kCells || pvsyst) {
+      arguments[name] = value;
+    }
+  }
+  (*json)["parameters"] = std::move(arguments);
+  if (!bishop88.empty()) (*json)["bishop88"] = std::move(bishop88);
+}
+
+}  // namespace
+
+// The row begins as SAM's own do.
+void to_json(Json& j, const CecModule& module) {
+  j = {{"Name", module.name}, {"Technology", module.technology}};
+  j.update(NamedJson(module.values));
+}
+
+std::string PvlibJson(const std::string& name, TranslationLaw law,
+                      const std::vector<NamedValue>& keywords, const Expected<CecModule>& cec) {
+  const bool pvsyst = law == TranslationLaw::kPvsyst;
+  Json json = {{"lyrefit_version", Version()},
+               {"name", name},
+               {"function", pvsyst ? "calcparams_pvsyst" : "calcparams_desoto"}};
+  AddKeywords(NamedJson(keywords), pvsyst, &json);
+  json["cec"] = cec ? Json(*cec) : Json();
+  json["cec_reason"] = cec ? std::string() : cec.error().message;
+  return Dump(json);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,212 @@
+#include "lyrefit/base/version.h"
+#include "lyrefit/report/json_parts.h"
+
+namespace lyrefit {
+
+LYREFIT_JSON_FIELDS(Finding, id, sentence, points)
+LYREFIT_JSON_FIELDS(Sized, value, low_95, high_95)
+LYREFIT_JSON_FIELDS(CannotBeExcluded, id, biases, sentence, separate_by)
+LYREFIT_JSON_FIELDS(HealthyRow, symbol, name, unit, now, expected, low_95, high_95, z, corrected_p,
+                    power, differs)
+LYREFIT_JSON_FIELDS(HealthyCause, id, sentence, size, low_95, high_95, unit, power, explained)
+LYREFIT_JSON_FIELDS(HealthyComparison, name, differs, p_value, sentence, rows, causes, references,
+                    left_out, regressed_on, common, warnings)
+
+void to_json(Json& j, const Evidence& evidence) {
+  j = {{"kind", evidence.kind},
+       {"noise",
+        {{"constant_A", evidence.noise_constant_A},
+         {"relative", evidence.noise_relative},
+         {"voltage_V", evidence.noise_voltage_V},
+         {"dark_A", evidence.noise_dark_A},
+         {"stated_A", evidence.noise_stated_A},
+         {"path_A", evidence.noise_path_A}}},
+       {"misfit_ratio", evidence.misfit_ratio},
+       {"autocorrelation", evidence.autocorrelation},
+       {"grid_step_A", evidence.grid_step_A},
+       {"grid_step_V", evidence.grid_step_V},
+       {"clipped_points", evidence.clipped_points},
+       {"clip_level_A", evidence.clip_level_A},
+       {"largest_error", LargestErrorJson(evidence.residuals)},
+       {"residuals", evidence.residuals},
+       {"whiteness_p_value", evidence.whiteness_p_value},
+       {"whiteness_after_p_value", evidence.whiteness_after_p_value},
+       {"findings", evidence.findings}};
+}
+
+namespace {
+
+// Those of an effect.
+Json CauseParametersJson(const std::string& effect, const std::vector<CauseParameter>& parameters) {
+  Json list = Json::array();
+  for (const CauseParameter& p : parameters) {
+    Json one = EffectParameterJson(effect, p.symbol, p.name, p.unit);
+    one.update({{"value", p.value},
+                {"low_95", p.low_95},
+                {"high_95", p.high_95},
+                {"at_bound", p.at_bound}});
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+}  // namespace
+
+void to_json(Json& j, const Trial& trial) {
+  j = {{"effect", trial.effect},
+       {"title", trial.title},
+       {"tried", trial.tried},
+       {"why_not", trial.tried ? Json() : Json(trial.why_not)},
+       {"rmse_A", trial.rmse_A},
+       {"misfit", trial.misfit},
+       {"p_value", trial.p_value},
+       {"corrected_p", trial.corrected_p},
+       {"delta_aicc", trial.delta_aicc},
+       {"held_out_rmse_A", trial.held_out_rmse_A},
+       {"kept", trial.kept},
+       {"parameters", CauseParametersJson(trial.effect, trial.parameters)}};
+}
+
+void to_json(Json& j, const Cause& cause) {
+  j = {{"id", cause.id},
+       {"title", cause.title},
+       {"sentence", cause.sentence},
+       {"in_words", cause.in_words},
+       {"current_effect", cause.current_effect},
+       {"power_effect", cause.power_effect},
+       {"recoverable_power_W", cause.recoverable_power_W},
+       {"equivalents", cause.equivalents},
+       {"separate_by", cause.separate_by},
+       {"parameters", CauseParametersJson(cause.id, cause.strength)},
+       {"corrected_p", cause.corrected_p},
+       {"evidence", cause.evidence},
+       {"acts", cause.acts},
+       {"points", cause.points}};
+}
+
+LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, departure,
+                    cannot_be_excluded)
+
+void to_json(Json& j, const ParameterShift& shift) {
+  j = ParameterInfo{shift.symbol, shift.name, shift.unit, ""};
+  j.update(
+      {{"before", shift.before}, {"after", shift.after}, {"standard_error", shift.standard_error}});
+}
+
+void to_json(Json& j, const Gain& gain) {
+  j = {{"rmse_before_A", gain.rmse_before_A},
+       {"rmse_after_A", gain.rmse_after_A},
+       {"held_out_before_A", gain.held_out_before_A},
+       {"held_out_after_A", gain.held_out_after_A},
+       {"held_out_gain_A2", gain.held_out_gain_A2},
+       {"held_out_gain_error_A2", gain.held_out_gain_error_A2},
+       {"folds", gain.folds},
+       {"by_sweeps", gain.by_sweeps},
+       {"gain", gain.gain},
+       {"sentence", gain.sentence},
+       {"parameter_shift", gain.shifts}};
+}
+
+void to_json(Json& j, const PlannedMeasurement& measurement) {
+  j = {{"id", measurement.id},
+       {"title", measurement.title},
+       {"taken", measurement.taken},
+       {"probability", measurement.probability},
+       {"causes", Json::object()}};
+  for (const PlannedCause& cause : measurement.causes) {
+    j["causes"][cause.id] = {{"probability", cause.probability},
+                             {"separation", cause.separation},
+                             {"nearest", cause.nearest}};
+  }
+}
+
+LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
+
+void to_json(Json& j, const DiagnosedCurve& curve) {
+  j = {{"name", curve.name},
+       {"irradiance_Wm2", curve.irradiance_W_m2},
+       {"temperature_C", curve.temperature_C},
+       {"dark", curve.dark},
+       {"points", curve.points}};
+}
+
+namespace {
+
+// Columns, as the data of other reports.
+Json PointsJson(const std::vector<DiagnosedPoint>& points) {
+  const auto column = [&points](auto field) {
+    Json list = Json::array();
+    for (const DiagnosedPoint& point : points) list.push_back(point.*field);
+    return list;
+  };
+  return {{"curve", column(&DiagnosedPoint::curve)},
+          {"segment", column(&DiagnosedPoint::segment)},
+          {"voltage_V", column(&DiagnosedPoint::voltage_V)},
+          {"current_A", column(&DiagnosedPoint::current_A)},
+          {"sigma_A", column(&DiagnosedPoint::sigma_A)},
+          {"before_A", column(&DiagnosedPoint::before_A)},
+          {"after_A", column(&DiagnosedPoint::after_A)},
+          {"without_causes_A", column(&DiagnosedPoint::without_A)},
+          {"time_s", column(&DiagnosedPoint::time_s)}};
+}
+
+}  // namespace
+
+void to_json(Json& j, const Diagnosis& diagnosis) {
+  j = {{"lyrefit_version", diagnosis.version},
+       {"name", diagnosis.name},
+       {"source", diagnosis.source},
+       {"base", diagnosis.base},
+       {"base_sentence", diagnosis.base_sentence},
+       {"objective", Objective::kSolvedCurrent},
+       {"seed", diagnosis.seed},
+       {"level", diagnosis.level},
+       {"floor_current", diagnosis.floor_current},
+       {"floor_power", diagnosis.floor_power},
+       {"verdict", diagnosis.verdict},
+       {"gain", diagnosis.gain}};
+  if (diagnosis.plan) j["plan"] = *diagnosis.plan;
+  j["evidence"] = diagnosis.evidence;
+  j["trials"] = diagnosis.trials;
+  j["non_default_options"] = diagnosis.non_default_options;
+  j["assumptions"] = diagnosis.assumptions;
+  j["warnings"] = diagnosis.warnings;
+  j["interrupted"] = diagnosis.interrupted;
+  j["usable"] = diagnosis.extended.usable;
+  j["seconds"] = diagnosis.seconds;
+  j["curves"] = diagnosis.curves;
+  j["points"] = PointsJson(diagnosis.points);
+}
+
+std::string DiagnosisJson(const Diagnosis& diagnosis) { return Dump(diagnosis); }
+
+std::string DiagnosisJson(const std::vector<Diagnosis>& diagnoses) { return Dump(diagnoses); }
+
+std::string AnswersJson(const std::vector<std::string>& names,
+                        const std::vector<Diagnosis>& diagnoses) {
+  Json answers = Json::object();
+  for (std::size_t i = 0; i < names.size() && i < diagnoses.size(); ++i) {
+    Json causes = Json::array();
+    for (const Cause& cause : diagnoses[i].verdict.causes) {
+      std::vector<std::string> ids = {cause.id};
+      ids.insert(ids.end(), cause.equivalents.begin(), cause.equivalents.end());
+      causes.push_back(std::move(ids));
+    }
+    answers[names[i]] = std::move(causes);
+  }
+  return Dump(answers);
+}
+
+std::string HealthyJson(const HealthyComparison& comparison, const Diagnosis& diagnosis) {
+  return Dump(
+      {{"lyrefit_version", Version()}, {"comparison", comparison}, {"diagnosis", diagnosis}});
+}
+
+std::string OddSweepsJson(const OddSweeps& odd) {
+  return Dump({{"lyrefit_version", Version()},
+               {"odd", odd.odd},
+               {"sweeps", odd.sweeps},
+               {"rejected", odd.rejected}});
+}
+
+}  // namespace lyrefit

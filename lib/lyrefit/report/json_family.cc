@@ -1,0 +1,206 @@
+#include "lyrefit/report/family_sections.h"
+#include "lyrefit/report/json_parts.h"
+
+namespace lyrefit {
+
+// Null where nobody asked for it.
+void to_json(Json& j, const Interval& interval) {
+  j = nullptr;
+  if (std::isnan(interval.value)) return;
+  j = {{"value", interval.value},
+       {"standard_error", interval.standard_error},
+       {"low_95", interval.low_95},
+       {"high_95", interval.high_95}};
+}
+
+void to_json(Json& j, const FamilyErrors& errors) {
+  j = {{"kind", errors.kind},
+       {"current_noise_A", errors.sizes.readings.current_A},
+       {"voltage_noise_V", errors.sizes.readings.voltage_V},
+       {"path_of_isc", errors.sizes.readings.path},
+       {"path_power_of_light", errors.path_power},
+       {"curve_irradiance_part", errors.sizes.irradiance},
+       {"curve_temperature_K", errors.sizes.temperature_K},
+       {"judge", errors.judge},
+       {"tested_curves", errors.tested_curves},
+       {"gain", errors.gain}};
+}
+
+void to_json(Json& j, const HeldOut& held_out) {
+  j = {{"how", held_out.how},
+       {"curves", held_out.curves},
+       {"rmse", held_out.rmse},
+       {"median_solved_current_A", held_out.median_rmse_A},
+       {"largest_solved_current_A", held_out.largest_rmse_A},
+       {"largest_id", held_out.largest_id},
+       {"median_free_solved_current_A", held_out.median_free_rmse_A}};
+}
+
+void to_json(Json& j, const Against& against) {
+  j = {{"name", against.name}, {"law", against.law}};
+  j.update(Json(against.result));
+  j.erase("how");  // as the joint fit
+  j.erase("median_free_solved_current_A");
+}
+
+void to_json(Json& j, const FamilyCandidate& c) {
+  j = {{"law", c.law},
+       {"model", c.model},
+       {"rmse", c.rmse},
+       {"held_out_solved_current_A", c.held_out_rmse_A},
+       {"held_out_median_solved_current_A", c.held_out_median_A},
+       {"behind_best_standard_errors", c.behind_best},
+       {"free_parameters", c.free_parameters},
+       {"chosen", c.chosen}};
+}
+
+void to_json(Json& j, const RejectedCurve& curve) {
+  j = {{"id", curve.id}, {"error", curve.error.ToString()}};
+}
+
+void to_json(Json& j, const FamilyRmseTable& rmse) {
+  const auto over = [](const RmsePair& pair, const char* curves) {
+    Json json = pair;
+    json["curves"] = curves;
+    return json;
+  };
+  j = {{"random_baseline", over(rmse.random_baseline, "search")},
+       {"searched", over(rmse.searched, "search")},
+       {"searched_all", over(rmse.searched_all, "fitted")},
+       {"refined", over(rmse.refined, "fitted")}};
+}
+
+namespace {
+
+Json SharedJson(const FamilyReport& report) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
+    Json one = report.estimates[i];
+    one["jackknife"] = i < report.jackknife.size() ? Json(report.jackknife[i]) : Json();
+    one["under_errors"] = i < report.under_errors.size() ? Json(report.under_errors[i]) : Json();
+    parameters[ParameterKey(report.estimates[i].info)] = std::move(one);
+  }
+  return parameters;
+}
+
+// Values alone, under what their parameters stand under.
+Json ValuesJson(const std::vector<ParameterInfo>& infos, const std::vector<double>& values) {
+  if (values.empty()) return nullptr;
+  Json json = Json::object();
+  for (std::size_t i = 0; i < infos.size() && i < values.size(); ++i) {
+    json[ParameterKey(infos[i])] = values[i];
+  }
+  return json;
+}
+
+Json FamilyCurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>& device) {
+  return {{"id", curve.id},
+          {"role", curve.role},
+          {"reason", curve.reason},
+          {"odd", curve.odd},
+          {"points", curve.points},
+          {"irradiance_Wm2", curve.irradiance_W_m2},
+          {"irradiance_known", curve.irradiance_known},
+          {"irradiance_offset_Wm2", curve.irradiance_offset_W_m2},
+          {"temperature_C", curve.temperature_C},
+          {"temperature_known", curve.temperature_known},
+          {"temperature_offset_K", curve.temperature_offset_K},
+          {"short_circuit_current_A", curve.short_circuit_current_A},
+          {"parameters", ValuesJson(device, curve.parameters)},
+          {"rmse", curve.rmse},
+          {"free_parameters", ValuesJson(device, curve.free_parameters)},
+          {"free_rmse", curve.free_rmse},
+          {"isc_excess", curve.isc_excess},
+          {"voc_excess_V", curve.voc_excess_V},
+          {"mean_residual_A", curve.mean_residual_A},
+          {"residual_A", curve.residual_A}};
+}
+
+Json FamilyCurvesJson(const FamilyReport& report) {
+  std::vector<ParameterInfo> device = report.translation.device.parameters;
+  if (device.empty()) device = FreeInfos(report);
+  Json curves = Json::array();
+  for (const FamilyCurve& curve : report.curves) curves.push_back(FamilyCurveJson(curve, device));
+  return curves;
+}
+
+Json WithoutOddJson(const FamilyReport& report) {
+  if (!report.without_odd) return nullptr;
+  const WithoutOdd& without = *report.without_odd;
+  return {{"ids", without.ids},
+          {"rmse", without.rmse},
+          {"parameters", ValuesJson(report.translation.parameters, without.shared)}};
+}
+
+Json CoefficientsJson(const FamilyReport& report) {
+  Json coefficients = Json::object();
+  for (const Coefficient& c : report.coefficients) {
+    coefficients[c.name] = {{"unit", c.unit}, {"interval", c.value}};
+  }
+  return coefficients;
+}
+
+// What came out.
+void AddFamilyAnswer(const FamilyReport& report, Json* json) {
+  const TranslationSpec& spec = report.translation.spec;
+  const bool shared = !report.estimates.empty();  // else every curve stands on its own
+  Json& j = *json;
+  j["family"] = shared ? ToText(spec.law) : "free";
+  j["model"] = spec.model;
+  j["shunt"] = shared ? Json(spec.shunt) : Json();
+  j["recombination"] = spec.recombination;
+  j["cells_in_series"] = report.cells_in_series;
+  j["objective"] = report.objective;
+  j["constants"] = spec.constants;
+  j["parameters"] = SharedJson(report);
+  j["sensor_offsets"] = {{"irradiance_Wm2", report.irradiance_offset_W_m2},
+                         {"temperature_K", report.temperature_offset_K}};
+  j["temperature_coefficients"] = CoefficientsJson(report);
+  j["reference"] = shared ? Json(report.reference) : Json();
+  j["rmse"] = report.rmse;
+  j["noise_A"] = report.noise_A;
+  j["errors"] = report.errors;
+}
+
+// How far to trust it.
+void AddFamilyEvidence(const FamilyReport& report, Json* json) {
+  Json& j = *json;
+  j["held_out"] = report.held_out;
+  j["against"] = report.against;
+  j["in_sample"] = report.in_sample;
+  j["without_odd"] = WithoutOddJson(report);
+  j["candidates"] = report.candidates;
+  j["correlations"] = report.correlations;
+  j["search"] = SearchJson(report.search_options, report.search, report.search.evaluations);
+  j["search"]["curves"] = report.search_ids;
+  j["refine"] = {{"termination", report.termination},
+                 {"projected_gradient", report.projected_gradient}};
+  j["seconds"] = report.seconds;
+  j["free_fits"] = {{"seconds", report.free_seconds}};
+  j["options"] = report.non_default_options;
+  j["rejected"] = report.rejected;
+  j["assumptions"] = report.assumptions;
+  j["warnings"] = report.warnings;
+  j["interrupted"] = report.interrupted;
+  j["usable"] = report.usable;
+}
+
+}  // namespace
+
+void to_json(Json& j, const FamilyReport& report) {
+  j = {{"lyrefit_version", report.version},
+       {"set", {{"name", report.name}, {"source", report.source}}}};
+  if (report.taken != nullptr) {
+    const std::optional<Device>& extended = report.translation.extended;
+    j["law"] = SetLawJson(report.with, *report.taken,
+                          extended && !report.refined.empty() ? &*extended->extension : nullptr);
+    j["causes"] = j["law"]["effects"];
+  }
+  AddFamilyAnswer(report, &j);
+  AddFamilyEvidence(report, &j);
+  j["curves"] = FamilyCurvesJson(report);
+}
+
+std::string FamilyJson(const FamilyReport& report) { return Dump(report); }
+
+}  // namespace lyrefit

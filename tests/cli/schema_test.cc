@@ -1,0 +1,106 @@
+// What every verb writes as JSON is as its schema in data/schema says.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+const std::string kData = std::string(LYREFIT_DATA_DIR) + "/";
+const std::string kChecker = kData + "../tests/cli/check_schema.py";
+const std::string kSearch = " --population 10 --iterations 10 --quiet ";
+const std::string kCauses = " --effects nonohmic_shunt,irr_step --draws 200 --no-held-out --quiet ";
+
+bool Works(const std::string& command) { return std::system(command.c_str()) == 0; }
+
+// A Python that has jsonschema; empty: none.
+std::string Python() {
+  for (const std::string python : {"python3", "/usr/bin/python3"}) {
+    if (Works(python + " -c 'import jsonschema' 2>/dev/null")) return python;
+  }
+  return "";
+}
+
+struct SchemaCase {
+  std::string name;
+  std::string arguments;  // FILE is what is to be written
+  std::string schema;
+};
+
+void PrintTo(const SchemaCase& c, std::ostream* out) { *out << c.name; }
+
+class Schema : public ::testing::TestWithParam<SchemaCase> {};
+
+TEST_P(Schema, HoldsForWhatIsWritten) {
+  const std::string python = Python();
+  if (python.empty()) GTEST_SKIP() << "no Python with jsonschema (Debian: python3-jsonschema)";
+  const TempFolder folder;
+  const std::string file = folder.Path("record.json");
+  std::string arguments = GetParam().arguments;
+  arguments.replace(arguments.find("FILE"), 4, "'" + file + "'");
+  const AppResult run = RunApp(arguments);
+  ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 2) << run.err;
+  ASSERT_FALSE(FileText(file).empty()) << run.err;
+  const std::string said = folder.Path("said");
+  const std::string schema = kData + "schema/" + GetParam().schema + ".json";
+  EXPECT_TRUE(
+      Works(python + " '" + kChecker + "' '" + schema + "' '" + file + "' >'" + said + "' 2>&1"))
+      << FileText(said);
+}
+
+std::vector<SchemaCase> SchemaCases() {
+  const std::string rtc = kData + "rtc_france ", set = kData + "s75_constructed ";
+  const std::string shaded = kData + "diagnosis/shaded_module.csv ";
+  const std::string sweeps = kData + "diagnosis/sweeps ";
+  const std::string module =
+      "datasheet --isc 4.70 --voc 21.4 --imp 4.26 --vmp 17.6 --alpha 0.002 --beta -0.076 --cells "
+      "36 ";
+  return {
+      {"Fit", "fit " + rtc + "--floor --json FILE" + kSearch, "fit"},
+      {"FitAuto", "fit " + rtc + "--model auto --noise field --json FILE" + kSearch, "fit"},
+      {"FitWithoutPolish", "fit " + rtc + "--no-polish --json FILE" + kSearch, "fit"},
+      {"FitOfSeveral", "fit " + rtc + kData + "pwp201 --json FILE" + kSearch, "fit"},
+      {"FitWithEffects", "fit " + shaded + "--with shading --json FILE --quiet", "fit"},
+      {"Family", "fit " + set + "--family desoto --with temp_offset --json FILE" + kSearch,
+       "family"},
+      {"FamilyAuto", "fit " + set + "--family auto --json FILE" + kSearch, "family"},
+      {"FamilyOneByOne", "fit " + set + "--family free --json FILE --quiet", "family"},
+      {"Pvlib", "fit " + set + "--family pvsyst --pvlib FILE" + kSearch, "pvlib"},
+      {"DataSheet", module + "--json FILE", "data_sheet"},
+      {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
+      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},
+      {"DiagnosisOfSeveral", "diagnose " + rtc + kData + "pwp201 --json FILE" + kCauses,
+       "diagnosis"},
+      {"ExtendedModel", "diagnose " + shaded + "--extend FILE" + kCauses, "fit"},
+      {"Answers", "diagnose " + shaded + "--answers FILE" + kCauses, "answers"},
+      {"Healthy",
+       "diagnose " + kData + "diagnosis/sweep_now.csv --healthy " + sweeps + "--json FILE" +
+           kCauses,
+       "healthy"},
+      {"OddSweeps", "diagnose " + sweeps + "--module --json FILE --quiet", "odd_sweeps"},
+      {"Certificate", "certify " + rtc + "--json FILE --quiet", "certificate"},
+      {"Comparison",
+       "compare " + rtc +
+           "--models sd --runs 3 --population 10 --iterations 10 --json FILE "
+           "--quiet",
+       "comparison"},
+      {"Budget",
+       "budget " + shaded +
+           "--with shading:w=0.3333 --models sd --algorithms mlo,random --budgets 20 --runs 2 "
+           "--json FILE --quiet",
+       "comparison"},
+      {"Sensitivity", "sensitivity " + rtc + "--models sd --runs 2 --json FILE" + kSearch,
+       "comparison"},
+      {"Audit", "audit " + kData + "paper/rows.csv --json FILE", "audit"},
+      {"Coverage", "coverage --sets 2 --curves 5 --json FILE --quiet", "coverage"},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryVerb, Schema, ::testing::ValuesIn(SchemaCases()),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace lyrefit

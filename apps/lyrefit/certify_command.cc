@@ -3,9 +3,9 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/report/json.h"
 #include "lyrefit/report/certificate_plot.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/json.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -9,8 +9,8 @@
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/pvlib_parameters.h"
-#include "lyrefit/report/json.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/json.h"
 #include "verbs.h"
 
 namespace lyrefit {

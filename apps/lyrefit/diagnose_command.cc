@@ -8,9 +8,9 @@
 #include "effect_text.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/report/json.h"
 #include "lyrefit/report/diagnosis_plot.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/json.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -201,8 +201,7 @@ Expected<void> FillCurve(const std::string& path, const JsonTable& table,
       if (!number) {
         return Fail(fmt::format("expected a finite number in \"{}\"[{}], found {}: if readings are "
                                 "missing, leave them out with --skip-missing",
-                                column.label, i,
-                                Quoted(OneLine(*table.columns[place][i]))),
+                                column.label, i, Quoted(OneLine(*table.columns[place][i]))),
                     path);
       }
       values->push_back(value);

@@ -81,7 +81,8 @@ void TakePair(const std::vector<Guess>& guesses, int voltage, int current,
   }
   Become(ColumnKind::kVoltage, guesses[voltage].unit, &(*columns)[voltage]);
   const Guess& guess = guesses[current];
-  const ColumnKind kind = guess.by_unit != ColumnKind::kUnrecognised ? guess.by_unit : guess.by_letter;
+  const ColumnKind kind =
+      guess.by_unit != ColumnKind::kUnrecognised ? guess.by_unit : guess.by_letter;
   Become(kind, guess.unit, &(*columns)[current]);
 }
 

@@ -24,7 +24,6 @@
 namespace lyrefit {
 namespace {
 
-
 // One subject with one model, while its runs are under way.
 struct Problem {
   Problem(const CompareCurve& subject_, ProblemResult described, int runs)

@@ -18,7 +18,6 @@
 namespace lyrefit {
 namespace {
 
-
 FamilyOptions FitOptionsOf(const CoverageOptions& options) {
   FamilyOptions family = options.family;
   family.random_baseline = family.free_fits = false;

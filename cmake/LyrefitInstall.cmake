@@ -84,6 +84,8 @@ set(LYREFIT_PUBLIC_HEADERS
   base/numbers.h
   base/observer.h
   base/option.h
+  curve/setting_text.h
+  fit/effect_text.h
   base/parallel.h
   base/portable_exp.h
   base/random.h

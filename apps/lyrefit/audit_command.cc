@@ -4,7 +4,7 @@
 #include "interrupt.h"
 #include "lyrefit/study/report/audit_csv.h"
 #include "lyrefit/study/report/audit_json.h"
-#include "lyrefit/study/report/audit_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/study/report/compare_plot.h"
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

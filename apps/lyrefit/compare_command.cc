@@ -1,7 +1,7 @@
 #include "compare_command.h"
 
 #include "lyrefit/study/report/compare_plot.h"
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

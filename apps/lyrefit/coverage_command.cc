@@ -3,7 +3,8 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/study/report/coverage_text.h"
+#include "lyrefit/study/report/coverage_json.h"
+#include "lyrefit/study/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

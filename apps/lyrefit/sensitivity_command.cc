@@ -1,6 +1,6 @@
 #include "sensitivity_command.h"
 
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "output.h"
 
 namespace lyrefit {

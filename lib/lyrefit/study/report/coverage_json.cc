@@ -1,5 +1,5 @@
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/report/coverage_text.h"
+#include "lyrefit/study/report/coverage_json.h"
 
 namespace lyrefit {
 namespace {

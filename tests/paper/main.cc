@@ -20,7 +20,6 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/report/markdown.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
@@ -168,10 +167,7 @@ constexpr Picture kPictures[] = {
 Expected<void> Update(const PaperStudy& study, const std::string& page) {
   constexpr std::uintmax_t kLargestPage = 1U << 22;
   TRY(const std::string text, ReadTextFile(page, kLargestPage));
-  std::string updated = ReplaceBlock(text, "certified", CertifiedTable(study));
-  updated = ReplaceBlock(updated, "ranked", RankedTable(study));
-  updated = ReplaceBlock(updated, "budget", BudgetSummary(study));
-  return WriteTextFile(page, updated);
+  return WriteTextFile(page, WithTables(text, study));
 }
 
 Expected<void> Write(const PaperStudy& study, const std::map<std::string, std::string>& remarks,

@@ -82,7 +82,14 @@ TEST(DrawHtml, EscapesNames) {
               HasSubstr("<title>report of &lt;/title&gt;&lt;script&gt;alert(&quot;1 &amp; 2"));
   EXPECT_THAT(html, HasSubstr("<dd>a_b_c.csv &amp; &#39;others&#39;</dd>"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">&lt;td&gt;|&lt;/td&gt;</th>"));
-  EXPECT_THAT(html, HasSubstr("<pre>a   &lt;b&gt;</pre>"));
+  EXPECT_THAT(html, HasSubstr("<pre>a   &lt;b&gt;\n```\n</pre>"));
+  EXPECT_THAT(html, HasSubstr("<caption>of &lt;a&gt;</caption>"));
+  EXPECT_THAT(html, HasSubstr("<tr><th scope=\"colgroup\" colspan=\"2\">&amp; last</th></tr>"));
+  EXPECT_THAT(html, HasSubstr("<p>* &lt;star&gt;</p>"));
+  EXPECT_THAT(html, HasSubstr("<p role=\"note\"><strong>&lt;!</strong></p>"));
+  EXPECT_THAT(html, HasSubstr("<dl>\n<dt>a_b &amp; c</dt><dd>x &lt; y</dd><dd>- z</dd>\n"
+                              "<dt>alone</dt><dd></dd>\n</dl>"));
+  EXPECT_THAT(html, HasSubstr("<img src=\"a.svg\" alt=\"seen &quot;there&quot;\"/>"));
   EXPECT_THAT(html, HasSubstr("<h3>below</h3>"));
 }
 

@@ -86,6 +86,16 @@ TEST(CompareText, PutsManyCurvesIntoOneTableFirst) {
   ExpectFitsTheTerminal(CompareText(OfASet(LargeComparison())));
 }
 
+TEST(CompareDocument, NamesTheRowsOfEachCurveInOneTable) {
+  const std::string html = DrawHtml(CompareDocument(OfASet(SampleComparison())));
+  EXPECT_THAT(html,
+              HasSubstr("colspan=\"9\">sandia_pvue125/8 (203.11 W/m2, 25.1 C), double-diode"));
+  EXPECT_THAT(html, HasSubstr("<caption>Search alone: RMSE in A (measured-current) of 4 runs"));
+  const std::string markdown = DrawMarkdown(CompareDocument(SampleComparison()));
+  EXPECT_THAT(markdown, HasSubstr("- **Ranks, search alone: Friedman over 4 runs**\n  - "));
+  EXPECT_THAT(markdown, HasSubstr("*Search and polish: RMSE in A"));
+}
+
 TEST(CompareText, NeedsNoOverviewOfOneCurve) {
   EXPECT_THAT(CompareText(SampleComparison()), Not(HasSubstr("All curves")));
 }
@@ -197,6 +207,7 @@ TEST(CompareText, StartsWithInterrupted) {
   comparison.problems[1].contenders[2].runs.pop_back();
   const std::string text = CompareText(comparison);
   EXPECT_THAT(text, StartsWith("INTERRUPTED"));
+  EXPECT_THAT(text, HasSubstr("are of those.\n\nlyrefit"));
   EXPECT_THAT(text, HasSubstr("of 4 runs, and runs within"));
   EXPECT_THAT(text, HasSubstr("of 3 to 4 of 4 runs, and runs within"));
   comparison.problems.clear();

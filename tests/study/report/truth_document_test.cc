@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include "lyrefit/study/truth.h"
+
 namespace lyrefit {
 namespace {
 

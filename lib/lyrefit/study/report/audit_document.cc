@@ -92,7 +92,8 @@ std::string Legend(const AuditReport& report) {
 Section BadRows(const AuditReport& report) {
   std::vector<std::string> errors;
   for (const Error& error : report.bad_rows) errors.push_back(error.ToString());
-  return ListSection(Plural(errors.size(), "row") + " could not be audited", std::move(errors));
+  const std::string heading = Plural(errors.size(), "row") + " could not be audited";
+  return ListSection(heading, std::move(errors));
 }
 
 // How many claims that reproduce do so with each set of constants, where none was stated.

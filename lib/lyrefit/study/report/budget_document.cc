@@ -157,7 +157,7 @@ std::string RandomVerdict(const std::vector<SearchRow>& rows) {
                      *best);
 }
 
-std::vector<Section> SectionsOf(const Comparison& comparison, const ProblemResult& problem) {
+std::vector<Section> BudgetSections(const Comparison& comparison, const ProblemResult& problem) {
   const std::vector<SearchRow> rows = RowsOf(problem);
   const std::string objective = ToText(comparison.options.objective);
   const std::string runs = RunsText(comparison, problem);
@@ -197,7 +197,7 @@ Document BudgetDocument(const Comparison& comparison) {
            &head);
   AddField("time", Duration(comparison.seconds), &head);
   for (const ProblemResult& problem : comparison.problems) {
-    if (problem.problem.empty()) AddSections(SectionsOf(comparison, problem), &document);
+    if (problem.problem.empty()) AddSections(BudgetSections(comparison, problem), &document);
   }
   AddSections(PoolSections(comparison), &document);
   return document;

@@ -52,6 +52,7 @@ block::Table CostTable(const CompareOptions& options, const ProblemResult& probl
   block::Table::Row& head = table.heads[0];
   if (polish) head.insert(head.end(), {"polish", "all starts", "best bird"});
   if (plain) head.emplace_back("plain");
+  table.alignment.resize(head.size());
   for (const ContenderResult& c : problem.contenders) {
     block::Table::Row row = {c.name, Whole(c.evaluations), Whole(c.expected_evaluations),
                              std::to_string(c.target_hits), Duration(c.search_seconds)};
@@ -65,7 +66,7 @@ block::Table CostTable(const CompareOptions& options, const ProblemResult& probl
   return table;
 }
 
-std::vector<Section> SectionsOf(const Comparison& comparison, const ProblemResult& problem) {
+std::vector<Section> CompareSections(const Comparison& comparison, const ProblemResult& problem) {
   const auto caption = [&](const char* what) {
     return fmt::format("{}: RMSE in A ({}) of {} runs, and runs within 1e-9 and 1e-6", what,
                        ObjectiveText(comparison.options), RunsText(comparison, problem));
@@ -115,6 +116,7 @@ Section OverviewSection(const Comparison& comparison) {
   if (polish) head.emplace_back("polished");
   if (polish && !brief) head.emplace_back("to max");
   if (polish) head.emplace_back("1e-9");
+  table.alignment.resize(head.size());
   for (const ProblemResult& problem : comparison.problems) {
     table.spans.push_back({table.rows.size(), ProblemTitle(problem)});
     for (const ContenderResult& contender : problem.contenders) {
@@ -159,7 +161,7 @@ Document CompareDocument(const Comparison& comparison) {
   AddField("time", Duration(comparison.seconds), &head);
   AddSections({OverviewSection(comparison)}, &document);
   for (const ProblemResult& problem : comparison.problems) {
-    AddSections(SectionsOf(comparison, problem), &document);
+    AddSections(CompareSections(comparison, problem), &document);
   }
   return document;
 }

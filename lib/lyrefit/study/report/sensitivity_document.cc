@@ -67,7 +67,8 @@ std::string RateVerdict(const ProblemResult& problem) {
                      hits, runs, Scientific(problem.reference.rmse_A, 10));
 }
 
-std::vector<Section> SectionsOf(const Comparison& comparison, const ProblemResult& problem) {
+std::vector<Section> SensitivitySections(const Comparison& comparison,
+                                         const ProblemResult& problem) {
   const std::string objective = ToText(comparison.options.objective);
   const std::string runs = RunsText(comparison, problem);
   Section section = ProblemSection(comparison, problem);
@@ -107,7 +108,7 @@ Document SensitivityDocument(const Comparison& comparison) {
            &head);
   AddField("time", Duration(comparison.seconds), &head);
   for (const ProblemResult& problem : comparison.problems) {
-    AddSections(SectionsOf(comparison, problem), &document);
+    AddSections(SensitivitySections(comparison, problem), &document);
   }
   return document;
 }

@@ -1,4 +1,4 @@
-#include "paper/paper_page.h"
+#include "paper/page_blocks.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,6 @@
 namespace lyrefit {
 namespace {
 
-using Row = block::Table::Row;
-
 // A long one is wrapped; of others the blanks matter.
 std::string Heading(const std::string& text) {
   return Columns(text) > kTextWidth ? Wrap("", text) : text + "\n";
@@ -44,7 +42,7 @@ std::string TerminalText(const block::Entry& entry) {
 
 // A line of a table, or several where its last column is wrapped.
 std::string TerminalRow(const std::string& alignment, const std::vector<std::size_t>& widths,
-                        const Row& row) {
+                        const block::Table::Row& row) {
   std::string line;
   for (std::size_t c = 0; c < row.size(); ++c) {
     if (alignment[c] == 'w') return Wrap(line + "  ", row[c]);
@@ -57,10 +55,10 @@ std::string TerminalRow(const std::string& alignment, const std::vector<std::siz
 
 // Each column as wide as its widest cell; below a line across the table names are indented.
 std::string TerminalText(const block::Table& table) {
-  std::vector<Row> lines = table.heads;
+  std::vector<block::Table::Row> lines = table.heads;
   lines.insert(lines.end(), table.rows.begin(), table.rows.end());
   std::vector<std::size_t> widths(table.alignment.size(), 0);
-  for (Row& row : lines) {
+  for (block::Table::Row& row : lines) {
     if (!table.spans.empty() && !row.empty()) row[0].insert(0, "  ");
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], Columns(row[c]));
   }

@@ -110,13 +110,11 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/verdict.h
   study/report/audit_csv.h
   study/report/audit_json.h
-  study/report/audit_text.h
   study/report/compare_csv.h
   study/report/compare_json.h
   study/report/compare_plot.h
-  study/report/compare_text.h
-  study/report/coverage_text.h
-  study/report/truth_text.h)
+  study/report/coverage_json.h
+  study/report/documents.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"

@@ -4,7 +4,7 @@
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/report/audit_csv.h"
 #include "lyrefit/study/report/audit_json.h"
-#include "lyrefit/study/report/audit_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/study/report/compare_plot.h"
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "study_flags.h"
 #include "verbs.h"
 

@@ -4,7 +4,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/study/coverage.h"
-#include "lyrefit/study/report/coverage_text.h"
+#include "lyrefit/study/report/coverage_json.h"
+#include "lyrefit/study/report/documents.h"
 #include "verbs.h"
 
 namespace lyrefit {

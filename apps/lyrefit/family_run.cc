@@ -15,7 +15,7 @@
 #include "lyrefit/report/family_csv.h"
 #include "lyrefit/report/family_plot.h"
 #include "lyrefit/report/json.h"
-#include "lyrefit/study/report/truth_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "lyrefit/study/truth.h"
 #include "output.h"
 

@@ -1,5 +1,5 @@
 #include "lyrefit/base/try.h"
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 #include "study_flags.h"
 #include "verbs.h"
 

@@ -31,7 +31,7 @@ expect(lib/lyrefit/curve/a.h "#include \"lyrefit/law/term.h\"" "room curve must 
 expect(lib/lyrefit/search/a.cc "#include \"lyrefit/curve/iv_curve.h\"" "room search must not include room curve")
 expect(lib/lyrefit/law/a.cc "  #  include <lyrefit/fit/fit.h>" "room law must not include room fit")
 expect(lib/lyrefit/report/a.cc "#include \"lyrefit/refine/refine.h\"" "room report must not include room refine")
-expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/compare_text.h\"" "room report must not include room study")
+expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/documents.h\"" "room report must not include room study")
 expect(lib/lyrefit/study/report/a.cc "#include \"lyrefit/diagnose/diagnose.h\"" "room study must not include room diagnose")
 expect(lib/lyrefit/lyrefit.h "#include \"lyrefit/study/compare.h\"" "the core knows nothing of the studies")
 expect(lib/lyrefit/study.h "#include \"lyrefit/study/compare.h\"" "")

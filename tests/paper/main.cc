@@ -20,10 +20,10 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/report/markdown.h"
 #include "lyrefit/report/plot.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
+#include "paper/page_blocks.h"
 #include "paper/paper_page.h"
 #include "paper/paper_study.h"
 
@@ -35,16 +35,16 @@ namespace fs = std::filesystem;
 constexpr char kUsage[] =
     "Usage: lyrefit_paper FOLDER [flags]\n"
     "\n"
-    "FOLDER holds published.csv, rows.csv and remarks.csv; the curves lie in the folders beside "
-    "it.\n"
+    "FOLDER holds published.csv, rows.csv and remarks.csv; "
+    "the curves lie in the folders beside it.\n"
     "Takes minutes. Writes README.md and its pictures.\n"
     "\n"
     "  --out DIR        folder to write into (default FOLDER)\n"
-    "  --update FILE    a page whose blocks <!-- certified -->, <!-- ranked --> and <!-- budget "
-    "-->\n"
+    "  --update FILE    a page whose blocks <!-- certified -->, <!-- ranked --> and "
+    "<!-- budget -->\n"
     "                   are written anew; once for each\n"
-    "  --resume FILE    a journal: every finished run is added to it, and none that stands in it "
-    "is\n"
+    "  --resume FILE    a journal: every finished run is added to it, and none "
+    "that stands in it is\n"
     "                   done again; begun where there is none\n"
     "  --peers LIST     pagmo2 algorithms to rank as well\n"
     "                   (default de1220,sade,cmaes,pso,gwo,bee_colony)\n"
@@ -168,10 +168,7 @@ constexpr Picture kPictures[] = {
 Expected<void> Update(const PaperStudy& study, const std::string& page) {
   constexpr std::uintmax_t kLargestPage = 1U << 22;
   TRY(const std::string text, ReadTextFile(page, kLargestPage));
-  std::string updated = ReplaceBlock(text, "certified", CertifiedTable(study));
-  updated = ReplaceBlock(updated, "ranked", RankedTable(study));
-  updated = ReplaceBlock(updated, "budget", BudgetSummary(study));
-  return WriteTextFile(page, updated);
+  return WriteTextFile(page, WithTables(text, study));
 }
 
 Expected<void> Write(const PaperStudy& study, const std::map<std::string, std::string>& remarks,

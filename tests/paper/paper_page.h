@@ -11,9 +11,4 @@ namespace lyrefit {
 // same, and why not. `remarks` holds a paragraph for each table, by its name ("Table 12").
 std::string PaperPage(const PaperStudy& study, const std::map<std::string, std::string>& remarks);
 
-// What other pages show of it.
-std::string CertifiedTable(const PaperStudy& study);
-std::string RankedTable(const PaperStudy& study);
-std::string BudgetSummary(const PaperStudy& study);
-
 }  // namespace lyrefit

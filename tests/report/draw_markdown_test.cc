@@ -31,7 +31,30 @@ TEST(DrawMarkdown, ShowsNamesAsTheyAre) {
 - \- one
 - 2\. two
 
-    a   <b>
+*of \<a\>*
+
+|  | A |
+|---|---:|
+| **\*first\*** |  |
+| x | 1 |
+| **\& last** |  |
+| y | 2 |
+
+\* \<star\>
+
+> \<!
+
+- **a\_b \& c**
+  - x \< y
+  - \- z
+- **alone**
+
+````text
+a   <b>
+```
+````
+
+![seen "there"](a.svg)
 
 *current \& voltage*
 
@@ -48,6 +71,16 @@ TEST(DrawMarkdown, LeavesNumbersAlone) {
   AddSections({{"", {block::Sentence{"2.5 A"}, block::Sentence{"-3 V"}}}}, &document);
   EXPECT_EQ(DrawMarkdown(document), "2.5 A\n\n-3 V\n");
   EXPECT_EQ(DrawMarkdown({}), "");
+}
+
+TEST(DrawMarkdown, LeavesMarkdownAsItIsAndBreaksItsParagraphs) {
+  const std::string word(60, 'x');
+  Document document;
+  document.head = {"`a`", {block::Sentence{"**b** " + word + " " + word}}};
+  AddTable({"lr", {{"name", "A"}}, {{"a|b", "**1**"}, {"short"}}}, &document.head);
+  EXPECT_EQ(DrawMarkdown(document, Texts::kMarkdown),
+            "# `a`\n\n**b** " + word + "\n" + word +
+                "\n\n| name | A |\n|---|---:|\n| a\\|b | **1** |\n| short |  |\n");
 }
 
 }  // namespace

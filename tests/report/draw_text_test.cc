@@ -15,7 +15,7 @@ TEST(DrawText, KeepsTheCustomsOfTheTerminal) {
   AddTable({"lr", {{"", "value"}, {"name", "A"}}, {{"Rs", "1"}}}, &section);
   AddSentence("A sentence.", &section);
   AddList({"one", "two"}, &section);
-  section.blocks.push_back(block::Preformatted{"a   b"});
+  section.blocks.push_back(block::Preformatted{"a   b\n"});
   section.blocks.push_back(block::Figure{"seen elsewhere"});
   AddSections({section, {"", {block::Conclusion{"The end."}}}}, &document);
   EXPECT_EQ(DrawText(document),
@@ -35,6 +35,58 @@ TEST(DrawText, KeepsTheCustomsOfTheTerminal) {
             "a   b\n"
             "\n"
             "The end.\n");
+}
+
+std::string Drawn(block::Any block) { return DrawText({{}, {"", {std::move(block)}}}); }
+
+TEST(DrawText, AlignsColumnsByTheirWidestCell) {
+  EXPECT_EQ(Drawn(block::Table{"lr", {{"name", "value"}}, {{"\u00b5", "1"}, {"alone"}}}),
+            "  name   value\n  \u00b5          1\n  alone\n");
+}
+
+TEST(DrawText, WrapsALastColumnOfLongTexts) {
+  const std::string word(80, 'x');
+  EXPECT_EQ(Drawn(block::Table{"rw", {{"RMSE", "what"}}, {{"1", word + " " + word}, {"2"}}}),
+            "  RMSE  what\n     1  " + word + "\n        " + word + "\n     2\n");
+}
+
+TEST(DrawText, SetsTablesWithACaptionApart) {
+  EXPECT_EQ(Drawn(block::Table{"lr", {{"", "A"}}, {{"x", "1"}}, "Currents"}),
+            "\n  Currents\n     A\n  x  1\n");
+}
+
+TEST(DrawText, IndentsTheNamesBelowALineAcrossTheTable) {
+  const std::string word(60, 'x');
+  EXPECT_EQ(Drawn(block::Table{"lr",
+                               {{"name", "A"}},
+                               {{"x", "1"}, {"y", "2"}, {"z", "3"}},
+                               "",
+                               {{0, "first"}, {2, word + " " + word}}}),
+            "    name  A\n"
+            "  first\n"
+            "    x     1\n"
+            "    y     2\n"
+            "  " +
+                word + "\n  " + word + "\n" + "    z     3\n");
+}
+
+TEST(DrawText, SaysWhatBelongsToATitleBelowIt) {
+  EXPECT_EQ(Drawn(block::Entry{"Ranks", {"a 1, b 2", "c 3"}}), "  Ranks\n    a 1, b 2\n    c 3\n");
+  EXPECT_EQ(Drawn(block::Entry{"Ranks"}), "  Ranks\n");
+}
+
+TEST(DrawText, PutsLegendsAtTheEdgeAndMarksWarnings) {
+  EXPECT_EQ(Drawn(block::Legend{"Columns are budgets."}), "Columns are budgets.\n");
+  EXPECT_EQ(Drawn(block::Warning{"Look twice."}), "  ! Look twice.\n");
+}
+
+TEST(DrawText, WrapsAHeadingThatIsTooLongAndKeepsTheBlanksOfOthers) {
+  const std::string word(60, 'x');
+  Document document;
+  AddSections(
+      {{"RMSE   (all)", {block::Sentence{"a"}}}, {word + "  " + word, {block::Sentence{"b"}}}},
+      &document);
+  EXPECT_EQ(DrawText(document), "RMSE   (all)\n  a\n\n" + word + "\n" + word + "\n  b\n");
 }
 
 TEST(DrawText, BeginsWithTheFirstSectionWhereThereIsNoHead) {

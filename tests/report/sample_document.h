@@ -19,7 +19,14 @@ inline Document HostileDocument() {
            &section);
   AddSentence("# 1 of 2 [links](http://x) at $3 ~ \\ 4 \x01", &section);
   AddList({"- one", "2. two"}, &section);
-  section.blocks.push_back(block::Preformatted{"a   <b>"});
+  AddTable({"lr", {{"", "A"}}, {{"x", "1"}, {"y", "2"}}, "of <a>", {{0, "*first*"}, {1, "& last"}}},
+           &section);
+  section.blocks.push_back(block::Legend{"* <star>"});
+  section.blocks.push_back(block::Warning{"<!"});
+  section.blocks.push_back(block::Entry{"a_b & c", {"x < y", "- z"}});
+  section.blocks.push_back(block::Entry{"alone"});
+  section.blocks.push_back(block::Preformatted{"a   <b>\n```\n"});
+  section.blocks.push_back(block::Figure{"seen \"there\"", "a.svg"});
   section.blocks.push_back(block::Figure{"current & voltage"});
   section.blocks.push_back(block::Conclusion{"all < well"});
   AddSections({section, {"empty"}, {"below", {block::Sentence{"deeper"}}, 1}}, &document);

@@ -54,21 +54,9 @@ TEST(Wrap, LeavesAWordLongerThanTheLineWhole) {
   EXPECT_EQ(Wrap("> ", word), "> " + word + "\n");
 }
 
-TEST(TextTable, AlignsColumnsByTheirWidestCell) {
-  TextTable table("lr");
-  table.Add({"name", "value"});
-  table.Add({"\u00b5", "1"});
-  table.Add({"alone"});
-  EXPECT_EQ(table.Text(), "  name   value\n  \u00b5          1\n  alone\n");
-}
-
-TEST(TextTable, WrapsALastColumnOfLongTexts) {
-  const std::string word(80, 'x');
-  TextTable table("rw");
-  table.Add({"RMSE", "what"});
-  table.Add({"1", word + " " + word});
-  table.Add({"2"});
-  EXPECT_EQ(table.Text(), "  RMSE  what\n     1  " + word + "\n        " + word + "\n     2\n");
+TEST(Columns, CountsLettersAndNotBytes) {
+  EXPECT_EQ(Columns("1 \u00b5A"), 4U);
+  EXPECT_EQ(Columns(""), 0U);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "lyrefit/report/plot/figure.h"
+
 // A report as data: what is said, in the order in which it is read. How that looks in a terminal,
 // in Markdown or on a page is the business of who draws it.
 namespace lyrefit {
@@ -23,8 +25,18 @@ struct Sentence {
   std::string text;
 };
 
+// What must be known to read what comes next.
+struct Legend {
+  std::string text;
+};
+
 // What the whole report comes to.
 struct Conclusion {
+  std::string text;
+};
+
+// What is to be looked at twice.
+struct Warning {
   std::string text;
 };
 
@@ -32,26 +44,43 @@ struct List {
   std::vector<std::string> sentences;
 };
 
+// A title and what is to be said below it, one thing after the other.
+struct Entry {
+  std::string title;
+  std::vector<std::string> sentences = {};
+};
+
 // `alignment` holds one letter a column: 'l', 'r', or 'w' for a last column of long texts. Heads
 // that need more than one line have as many rows. Missing cells are empty.
 struct Table {
   using Row = std::vector<std::string>;
+  // A line across the table which names the rows from `row` on to the next one.
+  struct Span {
+    std::size_t row = 0;
+    std::string title;
+  };
   std::string alignment;
   std::vector<Row> heads;
   std::vector<Row> rows = {};
+  std::string caption = {};
+  std::vector<Span> spans = {};
 };
 
-// One line whose blanks matter.
+// Lines whose blanks matter, each with its newline.
 struct Preformatted {
-  std::string line;
+  std::string lines;
 };
 
-// A picture, of which a terminal shows nothing; so far its caption alone.
+// A picture, of which a terminal shows nothing. Pages show the `file` it was drawn into, if there
+// is one, else the caption alone.
 struct Figure {
   std::string caption;
+  std::string file = {};
+  lyrefit::Figure figure = {};
 };
 
-using Any = std::variant<Field, Sentence, Conclusion, List, Table, Preformatted, Figure>;
+using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Entry, Table,
+                         Preformatted, Figure>;
 
 }  // namespace block
 
@@ -82,8 +111,9 @@ void AddSections(std::vector<Section> sections, Document* document);
 // For a terminal of 100 columns. Ends with a newline.
 std::string DrawText(const Document& document);
 
-// Names and texts are escaped: they look as they are.
-std::string DrawMarkdown(const Document& document);
+// Whether texts are plain, and escaped so that they look as they are, or written as Markdown.
+enum class Texts { kPlain, kMarkdown };
+std::string DrawMarkdown(const Document& document, Texts texts = Texts::kPlain);
 
 // A page of plain HTML 5 that is well-formed XML too. Nothing in it is run, nothing is fetched.
 std::string DrawHtml(const Document& document);

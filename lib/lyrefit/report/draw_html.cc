@@ -64,14 +64,27 @@ std::string HtmlText(const block::Field& field) {
 
 std::string HtmlText(const block::Sentence& sentence) { return Element("p", sentence.text) + "\n"; }
 
+std::string HtmlText(const block::Legend& legend) { return Element("p", legend.text) + "\n"; }
+
 std::string HtmlText(const block::Conclusion& conclusion) {
   return "<p>" + Element("strong", conclusion.text) + "</p>\n";
+}
+
+std::string HtmlText(const block::Warning& warning) {
+  return "<p role=\"note\">" + Element("strong", warning.text) + "</p>\n";
 }
 
 std::string HtmlText(const block::List& list) {
   std::string html = "<ul>\n";
   for (const std::string& sentence : list.sentences) html += Element("li", sentence) + "\n";
   return html + "</ul>\n";
+}
+
+std::string HtmlText(const block::Entry& entry) {
+  std::string html = Element("dt", entry.title);
+  for (const std::string& sentence : entry.sentences) html += Element("dd", sentence);
+  if (entry.sentences.empty()) html += Element("dd", "");  // no term goes without one
+  return html + "\n";
 }
 
 // The first cell of a row names it; a cell of the head that is empty names nothing.
@@ -91,28 +104,53 @@ std::string HtmlRow(const std::string& alignment, const block::Table::Row& row, 
 
 std::string HtmlText(const block::Table& table) {
   std::string html = "<table>\n";
+  if (!table.caption.empty()) html += Element("caption", table.caption) + "\n";
   if (!table.heads.empty()) {
     html += "<thead>\n";
     for (const auto& row : table.heads) html += HtmlRow(table.alignment, row, true);
     html += "</thead>\n";
   }
   html += "<tbody>\n";
-  for (const auto& row : table.rows) html += HtmlRow(table.alignment, row, false);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    for (const block::Table::Span& span : table.spans) {
+      if (span.row != r) continue;
+      html += "<tr><th scope=\"colgroup\" colspan=\"" + std::to_string(table.alignment.size()) +
+              "\">" + HtmlEscaped(span.title) + "</th></tr>\n";
+    }
+    html += HtmlRow(table.alignment, table.rows[r], false);
+  }
   return html + "</tbody>\n</table>\n";
 }
 
-std::string HtmlText(const block::Preformatted& text) { return Element("pre", text.line) + "\n"; }
-
-std::string HtmlText(const block::Figure& figure) {
-  return "<figure>" + Element("figcaption", figure.caption) + "</figure>\n";
+std::string HtmlText(const block::Preformatted& text) {
+  std::string html = "<pre>";
+  std::string line;
+  for (const char c : text.lines) {
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    html += HtmlEscaped(line) + "\n";
+    line.clear();
+  }
+  return html + HtmlEscaped(line) + "</pre>\n";
 }
 
-// Fields that follow each other are one list.
+std::string HtmlText(const block::Figure& figure) {
+  const std::string picture = figure.file.empty()
+                                  ? ""
+                                  : "<img src=\"" + HtmlEscaped(figure.file) + "\" alt=\"" +
+                                        HtmlEscaped(figure.caption) + "\"/>";
+  return "<figure>" + picture + Element("figcaption", figure.caption) + "</figure>\n";
+}
+
+// Fields and entries that follow each other are one list.
 std::string HtmlBlocks(const std::vector<block::Any>& blocks) {
   std::string html;
   bool in_fields = false;
   for (const block::Any& one : blocks) {
-    const bool is_field = std::holds_alternative<block::Field>(one);
+    const bool is_field =
+        std::holds_alternative<block::Field>(one) || std::holds_alternative<block::Entry>(one);
     if (is_field != in_fields) html += is_field ? "<dl>\n" : "</dl>\n";
     in_fields = is_field;
     html += std::visit([](const auto& any) { return HtmlText(any); }, one);

@@ -1,12 +1,13 @@
 #include <algorithm>
+#include <string_view>
 
 #include "lyrefit/report/document.h"
-#include "lyrefit/report/markdown.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 namespace {
 
-// One line that shows what stands there.
+// Plain text as one line that shows what stands there.
 std::string Literal(const std::string& text) {
   std::string line;
   for (const char c : text) {
@@ -29,75 +30,132 @@ std::string Opening(const std::string& text) {
   return line;
 }
 
-std::string MarkdownText(const block::Field& field) {
-  if (field.name.empty()) return "- " + Opening(field.text) + "\n";
-  return "- **" + Literal(field.name) + "**: " + Literal(field.text) + "\n";
-}
-
-std::string MarkdownText(const block::Sentence& sentence) { return Opening(sentence.text) + "\n"; }
-
-std::string MarkdownText(const block::Conclusion& conclusion) {
-  return "**" + Literal(conclusion.text) + "**\n";
-}
-
-std::string MarkdownText(const block::List& list) {
-  std::string text;
-  for (const std::string& sentence : list.sentences) text += "- " + Opening(sentence) + "\n";
-  return text;
+// '|' would end a cell.
+std::string MarkdownRow(const block::Table::Row& cells, std::size_t columns) {
+  std::string line = "|";
+  for (std::size_t c = 0; c < columns; ++c) {
+    line += ' ';
+    for (const char letter : c < cells.size() ? cells[c] : std::string()) {
+      if (letter == '|') line += '\\';
+      line += letter;
+    }
+    line += " |";
+  }
+  return line + "\n";
 }
 
 // Only one row can be the head of a table.
-std::string MarkdownText(const block::Table& table) {
-  MarkdownTable text(table.alignment);
-  const auto add = [&text](block::Table::Row row) {
-    std::transform(row.begin(), row.end(), row.begin(), Literal);
-    text.Add(std::move(row));
-  };
+block::Table::Row OneHead(const block::Table& table) {
   block::Table::Row head(table.alignment.size());
   for (const auto& row : table.heads) {
     for (std::size_t c = 0; c < row.size(); ++c) {
       head[c] += (head[c].empty() || row[c].empty() ? "" : " ") + row[c];
     }
   }
-  add(std::move(head));
-  for (const auto& row : table.rows) add(row);
-  std::string drawn = text.Text();
-  drawn.pop_back();  // the blank line behind
-  return drawn;
+  return head;
 }
 
-std::string MarkdownText(const block::Preformatted& text) { return "    " + text.line + "\n"; }
+// What each block looks like, with texts of one kind.
+struct Markdown {
+  Texts texts;
 
-std::string MarkdownText(const block::Figure& figure) {
-  return "*" + Literal(figure.caption) + "*\n";
-}
-
-// Neighbours of one kind stand together, others apart.
-std::string MarkdownText(const Section& section, const std::string& marks) {
-  std::string text;
-  if (!section.heading.empty()) text = marks + " " + Literal(section.heading) + "\n\n";
-  const std::vector<block::Any>& blocks = section.blocks;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    text += std::visit([](const auto& any) { return MarkdownText(any); }, blocks[i]);
-    const bool listed = std::holds_alternative<block::Field>(blocks[i]) ||
-                        std::holds_alternative<block::Preformatted>(blocks[i]);
-    const bool goes_on =
-        listed && i + 1 < blocks.size() && blocks[i + 1].index() == blocks[i].index();
-    if (!goes_on) text += "\n";
+  std::string Inline(const std::string& text) const {
+    return texts == Texts::kPlain ? Literal(text) : text;
   }
-  return text;
-}
+
+  // A paragraph or an item. Plain text stays on its line, since words that mean something at the
+  // beginning of one are everywhere in it.
+  std::string Block(const std::string& text) const {
+    return texts == Texts::kPlain ? Opening(text) + "\n" : Wrap("", text);
+  }
+
+  std::string operator()(const block::Field& field) const {
+    if (field.name.empty()) return "- " + Block(field.text);
+    return "- **" + Inline(field.name) + "**: " + Inline(field.text) + "\n";
+  }
+
+  std::string operator()(const block::Sentence& sentence) const { return Block(sentence.text); }
+
+  std::string operator()(const block::Legend& legend) const { return Block(legend.text); }
+
+  std::string operator()(const block::Conclusion& conclusion) const {
+    return "**" + Inline(conclusion.text) + "**\n";
+  }
+
+  std::string operator()(const block::Warning& warning) const { return "> " + Block(warning.text); }
+
+  std::string operator()(const block::List& list) const {
+    std::string text;
+    for (const std::string& sentence : list.sentences) text += "- " + Block(sentence);
+    return text;
+  }
+
+  std::string operator()(const block::Entry& entry) const {
+    std::string text = "- **" + Inline(entry.title) + "**\n";
+    for (const std::string& sentence : entry.sentences) text += "  - " + Block(sentence);
+    return text;
+  }
+
+  std::string operator()(const block::Table& table) const {
+    const std::size_t columns = table.alignment.size();
+    const auto line = [&](block::Table::Row row) {
+      for (std::string& cell : row) cell = Inline(cell);
+      return MarkdownRow(row, columns);
+    };
+    std::string text = table.caption.empty() ? "" : "*" + Inline(table.caption) + "*\n\n";
+    text += line(OneHead(table)) + "|";
+    for (const char letter : table.alignment) text += letter == 'r' ? "---:|" : "---|";
+    text += "\n";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      for (const block::Table::Span& span : table.spans) {
+        if (span.row == r) text += MarkdownRow({"**" + Inline(span.title) + "**"}, columns);
+      }
+      text += line(table.rows[r]);
+    }
+    return text;
+  }
+
+  // A fence longer than any within.
+  std::string operator()(const block::Preformatted& text) const {
+    std::string fence = "```";
+    while (text.lines.find(fence) != std::string::npos) fence += '`';
+    return fence + "text\n" + text.lines + fence + "\n";
+  }
+
+  std::string operator()(const block::Figure& figure) const {
+    const std::string caption = Inline(figure.caption);
+    if (figure.file.empty()) return "*" + caption + "*\n";
+    return "![" + caption + "](" + figure.file + ")\n";
+  }
+
+  // Neighbours of one kind stand together, others apart.
+  std::string operator()(const Section& section, const std::string& marks) const {
+    std::string text;
+    if (!section.heading.empty()) text = marks + " " + Inline(section.heading) + "\n\n";
+    const std::vector<block::Any>& blocks = section.blocks;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      text += std::visit(*this, blocks[i]);
+      const bool listed = std::holds_alternative<block::Field>(blocks[i]) ||
+                          std::holds_alternative<block::Entry>(blocks[i]);
+      const bool goes_on =
+          listed && i + 1 < blocks.size() && blocks[i + 1].index() == blocks[i].index();
+      if (!goes_on) text += "\n";
+    }
+    return text;
+  }
+};
 
 }  // namespace
 
-std::string DrawMarkdown(const Document& document) {
+std::string DrawMarkdown(const Document& document, Texts texts) {
+  const Markdown draw = {texts};
   std::string text;
   for (const std::string& banner : document.banners) {
-    text += "> **" + Literal(banner) + "**\n\n";
+    text += "> **" + draw.Inline(banner) + "**\n\n";
   }
-  text += MarkdownText(document.head, "#");
+  text += draw(document.head, "#");
   for (const Section& section : document.sections) {
-    text += MarkdownText(section, section.depth == 0 ? "##" : "###");
+    text += draw(section, section.depth == 0 ? "##" : "###");
   }
   if (!text.empty()) text.pop_back();  // one newline at the end
   return text;

@@ -1,16 +1,32 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/text_layout.h"
 
-// The customs of the terminal: headings and titles stand at the left edge, what is below them two
-// columns in; a blank line goes before a section and after a banner.
+// The customs of the terminal: headings, titles, legends and conclusions stand at the left edge,
+// what is below them two columns in; a blank line goes before a section, before a table that has a
+// caption and after a banner.
 namespace lyrefit {
 namespace {
 
-std::string TerminalText(const block::Field& field) { return Field(field.name, field.text); }
+// A long one is wrapped; of others the blanks matter.
+std::string Heading(const std::string& text) {
+  return Columns(text) > kTextWidth ? Wrap("", text) : text + "\n";
+}
+
+std::string TerminalText(const block::Field& field) {
+  return Wrap(fmt::format("  {:<13} ", field.name), field.text);
+}
 
 std::string TerminalText(const block::Sentence& sentence) { return Wrap("  ", sentence.text); }
 
+std::string TerminalText(const block::Legend& legend) { return Wrap("", legend.text); }
+
 std::string TerminalText(const block::Conclusion& conclusion) { return Wrap("", conclusion.text); }
+
+std::string TerminalText(const block::Warning& warning) { return Wrap("  ! ", warning.text); }
 
 std::string TerminalText(const block::List& list) {
   std::string text;
@@ -18,20 +34,51 @@ std::string TerminalText(const block::List& list) {
   return text;
 }
 
-std::string TerminalText(const block::Table& table) {
-  TextTable text(table.alignment);
-  for (const auto& head : table.heads) text.Add(head);
-  for (const auto& row : table.rows) text.Add(row);
-  return text.Text();
+std::string TerminalText(const block::Entry& entry) {
+  std::string text = Wrap("  ", entry.title);
+  for (const std::string& sentence : entry.sentences) text += Wrap("    ", sentence);
+  return text;
 }
 
-std::string TerminalText(const block::Preformatted& text) { return text.line + "\n"; }
+// A line of a table, or several where its last column is wrapped.
+std::string TerminalRow(const std::string& alignment, const std::vector<std::size_t>& widths,
+                        const block::Table::Row& row) {
+  std::string line;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    if (alignment[c] == 'w') return Wrap(line + "  ", row[c]);
+    const std::string blanks(widths[c] - Columns(row[c]), ' ');
+    line += "  " + (alignment[c] == 'r' ? blanks + row[c] : row[c] + blanks);
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+// Each column as wide as its widest cell; below a line across the table names are indented.
+std::string TerminalText(const block::Table& table) {
+  std::vector<block::Table::Row> lines = table.heads;
+  lines.insert(lines.end(), table.rows.begin(), table.rows.end());
+  std::vector<std::size_t> widths(table.alignment.size(), 0);
+  for (block::Table::Row& row : lines) {
+    if (!table.spans.empty() && !row.empty()) row[0].insert(0, "  ");
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], Columns(row[c]));
+  }
+  std::string text = table.caption.empty() ? "" : "\n" + Wrap("  ", table.caption);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const block::Table::Span& span : table.spans) {
+      if (table.heads.size() + span.row == i) text += Wrap("  ", span.title);
+    }
+    text += TerminalRow(table.alignment, widths, lines[i]);
+  }
+  return text;
+}
+
+std::string TerminalText(const block::Preformatted& text) { return text.lines; }
 
 std::string TerminalText(const block::Figure&) { return ""; }  // others show it
 
-std::string TerminalText(const Section& section) {
-  std::string text = section.heading.empty() ? "" : section.heading + "\n";
-  for (const block::Any& one : section.blocks) {
+std::string TerminalText(const std::vector<block::Any>& blocks) {
+  std::string text;
+  for (const block::Any& one : blocks) {
     text += std::visit([](const auto& any) { return TerminalText(any); }, one);
   }
   return text;
@@ -42,9 +89,12 @@ std::string TerminalText(const Section& section) {
 std::string DrawText(const Document& document) {
   std::string text;
   for (const std::string& banner : document.banners) text += Wrap("", banner) + "\n";
-  text += TerminalText(document.head);
+  const Section& head = document.head;
+  text += (head.heading.empty() ? "" : head.heading + "\n") + TerminalText(head.blocks);
   for (const Section& section : document.sections) {
-    text += (text.empty() ? "" : "\n") + TerminalText(section);
+    if (!text.empty()) text += "\n";
+    if (!section.heading.empty()) text += Heading(section.heading);
+    text += TerminalText(section.blocks);
   }
   return text;
 }

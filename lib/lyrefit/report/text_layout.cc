@@ -6,17 +6,6 @@
 #include <cmath>
 
 namespace lyrefit {
-namespace {
-
-// Terminal columns of UTF-8 text: continuation bytes take none.
-std::size_t Columns(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
-
-}  // namespace
-
 std::string Significant(double value, int digits) {
   if (std::isnan(value)) return "-";
   if (value == 0) return "0";
@@ -75,31 +64,10 @@ std::string Wrap(std::string_view first, std::string_view text) {
   return wrapped + "\n";
 }
 
-std::string Field(std::string_view name, std::string_view text) {
-  return Wrap(fmt::format("  {:<13} ", name), text);
-}
-
-std::string TextTable::Text() const {
-  std::vector<std::size_t> widths(alignment_.size(), 0);
-  for (const auto& row : rows_) {
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], Columns(row[c]));
-  }
-  std::string text;
-  for (const auto& row : rows_) {
-    std::string line;
-    std::size_t c = 0;
-    for (; c < row.size() && alignment_[c] != 'w'; ++c) {
-      const std::string blanks(widths[c] - Columns(row[c]), ' ');
-      line += "  " + (alignment_[c] == 'r' ? blanks + row[c] : row[c] + blanks);
-    }
-    if (c < row.size()) {
-      text += Wrap(line + "  ", row[c]);
-      continue;
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
+std::size_t Columns(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // continuation bytes take none
+  }));
 }
 
 }  // namespace lyrefit

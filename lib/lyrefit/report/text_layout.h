@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace lyrefit {
 
@@ -26,21 +25,7 @@ std::string Duration(double seconds);
 // `first`, the others with as many blanks. Ends with a newline.
 std::string Wrap(std::string_view first, std::string_view text);
 
-// "  name          text", wrapped.
-std::string Field(std::string_view name, std::string_view text);
-
-// Rows of cells, each column as wide as its widest cell. `alignment` holds one letter a column,
-// 'l', 'r', or 'w' for a last column whose texts are wrapped; missing cells are blank. Lines begin
-// with two blanks and end with a newline.
-class TextTable {
- public:
-  explicit TextTable(std::string alignment) : alignment_(std::move(alignment)) {}
-  void Add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  std::string Text() const;
-
- private:
-  std::string alignment_;
-  std::vector<std::vector<std::string>> rows_;
-};
+// Columns of a terminal that UTF-8 text takes.
+std::size_t Columns(std::string_view text);
 
 }  // namespace lyrefit

@@ -75,12 +75,6 @@ std::vector<std::string> Banners(bool interrupted, bool usable, const std::strin
   return banners;
 }
 
-std::string DoubtLines(const std::vector<std::string>& doubts) {
-  std::string text;
-  for (const std::string& doubt : doubts) text += Wrap("", DoubtText(doubt)) + "\n";
-  return text;
-}
-
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
                        const std::string& because) {
   std::string text;

@@ -41,9 +41,6 @@ std::vector<std::string> Banners(bool interrupted, bool usable, const std::strin
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
                        const std::string& because = {});
 
-// The banners of the doubts alone, drawn for a terminal.
-std::string DoubtLines(const std::vector<std::string>& doubts);
-
 // "Rs (ohm)", "n1".
 std::string LabelWithUnit(const ParameterInfo& info);
 

@@ -8,12 +8,12 @@
 #include "lyrefit/report/csv_parts.h"
 
 namespace lyrefit {
+
 std::string CompareCsv(const Comparison& comparison) {
   std::string csv =
       "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-      "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,search_"
-      "seconds,"
-      "refine_seconds";
+      "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+      "search_seconds,refine_seconds";
   const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
                                   [](const auto& problem) { return !problem.problem.empty(); });
   csv += pooled ? ",problem,reference_A,plain_seconds,best_bird_seconds\n" : "\n";

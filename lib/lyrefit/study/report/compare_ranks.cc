@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/study/report/compare_sections.h"
+#include "lyrefit/study/report/compare_parts.h"
 
 namespace lyrefit {
 namespace {
@@ -55,10 +55,9 @@ std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
         return pair.p_holm < kSignificant && always_there(pair.first) && always_there(pair.second);
       });
   if (count == 0) return "";
-  return Wrap("    ",
-              fmt::format("{} of these differences {} rounding: all runs of both are within "
-                          "1e-9 of the reference",
-                          count, count == 1 ? "is" : "are"));
+  return fmt::format(
+      "{} of these differences {} rounding: all runs of both are within 1e-9 of the reference",
+      count, count == 1 ? "is" : "are");
 }
 
 // "50", or "3 to 50" where pairs of contenders differ in that.
@@ -75,10 +74,9 @@ struct Differing {
 };
 
 // The pairs that chance explains, and how many of their runs differ at all.
-std::string Undecided(const ProblemResult& problem, const Ranking& ranking) {
-  if (ranking.friedman.contenders == 0) return "";
+std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& ranking) {
   const int runs = ranking.friedman.blocks;
-  std::string text;
+  std::vector<std::string> sentences;
   Differing differing;
   double smallest_p = 1;
   bool all = true;
@@ -97,33 +95,43 @@ std::string Undecided(const ProblemResult& problem, const Ranking& ranking) {
     }
     smallest_p = std::min(smallest_p, smallest_here);
     if (like.empty()) continue;
-    text += Wrap("    ", fmt::format("{} not told from {} (p at least {}; {} of {} runs differ)",
-                                     problem.contenders[c].name, like, PText(smallest_here),
-                                     here.Text(), runs));
+    sentences.push_back(fmt::format("{} not told from {} (p at least {}; {} of {} runs differ)",
+                                    problem.contenders[c].name, like, PText(smallest_here),
+                                    here.Text(), runs));
   }
-  if (!all) return text;
-  if (differing.most == 0) return "    no pair differs: all runs of all algorithms are equal\n";
-  return Wrap("    ", fmt::format("no pair is told apart (p at least {}; {} of {} runs differ)",
-                                  PText(smallest_p), differing.Text(), runs));
+  if (!all) return sentences;
+  if (differing.most == 0) return {"no pair differs: all runs of all algorithms are equal"};
+  return {fmt::format("no pair is told apart (p at least {}; {} of {} runs differ)",
+                      PText(smallest_p), differing.Text(), runs)};
 }
 
-std::string TestsOf(const ProblemResult& problem, const Ranking& ranking, const char* stage) {
-  if (ranking.friedman.contenders == 0) return "";
-  const int runs = ranking.friedman.blocks;
+// Who is first, and which pairs are told apart; `note` is to be said of the latter.
+void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* stage,
+              const std::string& note, Section* section) {
+  if (ranking.friedman.contenders == 0) return;
+  const std::vector<std::string> names = NamesOf(problem);
   const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
-  std::string text = fmt::format("  Ranks, {}: Friedman over {} runs\n", stage, runs);
-  text += Wrap("    ", MeanRanks(NamesOf(problem), ranking.friedman));
-  text += fmt::format(
-      "  Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} apart)\n",
-      stage, ranking.signed_ranks.size(),
-      std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart));
-  return text + WinnersText(NamesOf(problem), ranking);
+  section->blocks.push_back(
+      block::Entry{fmt::format("Ranks, {}: Friedman over {} runs", stage, ranking.friedman.blocks),
+                   {MeanRanks(names, ranking.friedman)}});
+  block::Entry pairs = {
+      fmt::format("Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} "
+                  "apart)",
+                  stage, ranking.signed_ranks.size(),
+                  std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart)),
+      WinnerSentences(names, ranking)};
+  if (!note.empty()) pairs.sentences.push_back(note);
+  for (std::string& sentence : Undecided(problem, ranking)) {
+    pairs.sentences.push_back(std::move(sentence));
+  }
+  section->blocks.push_back(std::move(pairs));
 }
 
 }  // namespace
 
-std::string WinnersText(const std::vector<std::string>& names, const Ranking& ranking) {
-  std::string text;
+std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
+                                         const Ranking& ranking) {
+  std::vector<std::string> sentences;
   for (int c = 0; c < static_cast<int>(names.size()); ++c) {
     std::string losers;
     double largest_p = 0;
@@ -135,20 +143,22 @@ std::string WinnersText(const std::vector<std::string>& names, const Ranking& ra
       largest_p = std::max(largest_p, pair.p_holm);
     }
     if (losers.empty()) continue;
-    text +=
-        Wrap("    ", fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
+    sentences.push_back(
+        fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
   }
-  return text;
+  return sentences;
 }
 
-std::string RankSection(const ProblemResult& problem) {
-  return TestsOf(problem, problem.searched, "search alone") +
-         RoundingNote(problem, problem.searched) + Undecided(problem, problem.searched) +
-         TestsOf(problem, problem.polished, "polished") + Undecided(problem, problem.polished);
+Section RankSection(const ProblemResult& problem) {
+  Section section = {"", {}, 1};
+  AddTests(problem, problem.searched, "search alone", RoundingNote(problem, problem.searched),
+           &section);
+  AddTests(problem, problem.polished, "polished", "", &section);
+  return section;
 }
 
-std::string PolishVerdict(const ProblemResult& problem) {
-  if (std::isnan(problem.contenders[0].polished.min)) return "";
+Section PolishVerdict(const ProblemResult& problem) {
+  if (std::isnan(problem.contenders[0].polished.min)) return {};
   std::size_t runs = 0, hits = 0;
   std::string missing;
   for (const ContenderResult& contender : problem.contenders) {
@@ -165,7 +175,7 @@ std::string PolishVerdict(const ProblemResult& problem) {
     const std::string who = count == 1   ? problem.contenders[0].name + " always gets there"
                             : count == 2 ? std::string("both algorithms tie")
                                          : fmt::format("all {} algorithms tie", count);
-    return Wrap("  ", fmt::format("After the polish {}: {}.", who, where));
+    return {"", {block::Sentence{fmt::format("After the polish {}: {}.", who, where)}}, 1};
   }
   std::string text = fmt::format("After the polish {}; runs that do not: {}.", where, missing);
   const auto& pairs = problem.polished.signed_ranks;
@@ -176,7 +186,7 @@ std::string PolishVerdict(const ProblemResult& problem) {
     text += fmt::format(" Of the ranking {} of {} pairs are left.",
                         differ == 0 ? "none" : std::to_string(differ), pairs.size());
   }
-  return Wrap("  ", text);
+  return {"", {block::Sentence{text}}, 1};
 }
 
 }  // namespace lyrefit

@@ -1,5 +1,6 @@
+#include "lyrefit/study/report/coverage_json.h"
+
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/report/coverage_text.h"
 
 namespace lyrefit {
 

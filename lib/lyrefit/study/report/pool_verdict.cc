@@ -91,9 +91,9 @@ std::string VerdictText(const PooledProblem& pool) {
   return text;
 }
 
-std::string VerdictTable(const std::vector<PooledProblem>& pools) {
-  TextTable table("lrrrrrr");
-  table.Add({"problem", "runs", "shape", "default", "search", "random", "peer"});
+block::Table VerdictTable(const std::vector<PooledProblem>& pools) {
+  block::Table table = {"lrrrrrr",
+                        {{"problem", "runs", "shape", "default", "search", "random", "peer"}}};
   for (const PooledProblem& pool : pools) {
     const SearchVerdict verdict = JudgePool(pool);
     const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
@@ -102,12 +102,12 @@ std::string VerdictTable(const std::vector<PooledProblem>& pools) {
     for (const std::optional<Way>& way : {verdict.shape, search}) {
       if (way) runs = way->figures().runs;
     }
-    table.Add({pool.name, std::to_string(runs), WayText(verdict.shape, false),
-               WayText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
-               WayText(search, true), WayText(verdict.random, true),
-               WayText(ratio ? ratio->peer : std::nullopt, true)});
+    table.rows.push_back({pool.name, std::to_string(runs), WayText(verdict.shape, false),
+                          WayText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
+                          WayText(search, true), WayText(verdict.random, true),
+                          WayText(ratio ? ratio->peer : std::nullopt, true)});
   }
-  return table.Text();
+  return table;
 }
 
 std::string PeerText(const PooledProblem& pool) {

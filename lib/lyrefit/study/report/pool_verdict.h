@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/report/document.h"
 #include "lyrefit/study/verdict.h"
 
 namespace lyrefit {
@@ -16,7 +17,7 @@ std::string VerdictText(const PooledProblem& pool);
 // A line a problem: hits and median time of a run of the starts from the shape alone, of the
 // default fit, of the search that was enough (else of the one with the most hits), of random points
 // likewise, and of the peer that is sure to hit the soonest.
-std::string VerdictTable(const std::vector<PooledProblem>& pools);
+block::Table VerdictTable(const std::vector<PooledProblem>& pools);
 
 // "default (50 of 50, 10 ms) is 12 times faster than pagmo:cmaes@1000 (45 of 50, 60 ms), run 2
 // times"; empty where the default fit or any peer was no contender.

@@ -1,11 +1,11 @@
-#include "lyrefit/study/report/coverage_text.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/coverage.h"
+#include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {
 namespace {
@@ -21,21 +21,22 @@ std::string Promise(const ParameterCoverage& p, bool any_fit) {
   return p.low_95 > kPromised ? "too wide" : "as promised";
 }
 
-std::string ParameterTable(const CoverageReport& report) {
-  TextTable table("lrlrrrl");
-  table.Add({"parameter", "coverage", "95 % range", "sets", "half-width", "not identifiable", ""});
+block::Table ParameterTable(const CoverageReport& report) {
+  block::Table table = {
+      "lrlrrrl",
+      {{"parameter", "coverage", "95 % range", "sets", "half-width", "not identifiable", ""}}};
   const bool any_fit = report.failed < static_cast<int>(report.sets.size());
   for (const ParameterCoverage& p : report.parameters) {
     const bool any = p.counted > 0;
     const std::string width =
         p.offset ? Significant(p.median_half_width, 2) : PercentText(p.median_half_width, 2);
     const double lost = p.fitted > 0 ? static_cast<double>(p.not_identifiable) / p.fitted : NAN;
-    table.Add({p.info.symbol, PercentText(p.coverage),
-               any ? PercentText(p.low_95) + " .. " + PercentText(p.high_95) : "-",
-               std::to_string(p.counted), any ? width : "-", PercentText(lost),
-               Promise(p, any_fit)});
+    table.rows.push_back({p.info.symbol, PercentText(p.coverage),
+                          any ? PercentText(p.low_95) + " .. " + PercentText(p.high_95) : "-",
+                          std::to_string(p.counted), any ? width : "-", PercentText(lost),
+                          Promise(p, any_fit)});
   }
-  return table.Text();
+  return table;
 }
 
 std::string DeviceText(const CoverageOptions& options) {
@@ -68,24 +69,33 @@ std::string HowToRead(const CoverageReport& report) {
 
 }  // namespace
 
-std::string CoverageText(const CoverageReport& report) {
+Document CoverageDocument(const CoverageReport& report) {
   const CoverageOptions& o = report.options;
-  std::string text;
-  if (report.interrupted) text += "INTERRUPTED: only the sets that were done are counted.\n";
-  text += fmt::format("lyrefit {}: coverage of the 95 % intervals of joint fits, {}\n",
-                      report.version, Plural(report.sets.size(), "simulated set"));
-  text += Field("device", DeviceText(o));
-  text +=
-      Field("sets", fmt::format("{} of {} points each, noise {:g} of Isc at the reference, seed {}",
-                                o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves",
-                                o.points, o.noise_relative, o.seed));
-  text += Field("sensors", SensorText(o));
-  if (report.failed > 0) {
-    text += Field("failed", fmt::format("{} without a usable fit", Plural(report.failed, "set")));
+  Document document;
+  if (report.interrupted) {
+    document.banners = {"INTERRUPTED: only the sets that were done are counted."};
   }
-  text += Field("time", Duration(report.seconds));
-  text += "\n" + ParameterTable(report) + "\n" + Wrap("  ", HowToRead(report));
-  return text;
+  Section& head = document.head;
+  head.heading = fmt::format("lyrefit {}: coverage of the 95 % intervals of joint fits, {}",
+                             report.version, Plural(report.sets.size(), "simulated set"));
+  AddField("device", DeviceText(o), &head);
+  AddField("sets",
+           fmt::format("{} of {} points each, noise {:g} of Isc at the reference, seed {}",
+                       o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves", o.points,
+                       o.noise_relative, o.seed),
+           &head);
+  AddField("sensors", SensorText(o), &head);
+  if (report.failed > 0) {
+    AddField("failed", fmt::format("{} without a usable fit", Plural(report.failed, "set")), &head);
+  }
+  AddField("time", Duration(report.seconds), &head);
+  AddSections({{"", {ParameterTable(report)}}, {"", {block::Sentence{HowToRead(report)}}}},
+              &document);
+  return document;
+}
+
+std::string CoverageText(const CoverageReport& report) {
+  return DrawText(CoverageDocument(report));
 }
 
 }  // namespace lyrefit

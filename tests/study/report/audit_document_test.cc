@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/audit_text.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,6 +84,16 @@ TEST(CompareText, PutsManyCurvesIntoOneTableFirst) {
   EXPECT_THAT(section, HasSubstr("9.860e-04"));
   ExpectFitsTheTerminal(text);
   ExpectFitsTheTerminal(CompareText(OfASet(LargeComparison())));
+}
+
+TEST(CompareDocument, NamesTheRowsOfEachCurveInOneTable) {
+  const std::string html = DrawHtml(CompareDocument(OfASet(SampleComparison())));
+  EXPECT_THAT(html,
+              HasSubstr("colspan=\"9\">sandia_pvue125/8 (203.11 W/m2, 25.1 C), double-diode"));
+  EXPECT_THAT(html, HasSubstr("<caption>Search alone: RMSE in A (measured-current) of 4 runs"));
+  const std::string markdown = DrawMarkdown(CompareDocument(SampleComparison()));
+  EXPECT_THAT(markdown, HasSubstr("- **Ranks, search alone: Friedman over 4 runs**\n  - "));
+  EXPECT_THAT(markdown, HasSubstr("*Search and polish: RMSE in A"));
 }
 
 TEST(CompareText, NeedsNoOverviewOfOneCurve) {
@@ -197,6 +207,7 @@ TEST(CompareText, StartsWithInterrupted) {
   comparison.problems[1].contenders[2].runs.pop_back();
   const std::string text = CompareText(comparison);
   EXPECT_THAT(text, StartsWith("INTERRUPTED"));
+  EXPECT_THAT(text, HasSubstr("are of those.\n\nlyrefit"));
   EXPECT_THAT(text, HasSubstr("of 4 runs, and runs within"));
   EXPECT_THAT(text, HasSubstr("of 3 to 4 of 4 runs, and runs within"));
   comparison.problems.clear();

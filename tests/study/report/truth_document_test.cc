@@ -1,9 +1,11 @@
-#include "lyrefit/study/report/truth_text.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
+
+#include "lyrefit/study/truth.h"
 
 namespace lyrefit {
 namespace {

@@ -7,8 +7,8 @@
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/pool.h"
-#include "lyrefit/study/report/compare_sections.h"
-#include "lyrefit/study/report/compare_text.h"
+#include "lyrefit/study/report/compare_parts.h"
+#include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {
 namespace {
@@ -69,15 +69,14 @@ std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) 
   return enough;
 }
 
-std::string HitTable(const std::vector<SearchRow>& rows, const Level& level) {
-  TextTable table("l" + std::string(rows[0].cells.size(), 'r'));
-  std::vector<std::string> head = {"algorithm"};
+block::Table HitTable(const std::vector<SearchRow>& rows, const Level& level, std::string caption) {
+  block::Table table = {
+      "l" + std::string(rows[0].cells.size(), 'r'), {{"algorithm"}}, {}, std::move(caption)};
   for (const ContenderResult* cell : rows[0].cells) {
-    head.push_back(std::to_string(cell->search.max_evaluations));
+    table.heads[0].push_back(std::to_string(cell->search.max_evaluations));
   }
-  table.Add(head);
   for (const SearchRow& row : rows) {
-    std::vector<std::string> line = {row.algorithm};
+    block::Table::Row line = {row.algorithm};
     for (const ContenderResult* head_cell : rows[0].cells) {
       const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
         return other->search.max_evaluations == head_cell->search.max_evaluations;
@@ -85,25 +84,23 @@ std::string HitTable(const std::vector<SearchRow>& rows, const Level& level) {
       const bool done = cell != row.cells.end();  // not where the study was cut short before it
       line.push_back(done ? std::to_string(((*cell)->*level.stage).*level.hits) : "-");
     }
-    table.Add(line);
+    table.rows.push_back(std::move(line));
   }
-  return table.Text();
+  return table;
 }
 
-std::string EnoughTable(const std::vector<SearchRow>& rows) {
-  TextTable table("lrrrr");
-  std::vector<std::string> head = {"algorithm"};
-  for (const Level& level : kLevels) head.emplace_back(level.column);
-  table.Add(head);
+block::Table EnoughTable(const std::vector<SearchRow>& rows, std::string caption) {
+  block::Table table = {"lrrrr", {{"algorithm"}}, {}, std::move(caption)};
+  for (const Level& level : kLevels) table.heads[0].emplace_back(level.column);
   for (const SearchRow& row : rows) {
-    std::vector<std::string> line = {row.algorithm};
+    block::Table::Row line = {row.algorithm};
     for (const Level& level : kLevels) {
       const auto enough = EnoughFor(row, level);
       line.push_back(enough ? std::to_string(*enough) : "-");
     }
-    table.Add(line);
+    table.rows.push_back(std::move(line));
   }
-  return table.Text();
+  return table;
 }
 
 // "mlo and de from 1000, lo from 10000; not random"
@@ -160,47 +157,54 @@ std::string RandomVerdict(const std::vector<SearchRow>& rows) {
                      *best);
 }
 
-std::string BudgetOf(const Comparison& comparison, const ProblemResult& problem) {
+std::vector<Section> BudgetSections(const Comparison& comparison, const ProblemResult& problem) {
   const std::vector<SearchRow> rows = RowsOf(problem);
   const std::string objective = ToText(comparison.options.objective);
-  std::string text = "\n" + ProblemTitle(problem) + "\n" + ReferenceField(comparison, problem);
+  const std::string runs = RunsText(comparison, problem);
+  Section section = ProblemSection(comparison, problem);
   for (const Level& level : kLevels) {
-    text += fmt::format("\n  {} ({})\n",
-                        fmt::format(fmt::runtime(level.title), RunsText(comparison, problem)),
-                        objective);
-    text += HitTable(rows, level);
+    const std::string title = fmt::format(fmt::runtime(level.title), runs);
+    AddTable(HitTable(rows, level, fmt::format("{} ({})", title, objective)), &section);
   }
-  text += fmt::format("\n  Evaluations from which on every run hits ({})\n", objective);
-  text += EnoughTable(rows) + "\n";
-  text += Wrap(
-      "  ", fmt::format("Search alone: {}. With all starts: {}.{}", WhoFromWhere(rows, kLevels[0]),
-                        WhoFromWhere(rows, kLevels[3]), RandomVerdict(rows)));
-  return text;
+  AddTable(
+      EnoughTable(rows, fmt::format("Evaluations from which on every run hits ({})", objective)),
+      &section);
+  const std::string verdict =
+      fmt::format("Search alone: {}. With all starts: {}.{}", WhoFromWhere(rows, kLevels[0]),
+                  WhoFromWhere(rows, kLevels[3]), RandomVerdict(rows));
+  return {std::move(section), {"", {block::Sentence{verdict}}, 1}};
 }
 
 }  // namespace
 
-std::string BudgetText(const Comparison& comparison) {
+Document BudgetDocument(const Comparison& comparison) {
   const std::size_t pools = PoolProblems(comparison).size();
   std::string where = Plural(comparison.problems.size(), pools > 0 ? "device" : "problem");
   if (pools > 0) where += " of " + Plural(pools, "problem");
-  std::string text = InterruptedLine(comparison);
-  text += fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}\n",
-                      comparison.version, Plural(comparison.options.runs, "run"), where);
-  text += SetUpSection(comparison);
-  text += Field("budget",
-                "columns are evaluations of one search; its population is about their root, 4 to "
-                "100; the polish comes on top");
-  text += Field(
-      "hit", pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
-                         "have several forms, RMSEs count as BIC prices their parameters"
-                       : "a run within 1e-6 (search alone) or 1e-9 (polished) of the "
-                         "reference");
-  text += Field("time", Duration(comparison.seconds));
+  Document document = {CompareBanners(comparison)};
+  Section& head = document.head;
+  head.heading = fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}",
+                             comparison.version, Plural(comparison.options.runs, "run"), where);
+  AddSetUp(comparison, &head);
+  AddField("budget",
+           "columns are evaluations of one search; its population is about their root, 4 to 100; "
+           "the polish comes on top",
+           &head);
+  AddField("hit",
+           pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
+                       "have several forms, RMSEs count as BIC prices their parameters"
+                     : "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference",
+           &head);
+  AddField("time", Duration(comparison.seconds), &head);
   for (const ProblemResult& problem : comparison.problems) {
-    if (problem.problem.empty()) text += BudgetOf(comparison, problem);
+    if (problem.problem.empty()) AddSections(BudgetSections(comparison, problem), &document);
   }
-  return text + PoolSections(comparison);
+  AddSections(PoolSections(comparison), &document);
+  return document;
+}
+
+std::string BudgetText(const Comparison& comparison) {
+  return DrawText(BudgetDocument(comparison));
 }
 
 }  // namespace lyrefit

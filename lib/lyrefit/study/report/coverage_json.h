@@ -6,9 +6,6 @@
 
 namespace lyrefit {
 
-// What a coverage study says to a terminal of 100 columns; ends with a newline.
-std::string CoverageText(const CoverageReport& report);
-
 // Everything, with the truth and the interval of every set.
 std::string CoverageJson(const CoverageReport& report);
 

@@ -1,12 +1,13 @@
-#include "lyrefit/study/report/audit_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/audit_report.h"
 #include "lyrefit/study/audit_sentence.h"
+#include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {
 namespace {
@@ -14,17 +15,13 @@ namespace {
 constexpr int kAuditDigits = 7;
 constexpr std::size_t kLongestAlgorithm = 17;  // in a table; the remarks below it have all of it
 
-std::string Rows(std::size_t count) {
-  return fmt::format("{} {}", count, count == 1 ? "row" : "rows");
-}
-
 // "Table 10, rtc_france: 33 C, 1 cell in series"
 std::string AuditTitle(const AuditFinding& finding) {
   const AuditReading& stated = finding.stated;
   const std::string& source = finding.row.source;
-  return fmt::format("{}{}{}: {:g} C, {} {} in series", source, source.empty() ? "" : ", ",
-                     stated.curve, std::round(stated.temperature_C * 1e4) / 1e4, stated.cells,
-                     stated.cells == 1 ? "cell" : "cells");
+  return fmt::format("{}{}{}: {:g} C, {} in series", source, source.empty() ? "" : ", ",
+                     stated.curve, std::round(stated.temperature_C * 1e4) / 1e4,
+                     Plural(static_cast<std::size_t>(stated.cells), "cell"));
 }
 
 // The head of the column that the claims are of has a star.
@@ -61,24 +58,27 @@ std::string BoundsSentence(const AuditFinding& finding) {
 std::string Remark(const AuditFinding& finding) {
   const bool plain = finding.verdict == AuditVerdict::kReproduces;
   const std::string text = (plain ? "" : finding.sentence) + BoundsSentence(finding);
-  return text.empty() ? "" : Wrap("  - ", Name(finding) + ": " + text);
+  return text.empty() ? "" : Name(finding) + ": " + text;
 }
 
 // One table, from `begin` to `end`.
-std::string CurveRows(const AuditReport& report, std::size_t begin, std::size_t end) {
-  TextTable table("llrrrl");
-  table.Add({"row", "model", "claimed", Head(report, Objective::kMeasuredCurrent),
-             Head(report, Objective::kSolvedCurrent), "verdict"});
-  std::string remarks;
+Section CurveSection(const AuditReport& report, std::size_t begin, std::size_t end) {
+  block::Table table = {"llrrrl",
+                        {{"row", "model", "claimed", Head(report, Objective::kMeasuredCurrent),
+                          Head(report, Objective::kSolvedCurrent), "verdict"}}};
+  std::vector<std::string> remarks;
   for (std::size_t i = begin; i < end; ++i) {
     const AuditFinding& finding = report.findings[i];
-    table.Add({ShortName(finding), ToText(finding.row.model), finding.row.rmse.text,
-               Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
-               Scientific(finding.stated.rmse.solved_current_A, kAuditDigits),
-               ToText(finding.verdict)});
-    remarks += Remark(finding);
+    table.rows.push_back({ShortName(finding), ToText(finding.row.model), finding.row.rmse.text,
+                          Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
+                          Scientific(finding.stated.rmse.solved_current_A, kAuditDigits),
+                          ToText(finding.verdict)});
+    const std::string remark = Remark(finding);
+    if (!remark.empty()) remarks.push_back(remark);
   }
-  return AuditTitle(report.findings[begin]) + "\n" + table.Text() + remarks;
+  Section section = {AuditTitle(report.findings[begin]), {std::move(table)}};
+  AddList(std::move(remarks), &section);
+  return section;
 }
 
 std::string Legend(const AuditReport& report) {
@@ -89,11 +89,11 @@ std::string Legend(const AuditReport& report) {
       "RMSE in A of the rows as stated, with {}; the claims are of the RMSE marked *.", constants);
 }
 
-std::string BadRows(const AuditReport& report) {
-  if (report.bad_rows.empty()) return "";
-  std::string text = fmt::format("{} could not be audited\n", Rows(report.bad_rows.size()));
-  for (const Error& error : report.bad_rows) text += Wrap("  - ", error.ToString());
-  return text;
+Section BadRows(const AuditReport& report) {
+  std::vector<std::string> errors;
+  for (const Error& error : report.bad_rows) errors.push_back(error.ToString());
+  const std::string heading = Plural(errors.size(), "row") + " could not be audited";
+  return ListSection(heading, std::move(errors));
 }
 
 // How many claims that reproduce do so with each set of constants, where none was stated.
@@ -114,11 +114,11 @@ std::string ConstantsSummary(const AuditReport& report) {
     }
     text += fmt::format("{}{} with {}", text.empty() ? "" : ", ", count, row.text);
   }
-  return Wrap("", fmt::format("Claims that reproduce, by constants: {}.", text));
+  return fmt::format("Claims that reproduce, by constants: {}.", text);
 }
 
-std::string Summary(const AuditReport& report) {
-  std::string text = Rows(report.findings.size()) + ": ";
+Section Summary(const AuditReport& report) {
+  std::string text = Plural(report.findings.size(), "row") + ": ";
   bool first = true;
   for (const auto& row : EnumTable<AuditVerdict>::kRows) {
     const int count = CountFindings(report, row.value);
@@ -130,25 +130,30 @@ std::string Summary(const AuditReport& report) {
   if (!report.bad_rows.empty()) {
     text += fmt::format("; {} more could not be audited", report.bad_rows.size());
   }
-  return Wrap("", text + ".") + ConstantsSummary(report);
+  Section section = {"", {block::Conclusion{text + "."}}};
+  const std::string constants = ConstantsSummary(report);
+  if (!constants.empty()) section.blocks.push_back(block::Conclusion{constants});
+  return section;
 }
 
 }  // namespace
 
-std::string AuditText(const AuditReport& report) {
-  std::string text = fmt::format("lyrefit {}: audit of {}\n", report.version, report.path);
-  text += Wrap("", Legend(report));
+Document AuditDocument(const AuditReport& report) {
+  Document document;
+  document.head = {fmt::format("lyrefit {}: audit of {}", report.version, report.path),
+                   {block::Legend{Legend(report)}}};
   const std::vector<AuditFinding>& findings = report.findings;
   for (std::size_t begin = 0; begin < findings.size();) {
     std::size_t end = begin + 1;
     while (end < findings.size() && AuditTitle(findings[end]) == AuditTitle(findings[begin])) ++end;
-    text += "\n" + CurveRows(report, begin, end);
+    AddSections({CurveSection(report, begin, end)}, &document);
     begin = end;
   }
-  const std::string bad = BadRows(report);
-  if (!bad.empty()) text += "\n" + bad;
-  return text + "\n" + Summary(report);
+  AddSections({BadRows(report), Summary(report)}, &document);
+  return document;
 }
+
+std::string AuditText(const AuditReport& report) { return DrawText(AuditDocument(report)); }
 
 std::string BriefAudit(const AuditReport& report) {
   std::string text;
@@ -162,7 +167,7 @@ std::string BriefAudit(const AuditReport& report) {
         Scientific(finding.stated.rmse.solved_current_A, kAuditDigits), ToText(finding.verdict));
   }
   for (const Error& error : report.bad_rows) text += error.ToString() + "\n";
-  return text + Summary(report);
+  return text + DrawText({{}, {}, {Summary(report)}});
 }
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/coverage_text.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/study/coverage.h"
+#include "lyrefit/study/report/coverage_json.h"
 
 namespace lyrefit {
 namespace {

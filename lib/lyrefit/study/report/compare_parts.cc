@@ -1,0 +1,102 @@
+#include "lyrefit/study/report/compare_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+std::string Budget(const SearchOptions& search) {
+  std::string text = fmt::format("{} birds x {} iterations", search.population, search.iterations);
+  const std::int64_t planned =
+      static_cast<std::int64_t>(search.population) * (search.iterations + 1LL);
+  return text + fmt::format(": {} evaluations at most", std::min(planned, search.max_evaluations));
+}
+
+// The budget of all contenders; empty where they differ.
+std::string CommonBudget(const Comparison& comparison) {
+  if (comparison.problems.empty()) return "";
+  const auto& contenders = comparison.problems[0].contenders;
+  const std::string budget = Budget(contenders[0].search);
+  const bool same = std::all_of(contenders.begin(), contenders.end(), [&](const auto& contender) {
+    return Budget(contender.search) == budget;
+  });
+  return same ? budget : "";
+}
+
+}  // namespace
+
+std::string ObjectiveText(const CompareOptions& options) {
+  std::string text = ToText(options.objective);
+  for (const EffectUse& use : options.with) text += ", with " + DescribeUse(use);
+  return text;
+}
+
+std::string ProblemTitle(const ProblemResult& problem) {
+  return fmt::format("{}, {} model, bounds {}", problem.curve_name, ModelTitle(problem.model),
+                     problem.bounds_name);
+}
+
+std::string RunsText(const Comparison& comparison, const ProblemResult& problem) {
+  if (problem.complete) return std::to_string(comparison.options.runs);
+  std::size_t fewest = problem.contenders[0].runs.size(), most = fewest;
+  for (const ContenderResult& contender : problem.contenders) {
+    fewest = std::min(fewest, contender.runs.size());
+    most = std::max(most, contender.runs.size());
+  }
+  const std::string done =
+      fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  return fmt::format("{} of {}", done, comparison.options.runs);
+}
+
+std::vector<std::string> CompareBanners(const Comparison& comparison) {
+  std::vector<std::string> banners = Banners(false, true, "", comparison.doubts);
+  if (comparison.interrupted) {
+    banners.push_back(
+        "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.");
+  }
+  return banners;
+}
+
+void AddSetUp(const Comparison& comparison, Section* section) {
+  const CompareOptions& options = comparison.options;
+  const bool one = std::all_of(comparison.problems.begin(), comparison.problems.end(),
+                               [&](const ProblemResult& problem) {
+                                 return problem.problem.empty() || !options.with.empty();
+                               });
+  const std::string of_what =
+      one ? ObjectiveText(options) + ": of search, polish and every RMSE below"
+          : "of search, polish and RMSE: as each problem says";
+  AddField("objective", of_what + "; constants " + ToText(options.constants), section);
+  const std::string budget = CommonBudget(comparison);
+  if (!budget.empty()) AddField("budget", budget + " a run", section);
+  const char* const common = budget.empty() ? "" : ": in each run all start from the same points";
+  AddField("runs", fmt::format("0 to {} of seed {}{}", options.runs - 1, options.seed, common),
+           section);
+}
+
+Section ProblemSection(const Comparison& comparison, const ProblemResult& problem) {
+  const Reference& reference = problem.reference;
+  const bool open = !reference.certified && std::isnan(reference.lower_bound_A);
+  std::string text = fmt::format("{} A {}, {}{}", Scientific(reference.rmse_A, 10),
+                                 ObjectiveText(comparison.options), reference.origin,
+                                 open ? "; not proved to be the lowest" : "");
+  if (!std::isnan(reference.floor_A)) {
+    const double above = reference.rmse_A / reference.floor_A - 1;
+    text += above <= kCertifiedGap
+                ? "; no number of diodes goes lower"
+                : fmt::format("; {} % above the floor of any number of diodes, {} A",
+                              Significant(100 * above, 3), Scientific(reference.floor_A, 10));
+  }
+  Section section = {ProblemTitle(problem)};
+  AddField("reference", text, &section);
+  return section;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/pool_ranks.h"
+#include "lyrefit/study/report/compare_parts.h"
+#include "lyrefit/study/report/pool_verdict.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kColumns = 6;  // budgets beside each other
+
+std::string InPercent(double share) {
+  return std::isnan(share) ? "-" : Significant(100 * share, 3);
+}
+
+// Every budget, 0 first where there are contenders without one.
+std::vector<std::int64_t> BudgetsOf(const PooledProblem& pool) {
+  std::set<std::int64_t> budgets;
+  for (const PooledContender& contender : pool.contenders) budgets.insert(contender.budget);
+  return {budgets.begin(), budgets.end()};
+}
+
+std::vector<std::string> AlgorithmsOf(const PooledProblem& pool) {
+  std::vector<std::string> names;
+  for (const PooledContender& contender : pool.contenders) {
+    if (std::find(names.begin(), names.end(), contender.algorithm) == names.end()) {
+      names.push_back(contender.algorithm);
+    }
+  }
+  return names;
+}
+
+const PooledLevel* Cell(const PooledProblem& pool, const std::string& algorithm,
+                        std::int64_t budget, PolishLevel level) {
+  for (const PooledContender& contender : pool.contenders) {
+    if (contender.algorithm != algorithm || contender.budget != budget) continue;
+    if (contender.At(level)) return &*contender.At(level);
+  }
+  return nullptr;
+}
+
+// Hits and median time of a run, some budgets.
+block::Table HitTable(const PooledProblem& pool, PolishLevel level,
+                      const std::vector<std::int64_t>& budgets) {
+  block::Table table = {"l" + std::string(budgets.size(), 'r'), {{"algorithm"}}};
+  for (const std::int64_t budget : budgets) {
+    table.heads[0].push_back(budget == 0 ? "as it is" : std::to_string(budget));
+  }
+  for (const std::string& algorithm : AlgorithmsOf(pool)) {
+    block::Table::Row line = {algorithm};
+    bool any = false;
+    for (const std::int64_t budget : budgets) {
+      const PooledLevel* cell = Cell(pool, algorithm, budget, level);
+      any = any || cell;
+      line.push_back(cell ? fmt::format("{} ({})", cell->hits, Duration(cell->seconds)) : "");
+    }
+    if (any) table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+// Under one caption; nothing where no run was taken to this level.
+void AddHits(const PooledProblem& pool, PolishLevel level, Section* section) {
+  int runs = 0;
+  for (const PooledContender& contender : pool.contenders) {
+    if (contender.At(level)) runs = std::max(runs, contender.At(level)->runs);
+  }
+  if (runs == 0) return;
+  const std::vector<std::int64_t> budgets = BudgetsOf(pool);
+  for (std::size_t begin = 0; begin < budgets.size(); begin += kColumns) {
+    const auto from = budgets.begin() + static_cast<std::ptrdiff_t>(begin);
+    const std::size_t count = std::min(kColumns, budgets.size() - begin);
+    block::Table table = HitTable(pool, level, {from, from + static_cast<std::ptrdiff_t>(count)});
+    if (begin == 0) {
+      table.caption = fmt::format("{}: hits of {}, median time of a run ({})", ToText(level),
+                                  Plural(runs, "run"), ToText(pool.devices[0]->objective));
+    }
+    AddTable(std::move(table), section);
+  }
+}
+
+// Of each algorithm its largest budget.
+bool IsLargest(const PooledProblem& pool, const PooledContender& contender) {
+  return std::none_of(
+      pool.contenders.begin(), pool.contenders.end(), [&](const PooledContender& other) {
+        return other.algorithm == contender.algorithm && other.budget > contender.budget;
+      });
+}
+
+void AddFailures(const PooledProblem& pool, Section* section) {
+  block::Table table = {
+      "llrrrrrrrr",
+      {{"contender", "level", "missed", "basins", "most", "% above", "median", "worst", "% wrong",
+        "worst"}},
+      {},
+      "Cost of failure, largest budgets: runs that missed, the wrong basins they ended in, runs in "
+      "the commonest and how far its RMSE is above the best known one (%); median and worst of "
+      "that over all that missed; and median and worst of how far their most deviating parameter "
+      "is from its value there (%)"};
+  for (const PooledContender& contender : pool.contenders) {
+    if (!IsLargest(pool, contender)) continue;
+    for (const PolishLevel level : {PolishLevel::kOwn, PolishLevel::kHybrid}) {
+      if (!contender.At(level) || contender.At(level)->failures.runs == 0) continue;
+      const Failures& failures = contender.At(level)->failures;
+      table.rows.push_back({contender.name, ToText(level), std::to_string(failures.runs),
+                            std::to_string(failures.basins), std::to_string(failures.commonest),
+                            InPercent(failures.commonest_excess), InPercent(failures.median_excess),
+                            InPercent(failures.worst_excess), InPercent(failures.median_deviation),
+                            InPercent(failures.worst_deviation)});
+    }
+  }
+  if (!table.rows.empty()) AddTable(std::move(table), section);
+}
+
+std::string EffectsOfPool(const PooledProblem& pool) {
+  std::string text;
+  for (const EffectUse& use : pool.devices[0]->with) text += ", with " + DescribeUse(use);
+  return text;
+}
+
+std::string ReferenceText(const PooledProblem& pool) {
+  if (pool.devices.size() == 1) return pool.devices[0]->reference.origin;
+  int multistart = 0;
+  std::int64_t points = 0, visits = 0;
+  for (const ProblemResult* device : pool.devices) {
+    multistart += device->reference.by_multistart;
+    points += device->reference.points;
+    visits += device->reference.visits;
+  }
+  std::string text =
+      fmt::format("of each device its best known optimum, {} certified", pool.certified);
+  if (points == 0) return text;
+  return text +
+         fmt::format(
+             "; {} that only a multistart found, of whose {} random points {} % end in the "
+             "best known optimum of their device",
+             multistart, points,
+             Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
+}
+
+Section PoolSection(const PooledProblem& pool) {
+  const ProblemResult& first = *pool.devices[0];
+  Section section = {fmt::format("{}, {} model{}, {}{}", pool.name, ModelTitle(first.model),
+                                 first.family ? " of a family" : "",
+                                 Plural(pool.devices.size(), "device"), EffectsOfPool(pool))};
+  AddField("objective", ToText(first.objective), &section);
+  if (first.family) {
+    AddField("search", "sees some of the curves; its figures are of its best bird on all",
+             &section);
+  }
+  AddField("reference", ReferenceText(pool), &section);
+  for (const PolishLevel level : kPolishLevels) AddHits(pool, level, &section);
+  AddFailures(pool, &section);
+  return section;
+}
+
+// "1.83", "-" where nothing was ranked.
+std::string MeanRank(const Ranking& ranking, std::size_t c) {
+  return ranking.friedman.contenders == 0 ? "-"
+                                          : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
+}
+
+std::string FriedmanP(const Ranking& ranking) {
+  return ranking.friedman.contenders == 0 ? "-" : fmt::format("{:.1g}", ranking.friedman.p_value);
+}
+
+// Mean ranks, a column a budget.
+block::Table RankTable(const std::vector<PooledRanking>& rankings) {
+  block::Table table = {"l" + std::string(rankings.size(), 'r'), {{"algorithm"}}};
+  block::Table::Row last = {"p"};
+  std::vector<std::string> names;
+  for (const PooledRanking& ranking : rankings) {
+    table.heads[0].push_back(std::to_string(ranking.budget));
+    last.push_back(FriedmanP(ranking.searched) + " / " + FriedmanP(ranking.own));
+    for (const std::string& name : ranking.names) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  for (const std::string& name : names) {
+    block::Table::Row line = {name};
+    for (const PooledRanking& ranking : rankings) {
+      const auto at = std::find(ranking.names.begin(), ranking.names.end(), name);
+      const auto c = static_cast<std::size_t>(at - ranking.names.begin());
+      const bool there = at != ranking.names.end();
+      line.push_back(there ? MeanRank(ranking.searched, c) + " / " + MeanRank(ranking.own, c) : "");
+    }
+    table.rows.push_back(std::move(line));
+  }
+  table.rows.push_back(std::move(last));
+  return table;
+}
+
+// Which are better than others beyond chance, by the best bird's polish and by the search alone.
+void AddPairs(const PooledRanking& ranking, Section* section) {
+  for (const bool own : {false, true}) {
+    std::vector<std::string> winners =
+        WinnerSentences(ranking.names, own ? ranking.own : ranking.searched);
+    const std::string title = fmt::format("{} evaluations, {}:{}", ranking.budget,
+                                          own ? "best bird's polish" : "search alone",
+                                          winners.empty() ? " no pair is told apart" : "");
+    section->blocks.push_back(block::Entry{title, std::move(winners)});
+  }
+}
+
+// The rankings of one problem, or of all, from `first` to `last`.
+Section RankingSection(const PooledRanking* first, const PooledRanking* last, bool with_pairs) {
+  Section section = {fmt::format("{}, {} blocks",
+                                 first->problem.empty() ? "All problems" : first->problem,
+                                 first->searched.friedman.blocks)};
+  for (const PooledRanking* begin = first; begin < last;) {
+    const PooledRanking* end = begin + std::min<std::ptrdiff_t>(kColumns, last - begin);
+    AddTable(RankTable({begin, end}), &section);
+    begin = end;
+  }
+  for (; with_pairs && first != last; ++first) AddPairs(*first, &section);
+  return section;
+}
+
+std::vector<Section> RankingSections(const std::vector<PooledProblem>& pools) {
+  const std::vector<PooledRanking> rankings = RankPools(pools);
+  if (rankings.empty()) return {};
+  std::vector<Section> sections = {
+      {"",
+       {block::Legend{"Mean ranks of RMSE / reference, search alone / best bird's polish, and p of "
+                      "Friedman's test; blocks are device and run, figures within 1e-6 of each "
+                      "other equal; pairs by Wilcoxon's test, Holm-corrected"}}}};
+  const PooledRanking* const end = rankings.data() + rankings.size();
+  for (const PooledRanking* first = rankings.data(); first != end;) {
+    const PooledRanking* const next = std::find_if(
+        first, end, [&](const PooledRanking& other) { return other.problem != first->problem; });
+    sections.push_back(RankingSection(first, next, first->problem.empty() || pools.size() == 1));
+    first = next;
+  }
+  return sections;
+}
+
+// The default fit against others' searches, a sentence a problem.
+Section PeerSection(const std::vector<PooledProblem>& pools) {
+  Section section;
+  for (const PooledProblem& pool : pools) {
+    const std::string peer = PeerText(pool);
+    if (peer.empty()) continue;
+    if (section.blocks.empty()) {
+      section.blocks.push_back(block::Legend{fmt::format(
+          "The default fit against the best peer of equal success: by pagmo2, with the best bird's "
+          "own polish, run as often as it takes to hit with a probability of {} %",
+          100 * kEnoughShare)});
+    }
+    AddSentence(pool.name + ": " + peer + ".", &section);
+  }
+  return section;
+}
+
+}  // namespace
+
+std::vector<Section> PoolSections(const Comparison& comparison) {
+  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  if (pools.empty()) return {};
+  Section which = {"Which search, from which budget, or none"};
+  for (const PooledProblem& pool : pools) AddSentence(VerdictText(pool) + ".", &which);
+  std::vector<Section> sections = {
+      {"",
+       {block::Legend{"Hits and median time of a run: of starts from the curve's shape alone, of "
+                      "the default fit, of the fastest search that is enough or else of the one "
+                      "with the most hits, of random points likewise, and of the peer that is sure "
+                      "to hit the soonest"},
+        VerdictTable(pools)}},
+      std::move(which),
+      PeerSection(pools)};
+  for (const PooledProblem& pool : pools) sections.push_back(PoolSection(pool));
+  for (Section& section : RankingSections(pools)) sections.push_back(std::move(section));
+  return sections;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/report/compare_parts.h"
+#include "lyrefit/study/report/documents.h"
+
+namespace lyrefit {
+namespace {
+
+std::vector<double> ValuesOf(const ProblemResult& problem, double SearchOptions::*setting) {
+  std::vector<double> values;
+  for (const ContenderResult& contender : problem.contenders) {
+    values.push_back(contender.search.*setting);
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+using CellText = std::function<std::string(const ContenderResult&)>;
+
+// Pm downwards, gamma to the right.
+block::Table Grid(const ProblemResult& problem, std::string caption, const CellText& cell) {
+  const std::vector<double> rates = ValuesOf(problem, &SearchOptions::memory_rate);
+  const std::vector<double> coefficients = ValuesOf(problem, &SearchOptions::distance_coefficient);
+  block::Table table = {
+      "l" + std::string(coefficients.size(), 'r'), {{""}}, {}, std::move(caption)};
+  for (const double gamma : coefficients) {
+    table.heads[0].push_back(fmt::format("gamma = {:g}", gamma));
+  }
+  for (const double rate : rates) {
+    block::Table::Row line = {fmt::format("Pm = {:g}", rate)};
+    for (const double gamma : coefficients) {
+      const auto found = std::find_if(
+          problem.contenders.begin(), problem.contenders.end(), [&](const ContenderResult& c) {
+            return c.search.memory_rate == rate && c.search.distance_coefficient == gamma;
+          });
+      line.push_back(found == problem.contenders.end() ? "-" : cell(*found));
+    }
+    table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+// The cell with the lowest mean, and how little the polish cares.
+std::string RateVerdict(const ProblemResult& problem) {
+  const auto best = std::min_element(
+      problem.contenders.begin(), problem.contenders.end(),
+      [](const auto& a, const auto& b) { return a.searched.mean < b.searched.mean; });
+  std::string text =
+      fmt::format("The lowest mean of the search alone is {} A at Pm = {:g}, gamma = {:g}.",
+                  Scientific(best->searched.mean, 6), best->search.memory_rate,
+                  best->search.distance_coefficient);
+  if (std::isnan(best->polished.min)) return text;
+  std::size_t hits = 0, runs = 0;
+  for (const ContenderResult& contender : problem.contenders) {
+    hits += contender.polished.within_1e9;
+    runs += contender.runs.size();
+  }
+  return text +
+         fmt::format(" After the polish {} of {} runs of all settings end within 1e-9 of {} A.",
+                     hits, runs, Scientific(problem.reference.rmse_A, 10));
+}
+
+std::vector<Section> SensitivitySections(const Comparison& comparison,
+                                         const ProblemResult& problem) {
+  const std::string objective = ToText(comparison.options.objective);
+  const std::string runs = RunsText(comparison, problem);
+  Section section = ProblemSection(comparison, problem);
+  const auto add = [&](const char* what, double Spread::*field, int digits) {
+    AddTable(Grid(problem, fmt::format("Search alone: {} ({}) of {} runs", what, objective, runs),
+                  [field, digits](const ContenderResult& c) {
+                    return Scientific(c.searched.*field, digits);
+                  }),
+             &section);
+  };
+  add("smallest RMSE in A", &Spread::min, 6);
+  add("mean RMSE in A", &Spread::mean, 6);
+  add("standard deviation of the RMSE in A", &Spread::std, 4);
+  if (comparison.options.polish) {
+    AddTable(
+        Grid(problem,
+             fmt::format("Polished (all starts): runs of {} within 1e-9 ({})", runs, objective),
+             [](const ContenderResult& c) { return std::to_string(c.polished.within_1e9); }),
+        &section);
+  }
+  return {std::move(section), {"", {block::Sentence{RateVerdict(problem)}}, 1}};
+}
+
+}  // namespace
+
+Document SensitivityDocument(const Comparison& comparison) {
+  Document document = {CompareBanners(comparison)};
+  Section& head = document.head;
+  head.heading =
+      fmt::format("lyrefit {}: sensitivity of MLO to Pm and gamma, {} of each setting on {}",
+                  comparison.version, Plural(comparison.options.runs, "run"),
+                  Plural(comparison.problems.size(), "problem"));
+  AddSetUp(comparison, &head);
+  AddField("paper",
+           "J. Ind. Manag. Optim. 22(1), 642-690: its Table 17 is captioned minimum and holds "
+           "means; Table 18 holds standard deviations. Pm = 0 with gamma = 0 is LO.",
+           &head);
+  AddField("time", Duration(comparison.seconds), &head);
+  for (const ProblemResult& problem : comparison.problems) {
+    AddSections(SensitivitySections(comparison, problem), &document);
+  }
+  return document;
+}
+
+std::string SensitivityText(const Comparison& comparison) {
+  return DrawText(SensitivityDocument(comparison));
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,35 @@
+#include "lyrefit/study/report/documents.h"
+
+#include <gtest/gtest.h>
+
+#include "lyrefit/study/coverage.h"
+#include "lyrefit/study/truth.h"
+#include "report/well_formed.h"
+#include "sample_audit.h"
+#include "sample_comparison.h"
+#include "study/made_pool.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(StudyDocuments, AreWellFormedPages) {
+  if (!HasXmlLint()) GTEST_SKIP() << "xmllint is not there (Debian's libxml2-utils)";
+  Comparison odd = SampleComparison();
+  odd.problems[0].curve_name = "<!-- & ]]> \"curve\"";
+  odd.interrupted = true;
+  const Comparison pooled =
+      MadeComparison({MadeDevice("x 0", "x <1>", {MadeContender("random", 100, {{9, 2, 2}})})});
+  const std::vector<Document> documents = {AuditDocument(SampleAudit()),
+                                           CompareDocument(odd),
+                                           BudgetDocument(SampleComparison()),
+                                           BudgetDocument(pooled),
+                                           SensitivityDocument(SampleComparison()),
+                                           CoverageDocument({}),
+                                           TruthDocument({})};
+  for (const Document& document : documents) {
+    EXPECT_EQ(Complaints(DrawHtml(document)), "") << document.head.heading;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

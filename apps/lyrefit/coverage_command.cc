@@ -1,9 +1,9 @@
-#include "csv_tables.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/study/coverage.h"
+#include "lyrefit/study/report/coverage_csv.h"
 #include "lyrefit/study/report/coverage_text.h"
 #include "verbs.h"
 

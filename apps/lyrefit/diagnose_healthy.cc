@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "csv_tables.h"
 #include "diagnose_request.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/plots.h"
 
 namespace lyrefit {
 namespace {

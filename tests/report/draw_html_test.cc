@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "../temp_folder.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/fits_table.h"
 #include "sample_certificate.h"
 #include "sample_data_sheet.h"
 #include "sample_diagnosis.h"

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 
+#include "sample_certificate.h"
+#include "sample_data_sheet.h"
 #include "sample_family.h"
 #include "sample_fits.h"
+#include "sample_healthy.h"
 
 namespace lyrefit {
 namespace {
@@ -93,6 +96,68 @@ TEST(FreeFitsCsv, KeepsTheRowOfACurveWithoutParameters) {
   report.curves[0].parameters.clear();
   report.curves[0].free_parameters.clear();
   EXPECT_THAT(FreeFitsCsv(report), HasSubstr("\n1,,,,,,60\n"));
+}
+
+// Every row of a table has as many fields as its head; fields of these samples hold no comma.
+void ExpectRectangular(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','),
+              std::count(lines[0].begin(), lines[0].end(), ','))
+        << line;
+  }
+}
+
+TEST(CausesCsv, HasARowACauseAndOneOfAMeasurementWithout) {
+  Diagnosis none;
+  none.verdict.sentence = "nothing";
+  Diagnosis some;
+  Cause cause;
+  cause.id = "shading";
+  cause.title = "partial shading";
+  cause.power_effect = {0.02, 0.01, 0.03};
+  cause.equivalents = {"weak_cell", "substrings"};
+  some.verdict.causes = {cause};
+  cause.id = "clip";
+  some.verdict.below_floor = {cause};
+  const auto lines = LinesOf(CausesCsv({"a", "b"}, {some, none}));
+  ASSERT_EQ(lines.size(), 4U);
+  ExpectRectangular(lines);
+  EXPECT_THAT(lines[1], StartsWith("a,shading,partial shading,yes,"));
+  EXPECT_THAT(lines[1], HasSubstr(",0.02,0.01,0.03,"));
+  EXPECT_THAT(lines[1], HasSubstr(",weak_cell substrings,"));
+  EXPECT_THAT(lines[2], StartsWith("a,clip,partial shading,no,"));
+  EXPECT_THAT(lines[3], StartsWith("b,,,no,,"));
+  EXPECT_THAT(lines[3], EndsWith(",nothing"));
+}
+
+TEST(OddSweepsCsv, HasARowASweep) {
+  const auto lines = LinesOf(OddSweepsCsv(SampleOddSweeps()));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[1], StartsWith("today,yes,3e-06,series_resistance,8,6.9,9.1,%,-0.0062,"));
+  EXPECT_THAT(lines[2], StartsWith("yesterday,no,"));
+}
+
+TEST(CertificateCsv, HasTheFloorAndEveryModel) {
+  const auto lines = LinesOf(CertificateCsv(RtcCertificate()));
+  ASSERT_EQ(lines.size(), 2 + RtcCertificate().models.size());
+  ExpectRectangular(lines);
+  EXPECT_THAT(lines[1], StartsWith("floor,yes,0.00098248"));
+  EXPECT_THAT(lines[2], StartsWith("sd,yes,"));
+}
+
+TEST(DataSheetCsv, HasTheRangeWhereThereIsOne) {
+  const auto lines = LinesOf(DataSheetCsv(SampleDataSheetFit()));
+  ASSERT_EQ(lines.size(), 1 + SampleDataSheetFit().shared.size());
+  ExpectRectangular(lines);
+  EXPECT_EQ(lines[3], "n1,n,,1.02,1,1.04");
+  EXPECT_THAT(lines[1], EndsWith(",4.7,,"));
+}
+
+TEST(CsvField, IsQuotedWhereItHasTo) {
+  EXPECT_EQ(CsvField("plain"), "plain");
+  EXPECT_EQ(CsvField("a, \"b\""), "\"a, \"\"b\"\"\"");
+  EXPECT_EQ(CsvField(0.1), "0.1");
+  EXPECT_EQ(CsvField(kUnknown), "");
 }
 
 }  // namespace

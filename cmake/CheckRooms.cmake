@@ -1,4 +1,4 @@
-# The house rule, as a test: a room includes only rooms above it.
+# The house rules, as a test: a room includes only rooms above it, and the command only what is installed.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckRooms.cmake
 # Lists every include that breaks a rule and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
@@ -18,6 +18,12 @@ set(ALLOWED_report base curve law search certify fit family diagnose)  # compute
 # A library of its own with its writers in study/report; what the core writes knows nothing of it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
 set(ROOMS base curve law search refine certify effects fit family diagnose report study)
+
+set(PUBLIC)  # the headers that are installed
+if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
+  file(STRINGS "${ROOT}/cmake/LyrefitInstall.cmake" PUBLIC REGEX "^  [a-z_/]+\\.h\\)?$")
+  list(TRANSFORM PUBLIC REPLACE "[ )]" "")
+endif()
 
 set(BROKEN 0)
 macro(complain text)
@@ -40,6 +46,15 @@ function(check_own_include room quoted)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
+# An include of the command among the project's headers: what LyrefitInstall.cmake lists, and a macro for brevity.
+function(check_public_include header)
+  if(header MATCHES "^lyrefit/(.+)$" AND PUBLIC AND NOT header STREQUAL "lyrefit/base/try.h"
+     AND NOT CMAKE_MATCH_1 IN_LIST PUBLIC)
+    complain("the command must not include the closed header \"${header}\"")
+  endif()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
 function(check_file room)
   file(STRINGS "${ROOT}/${FILE}" lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
@@ -52,6 +67,7 @@ function(check_file room)
       complain("only refine/solve.cc and refine/least_squares.cc include Ceres (<${header}>)")
     endif()
     if(room STREQUAL "apps")
+      check_public_include("${header}")
       continue()
     endif()
     if(header STREQUAL "iostream")

@@ -46,20 +46,18 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/check_readings.h
   curve/curve_files.h
   curve/nearest_curve.h
+  curve/number_text.h
   curve/read_curve.h
   curve/write_curve.h
   family/read_pvlib.h
   # writers of records
-  report/json.h
-  report/certificate_plot.h
-  report/diagnosis_plot.h
+  report/csv.h
   report/document.h
   report/documents.h
-  report/family_csv.h
-  report/family_plot.h
-  report/fits_table.h
-  report/plot.h
-  report/plot/figure.h
+  report/figure.h
+  report/json.h
+  report/plots.h
+  report/text_layout.h
   # laws, and what an effect of one's own is written with
   law/curve_shape.h
   law/device.h
@@ -89,6 +87,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/parallel.h
   base/portable_exp.h
   base/random.h
+  base/seconds.h
   base/version.h)
 set(LYREFIT_STUDY_PUBLIC_HEADERS
   study.h
@@ -113,6 +112,7 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/report/compare_csv.h
   study/report/compare_json.h
   study/report/compare_plot.h
+  study/report/coverage_csv.h
   study/report/coverage_json.h
   study/report/documents.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")

@@ -1,11 +1,11 @@
-#include "csv_tables.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/report/certificate_plot.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/plots.h"
 #include "verbs.h"
 
 namespace lyrefit {

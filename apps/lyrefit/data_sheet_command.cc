@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "csv_tables.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "verbs.h"

@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <set>
 
-#include "csv_tables.h"
 #include "diagnose_request.h"
 #include "effect_text.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/plots.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -61,7 +61,7 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
       .Group("Catalogue");
   AddReportFlags(verb, "diagnosis", "the causes as a table, a row each", "diagnosis",
                  &request->output);
-  AddFullJsonSwitch(verb, &request->output);
+  AddFullSwitches(verb, &request->output);
   const auto add_file = [verb](const char* flag, std::string* file, const char* doc) {
     verb->AddOption(flag, file, std::string(doc) + "; - for standard output, alone").Writes();
   };
@@ -95,10 +95,8 @@ Expected<void> CheckRequest(const VerbLine& verb, const DiagnoseRequest& request
 }
 
 Expected<CurveSet> Read(const DiagnoseRequest& request, const std::vector<std::string>& files) {
-  if (files.size() > 1) return ReadMeasurement(files, request.reading);
-  if (files.front() != "-") return ReadMeasurement(files.front(), request.reading);
-  TRY(IvCurve curve, ReadCurveOrInput("-", request.reading));
-  return SetOfOne(std::move(curve));
+  return files.size() > 1 ? ReadMeasurement(files, request.reading)
+                          : ReadMeasurementOrInput(files.front(), request.reading);
 }
 
 Expected<Diagnosis> DiagnoseFiles(const DiagnoseRequest& request,
@@ -151,8 +149,9 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request, const
   TRY(WriteWanted(request.extend_file,
                   [&] { return JsonReport(first.extended, output.points()); }));
   TRY(WriteWanted(request.answers_file, [&] { return AnswersJson(all.names, all.found); }));
-  TRY(DrawWanted(output.plot_file,
-                 [&](const std::string& file) { return PlotDiagnosis(first, file); }));
+  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
+    return PlotDiagnosis(first, file, output.marks());
+  }));
   return WriteText(verb, [&] {
     std::string text;
     for (const Diagnosis& diagnosis : all.found) {

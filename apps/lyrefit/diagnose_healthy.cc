@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "csv_tables.h"
 #include "diagnose_request.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/plots.h"
 
 namespace lyrefit {
 namespace {
@@ -16,13 +16,7 @@ Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
                                           const ConditionFlags& conditions) {
   std::vector<IvCurve> sweeps;
   for (const std::string& file : files) {
-    CurveSet set;
-    if (HoldsCurveSet(file, request.reading)) {
-      TRY(set, ReadCurveSet(file, request.reading));
-    } else {
-      TRY(IvCurve curve, ReadCurve(file, request.reading));
-      set = SetOfOne(std::move(curve));
-    }
+    TRY(CurveSet set, ReadMeasurement(file, request.reading));
     TRY(ApplyConditionFlags(conditions, &set));
     for (IvCurve& curve : set.curves) sweeps.push_back(std::move(curve));
   }
@@ -36,8 +30,9 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
   TRY(WriteWanted(output.csv_file, [&] { return CausesCsv({comparison.name}, {diagnosis}); }));
   TRY(WriteWanted(request.extend_file,
                   [&] { return JsonReport(diagnosis.extended, output.points()); }));
-  TRY(DrawWanted(output.plot_file,
-                 [&](const std::string& file) { return PlotDiagnosis(diagnosis, file); }));
+  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
+    return PlotDiagnosis(diagnosis, file, output.marks());
+  }));
   return WriteText(verb, [&] {
     return output.brief ? BriefHealthy(comparison) + BriefDiagnosis(diagnosis)
                         : HealthyText(comparison) + "\n" + DiagnosisText(diagnosis);

@@ -11,10 +11,10 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/family/fit_free.h"
 #include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/family_csv.h"
-#include "lyrefit/report/family_plot.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/plots.h"
 #include "lyrefit/study/report/documents.h"
 #include "lyrefit/study/truth.h"
 #include "output.h"
@@ -22,15 +22,9 @@
 namespace lyrefit {
 namespace {
 
-Expected<CurveSet> ReadSet(const CurveFlags& flags) {
-  if (HoldsCurveSet(flags.file, flags.reading)) return ReadCurveSet(flags.file, flags.reading);
-  TRY(IvCurve curve, ReadCurveOrInput(flags.file, flags.reading));
-  return SetOfOne(std::move(curve));
-}
-
 // The set with what the flags say of every curve.
 Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
-  TRY(CurveSet set, ReadSet(flags));
+  TRY(CurveSet set, ReadMeasurementOrInput(flags.file, flags.reading));
   TRY(ApplyConditionFlags(flags.conditions, &set));
   return set;
 }
@@ -71,8 +65,9 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
                      const ReportFlags& output) {
   TRY(WriteWanted(output.json_file, [&] { return FamilyJson(report); }));
   TRY(WriteWanted(output.csv_file, [&] { return FreeFitsCsv(report); }));
-  TRY(DrawWanted(output.plot_file,
-                 [&](const std::string& file) { return PlotFamily(report, set, file); }));
+  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
+    return PlotFamily(report, set, file, output.marks());
+  }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
   if (truth) {
     const std::string text = TruthText(CompareWithTruth(report, *truth));

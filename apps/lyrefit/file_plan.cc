@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "lyrefit/curve/curve_files.h"
-#include "lyrefit/report/plot.h"
+#include "lyrefit/report/plots.h"
 #include "output.h"
 
 namespace lyrefit {

@@ -8,10 +8,10 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/fits_table.h"
 #include "lyrefit/report/json.h"
-#include "lyrefit/report/plot.h"
+#include "lyrefit/report/plots.h"
 #include "output.h"
 #include "verbs.h"
 
@@ -77,7 +77,7 @@ void DeclareFit(VerbLine* verb, FitRequest* fit) {
   AddTableFlags(verb, kFitOptionTable, &fit->options);
   AddFamilyFlags(verb, &fit->family, &fit->output);
   AddReportFlags(verb, "report", "", "fit", &fit->output);
-  AddFullJsonSwitch(verb, &fit->output);
+  AddFullSwitches(verb, &fit->output);
 }
 
 // What one flag says of the options of another.
@@ -116,8 +116,9 @@ Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
                : FitsJson(fits, output.points());
   }));
   TRY(WriteWanted(output.csv_file, [&] { return FitsCsv(fits); }));
-  TRY(DrawWanted(output.plot_file,
-                 [&](const std::string& file) { return PlotFit(*fits.front().report, file); }));
+  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
+    return PlotFit(*fits.front().report, file, output.marks());
+  }));
   return WriteText(verb, [&] {
     std::string text;
     for (const FittedFile& file : fits) {

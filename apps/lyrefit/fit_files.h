@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/report/fits_table.h"
+#include "lyrefit/report/csv.h"
 
 namespace lyrefit {
 

@@ -6,7 +6,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/report/plot.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/report/plots.h"
 
 namespace lyrefit {
 namespace {
@@ -139,6 +140,12 @@ Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& o
   return ReadCurveText(std::move(*bytes), "standard input", options);
 }
 
+Expected<CurveSet> ReadMeasurementOrInput(const std::string& file, const ReadOptions& options) {
+  if (file != "-") return ReadMeasurement(file, options);
+  TRY(IvCurve curve, ReadCurveOrInput(file, options));
+  return SetOfOne(std::move(curve));
+}
+
 void AddCurveFlags(VerbLine* verb, CurveFlags* flags) {
   verb->AddOption("CURVE", &flags->file,
                   "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
@@ -164,10 +171,13 @@ Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {
   return curve;
 }
 
-void AddFullJsonSwitch(VerbLine* verb, ReportFlags* flags) {
+void AddFullSwitches(VerbLine* verb, ReportFlags* flags) {
   verb->AddSwitch("--full-json", &flags->full_json,
                   fmt::format("repeat every reading of curves of more than {} in JSON files",
                               kMostJsonPoints))
+      .Group("Output");
+  verb->AddSwitch("--full-plot", &flags->full_plot,
+                  "draw every reading, also of curves of so many that some look like all")
       .Group("Output");
 }
 

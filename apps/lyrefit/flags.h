@@ -16,6 +16,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/report/figure.h"
 #include "lyrefit/report/json.h"
 #include "output.h"
 
@@ -198,6 +199,9 @@ Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOpti
 // A curve from a file or folder, or from standard input where `file` is "-".
 Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options);
 
+// A measurement, as ReadMeasurement reads it, or the one curve of standard input.
+Expected<CurveSet> ReadMeasurementOrInput(const std::string& file, const ReadOptions& options);
+
 void AddCurveFlags(VerbLine* verb, CurveFlags* flags);
 // The same without the file.
 void AddReadingFlags(VerbLine* verb, CurveFlags* flags);
@@ -210,11 +214,13 @@ struct ReportFlags {
   std::string plot_file;
   bool brief = false;
   bool full_json = false;
+  bool full_plot = false;
   JsonPoints points() const { return full_json ? JsonPoints::kAll : JsonPoints::kThinned; }
+  PlotPoints marks() const { return full_plot ? PlotPoints::kAll : PlotPoints::kThinned; }
 };
 
-// --full-json, where the JSON of a fit repeats its readings.
-void AddFullJsonSwitch(VerbLine* verb, ReportFlags* flags);
+// --full-json and --full-plot, where JSON repeats the readings of a fit and pictures show them.
+void AddFullSwitches(VerbLine* verb, ReportFlags* flags);
 // --json, --csv where `table` says what it holds, --plot, --brief and --quiet. `what` names the
 // report in the help, `picture` the plot.
 void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,

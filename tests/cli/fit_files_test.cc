@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -159,15 +160,21 @@ TEST_F(FitOfManyFiles, OfOneFileIsATableOfOneRow) {
   EXPECT_EQ(Lines(fit.out).size(), 2U);
 }
 
+// 5,001 readings; the name of the file, in quotes.
+std::string MakeLongCurve(const TempFolder& folder) {
+  const std::string curve = "'" + folder.Path("long.csv") + "'";
+  const AppResult made = RunApp(
+      "simulate --set Iph=5 --set Is1=1e-9 --set n1=1.1 --set Rs=0.01 --set Rsh=30 "
+      "--points 5001 --noise-A 0.001 --out " +
+      curve);
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  return curve;
+}
+
 // What a curve of very many readings says stands in the other keys.
 TEST(FitJsonOfALongCurve, RepeatsSomeOfItUnlessAsked) {
   const TempFolder folder;
-  const std::string curve = "'" + folder.Path("long.csv") + "'";
-  ASSERT_EQ(RunApp("simulate --set Iph=5 --set Is1=1e-9 --set n1=1.1 --set Rs=0.01 --set Rsh=30 "
-                   "--points 5001 --noise-A 0.001 --out " +
-                   curve)
-                .exit_code,
-            0);
+  const std::string curve = MakeLongCurve(folder);
   const json some = FitJson(curve + " --intervals none");
   const json& data = some["data"];
   EXPECT_EQ(data["points"], 5001);
@@ -180,6 +187,29 @@ TEST(FitJsonOfALongCurve, RepeatsSomeOfItUnlessAsked) {
   EXPECT_FALSE(all["data"].contains("every"));
   EXPECT_EQ(all["data"]["voltage_V"][3], data["voltage_V"][1]);
   EXPECT_EQ(all["data"]["residual_A"][5000], data["residual_A"].back());
+}
+
+// Symbols drawn.
+std::size_t Marks(const std::string& picture) {
+  std::ifstream file(picture);
+  std::size_t marks = 0;
+  for (std::string line; std::getline(file, line);) {
+    for (std::size_t at = 0; (at = line.find("<use ", at)) != std::string::npos; ++at) ++marks;
+  }
+  return marks;
+}
+
+TEST(FitPlotOfALongCurve, ShowsSomeOfItUnlessAsked) {
+  const TempFolder folder;
+  const std::string curve = MakeLongCurve(folder);
+  const std::string fit = "fit " + curve + " --intervals none --plot ";
+  ASSERT_EQ(RunApp(fit + "'" + folder.Path("some.svg") + "'").exit_code, 0);
+  ASSERT_EQ(RunApp(fit + "'" + folder.Path("all.svg") + "' --full-plot").exit_code, 0);
+  const std::size_t some = Marks(folder.Path("some.svg"));
+  const std::size_t all = Marks(folder.Path("all.svg"));
+  EXPECT_GT(some, 1000U);
+  EXPECT_LT(some, 8000U);
+  EXPECT_GE(all, 3 * 5000U);  // current, power and residual of each
 }
 
 }  // namespace

@@ -157,11 +157,15 @@ TEST(Fit, AnswersWithTheSearchWithoutPolish) {
 TEST(Fit, FlagsReplaceWhatTheReaderAssumed) {
   const TempFolder folder;
   const std::string curve = folder.Write("bare.csv", FileText(DataFolder("rtc_france/curve.csv")));
-  const std::string assumed = FitJson(curve)["curve"]["assumptions"].dump();
+  const json nothing_said = FitJson(curve)["curve"];
+  EXPECT_EQ(nothing_said["assumed"].dump(),
+            R"(["cells_in_series","strings_in_parallel","cell_temperature_C","irradiance_Wm2"])");
+  const std::string assumed = nothing_said["assumptions"].dump();
   EXPECT_THAT(assumed, HasSubstr("cells in series not given"));
   EXPECT_THAT(assumed, HasSubstr("temperature not given"));
   EXPECT_THAT(assumed, HasSubstr("irradiance not given"));
   const json told = FitJson(curve + " --cells 1 --temperature-C 33");
+  EXPECT_EQ(told["curve"]["assumed"].dump(), R"(["strings_in_parallel","irradiance_Wm2"])");
   EXPECT_THAT(told["curve"]["assumptions"].dump(), Not(HasSubstr("cells in series")));
   EXPECT_THAT(told["curve"]["assumptions"].dump(), Not(HasSubstr("temperature")));
   EXPECT_THAT(told["curve"]["assumptions"].dump(), HasSubstr("irradiance not given"));

@@ -141,14 +141,36 @@ TEST(ReadSidecarTest, AReportInItsPlaceGivesItsConditions) {
   const auto sidecar = ReadSidecar(folder.Write("module.json", R"({"lyrefit_version": "0.1.0",
       "curve": {"name": "m", "conditions": {"cells_in_series": 36, "strings_in_parallel": 1,
       "cell_temperature_C": 51, "irradiance_Wm2": 1000},
-      "assumptions": ["irradiance not given: assumed 1000 W/m2"]}})"),
+      "assumed": ["strings_in_parallel", "irradiance_Wm2"],
+      "assumptions": ["in any words"]}})"),
                                    kLimit);
   ASSERT_TRUE(sidecar) << sidecar.error().ToString();
   EXPECT_EQ(sidecar->cells_in_series, 36);
   EXPECT_EQ(sidecar->temperature_C, 51);
   EXPECT_FALSE(sidecar->irradiance_W_m2);  // the report had to assume it
+  EXPECT_FALSE(sidecar->strings_in_parallel);
   EXPECT_THAT(SentencesOf(sidecar->assumptions),
               ::testing::ElementsAre(HasSubstr("module.json is a report of lyrefit")));
+}
+
+// Reports of older versions do not list what they assumed.
+TEST(ReadSidecarTest, AReportThatDoesNotSayWhichStatesConditionsIfItAssumedNothing) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& assumptions) {
+    return ReadSidecar(folder.Write("module.json", R"({"lyrefit_version": "0.1.0",
+        "curve": {"name": "m", "conditions": {"cells_in_series": 36, "cell_temperature_C": 51},
+        "assumptions": )" + assumptions + "}}"),
+                       kLimit);
+  };
+  const auto sure = read("[]");
+  ASSERT_TRUE(sure) << sure.error().ToString();
+  EXPECT_EQ(sure->cells_in_series, 36);
+  EXPECT_EQ(sure->temperature_C, 51);
+  const auto unsure = read(R"(["something"])");
+  ASSERT_TRUE(unsure) << unsure.error().ToString();
+  EXPECT_FALSE(unsure->cells_in_series);
+  EXPECT_FALSE(unsure->temperature_C);
+  EXPECT_THAT(SentencesOf(unsure->assumptions), ::testing::ElementsAre(HasSubstr("none was used")));
 }
 
 TEST(ReadSidecarTest, AReportWithoutConditionsIsRefusedByName) {

@@ -20,7 +20,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/report/plot.h"
+#include "lyrefit/report/plots.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
 #include "paper/page_blocks.h"

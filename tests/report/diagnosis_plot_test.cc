@@ -1,4 +1,4 @@
-#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

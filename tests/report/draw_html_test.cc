@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/fits_table.h"
 #include "sample_certificate.h"
 #include "sample_data_sheet.h"
 #include "sample_diagnosis.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sample_report.h"
+#include "sample_fits.h"
 
 namespace lyrefit {
 namespace {
@@ -221,6 +221,18 @@ TEST(JsonReport, SurvivesNamesThatAreNotUtf8) {
   FitReport report = SampleReport();
   report.curve.name = "caf\xe9";
   EXPECT_EQ(Parsed(report)["curve"]["name"], "caf\xef\xbf\xbd");
+}
+
+TEST(FitsJson, HoldsEveryReportUnderItsFile) {
+  const json list = json::parse(FitsJson(SampleFits()));
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[0]["file"], "a.csv");
+  json report = list[0];
+  report.erase("file");
+  EXPECT_EQ(report, json::parse(JsonReport(*SampleFits()[0].report)));
+  EXPECT_EQ(list[1]["file"], "b, c.csv");
+  EXPECT_EQ(list[1]["error"], "b, c.csv:2:3: expected a number, found 'x'");
+  EXPECT_EQ(list[1].size(), 2U);
 }
 
 }  // namespace

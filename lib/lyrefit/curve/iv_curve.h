@@ -59,6 +59,7 @@ struct IvCurve {
   bool irradiance_known = true;         // false: nobody stated it, the conditions hold a default
   bool temperature_known = true;
   bool cells_known = true;         // false: conditions.cells_in_series is a guess
+  bool strings_known = true;       // false: so is conditions.strings_in_parallel
   bool current_unit_known = true;  // false: ampere was assumed
   bool voltage_unit_known = true;  // false: volt was assumed
   bool as_is = false;  // taken as they are: what CheckReadings would refuse becomes a doubt

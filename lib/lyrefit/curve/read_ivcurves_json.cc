@@ -72,6 +72,7 @@ json Setting(const json& document, const json& entry, const char* key) {
 }
 
 Expected<void> ReadEntryConditions(const IvCurvesFile& file, const json& entry, IvCurve* curve) {
+  curve->strings_known = false;
   const json cells = Setting(file.document, entry, "cells_in_series");
   if (cells.is_null()) {
     curve->assumptions.emplace_back(kCellsAssumed, About::kCells);

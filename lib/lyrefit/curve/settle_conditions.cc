@@ -64,6 +64,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
                             sidecar.assumptions.end());
   Conditions& conditions = curve->conditions;
   conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
+  curve->strings_known = sidecar.strings_in_parallel.has_value();
   conditions.cells_in_series = sidecar.cells_in_series.value_or(1);
   curve->cells_known = sidecar.cells_in_series.has_value();
   if (!curve->cells_known) curve->assumptions.emplace_back(kCellsAssumed, About::kCells);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
-#include "lyrefit/curve/settle_conditions.h"
 #include "lyrefit/curve/text_encoding.h"
 
 namespace lyrefit {
@@ -173,6 +173,30 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   return reading->sidecar;
 }
 
+// The conditions in a report, and which of them it had to assume itself.
+struct StatedConditions {
+  const json& values;
+  json assumed;                  // a list of keys
+  bool nothing_assumed = false;  // decides where there is no such list
+};
+
+std::optional<double> Number(const StatedConditions& conditions, const char* key, double low,
+                             double high) {
+  const json& assumed = conditions.assumed;
+  const bool stated = assumed.is_array()
+                          ? std::find(assumed.begin(), assumed.end(), key) == assumed.end()
+                          : conditions.nothing_assumed;
+  const auto value = conditions.values.find(key);
+  if (!stated || value == conditions.values.end() || !value->is_number()) return std::nullopt;
+  const double number = value->get<double>();
+  return number >= low && number <= high ? std::optional<double>(number) : std::nullopt;
+}
+
+std::optional<int> Count(const StatedConditions& conditions, const char* key) {
+  const std::optional<double> number = Number(conditions, key, 1, 1e6);
+  return number ? std::optional<int>(static_cast<int>(*number)) : std::nullopt;
+}
+
 }  // namespace
 
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
@@ -212,34 +236,21 @@ std::optional<Sidecar> ReportedConditions(const json& report, const std::string&
   if (curve == report.end() || !curve->is_object()) return std::nullopt;
   const auto found = curve->find("conditions");
   if (found == curve->end() || !found->is_object()) return std::nullopt;
-  const auto assumptions = curve->value("assumptions", json::array());
-  // What the report had to assume itself, it does not know; its file says so in sentences only.
-  const auto number = [&](const char* key, const char* assumed) -> std::optional<double> {
-    const auto value = found->find(key);
-    const bool guess =
-        std::find(assumptions.begin(), assumptions.end(), assumed) != assumptions.end();
-    if (guess || value == found->end() || !value->is_number()) return std::nullopt;
-    return value->get<double>();
-  };
-  const auto count = [&](const char* key, const char* assumed) -> std::optional<int> {
-    const auto value = number(key, assumed);
-    if (!value || !(*value >= 1 && *value <= 1e6)) return std::nullopt;
-    return static_cast<int>(*value);
-  };
+  const StatedConditions stated{*found, curve->value("assumed", json()),
+                                curve->value("assumptions", json::array()).empty()};
   Sidecar sidecar;
   const auto name = curve->find("name");
   if (name != curve->end() && name->is_string()) sidecar.name = name->get<std::string>();
-  sidecar.cells_in_series = count("cells_in_series", kCellsAssumed);
-  sidecar.strings_in_parallel = count("strings_in_parallel", "");
-  sidecar.temperature_C = number("cell_temperature_C", kTemperatureAssumed);
-  if (sidecar.temperature_C && !(*sidecar.temperature_C >= -100 && *sidecar.temperature_C <= 150)) {
-    sidecar.temperature_C.reset();
-  }
-  sidecar.irradiance_W_m2 = number("irradiance_Wm2", kIrradianceAssumed);
-  if (sidecar.irradiance_W_m2 && !(*sidecar.irradiance_W_m2 >= 0)) sidecar.irradiance_W_m2.reset();
+  sidecar.cells_in_series = Count(stated, "cells_in_series");
+  sidecar.strings_in_parallel = Count(stated, "strings_in_parallel");
+  sidecar.temperature_C = Number(stated, "cell_temperature_C", -100, 150);
+  sidecar.irradiance_W_m2 = Number(stated, "irradiance_Wm2", 0, kInfinity);
+  const bool clear = stated.assumed.is_array() || stated.nothing_assumed;
   sidecar.assumptions.push_back(
-      fmt::format("{} is a report of lyrefit, not a sidecar: the conditions in it were used",
-                  std::filesystem::path(path).filename().string()));
+      fmt::format("{} is a report of lyrefit, not a sidecar: {}",
+                  std::filesystem::path(path).filename().string(),
+                  clear ? "the conditions in it were used"
+                        : "it does not say which of its conditions it assumed, none was used"));
   return sidecar;
 }
 

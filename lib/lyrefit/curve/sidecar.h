@@ -37,7 +37,8 @@ Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_fi
 bool IsReport(const nlohmann::json& document);
 
 // The conditions under which the one curve of a report was taken, without those that the report had
-// to assume; nothing if it is on no single curve.
+// to assume (all, where an older one does not list these and assumed anything); nothing if it is on
+// no single curve.
 std::optional<Sidecar> ReportedConditions(const nlohmann::json& report, const std::string& path);
 
 // What `own` does not say is taken from `common`.

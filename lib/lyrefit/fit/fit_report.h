@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/iv_curve.h"
@@ -246,6 +247,12 @@ struct FitReport {
   bool interrupted = false;
   bool usable = true;              // finite, and near enough to the readings; see WhyNotUsable
   std::string not_usable_because;  // empty: usable
+};
+
+// A file and what came of it: its fit, or why there is none.
+struct FittedFile {
+  std::string file;
+  Expected<FitReport> report;
 };
 
 }  // namespace lyrefit

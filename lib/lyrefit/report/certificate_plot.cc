@@ -1,10 +1,11 @@
-#include "lyrefit/report/certificate_plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/certify/certify.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/report/diagnosis_sections.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

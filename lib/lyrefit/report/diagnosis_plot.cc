@@ -1,4 +1,4 @@
-#include "lyrefit/report/diagnosis_plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/family_sections.h"
+#include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/report/family_plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/family/family_report.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/quote.h"

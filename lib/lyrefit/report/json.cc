@@ -7,6 +7,16 @@ namespace lyrefit {
 
 double RoundCelsius(double celsius) { return std::round(celsius * 1e9) / 1e9; }
 
+// The keys of the conditions that nobody stated.
+static Json AssumedJson(const IvCurve& curve) {
+  Json keys = Json::array();
+  if (!curve.cells_known) keys.push_back("cells_in_series");
+  if (!curve.strings_known) keys.push_back("strings_in_parallel");
+  if (!curve.temperature_known) keys.push_back("cell_temperature_C");
+  if (!curve.irradiance_known) keys.push_back("irradiance_Wm2");
+  return keys;
+}
+
 void to_json(Json& j, const IvCurve& curve) {
   const Conditions& c = curve.conditions;
   j = {{"name", curve.name},
@@ -17,6 +27,7 @@ void to_json(Json& j, const IvCurve& curve) {
          {"strings_in_parallel", c.strings_in_parallel},
          {"cell_temperature_C", RoundCelsius(c.cell_temperature_K - kZeroCelsius_K)},
          {"irradiance_Wm2", c.irradiance_W_m2}}},
+       {"assumed", AssumedJson(curve)},
        {"assumptions", SentencesOf(curve.assumptions)}};
 }
 

@@ -42,6 +42,9 @@ constexpr int kMostJsonPoints = 2000;
 // under pvlib's names; a perfect shunt (infinite resistance) is null there too.
 std::string JsonReport(const FitReport& report, JsonPoints points = JsonPoints::kAll);
 
+// An array of what JsonReport writes, each with its "file"; {"file", "error"} where there is none.
+std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points = JsonPoints::kAll);
+
 // Every RMSE is a pair under the labels measured_current_A and solved_current_A.
 std::string FamilyJson(const FamilyReport& report);
 

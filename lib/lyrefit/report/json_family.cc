@@ -1,5 +1,5 @@
-#include "lyrefit/report/family_sections.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/report/record_parts.h"
 
 namespace lyrefit {
 

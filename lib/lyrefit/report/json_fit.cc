@@ -161,4 +161,18 @@ std::string JsonReport(const FitReport& report, JsonPoints points) {
   return Dump(FitJson(report, points));
 }
 
+std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points) {
+  Json list = Json::array();
+  for (const FittedFile& fit : fits) {
+    Json item = {{"file", fit.file}};
+    if (fit.report) {
+      item.update(FitJson(*fit.report, points));
+    } else {
+      item["error"] = fit.report.error().ToString();
+    }
+    list.push_back(std::move(item));
+  }
+  return Dump(list);
+}
+
 }  // namespace lyrefit

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/fit/bounds.h"
@@ -34,110 +35,104 @@ Expected<std::optional<BoundsSpec>> PublishedBounds(const std::string& name,
     if (name.empty()) return std::nullopt;
     return Fail(fmt::format("there are no bounds {}: no {}", Quoted(name), file.string()));
   }
-  Expected<BoundsSpec> spec = ReadBoundsFile(file.string());
-  if (!spec) return tl::unexpected(spec.error());
-  spec->name = name.empty() ? kDefaultBounds : name;
-  return *spec;
+  TRY(BoundsSpec spec, ReadBoundsFile(file.string()));
+  spec.name = name.empty() ? kDefaultBounds : name;
+  return spec;
 }
 
-class Auditor {
- public:
-  Auditor(const AuditOptions& options, AuditShelf shelf)
-      : options_(options), shelf_(std::move(shelf)) {}
-
-  Expected<AuditFinding> AuditOne(const AuditRow& row, const std::string& path) {
-    const auto refuse = [&](int column, const Error& error) {
-      return Fail(error.ToString(), path, row.line, column);
-    };
-    const Expected<int> curve = FindCurve(row.device, &shelf_);
-    if (!curve) return refuse(row.device_column, curve.error());
-    const auto bounds = PublishedBounds(row.bounds, shelf_.curves[*curve]);
-    if (!bounds) return refuse(row.bounds_column, bounds.error());
-
-    const AuditSubject subject = MakeSubject(row, *curve, shelf_, options_);
-    AuditFinding finding;
-    finding.row = row;
-    finding.stated = ReadingEvaluator(subject).Read(subject.stated);
-    finding.verdict = VerdictAsStated(finding);
-    if (finding.verdict == AuditVerdict::kBetter || finding.verdict == AuditVerdict::kFails) {
-      LookFurther(subject, &finding);
-    }
-    if (*bounds) {
-      finding.bounds_name = (*bounds)->name;
-      if (auto checked = CheckBounds(**bounds, subject, &finding); !checked) {
-        return refuse(row.bounds_column, checked.error());
-      }
-    }
-    finding.sentence = AuditSentence(finding);
-    return finding;
-  }
-
- private:
-  static AuditVerdict VerdictAsStated(const AuditFinding& finding) {
-    const double claim = finding.row.rmse.value;
-    const double rmse = finding.stated.rmse.Of(finding.stated.objective);
-    if (finding.stated.constants.empty()) {
-      return rmse < claim ? AuditVerdict::kBetter : AuditVerdict::kFails;
-    }
-    const bool coarse = finding.stated.tolerance_A > kCoarse * claim &&
-                        std::fabs(rmse - claim) > kMatchesWell * claim;
-    return coarse ? AuditVerdict::kTooCoarse : AuditVerdict::kReproduces;
-  }
-
-  void LookFurther(const AuditSubject& subject, AuditFinding* finding) {
-    AuditSearch search = Explain(subject);
-    finding->explanations = std::move(search.explanations);
-    if (!finding->explanations.empty()) {
-      finding->verdict = AuditVerdict::kReproducesChanged;
-      return;
-    }
-    finding->short_circuit_A = shelf_.curves[subject.stated.curve].short_circuit_A;
-    if (HasOtherPhotocurrent(subject)) {
-      finding->verdict = AuditVerdict::kOtherDevice;
-      finding->other_device = FindOtherDevice(subject);
-      return;
-    }
-    finding->nearest = std::move(search.nearest);
-    finding->optimum_A = optima_.Find(subject, subject.stated, finding->stated.shown);
-    finding->temperatures = ScanTemperatures(subject);
-  }
-
-  // Of the row as stated, and of explanations on the same curve.
-  Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
-                             AuditFinding* finding) const {
-    const Device device = MakeDevice(subject.row->model, subject.stated.conditions);
-    const auto bounds = MakeBounds(spec, device, shelf_.curves[subject.stated.curve].curve);
-    if (!bounds) return tl::unexpected(bounds.error());
-    finding->stated.left_bounds = FindLeftBounds(device, *bounds, finding->stated);
-    for (AuditExplanation& explanation : finding->explanations) {
-      AuditReading& reading = explanation.reading;
-      if (reading.curve == finding->stated.curve) {
-        reading.left_bounds = FindLeftBounds(device, *bounds, reading);
-      }
-    }
-    return {};
-  }
-
-  const AuditOptions& options_;
-  AuditShelf shelf_;
-  OptimumFinder optima_;
+// What the rows of an audit share; shelf and optima grow with what rows ask for.
+struct AuditDesk {
+  const std::string& path;
+  const AuditOptions& options;
+  AuditShelf shelf;
+  OptimumFinder optima;
 };
+
+AuditVerdict VerdictAsStated(const AuditFinding& finding) {
+  const double claim = finding.row.rmse.value;
+  const double rmse = finding.stated.rmse.Of(finding.stated.objective);
+  if (finding.stated.constants.empty()) {
+    return rmse < claim ? AuditVerdict::kBetter : AuditVerdict::kFails;
+  }
+  const bool coarse = finding.stated.tolerance_A > kCoarse * claim &&
+                      std::fabs(rmse - claim) > kMatchesWell * claim;
+  return coarse ? AuditVerdict::kTooCoarse : AuditVerdict::kReproduces;
+}
+
+void LookFurther(const AuditSubject& subject, OptimumFinder* optima, AuditFinding* finding) {
+  AuditSearch search = Explain(subject);
+  finding->explanations = std::move(search.explanations);
+  if (!finding->explanations.empty()) {
+    finding->verdict = AuditVerdict::kReproducesChanged;
+    return;
+  }
+  finding->short_circuit_A = subject.shelf->curves[subject.stated.curve].short_circuit_A;
+  if (HasOtherPhotocurrent(subject)) {
+    finding->verdict = AuditVerdict::kOtherDevice;
+    finding->other_device = FindOtherDevice(subject);
+    return;
+  }
+  finding->nearest = std::move(search.nearest);
+  finding->optimum_A = optima->Find(subject, subject.stated, finding->stated.shown);
+  finding->temperatures = ScanTemperatures(subject);
+}
+
+// Of the row as stated, and of explanations on the same curve.
+Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
+                           AuditFinding* finding) {
+  const Device device = MakeDevice(subject.row->model, subject.stated.conditions);
+  TRY(const auto bounds,
+      MakeBounds(spec, device, subject.shelf->curves[subject.stated.curve].curve));
+  finding->stated.left_bounds = FindLeftBounds(device, bounds, finding->stated);
+  for (AuditExplanation& explanation : finding->explanations) {
+    AuditReading& reading = explanation.reading;
+    if (reading.curve == finding->stated.curve) {
+      reading.left_bounds = FindLeftBounds(device, bounds, reading);
+    }
+  }
+  return {};
+}
+
+Expected<AuditFinding> AuditOne(const AuditRow& row, AuditDesk* desk) {
+  const auto refuse = [&](int column, const Error& error) {
+    return Fail(error.ToString(), desk->path, row.line, column);
+  };
+  const Expected<int> curve = FindCurve(row.device, &desk->shelf);
+  if (!curve) return refuse(row.device_column, curve.error());
+  const auto bounds = PublishedBounds(row.bounds, desk->shelf.curves[*curve]);
+  if (!bounds) return refuse(row.bounds_column, bounds.error());
+
+  const AuditSubject subject = MakeSubject(row, *curve, desk->shelf, desk->options);
+  AuditFinding finding;
+  finding.row = row;
+  finding.stated = ReadingEvaluator(subject).Read(subject.stated);
+  finding.verdict = VerdictAsStated(finding);
+  if (finding.verdict == AuditVerdict::kBetter || finding.verdict == AuditVerdict::kFails) {
+    LookFurther(subject, &desk->optima, &finding);
+  }
+  if (*bounds) {
+    finding.bounds_name = (*bounds)->name;
+    if (auto checked = CheckBounds(**bounds, subject, &finding); !checked) {
+      return refuse(row.bounds_column, checked.error());
+    }
+  }
+  finding.sentence = AuditSentence(finding);
+  return finding;
+}
 
 }  // namespace
 
 Expected<AuditReport> Audit(const std::string& path, const AuditOptions& options) {
-  Expected<AuditRows> rows = ReadAuditRows(path);
-  if (!rows) return tl::unexpected(rows.error());
-  Expected<AuditShelf> shelf = OpenShelf(path, options.curve_folders);
-  if (!shelf) return tl::unexpected(shelf.error());
+  TRY(AuditRows rows, ReadAuditRows(path));
+  TRY(AuditShelf shelf, OpenShelf(path, options.curve_folders));
   AuditReport report;
   report.version = Version();
   report.path = path;
   report.options = options;
-  report.bad_rows = std::move(rows->bad_rows);
-  Auditor auditor(report.options, std::move(*shelf));
-  for (const AuditRow& row : rows->rows) {
-    Expected<AuditFinding> finding = auditor.AuditOne(row, path);
+  report.bad_rows = std::move(rows.bad_rows);
+  AuditDesk desk{path, report.options, std::move(shelf), {}};
+  for (const AuditRow& row : rows.rows) {
+    Expected<AuditFinding> finding = AuditOne(row, &desk);
     if (finding) {
       report.findings.push_back(std::move(*finding));
     } else {

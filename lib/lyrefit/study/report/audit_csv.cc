@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "lyrefit/report/csv_parts.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/study/audit_sentence.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "lyrefit/report/csv_parts.h"
+#include "lyrefit/report/csv.h"
 
 namespace lyrefit {
 

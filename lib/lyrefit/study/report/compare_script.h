@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/report/plot/figure.h"
+#include "lyrefit/report/figure.h"
 #include "lyrefit/study/comparison.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/report/plot/figure.h"
+#include "lyrefit/report/figure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "lyrefit/report/plot/gnuplot.h"
-#include "lyrefit/report/plot/page.h"
+#include "lyrefit/report/figure_parts.h"
 
 namespace lyrefit {
 namespace {

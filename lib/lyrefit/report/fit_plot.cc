@@ -1,10 +1,11 @@
-#include "lyrefit/report/plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/report/text_parts.h"
 

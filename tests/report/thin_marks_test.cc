@@ -1,4 +1,4 @@
-#include "lyrefit/report/plot/thin_marks.h"
+#include "lyrefit/report/figure_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/report/plot/page.h"
+#include "lyrefit/report/figure_parts.h"
 
 #include <fmt/format.h>
 

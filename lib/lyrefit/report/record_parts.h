@@ -1,12 +1,21 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/family/family_report.h"
+#include "lyrefit/fit/fit_report.h"
 #include "lyrefit/report/document.h"
 
-// What the documents and files on a family share.
+// What the documents, tables and pictures of one kind of record share.
 namespace lyrefit {
+
+// fits_document.cc: the parameters of the largest model: those of a smaller one are its first.
+std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
+
+// The answer of a fit and its standard error for the parameter with this symbol.
+std::pair<double, double> ValueAndError(const FitReport& report, const ParameterInfo& info);
 
 // Whether the curves were fitted one by one, without shared parameters.
 inline bool OneByOne(const FamilyReport& report) { return report.estimates.empty(); }
@@ -25,5 +34,8 @@ inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
 
 // family_curve_document.cc: curve by curve, whole curves as a test, and those that were left out.
 std::vector<Section> FamilyCurveSections(const FamilyReport& report);
+
+// diagnosis_evidence_document.cc: how far a diagnosis is to be trusted.
+std::vector<Section> DiagnosisEvidenceSections(const Diagnosis& diagnosis);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/report/plot.h"
+#include "lyrefit/report/plots.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

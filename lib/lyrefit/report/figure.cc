@@ -1,4 +1,4 @@
-#include "lyrefit/report/plot/figure.h"
+#include "lyrefit/report/figure.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "lyrefit/report/plot/page.h"
-#include "lyrefit/report/plot/thin_marks.h"
+#include "lyrefit/report/figure_parts.h"
 
 namespace lyrefit {
 namespace {

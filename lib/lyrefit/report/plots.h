@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/report/figure.h"
+
+// The pictures of the records: a function that makes the figure, which is data, and one that draws
+// it into `path`, a .svg or .png file, with the errors of DrawFigure.
+namespace lyrefit {
+
+struct Certificate;
+struct CurveSet;
+struct Diagnosis;
+struct FamilyReport;
+struct FitReport;
+
+// A fit: above, current and power over voltage, measured points and the model; below, the residuals
+// with a band of +- the solved-current RMSE.
+Figure FitFigure(const FitReport& report);
+Expected<void> PlotFit(const FitReport& report, const std::string& path,
+                       PlotPoints points = PlotPoints::kThinned);
+
+// The fit of `set`, coloured by cell temperature: measured points and model of up to twelve curves
+// spread over the irradiances; over irradiance, the RMSE of each curve and its mean residual.
+Figure FamilyFigure(const FamilyReport& report, const CurveSet& set);
+Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set, const std::string& path,
+                          PlotPoints points = PlotPoints::kThinned);
+
+// The diagnosis, coloured by curve, or by direction where one curve was swept both ways: measured
+// points, base model and the model with its causes; below, what either leaves, in % of Isc. Where a
+// cause acts most there is a band of its colour and its title stands beneath.
+Figure DiagnosisFigure(const Diagnosis& diagnosis);
+Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path,
+                             PlotPoints points = PlotPoints::kThinned);
+
+// The proof of the floor: over n the cosine between the dual vector and a diode's column, which is
+// zero at the diodes of the floor and above zero nowhere.
+Figure CertificateFigure(const Certificate& certificate);
+Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path);
+
+}  // namespace lyrefit

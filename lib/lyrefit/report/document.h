@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "lyrefit/report/plot/figure.h"
+#include "lyrefit/report/figure.h"
 
 // A report as data: what is said, in the order in which it is read. How that looks in a terminal,
 // in Markdown or on a page is the business of who draws it.

@@ -22,12 +22,6 @@ bool FirstIsBetter(const SignedRank& pair) {
   return pair.test.rank_sum_plus < pair.test.rank_sum_minus;
 }
 
-std::vector<std::string> NamesOf(const ProblemResult& problem) {
-  std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
-  return names;
-}
-
 // "mlo 1.20, de 1.80, ...", the best first.
 std::string MeanRanks(const std::vector<std::string>& names, const Friedman& friedman) {
   std::vector<int> order(friedman.mean_rank.size());
@@ -112,12 +106,12 @@ std::string TestsOf(const ProblemResult& problem, const Ranking& ranking, const 
   const int runs = ranking.friedman.blocks;
   const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
   std::string text = fmt::format("  Ranks, {}: Friedman over {} runs\n", stage, runs);
-  text += Wrap("    ", MeanRanks(NamesOf(problem), ranking.friedman));
+  text += Wrap("    ", MeanRanks(ContenderNames(problem), ranking.friedman));
   text += fmt::format(
       "  Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} apart)\n",
       stage, ranking.signed_ranks.size(),
       std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart));
-  return text + WinnersText(NamesOf(problem), ranking);
+  return text + WinnersText(ContenderNames(problem), ranking);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
 Figure ConvergenceFigure(const Comparison& comparison) {
   Figure figure{fmt::format("Median of {} runs; dotted: target of {:g} above the reference",
                             comparison.options.runs, comparison.options.target_gap),
-                LegendOf(Names(comparison.problems[0]), LegendMark::kLine)};
+                LegendOf(ContenderNames(comparison.problems[0]), LegendMark::kLine)};
   figure.columns = Columns(comparison);
   for (const ProblemResult& problem : comparison.problems) {
     figure.panels.push_back(ConvergencePanel(comparison, problem));

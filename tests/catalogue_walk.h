@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "draw.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/quote.h"
@@ -41,14 +41,6 @@ inline std::uint64_t SeedOf(const std::string& effect, const std::string& data) 
     seed = (seed ^ static_cast<unsigned char>(c)) * 1099511628211U;
   }
   return seed;
-}
-
-inline double Between(RandomStream* random, double low, double high) {
-  return low + (high - low) * random->Uniform();
-}
-
-inline double LogUniform(RandomStream* random, double low, double high) {
-  return low * std::pow(high / low, random->Uniform());
 }
 
 // An effect with all its values, and how a fit is asked for it: what is held unless it is asked for

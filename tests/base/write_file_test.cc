@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "../temp_folder.h"
+#include "error_of.h"
 #include "lyrefit/base/file.h"
 
 namespace lyrefit {
@@ -57,16 +58,12 @@ TEST(WriteTextFileTest, WritesStraightIntoDevices) {
 }
 
 TEST(WriteTextFileTest, LeavesTheOldFileAloneWhenTheDeviceIsFull) {
-  const auto written = WriteTextFile("/dev/full", "text");
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("cannot write the file"));
+  EXPECT_THAT(MessageOf(WriteTextFile("/dev/full", "text")), HasSubstr("cannot write the file"));
 }
 
 TEST(WriteTextFileTest, RefusesFoldersAndFoldersThatDoNotExist) {
   const TempFolder folder;
-  const auto into_folder = WriteTextFile(folder.Path(""), "text");
-  ASSERT_FALSE(into_folder);
-  EXPECT_THAT(into_folder.error().message, HasSubstr("found a folder"));
+  EXPECT_THAT(MessageOf(WriteTextFile(folder.Path(""), "text")), HasSubstr("found a folder"));
   const std::string path = folder.Path("missing/a.txt");
   const auto nowhere = WriteTextFile(path, "text");
   ASSERT_FALSE(nowhere);

@@ -9,8 +9,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kRtc = DataFolder("rtc_france");
-
 TEST(BudgetVerb, PrintsHitsByAlgorithmAndBudget) {
   const AppResult result = RunApp("budget " + kRtc +
                                   " --models sd --runs 3 --budgets 10,100,1000 "

@@ -14,8 +14,6 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kRtc = DataFolder("rtc_france");
-
 TEST(CertifyVerb, PrintsTheCertificateByDefault) {
   const AppResult result = RunApp("certify " + kRtc);
   EXPECT_EQ(result.exit_code, 0);
@@ -52,24 +50,15 @@ TEST(CertifyVerb, EndsWith2WhereSomethingIsNotCertified) {
 }
 
 TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
-  const struct {
-    std::string arguments;
-    std::string complaint;
-  } cases[] = {
-      {"no_such_file", "no_such_file"},
-      {kRtc + " --n-lower 3", "n-lower = 3 must be below n-upper = 2"},
-      {kRtc + " --rs-lower 5", "rs-lower = 5"},
-      {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
-      {kRtc + " --plot x.pdf", ".svg or .png"},
-      {kRtc + " --tolerance 0", "--tolerance"},
-  };
-  for (const auto& one : cases) {
-    const AppResult result = RunApp("certify " + one.arguments);
-    EXPECT_EQ(result.exit_code, 1) << one.arguments;
-    EXPECT_EQ(result.out, "");
-    EXPECT_THAT(result.err, StartsWith("lyrefit: "));
-    EXPECT_THAT(result.err, HasSubstr(one.complaint));
-  }
+  ExpectRefusals("certify ",
+                 {
+                     {"no_such_file", "no_such_file"},
+                     {kRtc + " --n-lower 3", "n-lower = 3 must be below n-upper = 2"},
+                     {kRtc + " --rs-lower 5", "rs-lower = 5"},
+                     {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
+                     {kRtc + " --plot x.pdf", ".svg or .png"},
+                     {kRtc + " --tolerance 0", "--tolerance"},
+                 });
 }
 
 TEST(FitVerb, PrintsTheFloorWhenAsked) {

@@ -13,14 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::string kRtc = DataFolder("rtc_france");
 const std::string kSmall = " --runs 3 --population 10 --iterations 20 ";
-
-json CompareJson(const std::string& arguments) {
-  const AppResult result = RunApp("compare " + arguments + " --json -");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  return json::parse(result.out, nullptr, false);
-}
 
 TEST(CompareVerb, PrintsTheComparisonByDefault) {
   const AppResult result = RunApp("compare " + kRtc + kSmall);

@@ -15,25 +15,18 @@ const std::string kCurrents = "datasheet --isc 4.75 --imp 4.26 --vmp 17.6 ";
 const std::string kSheet = kCurrents + "--voc 21.6 --alpha 0.002 --beta -0.076 --cells 36";
 
 TEST(DataSheetVerb, RefusesBadInputWithOneSentence) {
-  const struct {
-    std::string arguments;
-    std::string complaint;
-  } cases[] = {
-      {"datasheet --isc 4.75", "required"},
-      {kCurrents + "--voc abc --alpha 0.002 --beta -0.076 --cells 36", "--voc: expected a number"},
-      {kCurrents + "--voc 21.6 --alpha x% --beta -0.076 --cells 36", "in percent such as 0.05%"},
-      {kCurrents + "--voc 21.6 --alpha 0.002 --beta -0.076 --cells 0", "--cells"},
-      {kSheet + " --gamma abc", "--gamma: expected a number"},
-      {kSheet + " --json - --pvlib -", "only one of --json and --pvlib"},
-      {kSheet + " --json no_such_folder/x.json", "cannot write"},
-  };
-  for (const auto& one : cases) {
-    const AppResult result = RunApp(one.arguments);
-    EXPECT_EQ(result.exit_code, 1) << one.arguments;
-    EXPECT_EQ(result.out, "");
-    EXPECT_THAT(result.err, StartsWith("lyrefit: "));
-    EXPECT_THAT(result.err, HasSubstr(one.complaint));
-  }
+  ExpectRefusals("",
+                 {
+                     {"datasheet --isc 4.75", "required"},
+                     {kCurrents + "--voc abc --alpha 0.002 --beta -0.076 --cells 36",
+                      "--voc: expected a number"},
+                     {kCurrents + "--voc 21.6 --alpha x% --beta -0.076 --cells 36",
+                      "in percent such as 0.05%"},
+                     {kCurrents + "--voc 21.6 --alpha 0.002 --beta -0.076 --cells 0", "--cells"},
+                     {kSheet + " --gamma abc", "--gamma: expected a number"},
+                     {kSheet + " --json - --pvlib -", "only one of --json and --pvlib"},
+                     {kSheet + " --json no_such_folder/x.json", "cannot write"},
+                 });
 }
 
 TEST(DataSheetVerb, PrintsTheDevice) {

@@ -14,8 +14,6 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kRtc = DataFolder("rtc_france");
-
 void ExpectRefused(const std::string& arguments, const std::string& complaint) {
   const AppResult result = RunApp("fit " + arguments);
   EXPECT_EQ(result.exit_code, 1) << arguments;

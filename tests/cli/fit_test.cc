@@ -13,8 +13,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::string kRtc = DataFolder("rtc_france");
-
 TEST(App, PrintsVersionAndHelp) {
   const AppResult version = RunApp("--version");
   EXPECT_EQ(version.exit_code, 0);

@@ -48,24 +48,18 @@ TEST(DiagnoseModule, FindsTheOddSweep) {
 }
 
 TEST(DiagnoseHealthy, RefusesWithOneSentence) {
-  const struct {
-    std::string arguments, complaint;
-  } cases[] = {
-      {kNow + " --healthy " + kNow, "0 healthy sweeps can be used"},
-      {kNow + " --healthy no_such_file.csv", "no_such_file.csv: the file does not exist"},
-      {kNow + " --healthy " + kSweeps + " --module", "only one of --healthy and --module"},
-      {kSweeps + " --healthy " + kSweeps, "compares one sweep"},
-      {kNow + " --module", "takes 5 or more"},
-      {kSweeps + " --module --plot x.svg", "--plot and --extend are not for --module"},
-      {kNow + " --healthy " + kSweeps + " --answers x.json", "--answers"},
-      {"'" + DataFolder("diagnosis/shaded_module.csv") + "' --healthy " + kSweeps, "96 cells"},
-  };
-  for (const auto& one : cases) {
-    const AppResult result = RunApp("diagnose " + one.arguments);
-    EXPECT_EQ(result.exit_code, 1) << one.arguments;
-    EXPECT_EQ(result.out, "");
-    EXPECT_THAT(result.err, HasSubstr(one.complaint));
-  }
+  ExpectRefusals(
+      "diagnose ",
+      {
+          {kNow + " --healthy " + kNow, "0 healthy sweeps can be used"},
+          {kNow + " --healthy no_such_file.csv", "no_such_file.csv: the file does not exist"},
+          {kNow + " --healthy " + kSweeps + " --module", "only one of --healthy and --module"},
+          {kSweeps + " --healthy " + kSweeps, "compares one sweep"},
+          {kNow + " --module", "takes 5 or more"},
+          {kSweeps + " --module --plot x.svg", "--plot and --extend are not for --module"},
+          {kNow + " --healthy " + kSweeps + " --answers x.json", "--answers"},
+          {"'" + DataFolder("diagnosis/shaded_module.csv") + "' --healthy " + kSweeps, "96 cells"},
+      });
 }
 
 }  // namespace

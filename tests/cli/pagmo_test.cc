@@ -9,27 +9,18 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kRtc = DataFolder("rtc_france");
-
 #ifdef LYREFIT_HAS_PAGMO
 
 const char kEverybody[] =
     "pagmo:de,pagmo:sade,pagmo:de1220,pagmo:cmaes,pagmo:xnes,pagmo:pso,pagmo:pso_gen,pagmo:gwo,"
     "pagmo:bee_colony,pagmo:gaco,pagmo:sga,pagmo:ihs,pagmo:sea,pagmo:simulated_annealing";
 
-json CompareJson(const std::string& arguments) {
-  const AppResult result = RunApp("compare " + kRtc + " --json - " + arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  return json::parse(result.out, nullptr, false);
-}
-
 TEST(Pagmo, EveryAlgorithmSpendsTheSameBudgetFromTheSameFirstPoints) {
   const std::vector<std::pair<std::string, int>> budgets = {
       {"--iterations 30", 40 * 31}, {"--iterations 30 --max-evaluations 777", 777}};
   for (const auto& [budget, evaluations] : budgets) {
-    const json j =
-        CompareJson(std::string("--models dd --runs 1 --population 40 --algorithms mlo,") +
-                    kEverybody + " " + budget);
+    const json j = CompareJson(kRtc + " --models dd --runs 1 --population 40 --algorithms mlo," +
+                               kEverybody + " " + budget);
     const json& contenders = j["problems"][0]["contenders"];
     ASSERT_EQ(contenders.size(), 15U);
     const json first = contenders[0]["median_trace"]["best_A"][0];
@@ -50,9 +41,9 @@ TEST(Pagmo, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreads) {
   const std::string arguments =
       std::string("--models sd --runs 3 --population 20 --iterations 20 --algorithms ") +
       kEverybody;
-  json one = CompareJson(arguments + " --seed 6 --threads 1");
-  json two = CompareJson(arguments + " --seed 6 --threads 2");
-  json other = CompareJson(arguments + " --seed 7");
+  json one = CompareJson(kRtc + " " + arguments + " --seed 6 --threads 1");
+  json two = CompareJson(kRtc + " " + arguments + " --seed 6 --threads 2");
+  json other = CompareJson(kRtc + " " + arguments + " --seed 7");
   RemoveSeconds(&one);
   RemoveSeconds(&two);
   EXPECT_EQ(one, two) << json::diff(one, two).dump();

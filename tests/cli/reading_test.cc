@@ -28,19 +28,13 @@ TEST(ReadingFlags, ChooseColumnsAndArea) {
 }
 
 TEST(ReadingFlags, RefusalsNameThem) {
-  const struct {
-    const char* file;
-    const char* phrase;
-  } kCases[] = {
-      {"wide.csv", "choose one with --column NAME|N (see --list-columns)"},
-      {"density.txt", "give the area of the cell with --area-cm2"},
-      {"other_names.csv", "name the columns with --voltage-column and --current-column"},
-  };
-  for (const auto& c : kCases) {
-    const AppResult result = RunApp("fit " + kFormats + c.file);
-    EXPECT_EQ(result.exit_code, 1) << c.file;
-    EXPECT_THAT(result.err, HasSubstr(c.phrase)) << c.file;
-  }
+  ExpectRefusals(
+      "fit " + kFormats,
+      {
+          {"wide.csv", "choose one with --column NAME|N (see --list-columns)"},
+          {"density.txt", "give the area of the cell with --area-cm2"},
+          {"other_names.csv", "name the columns with --voltage-column and --current-column"},
+      });
 }
 
 TEST(ReadingFlags, ColumnsAreListed) {

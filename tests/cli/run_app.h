@@ -1,14 +1,15 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "../json_keys.h"
 #include "../temp_folder.h"
 
 namespace lyrefit {
@@ -18,11 +19,6 @@ struct AppResult {
   std::string out;
   std::string err;
 };
-
-inline std::string FileText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Runs the lyrefit command with `arguments`, as the shell reads them, in a folder of its own; its
 // standard input is the file `input`.
@@ -58,18 +54,37 @@ inline std::string LongCurve(const TempFolder& folder) {
   return path;
 }
 
-inline void RemoveSeconds(nlohmann::json* value) {
-  if (value->is_object()) value->erase("seconds");
-  for (auto& child : *value) {
-    if (child.is_structured()) RemoveSeconds(&child);
+inline const std::string kRtc = DataFolder("rtc_france");
+
+struct Refusal {
+  std::string arguments;
+  std::string complaint;
+};
+
+// Each ends with 1 and a sentence that holds the complaint, and writes nothing.
+inline void ExpectRefusals(const std::string& verb, const std::vector<Refusal>& refusals) {
+  for (const Refusal& one : refusals) {
+    const AppResult result = RunApp(verb + one.arguments);
+    EXPECT_EQ(result.exit_code, 1) << one.arguments;
+    EXPECT_EQ(result.out, "") << one.arguments;
+    EXPECT_THAT(result.err, ::testing::StartsWith("lyrefit: ")) << one.arguments;
+    EXPECT_THAT(result.err, ::testing::HasSubstr(one.complaint)) << one.arguments;
   }
 }
 
-// The JSON that a fit leaves on standard output; null if there is none.
-inline nlohmann::json FitJson(const std::string& arguments) {
-  const AppResult result = RunApp("fit " + arguments + " --json -");
+// The JSON that a verb leaves on standard output; null if there is none.
+inline nlohmann::json AnswerJson(const std::string& arguments) {
+  const AppResult result = RunApp(arguments + " --json -");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+inline nlohmann::json FitJson(const std::string& arguments) {
+  return AnswerJson("fit " + arguments);
+}
+
+inline nlohmann::json CompareJson(const std::string& arguments) {
+  return AnswerJson("compare " + arguments);
 }
 
 }  // namespace lyrefit

@@ -9,7 +9,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kRtc = DataFolder("rtc_france");
 const std::string kSmall = " --models sd --runs 2 --population 10 --iterations 20 ";
 
 TEST(SensitivityVerb, PrintsGridsOfPmAndGamma) {

@@ -15,7 +15,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kRtc = "'" + DataFolder("rtc_france") + "' ";
+const std::string kCurve = "'" + DataFolder("rtc_france") + "' ";
 
 TEST(Verbs, ThatAreNoneNameTheNearest) {
   const struct {
@@ -155,13 +155,13 @@ TEST(Verbs, HelpThatCannotBeWrittenIsAnError) {
 TEST(Verbs, RefuseNumbersThatCountNothing) {
   const TempFolder folder;
   const std::string cases[] = {
-      "fit " + kRtc + "--threads -3",         "diagnose " + kRtc + "--threads -3",
-      "compare " + kRtc + "--threads -3",     "budget " + kRtc + "--threads 5000",
-      "sensitivity " + kRtc + "--threads -1", "coverage --threads -3",
-      "compare " + kRtc + "--runs -1",        "compare " + kRtc + "--runs 0",
-      "compare " + kRtc + "--seed -1",        "simulate --set Iph=1 --points -5",
-      "coverage --set Iph=8 --cells -3",      "fit " + kRtc + "--loss-scale -1",
-      "certify " + kRtc + "--cells -1",
+      "fit " + kCurve + "--threads -3",         "diagnose " + kCurve + "--threads -3",
+      "compare " + kCurve + "--threads -3",     "budget " + kCurve + "--threads 5000",
+      "sensitivity " + kCurve + "--threads -1", "coverage --threads -3",
+      "compare " + kCurve + "--runs -1",        "compare " + kCurve + "--runs 0",
+      "compare " + kCurve + "--seed -1",        "simulate --set Iph=1 --points -5",
+      "coverage --set Iph=8 --cells -3",        "fit " + kCurve + "--loss-scale -1",
+      "certify " + kCurve + "--cells -1",
   };
   for (const std::string& arguments : cases) {
     const AppResult result = RunApp(arguments);
@@ -179,7 +179,7 @@ TEST(Verbs, ThatPrintAReportKnowQuiet) {
   const AppResult audit = RunApp("audit '" + DataFolder("paper") + "/rows.csv' --quiet");
   EXPECT_EQ(audit.exit_code, 0) << audit.err;
   EXPECT_EQ(audit.out, "");
-  const AppResult compare = RunApp("compare " + kRtc +
+  const AppResult compare = RunApp("compare " + kCurve +
                                    "--models sd --algorithms random --runs 2 --iterations 5 "
                                    "--population 10 --quiet");
   EXPECT_EQ(compare.exit_code, 0) << compare.err;

@@ -146,25 +146,18 @@ TEST_F(WithFamily, APlainFamilysCurveIsThatOfItsOwnParameters) {
 }
 
 TEST_F(WithFamily, SaysWhatIsWrong) {
-  const struct {
-    const char* flags;
-    const char* said;
-  } cases[] = {
-      {"--family desoto --with nonsense", "there is no effect 'nonsense'"},
-      {"--family desoto --with shading", "each curve of a set has its own (--force"},
-      {"--family desoto --with nonohmic_shunt:q=1", "has no parameter 'q', expected k, m"},
-      {"--family desoto --with nonohmic_shunt:m=9", "m = 9 is outside 1.3 to 5"},
-      {"--family desoto --with substrings:w1=0.6,w2=0.6 --force", "leave no cell for the rest"},
-      {"--family pvsyst --with second_diode", "expected the family desoto, or free"},
-      {"--family desoto --with second_diode --temperature-offset", "temp_offset"},
-      {"--family free --with irr_step:a=x", "expected PARAMETER=VALUE"},
-  };
-  for (const auto& c : cases) {
-    const AppResult refused = Fit(std::string(c.flags) + kQuick);
-    EXPECT_EQ(refused.exit_code, 1) << c.flags;
-    EXPECT_EQ(refused.out, "") << c.flags;
-    EXPECT_THAT(refused.err, HasSubstr(c.said)) << c.flags;
-  }
+  ExpectRefusals(
+      "fit " + Quoted("set") + kQuick + " ",
+      {
+          {"--family desoto --with nonsense", "there is no effect 'nonsense'"},
+          {"--family desoto --with shading", "each curve of a set has its own (--force"},
+          {"--family desoto --with nonohmic_shunt:q=1", "has no parameter 'q', expected k, m"},
+          {"--family desoto --with nonohmic_shunt:m=9", "m = 9 is outside 1.3 to 5"},
+          {"--family desoto --with substrings:w1=0.6,w2=0.6 --force", "leave no cell for the rest"},
+          {"--family pvsyst --with second_diode", "expected the family desoto, or free"},
+          {"--family desoto --with second_diode --temperature-offset", "temp_offset"},
+          {"--family free --with irr_step:a=x", "expected PARAMETER=VALUE"},
+      });
   const AppResult curve = RunApp("simulate --curve c1");
   EXPECT_EQ(curve.exit_code, 1);
   EXPECT_THAT(curve.err, HasSubstr("it needs --from"));

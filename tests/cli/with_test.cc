@@ -87,24 +87,18 @@ TEST(With, ASimulationNeedsNoReport) {
 }
 
 TEST(With, SaysWhatIsWrongWithAnEffect) {
-  const struct {
-    const char* with;
-    const char* said;
-  } cases[] = {
-      {"nonsense", "--with: there is no effect 'nonsense'; lyrefit diagnose --explain lists them"},
-      {"shading:q=1", "shading: has no parameter 'q', expected d, w, Vb"},
-      {"shading:d=2", "shading: d = 2 is outside 0 to 0.999"},
-      {"shading:d=a", "expected PARAMETER=VALUE"},
-      {"shading:w=0.3", "shading: a simulation needs its strength, d"},
-      {"shading:d=0.1:0.2", "shading: a simulation needs one value of d, found 0.1:0.2"},
-      {"capacitance:C0=1e-6", "capacitance: needs a sweep up and a sweep down (--force"},
-  };
-  for (const auto& c : cases) {
-    const AppResult refused = RunApp(kModule + "--with '" + c.with + "'");
-    EXPECT_EQ(refused.exit_code, 1) << c.with;
-    EXPECT_EQ(refused.out, "") << c.with;
-    EXPECT_THAT(refused.err, HasSubstr(c.said)) << c.with;
-  }
+  ExpectRefusals(
+      kModule + "--with ",
+      {
+          {"nonsense",
+           "--with: there is no effect 'nonsense'; lyrefit diagnose --explain lists them"},
+          {"shading:q=1", "shading: has no parameter 'q', expected d, w, Vb"},
+          {"shading:d=2", "shading: d = 2 is outside 0 to 0.999"},
+          {"shading:d=a", "expected PARAMETER=VALUE"},
+          {"shading:w=0.3", "shading: a simulation needs its strength, d"},
+          {"shading:d=0.1:0.2", "shading: a simulation needs one value of d, found 0.1:0.2"},
+          {"capacitance:C0=1e-6", "capacitance: needs a sweep up and a sweep down (--force"},
+      });
   const AppResult automatic = RunApp("fit " + kShaded + " --model auto --with shading");
   EXPECT_EQ(automatic.exit_code, 1);
   EXPECT_THAT(automatic.err, HasSubstr("--model auto chooses among diodes alone"));

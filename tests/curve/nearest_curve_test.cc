@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
 #include "lyrefit/base/constants.h"
 
 namespace lyrefit {
@@ -61,9 +62,7 @@ TEST(NearestCurve, RefusesWhatIsNoCondition) {
 
 TEST(FindCurve, GoesByTheIdAndNamesTheOthers) {
   EXPECT_EQ(*FindCurve(Four(), "c"), 2U);
-  const auto none = FindCurve(Four(), "z");
-  ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, HasSubstr("'z': the 4 curves are a, b, c, d"));
+  EXPECT_THAT(MessageOf(FindCurve(Four(), "z")), HasSubstr("'z': the 4 curves are a, b, c, d"));
 }
 
 TEST(LabelInSet, NamesSetCurveAndItsOwnConditions) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "../temp_folder.h"
+#include "error_of.h"
 #include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
@@ -188,11 +189,10 @@ TEST(ReadCurveSetTest, IvCurvesFileKeepsTheCurvesThatCanBeRead) {
 
 TEST(ReadCurveSetTest, TwoEntriesOfOneIndexAreAnError) {
   const TempFolder folder;
-  const auto set = ReadCurveSet(folder.Write("set.json", R"({"IV Curves": [
+  EXPECT_THAT(MessageOf(ReadCurveSet(folder.Write("set.json", R"({"IV Curves": [
     {"Index": 1, "Voltages": [0, 20], "Currents": [1, 0]},
-    {"Index": 1, "Voltages": [0, 20], "Currents": [1, "x"]}]})"));
-  ASSERT_FALSE(set);
-  EXPECT_THAT(set.error().message, HasSubstr("a number not used before (it is 1)"));
+    {"Index": 1, "Voltages": [0, 20], "Currents": [1, "x"]}]})"))),
+              HasSubstr("a number not used before (it is 1)"));
 }
 
 TEST(ReadCurveSetTest, BrokenCurvesOfATableAreRejectedWithTheirPlace) {
@@ -281,12 +281,7 @@ TEST(ReadCurveSetTest, ErrorsInTheIndexNameTheirPlace) {
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.text);
     folder.Write("a-index.csv", c.text);
-    const auto set = ReadCurveSet(path);
-    ASSERT_FALSE(set);
-    EXPECT_EQ(set.error().file, index);
-    EXPECT_EQ(set.error().line, c.line);
-    EXPECT_EQ(set.error().column, c.column);
-    EXPECT_THAT(set.error().message, HasSubstr(c.phrase));
+    ExpectErrorAt(ReadCurveSet(path), index, c.line, c.column, c.phrase);
   }
 }
 
@@ -325,9 +320,8 @@ TEST(ReadCurveSetTest, WhatIsNoSetIsRefused) {
   }
   ReadOptions options;
   options.curve = 3;
-  const auto part = ReadCurveSet(folder.Write("three.csv", kThree), options);
-  ASSERT_FALSE(part);
-  EXPECT_THAT(part.error().message, HasSubstr("a set is read whole"));
+  EXPECT_THAT(MessageOf(ReadCurveSet(folder.Write("three.csv", kThree), options)),
+              HasSubstr("a set is read whole"));
 }
 
 TEST(HoldsCurveSetTest, LooksAtNamesAndHeaders) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
+
 namespace lyrefit {
 namespace {
 
@@ -110,12 +112,7 @@ TEST(ReadTableTest, ErrorsNameLineColumnAndWhatWasExpected) {
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.text);
-    const auto table = ReadTable(c.text, "f.csv");
-    ASSERT_FALSE(table);
-    EXPECT_EQ(table.error().file, "f.csv");
-    EXPECT_EQ(table.error().line, c.line);
-    EXPECT_EQ(table.error().column, c.column);
-    EXPECT_THAT(table.error().message, HasSubstr(c.phrase));
+    ExpectErrorAt(ReadTable(c.text, "f.csv"), "f.csv", c.line, c.column, c.phrase);
   }
 }
 

@@ -52,15 +52,19 @@ TEST(SettleConditionsTest, ColumnsStandInForAMissingSidecar) {
   EXPECT_THAT(SentencesOf(curve.assumptions), ElementsAre(kCellsAssumed));
 }
 
-TEST(SettleConditionsTest, ColumnThatAgreesLeavesTheRoundFigure) {
-  IvCurve curve;
-  curve.temperature_C = {25.03, 25.07};
-  curve.irradiance_W_m2 = {1003, 1004};
+Sidecar StandardCell() {
   Sidecar sidecar;
   sidecar.cells_in_series = 1;
   sidecar.temperature_C = 25;
   sidecar.irradiance_W_m2 = 1000;
-  SettleConditions(sidecar, &curve);
+  return sidecar;
+}
+
+TEST(SettleConditionsTest, ColumnThatAgreesLeavesTheRoundFigure) {
+  IvCurve curve;
+  curve.temperature_C = {25.03, 25.07};
+  curve.irradiance_W_m2 = {1003, 1004};
+  SettleConditions(StandardCell(), &curve);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 298.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
   EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
@@ -70,11 +74,7 @@ TEST(SettleConditionsTest, ColumnThatDiffersCountsAndIsSaid) {
   IvCurve curve;
   curve.temperature_C = {55, 55};
   curve.irradiance_W_m2 = {0, 0};
-  Sidecar sidecar;
-  sidecar.cells_in_series = 1;
-  sidecar.temperature_C = 25;
-  sidecar.irradiance_W_m2 = 1000;
-  SettleConditions(sidecar, &curve);
+  SettleConditions(StandardCell(), &curve);
   EXPECT_EQ(curve.conditions.cell_temperature_K, 328.15);
   EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
   EXPECT_THAT(SentencesOf(curve.assumptions),

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
+
 namespace lyrefit {
 namespace {
 
@@ -139,9 +141,8 @@ TEST(FindTableLayoutTest, ColumnsMayBeNamed) {
   }
   ReadOptions missing;
   missing.current_column = "Ix";
-  const auto layout = FindTableLayout("V,I\n0,1\n", "f", missing);
-  ASSERT_FALSE(layout);
-  EXPECT_THAT(layout.error().message, HasSubstr("expected a column 'Ix' in the header, found 'V'"));
+  EXPECT_THAT(MessageOf(FindTableLayout("V,I\n0,1\n", "f", missing)),
+              HasSubstr("expected a column 'Ix' in the header, found 'V'"));
 }
 
 TEST(FindTableLayoutTest, PairsSideBySideAreChosenByColumn) {
@@ -200,12 +201,7 @@ TEST(FindTableLayoutTest, RefusalsNameTheColumn) {
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.text);
-    const auto layout = FindTableLayout(c.text, "f.csv");
-    ASSERT_FALSE(layout);
-    EXPECT_EQ(layout.error().file, "f.csv");
-    EXPECT_EQ(layout.error().line, c.line);
-    EXPECT_EQ(layout.error().column, c.column);
-    EXPECT_THAT(layout.error().message, HasSubstr(c.phrase));
+    ExpectErrorAt(FindTableLayout(c.text, "f.csv"), "f.csv", c.line, c.column, c.phrase);
   }
 }
 

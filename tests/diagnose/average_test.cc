@@ -9,9 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "law/made_curve.h"
+#include "diagnose/made_diagnosis.h"
 #include "lyrefit/diagnose/choose_base.h"
-#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
@@ -27,18 +26,7 @@ Recipe Long() {
 }
 
 Diagnosis DiagnosedQuickly(const IvCurve& curve) {
-  DiagnoseOptions options = LaboratoryOptions();
-  options.draws = 400;
-  options.held_out = false;
-  auto diagnosis = Diagnose(curve, options);
-  EXPECT_TRUE(diagnosis.has_value());
-  return diagnosis ? *diagnosis : Diagnosis();
-}
-
-std::vector<std::string> Named(const Diagnosis& diagnosis) {
-  std::vector<std::string> ids;
-  for (const Cause& cause : diagnosis.verdict.causes) ids.push_back(cause.id);
-  return ids;
+  return DiagnoseOrFail(curve, Quick(LaboratoryOptions()));
 }
 
 // Averages lie on the curve between their readings, however it bends, and every reading counts.
@@ -70,7 +58,7 @@ TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
 
 TEST(AverageTest, ALongCleanCurveIsCleanAndItsNoiseThatOfItsReadings) {
   const Diagnosis d = DiagnosedQuickly(MadeCurve(Long()));
-  EXPECT_THAT(Named(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_EQ(d.points.size(), 1500U);
   EXPECT_NEAR(d.points[700].sigma_A, 0.004, 0.0004);
   EXPECT_NEAR(d.gain.rmse_before_A, 0.004, 0.0004);
@@ -89,7 +77,7 @@ TEST(AverageTest, OneWrongReadingAmongManyIsFound) {
   IvCurve curve = MadeCurve(Long());
   curve.current_A[611] += 0.05;
   const Diagnosis d = DiagnosedQuickly(curve);
-  ASSERT_THAT(Named(d), Contains("outliers"));
+  ASSERT_THAT(Ids(d), Contains("outliers"));
   EXPECT_THAT(d.verdict.causes.front().points, Contains(611));
 }
 
@@ -97,7 +85,7 @@ TEST(AverageTest, AStepInALongCurveIsFound) {
   IvCurve curve = MadeCurve(Long());
   for (std::size_t k = 600; k < curve.size(); ++k) curve.current_A[k] += 0.02;
   const Diagnosis d = DiagnosedQuickly(curve);
-  ASSERT_THAT(Named(d), Contains("irr_step"));
+  ASSERT_THAT(Ids(d), Contains("irr_step"));
   EXPECT_LT(d.gain.rmse_after_A, 0.0043);
 }
 
@@ -116,7 +104,7 @@ TEST(AverageTest, ReadingsInNoOrderAreOneSweep) {
     std::tie(curve.voltage_V[k], curve.current_A[k]) = readings[k];
   }
   const Diagnosis d = DiagnosedQuickly(curve);
-  EXPECT_THAT(Named(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_THAT(d.warnings, Contains(testing::HasSubstr("in no order of voltage")));
   EXPECT_EQ(d.evidence.kind.rfind("one sweep", 0), 0U) << d.evidence.kind;
 }

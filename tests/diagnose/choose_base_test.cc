@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "law/made_curve.h"
-#include "lyrefit/diagnose/diagnose.h"
+#include "diagnose/made_diagnosis.h"
 
 namespace lyrefit {
 namespace {
@@ -88,19 +87,9 @@ CurveSet Measured(const Family& family) {
 }
 
 Diagnosis Diagnosed(const Family& family, Model base = Model::kSingleDiode) {
-  DiagnoseOptions options = LaboratoryOptions();
-  options.draws = 400;
-  options.held_out = false;
+  DiagnoseOptions options = Quick(LaboratoryOptions());
   options.base = base;
-  auto diagnosis = Diagnose(Measured(family), options);
-  EXPECT_TRUE(diagnosis.has_value());
-  return diagnosis ? *diagnosis : Diagnosis();
-}
-
-std::vector<std::string> Named(const Diagnosis& diagnosis) {
-  std::vector<std::string> ids;
-  for (const Cause& cause : diagnosis.verdict.causes) ids.push_back(cause.id);
-  return ids;
+  return DiagnoseOrFail(Measured(family), options);
 }
 
 DeviceNotes Stated(double bandgap_eV, double alpha_per_K) {
@@ -118,7 +107,7 @@ TEST(ChooseBaseTest, CleanFamiliesOfEitherShuntAndGapAreClean) {
       family.bandgap_slope = slope;
       family.stated = Stated(1.121, 5e-4);
       const Diagnosis d = Diagnosed(family);
-      EXPECT_THAT(Named(d), IsEmpty()) << inverse << " " << slope << ": " << d.verdict.sentence;
+      EXPECT_THAT(Ids(d), IsEmpty()) << inverse << " " << slope << ": " << d.verdict.sentence;
       EXPECT_THAT(d.base_sentence, AllOf(HasSubstr(inverse ? "1/Rsh in proportion" : "Rsh that"),
                                          HasSubstr(slope == 0 ? "constant band gap" : "dEgdT")));
     }
@@ -131,7 +120,7 @@ TEST(ChooseBaseTest, WhatIsNotStatedIsEstimatedAndNotAccused) {
   family.bandgap_eV = 1.3;
   family.inverse_shunt = true;
   const Diagnosis d = Diagnosed(family);
-  EXPECT_THAT(Named(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_THAT(d.base_sentence, HasSubstr("not stated and estimated"));
   double alpha = 0, gap = 0;
   for (const ParameterShift& shift : d.gain.shifts) {
@@ -145,25 +134,25 @@ TEST(ChooseBaseTest, WhatIsNotStatedIsEstimatedAndNotAccused) {
 TEST(ChooseBaseTest, TwoDiodesAreNoCauseBesideTwo) {
   Family family;
   family.saturation_2 = 2e-6;
-  EXPECT_THAT(Named(Diagnosed(family, Model::kDoubleDiode)), IsEmpty());
+  EXPECT_THAT(Ids(Diagnosed(family, Model::kDoubleDiode)), IsEmpty());
 }
 
 TEST(ChooseBaseTest, WhatIsStatedWronglyIsStillFound) {
   Family family;
   family.stated = Stated(1.121, 9e-4);
-  EXPECT_THAT(Named(Diagnosed(family)), ElementsAre("isc_tempco"));
+  EXPECT_THAT(Ids(Diagnosed(family)), ElementsAre("isc_tempco"));
   family.stated = Stated(1.15, 5e-4);
-  EXPECT_THAT(Named(Diagnosed(family)), ElementsAre("bandgap"));
+  EXPECT_THAT(Ids(Diagnosed(family)), ElementsAre("bandgap"));
 }
 
 TEST(ChooseBaseTest, ASlopeOfTheGapThatIsStatedIsBelieved) {
   Family family;
   family.stated = Stated(1.121, 5e-4);
   family.stated.bandgap_slope_per_K = family.bandgap_slope;
-  EXPECT_THAT(Named(Diagnosed(family)), IsEmpty());
+  EXPECT_THAT(Ids(Diagnosed(family)), IsEmpty());
   family.stated.bandgap_slope_per_K = 0;
   const Diagnosis d = Diagnosed(family);
-  EXPECT_THAT(Named(d), ElementsAre("bandgap"));
+  EXPECT_THAT(Ids(d), ElementsAre("bandgap"));
   EXPECT_THAT(d.base_sentence, HasSubstr("constant band gap"));
 }
 
@@ -172,7 +161,7 @@ TEST(ChooseBaseTest, ACoefficientInAmpereIsTakenAsItIs) {
   Family family;
   family.stated.bandgap_eV = 1.121;
   family.stated.isc_tempco_A_per_K = 5e-4 * 9;
-  EXPECT_THAT(Named(Diagnosed(family)), IsEmpty());
+  EXPECT_THAT(Ids(Diagnosed(family)), IsEmpty());
 }
 
 TEST(ChooseBaseTest, AShuntThatMerelyGrowsWithLightIsFound) {

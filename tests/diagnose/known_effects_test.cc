@@ -6,8 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "law/made_curve.h"
-#include "lyrefit/diagnose/diagnose.h"
+#include "diagnose/made_diagnosis.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -60,17 +59,9 @@ IvCurve UnderTheLamp() {
 }
 
 DiagnoseOptions With(const Effect& effect) {
-  DiagnoseOptions options = LaboratoryOptions();
-  options.draws = 400;
-  options.held_out = false;
+  DiagnoseOptions options = Quick(LaboratoryOptions());
   options.own_effects = {&effect};
   return options;
-}
-
-std::vector<std::string> Ids(const Diagnosis& diagnosis) {
-  std::vector<std::string> ids;
-  for (const Cause& cause : diagnosis.verdict.causes) ids.push_back(cause.id);
-  return ids;
 }
 
 TEST(KnownEffectsTest, AnEffectOfOnesOwnIsFoundBesideTheCatalogue) {

@@ -57,13 +57,15 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
   EXPECT_FALSE(possible(RivalOf("substrings", {0, 0.3, 0, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
 }
 
+std::size_t Preferred(const MadeBench& made, const std::vector<Rival>& rivals) {
+  return Prefer(made.bench, rivals, kMisfit, kFloor);
+}
+
 TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)},
-                   kMisfit, kFloor),
+  EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)}),
             1U);
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)},
-                   kMisfit, kFloor),
+  EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)}),
             0U);
 }
 
@@ -74,9 +76,7 @@ TEST(Prefer, TakesWhatLeavesAsLittleAndSupposesLess) {
     return rival;
   };
   const Rival dip = leaving(RivalOf("transient", kDip, 100), 0.001);
-  const auto with = [&](const Rival& other) {
-    return Prefer(made.bench, {dip, other}, kMisfit, kFloor);
-  };
+  const auto with = [&](const Rival& other) { return Preferred(made, {dip, other}); };
   EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 70), 0.0012)), 1U);
   EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 70), 0.0013)), 0U);
   EXPECT_EQ(with(leaving(RivalOf("mismatch", kUnequal, 40), 0.0005)), 0U);  // of half of it
@@ -86,8 +86,7 @@ TEST(Prefer, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
   const Rival mismatch = RivalOf("mismatch", kUnequal, 92);
   const auto beside = [&](double n) {
-    return Prefer(made.bench, {RivalOf("distributed_rs", {0.05}, 100, n), mismatch}, kMisfit,
-                  kFloor);
+    return Preferred(made, {RivalOf("distributed_rs", {0.05}, 100, n), mismatch});
   };
   EXPECT_EQ(beside(0.5), 1U);
   EXPECT_EQ(beside(kOrdinary), 0U);
@@ -97,9 +96,8 @@ TEST(Prefer, OneDimCellIsAWeakCell) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
   const std::vector<double> weak = {0.1, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const auto beside = [&](double cells) {
-    return Prefer(made.bench,
-                  {RivalOf("mismatch", {0.1, cells / 60}, 100), RivalOf("weak_cell", weak, 99)},
-                  kMisfit, kFloor);
+    return Preferred(made,
+                     {RivalOf("mismatch", {0.1, cells / 60}, 100), RivalOf("weak_cell", weak, 99)});
   };
   EXPECT_EQ(beside(1.2), 1U);
   EXPECT_EQ(beside(12), 0U);
@@ -107,12 +105,9 @@ TEST(Prefer, OneDimCellIsAWeakCell) {
 
 TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
   const MadeBench made = OnTheBench(MadeCurve(Module(/*and_back=*/true)));
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("transient", kDip, 100), RivalOf("capacitance", kLag, 80)},
-                   kMisfit, kFloor),
+  EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("capacitance", kLag, 80)}),
             1U);
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)},
-                   kMisfit, kFloor),
-            0U);
+  EXPECT_EQ(Preferred(made, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)}), 0U);
 }
 
 TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
@@ -122,9 +117,8 @@ TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
     const auto preferred = [&](double of_range, double of_cloud) {
       const Rival a = RivalOf("range_switch", range, of_range);
       const Rival b = RivalOf("irr_step", cloud, of_cloud);
-      const std::size_t at = Prefer(
-          made.bench, of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a},
-          kMisfit, kFloor);
+      const std::size_t at = Preferred(
+          made, of_range > of_cloud ? std::vector<Rival>{a, b} : std::vector<Rival>{b, a});
       return (at == 0) == (of_range > of_cloud) ? "range_switch" : "irr_step";
     };
     EXPECT_STREQ(preferred(100, 80), both ? "range_switch" : "irr_step");
@@ -149,12 +143,8 @@ TEST(LightMoved, SaysNothingOfTwoSweeps) {
 TEST(Prefer, TakesWhatSupposesLess) {
   const MadeBench made = OnTheBench(MadeCurve(Module()));
   const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)},
-                   kMisfit, kFloor),
-            1U);
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)},
-                   kMisfit, kFloor),
-            0U);
+  EXPECT_EQ(Preferred(made, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)}), 1U);
+  EXPECT_EQ(Preferred(made, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)}), 0U);
 }
 
 TEST(Prefer, KeepsTheComplexOneWhereItsCurveIsAnother) {
@@ -175,9 +165,7 @@ TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
   }
   const MadeBench made = OnTheBench(curve);
   EXPECT_TRUE(LightMoved(*made.bench.readings));
-  EXPECT_EQ(Prefer(made.bench, {RivalOf("shading", kShade, 100), RivalOf("drift", {0.1}, 40)},
-                   kMisfit, kFloor),
-            1U);
+  EXPECT_EQ(Preferred(made, {RivalOf("shading", kShade, 100), RivalOf("drift", {0.1}, 40)}), 1U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "diagnose/made_diagnosis.h"
 #include "made_bench.h"
 
 namespace lyrefit {
@@ -38,12 +39,6 @@ Selected SelectFor(const IvCurve& curve, SelectOptions options = {}) {
   const std::vector<char> used(measurement.readings.points.size(), 1);
   selected.selection = SelectCauses(measurement, used, 0, options);
   return selected;
-}
-
-IvCurve CurveWithAStep() {
-  IvCurve curve = MadeCurve({});
-  for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
-  return curve;
 }
 
 TEST(SelectCausesTest, FindsNothingInNoise) {

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/made_curve.h"
-#include "lyrefit/diagnose/diagnose.h"
+#include "diagnose/made_diagnosis.h"
 
 namespace lyrefit {
 namespace {
@@ -24,14 +23,7 @@ IvCurve Module(bool and_back = false) {
   return MadeCurve(recipe);
 }
 
-std::vector<Cause> CausesOf(const IvCurve& curve) {
-  DiagnoseOptions options;
-  options.draws = 400;
-  options.held_out = false;
-  const auto diagnosis = Diagnose(curve, options);
-  EXPECT_TRUE(diagnosis.has_value());
-  return diagnosis ? diagnosis->verdict.causes : std::vector<Cause>();
-}
+std::vector<Cause> CausesOf(const IvCurve& curve) { return DiagnoseOrFail(curve).verdict.causes; }
 
 void ExpectHeld(const CauseParameter& parameter, const char* symbol, double truth) {
   EXPECT_EQ(parameter.symbol, symbol);

@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "family/made_family.h"
-#include "lyrefit/effects/catalogue.h"
+#include "law/made_use.h"
 #include "lyrefit/law/extended_set.h"
 
 namespace lyrefit {
-
-inline EffectUse UseOf(const char* id,
-                       std::map<std::string, std::pair<double, double>> ranges = {}) {
-  return {FindEffect(id), std::move(ranges)};
-}
 
 // The dark curve of a device of 36 cells, from below 0 V to beyond the knee.
 inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shared,

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "family/made_translation.h"
 #include "lyrefit/law/current.h"
 
 namespace lyrefit {
@@ -94,14 +95,6 @@ void ExpectTheSameCurves(const Translation& translation, const std::vector<doubl
   }
 }
 
-TranslationSpec DeSoto60() {
-  TranslationSpec spec;
-  spec.cells_in_series = 60;
-  return spec;
-}
-
-const std::vector<double> kSilicon = {9.1, 3e-10, 1.01, 0.29, 380, 0.0046, 1.121, -0.0002677};
-
 TEST(PvlibParameters, OfDeSotoGiveTheSameCurvesInPvlibsEquations) {
   for (const ConstantSet constants : {ConstantSet::kCodata, ConstantSet::kPaper}) {
     TranslationSpec spec = DeSoto60();
@@ -120,13 +113,7 @@ TEST(PvlibParameters, OfDeSotoGiveTheSameCurvesInPvlibsEquations) {
 TEST(PvlibParameters, OfPvsystGiveTheSameCurvesInPvlibsEquations) {
   for (const bool recombination : {false, true}) {
     for (const ShuntLaw shunt : {ShuntLaw::kExponential, ShuntLaw::kConstant}) {
-      TranslationSpec spec;
-      spec.law = TranslationLaw::kPvsyst;
-      spec.shunt = shunt;
-      spec.recombination = recombination;
-      spec.cells_in_series = 106;
-      spec.constants = recombination ? ConstantSet::kLiterature : ConstantSet::kCodata;
-      const Translation translation = *MakeTranslation(spec);
+      const Translation translation = *MakeTranslation(Pvsyst106(shunt, recombination));
       std::vector<double> shared = {1.2, 2e-10, 1.4, 5.1, 3100, 0.0006, 1.5, -0.001};
       if (shunt == ShuntLaw::kExponential) shared.insert(shared.end(), {9000, 5.5});
       if (recombination) shared.insert(shared.end(), {1.6, 0.9 * 106});

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
+#include "family/made_translation.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/report/json.h"
@@ -17,24 +18,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
-
-const std::vector<double> kSilicon = {9.1, 3e-10, 1.01, 0.29, 380, 0.0046, 1.121, -0.0002677};
-
-TranslationSpec DeSoto60() {
-  TranslationSpec spec;
-  spec.cells_in_series = 60;
-  return spec;
-}
-
-TranslationSpec Pvsyst106(ShuntLaw shunt, bool recombination) {
-  TranslationSpec spec;
-  spec.law = TranslationLaw::kPvsyst;
-  spec.shunt = shunt;
-  spec.recombination = recombination;
-  spec.cells_in_series = 106;
-  spec.constants = recombination ? ConstantSet::kLiterature : ConstantSet::kCodata;
-  return spec;
-}
 
 std::string Written(const Translation& translation, const std::vector<double>& shared) {
   const auto keywords = PvlibParameters(translation, shared);

@@ -67,22 +67,9 @@ TEST(AverageShape, HasTheCovarianceOfMeans) {
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 2e-6 * exact.maxCoeff());
 }
 
-// Light that wanders, and voltages noisier than they lie apart.
-IvCurve DenseCurve(int readings, int seed) {
-  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0, 1, readings);
-  RandomStream random(seed, 0);
-  double light = random.Normal();
-  const double kept = std::exp(-1.0 / readings);
-  for (int k = 0; k < readings; ++k) {
-    light = kept * light + std::sqrt(1 - kept * kept) * random.Normal();
-    curve.current_A[k] *= 1 + 1e-3 * light;
-    curve.voltage_V[k] *= 1 + 3e-4 * random.Normal();
-  }
-  return curve;
-}
-
+// The voltages are noisier than they lie apart.
 TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
-  IvCurve curve = DenseCurve(30000, 3);
+  IvCurve curve = WanderingCurve(3, 30000);
   RandomStream random(4);
   for (double& current : curve.current_A) current += 2e-3 * random.Normal();
   for (const ErrorKind kind : {ErrorKind::kWhite, ErrorKind::kField}) {
@@ -103,7 +90,7 @@ TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold)
   int held = 0;
   double plain = 0, weighed = 0;
   for (int seed = 0; seed < kCurves; ++seed) {
-    const IvCurve curve = DenseCurve(6000, seed);
+    const IvCurve curve = WanderingCurve(seed, 6000);
     FitOptions options;
     options.intervals = Intervals::kSymmetric;
     const auto white = Fit(curve, options);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../temp_folder.h"
+#include "error_of.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "simulated.h"
@@ -14,20 +15,6 @@ namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
-
-// Light that wanders by a per mille during the sweep, voltages read to 3e-4.
-IvCurve WanderingCurve(int seed, int points = 100) {
-  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0, 1, points);
-  RandomStream random(seed, 0);
-  double light = random.Normal();
-  const double kept = std::exp(-1.0 / points);
-  for (int k = 0; k < points; ++k) {
-    light = kept * light + std::sqrt(1 - kept * kept) * random.Normal();
-    curve.current_A[k] *= 1 + 1e-3 * light;
-    curve.voltage_V[k] *= 1 + 3e-4 * random.Normal();
-  }
-  return curve;
-}
 
 FitReport FitWith(const IvCurve& curve, const ErrorSpec& errors) {
   FitOptions options;
@@ -127,9 +114,7 @@ TEST(ReadingErrors, NeedTheSolvedCurrentAndSquares) {
   FitOptions options;
   options.errors = kField;
   options.objective = Objective::kMeasuredCurrent;
-  const auto measured = Fit(WanderingCurve(1), options);
-  ASSERT_FALSE(measured);
-  EXPECT_THAT(measured.error().message, HasSubstr("measured-current"));
+  EXPECT_THAT(MessageOf(Fit(WanderingCurve(1), options)), HasSubstr("measured-current"));
   options.objective = Objective::kSolvedCurrent;
   options.loss = Loss::kHuber;
   EXPECT_FALSE(Fit(WanderingCurve(1), options));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "lyrefit/base/random.h"
@@ -21,6 +22,20 @@ inline IvCurve ModuleCurve(Model model, const std::vector<double>& p, double noi
   curve.current_A = SolveCurrents(MakeDevice(model, curve.conditions), p.data(), curve.voltage_V);
   RandomStream random(seed);
   for (double& i : curve.current_A) i += noise_A * random.Normal();
+  return curve;
+}
+
+// A single diode under a light that wanders by a per mille during the sweep, voltages read to 3e-4.
+inline IvCurve WanderingCurve(int seed, int points = 100) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0, 1, points);
+  RandomStream random(seed, 0);
+  double light = random.Normal();
+  const double kept = std::exp(-1.0 / points);
+  for (int k = 0; k < points; ++k) {
+    light = kept * light + std::sqrt(1 - kept * kept) * random.Normal();
+    curve.current_A[k] *= 1 + 1e-3 * light;
+    curve.voltage_V[k] *= 1 + 3e-4 * random.Normal();
+  }
   return curve;
 }
 

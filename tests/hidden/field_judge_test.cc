@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "hidden/made_answer.h"
+
 namespace hidden::field {
 namespace {
 
@@ -13,19 +15,6 @@ Case Shaded() {
   made.truth.accepted = {"substrings", "shading"};
   made.truth.figures = {{"light", 0.7}, {"share", 1.0 / 3}, {"light", 0.4}, {"share", 1.0 / 3}};
   return made;
-}
-
-Claim Claiming(const std::string& id, std::vector<Strength> strengths = {}) {
-  Claim claim;
-  claim.id = id;
-  claim.strengths = std::move(strengths);
-  return claim;
-}
-
-Answer Saying(std::vector<Claim> claims) {
-  Answer answer;
-  answer.claims = std::move(claims);
-  return answer;
 }
 
 TEST(FieldJudge, KnowsRightFromWrong) {
@@ -56,12 +45,13 @@ TEST(FieldJudge, TakesAnythingOnACleanCurveForFalse) {
 }
 
 TEST(FieldJudge, ReadsLightsAndSharesOfEveryGroup) {
-  const Claim claim = Claiming("substrings", {{"d1", "", 0.61, 0.58, 0.64, "light_deficit_1"},
-                                              {"w1", "", 0.34, 0.33, 0.35, "share_1"},
-                                              {"d2", "%", 29, 28, 29.5, "light_deficit_2"},
-                                              {"w2", "", 0.33, 0.325, 0.332, "share_2"},
-                                              {"d3", "", 0.3, 0, 1, "light_deficit_3"},
-                                              {"w3", "", 0, 0, 1, "share_3"}});
+  const Claim claim = Claiming("substrings", {},
+                               {{"d1", "", 0.61, 0.58, 0.64, "light_deficit_1"},
+                                {"w1", "", 0.34, 0.33, 0.35, "share_1"},
+                                {"d2", "%", 29, 28, 29.5, "light_deficit_2"},
+                                {"w2", "", 0.33, 0.325, 0.332, "share_2"},
+                                {"d3", "", 0.3, 0, 1, "light_deficit_3"},
+                                {"w3", "", 0, 0, 1, "share_3"}});
   const auto compared = Judge(Shaded(), Saying({claim})).compared;
   ASSERT_EQ(compared.size(), 4u);
   EXPECT_EQ(compared[0].quantity, "light");
@@ -75,7 +65,7 @@ TEST(FieldJudge, ReadsLightsAndSharesOfEveryGroup) {
 }
 
 TEST(FieldJudge, DoesNotCallAMissingIntervalRight) {
-  const Claim claim = Claiming("shading", {{"d", "", 0.3, NAN, NAN, "shading_depth"}});
+  const Claim claim = Claiming("shading", {}, {{"d", "", 0.3, NAN, NAN, "shading_depth"}});
   const auto compared = Judge(Shaded(), Saying({claim})).compared;
   ASSERT_FALSE(compared.empty());
   EXPECT_FALSE(compared[0].interval || compared[0].holds);

@@ -21,6 +21,13 @@ struct Size {
   double value = 0;
 };
 
+// Puts in what is one number of the effects, with the sign of the shape.
+template <double Effects::*kField>
+bool Signed(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.*kField = shape.sign * strength;
+  return true;
+}
+
 enum class Wish { kAny, kModule, kCrystalline };
 
 // An effect that can be hidden in a scene.

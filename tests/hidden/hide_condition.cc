@@ -7,33 +7,8 @@ using Names = std::vector<std::string>;
 constexpr Kind kFwd = Kind::kForward, kDark = Kind::kDark;
 constexpr Kind kFamG = Kind::kIrradiances, kFamGT = Kind::kConditions;
 
-bool TemperatureOffset(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.temperature_offset_K = shape.sign * strength;
-  return true;
-}
-
 bool TemperatureGradient(const Shape&, double strength, Scene* scene) {
   scene->effects.temperature_gradient_K = strength;
-  return true;
-}
-
-bool SensorBend(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.sensor_bend = shape.sign * strength;
-  return true;
-}
-
-bool SensorOffset(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.sensor_offset = shape.sign * strength;
-  return true;
-}
-
-bool Bandgap(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.bandgap_eV = shape.sign * strength;
-  return true;
-}
-
-bool IscTempco(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.isc_tempco_per_K = shape.sign * strength;
   return true;
 }
 
@@ -77,7 +52,7 @@ const std::vector<Hide>& ConditionHides() {
        {kFamGT},
        1e-3,
        25,
-       TemperatureOffset,
+       Signed<&Effects::temperature_offset_K>,
        [](const Shape&, const Scene&) { return Names{"bandgap"}; },
        [](const Scene& s) {
          return Size{"K", s.effects.temperature_offset_K};
@@ -95,7 +70,7 @@ const std::vector<Hide>& ConditionHides() {
        {kFamG, kFamGT},
        1e-5,
        0.4,
-       SensorBend,
+       Signed<&Effects::sensor_bend>,
        nullptr,
        [](const Scene& s) {
          return Size{"1", s.effects.sensor_bend};
@@ -104,7 +79,7 @@ const std::vector<Hide>& ConditionHides() {
        {kFamG, kFamGT},
        1e-5,
        0.1,
-       SensorOffset,
+       Signed<&Effects::sensor_offset>,
        [](const Shape&, const Scene& s) {
          return s.plan.kind == kFamG ? Names{"current_offset", "voltage_offset"}
                                      : Names{"current_offset"};
@@ -116,7 +91,7 @@ const std::vector<Hide>& ConditionHides() {
        {kFamGT},
        1e-5,
        0.5,
-       Bandgap,
+       Signed<&Effects::bandgap_eV>,
        [](const Shape&, const Scene&) { return Names{"temp_offset"}; },
        [](const Scene& s) {
          return Size{"eV", s.effects.bandgap_eV};
@@ -125,7 +100,7 @@ const std::vector<Hide>& ConditionHides() {
        {kFamGT},
        1e-7,
        0.01,
-       IscTempco,
+       Signed<&Effects::isc_tempco_per_K>,
        nullptr,
        [](const Scene& s) {
          return Size{"1/K", s.effects.isc_tempco_per_K};

@@ -43,11 +43,6 @@ bool CurrentOffset(const Shape& shape, double strength, Scene* scene) {
   return true;
 }
 
-bool VoltageOffset(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.voltage_offset = shape.sign * strength;
-  return true;
-}
-
 bool WrongCellsOrTemperature(const Shape& shape, double strength, Scene* scene) {
   const double factor = scene->device.ideality / strength;  // what n is divided by
   if (shape.parts[0] < 0.5 && factor < 1.25) {
@@ -110,7 +105,7 @@ const std::vector<Hide>& InstrumentHides() {
        {kDark, kFamG, kFamGT},
        1e-5,
        0.08,
-       VoltageOffset,
+       Signed<&Effects::voltage_offset>,
        VoltageTwins,
        [](const Scene& s) {
          return Size{"V", -s.effects.voltage_offset * s.device.cells};  // what is added

@@ -27,11 +27,6 @@ bool Transient(const Shape& shape, double strength, Scene* scene) {
   return true;
 }
 
-bool TemperatureDrift(const Shape& shape, double strength, Scene* scene) {
-  scene->effects.temperature_drift_K = shape.sign * strength;
-  return true;
-}
-
 double CellRate(const Scene& scene) { return scene.plan.Rate() / scene.device.cells; }
 
 // The strength is the current beside the knee: all of it constant, all of it diffusion, or both.
@@ -113,7 +108,7 @@ const std::vector<Hide>& SweepHides() {
        {kRev, kUpDown},
        1e-3,
        30,
-       TemperatureDrift,
+       Signed<&Effects::temperature_drift_K>,
        TemperatureDriftTwins,
        [](const Scene& s) {
          return Size{s.plan.kind == kUpDown ? "K" : nullptr, s.effects.temperature_drift_K};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hidden/made_answer.h"
+
 namespace hidden {
 namespace {
 
@@ -14,19 +16,6 @@ Case Hiding(const std::string& name, std::vector<std::string> twins, Size size =
   cause.size = size;
   made.causes.push_back(cause);
   return made;
-}
-
-Claim Claiming(const std::string& id, std::vector<std::string> equivalents = {}) {
-  Claim claim;
-  claim.id = id;
-  claim.equivalents = std::move(equivalents);
-  return claim;
-}
-
-Answer Saying(std::vector<Claim> claims) {
-  Answer answer;
-  answer.claims = std::move(claims);
-  return answer;
 }
 
 TEST(Judge, TakesATwinForTheFirstName) {

@@ -5,6 +5,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "draw.h"
+#include "law/kernels_agree.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/law/kernel.h"
@@ -24,10 +26,6 @@ struct Draw {
   std::vector<double> p;
   double voltage_V = 0;
 };
-
-double LogUniform(RandomStream* random, double low, double high) {
-  return low * std::pow(high / low, random->Uniform());
-}
 
 // Junction voltage at which no current flows, by bisection in double.
 double OpenCircuit(const Device& device, const double* p) {
@@ -111,16 +109,8 @@ TEST(SolveCurrents, EveryKernelAgreesWithTheScalarSolverAndWithEachOtherToTheBit
     for (int i = 0; i < points; ++i) {
       voltage.push_back(draw.voltage_V * (i + 1) / points);
     }
-    const std::vector<double> first =
-        SolveCurrents(draw.device, draw.p.data(), voltage, AvailableKernels()[0]);
-    for (int i = 0; i < points; ++i) {
-      const double scalar = SolveOperatingPoint(draw.device, draw.p.data(), voltage[i]).current_A;
-      ASSERT_NEAR(first[i], scalar, 1e-12 * (std::fabs(scalar) + draw.p[kIph])) << "draw " << k;
-    }
-    for (const Kernel& kernel : AvailableKernels()) {
-      ASSERT_EQ(SolveCurrents(draw.device, draw.p.data(), voltage, kernel), first)
-          << kernel.name << ", draw " << k;
-    }
+    SCOPED_TRACE(k);
+    ASSERT_NO_FATAL_FAILURE(ExpectKernelsAgree(draw.device, draw.p, voltage));
   }
 }
 

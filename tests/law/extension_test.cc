@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "law/made_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/quote.h"
@@ -33,10 +34,6 @@ Expected<Device> ExtendModule(const std::vector<EffectUse>& uses, bool force = t
   const IvCurve curve = UpAndDown();
   return Extend(MakeDevice(Model::kSingleDiode, curve.conditions), Model::kSingleDiode,
                 ConstantSet::kCodata, curve, uses, force);
-}
-
-EffectUse Use(const char* id, std::map<std::string, std::pair<double, double>> ranges = {}) {
-  return {FindEffect(id), std::move(ranges)};
 }
 
 std::string ErrorOf(const std::vector<EffectUse>& uses, bool force = true) {
@@ -117,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, ExtensionTest, ::testing::ValuesIn(WithParamet
                          [](const auto& test) { return std::string(test.param->id); });
 
 TEST(Extend, NamesParametersAfterTheirEffect) {
-  const auto device = ExtendModule({Use("shading"), Use("drift")});
+  const auto device = ExtendModule({UseOf("shading"), UseOf("drift")});
   ASSERT_TRUE(device) << device.error().ToString();
   EXPECT_EQ(device->size(), 10);
   EXPECT_EQ(device->Find("shading.d"), 5);
@@ -128,7 +125,7 @@ TEST(Extend, NamesParametersAfterTheirEffect) {
 
 TEST(Extend, HoldsAndLimitsInReportedUnits) {
   const auto device =
-      ExtendModule({Use("nonohmic_shunt", {{"m", {2, 2}}, {"shunt_strength", {0, 1e-4}}})});
+      ExtendModule({UseOf("nonohmic_shunt", {{"m", {2, 2}}, {"shunt_strength", {0, 1e-4}}})});
   ASSERT_TRUE(device) << device.error().ToString();
   const std::vector<ParameterBounds>& bounds = device->extension->bounds;
   EXPECT_EQ(bounds[1].lower, bounds[1].upper);
@@ -140,22 +137,23 @@ TEST(Extend, HoldsAndLimitsInReportedUnits) {
 }
 
 TEST(Extend, SaysWhatCannotBe) {
-  EXPECT_THAT(ErrorOf({Use("shading", {{"q", {1, 1}}})}),
+  EXPECT_THAT(ErrorOf({UseOf("shading", {{"q", {1, 1}}})}),
               HasSubstr("shading: has no parameter 'q', expected d, w, Vb"));
-  EXPECT_THAT(ErrorOf({Use("shading", {{"d", {0.5, 2}}})}),
+  EXPECT_THAT(ErrorOf({UseOf("shading", {{"d", {0.5, 2}}})}),
               HasSubstr("shading: d = 0.5:2 is outside 0 to 0.999"));
-  EXPECT_THAT(ErrorOf({Use("shading", {{"d", {0.5, 0.1}}})}), HasSubstr("d = 0.5:0.1 is reversed"));
-  EXPECT_THAT(ErrorOf({Use("drift"), Use("drift")}), HasSubstr("drift: is there twice"));
-  EXPECT_THAT(ErrorOf({Use("shading"), Use("mismatch")}),
+  EXPECT_THAT(ErrorOf({UseOf("shading", {{"d", {0.5, 0.1}}})}),
+              HasSubstr("d = 0.5:0.1 is reversed"));
+  EXPECT_THAT(ErrorOf({UseOf("drift"), UseOf("drift")}), HasSubstr("drift: is there twice"));
+  EXPECT_THAT(ErrorOf({UseOf("shading"), UseOf("mismatch")}),
               HasSubstr("mismatch: cannot stand beside shading"));
-  EXPECT_THAT(ErrorOf({Use("temp_offset")}, false),
+  EXPECT_THAT(ErrorOf({UseOf("temp_offset")}, false),
               HasSubstr("temp_offset: needs curves at several temperatures (--force"));
-  EXPECT_EQ(ErrorOf({Use("temp_offset")}, true), "no error");
-  EXPECT_THAT(ErrorOf({Use("outliers")}), HasSubstr("outliers: has no parameters"));
-  EXPECT_THAT(ErrorOf({Use("substrings", {{"w1", {0.6, 0.6}}, {"w2", {0.5, 0.5}}})}),
+  EXPECT_EQ(ErrorOf({UseOf("temp_offset")}, true), "no error");
+  EXPECT_THAT(ErrorOf({UseOf("outliers")}), HasSubstr("outliers: has no parameters"));
+  EXPECT_THAT(ErrorOf({UseOf("substrings", {{"w1", {0.6, 0.6}}, {"w2", {0.5, 0.5}}})}),
               HasSubstr("shares of 1.1 in all leave no cell for the rest"));
-  EXPECT_THAT(ErrorOf({Use("substrings"), Use("transient"), Use("back_contact"), Use("clip"),
-                       Use("drift")}),
+  EXPECT_THAT(ErrorOf({UseOf("substrings"), UseOf("transient"), UseOf("back_contact"),
+                       UseOf("clip"), UseOf("drift")}),
               HasSubstr("24 parameters are too many for one law, expected 20 at most"));
 }
 
@@ -171,7 +169,7 @@ TEST(Extend, KeepsToWholeNumbers) {
     return device ? "no error" : device.error().ToString();
   };
   const auto share_of = [&](double low, double high) {
-    const auto device = extend(Use("shading", {{"w", {low, high}}}));
+    const auto device = extend(UseOf("shading", {{"w", {low, high}}}));
     EXPECT_TRUE(device) << device.error().ToString();
     return device ? device->extension->bounds[1] : ParameterBounds{};
   };
@@ -188,21 +186,21 @@ TEST(Extend, KeepsToWholeNumbers) {
   const ParameterBounds held = share_of(0.4, 0.4);
   EXPECT_EQ(held.lower, 0.4);
   EXPECT_EQ(held.upper, 0.4);
-  EXPECT_THAT(error_of(Use("shading", {{"w", {0.4, 0.5}}})),
+  EXPECT_THAT(error_of(UseOf("shading", {{"w", {0.4, 0.5}}})),
               HasSubstr("shading: w = 0.4:0.5 holds no whole number of 3 substrings: expected a "
                         "range around 0.666667"));
-  EXPECT_THAT(error_of(Use("weak_cell", {{"chains", {1.2, 1.8}}})),
+  EXPECT_THAT(error_of(UseOf("weak_cell", {{"chains", {1.2, 1.8}}})),
               HasSubstr("weak_cell: chains = 1.2:1.8 holds no whole number of them: expected a "
                         "range around 2"));
   curve.notes.bypass_diodes.reset();  // shares of substrings that nobody has counted
-  EXPECT_EQ(error_of(Use("shading", {{"w", {0.4, 0.5}}})), "no error");
+  EXPECT_EQ(error_of(UseOf("shading", {{"w", {0.4, 0.5}}})), "no error");
 }
 
 // One of two chains side by side can lack all of its light, which is half of the substring's: less
 // than no light there is not.
 TEST(Extend, AWeakCellIsDarkAtMost) {
   const auto currents = [](double deficit, double chains) {
-    const auto device = ExtendModule({Use("weak_cell")});
+    const auto device = ExtendModule({UseOf("weak_cell")});
     std::vector<double> p = kModule;
     p.insert(p.end(), {deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0.7, chains});
     std::vector<double> current_A(device->extension->readings.points.size());

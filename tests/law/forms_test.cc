@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law/made_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
 
@@ -37,10 +38,6 @@ Extension Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
   return device ? *device->extension : Extension{};
 }
 
-EffectUse Named(const char* id, std::map<std::string, std::pair<double, double>> ranges = {}) {
-  return {FindEffect(id), std::move(ranges)};
-}
-
 std::vector<std::string> Descriptions(const Extension& extension) {
   std::vector<std::string> list;
   for (const Form& form : FormsOf(extension)) list.push_back(DescribeForm(extension, form));
@@ -48,7 +45,7 @@ std::vector<std::string> Descriptions(const Extension& extension) {
 }
 
 TEST(Forms, AWeakCellHasOneForEachReverseLawAndNumberOfChains) {
-  const Extension extension = Extended(SteppedModule(3), {Named("weak_cell")});
+  const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell")});
   EXPECT_THAT(Descriptions(extension),
               UnorderedElementsAre("d, Vb, m, A free", "d, Vb, m, A free; chains = 2",
                                    "d, Vb, a, Vbr free", "d, Vb, a, Vbr free; chains = 2",
@@ -64,7 +61,7 @@ class SubstringsForms : public ::testing::TestWithParam<int> {};
 TEST_P(SubstringsForms, HaveALightForEachThatIsCountedButTheBrightest) {
   const int diodes = GetParam();
   const int groups = diodes - 1;
-  const Extension extension = Extended(SteppedModule(diodes), {Named("substrings")});
+  const Extension extension = Extended(SteppedModule(diodes), {UseOf("substrings")});
   const std::vector<Form> forms = FormsOf(extension);
   // Shades on all of a substring's cells and, where there are few enough groups, on a part of them.
   ASSERT_EQ(forms.size(), groups < 4 ? 2u : 1u);
@@ -83,7 +80,7 @@ TEST_P(SubstringsForms, HaveALightForEachThatIsCountedButTheBrightest) {
 INSTANTIATE_TEST_SUITE_P(Counted, SubstringsForms, ::testing::Values(2, 3, 4, 5));
 
 TEST(Forms, ASharesWholeSubstringsStayFree) {
-  const Extension extension = Extended(SteppedModule(5), {Named("shading")});
+  const Extension extension = Extended(SteppedModule(5), {UseOf("shading")});
   const std::vector<Form> forms = FormsOf(extension);
   EXPECT_THAT(Descriptions(extension), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
   for (const Form& form : forms) {
@@ -92,13 +89,13 @@ TEST(Forms, ASharesWholeSubstringsStayFree) {
     EXPECT_DOUBLE_EQ(form.bounds[1].whole, 0.2);
   }
   // Where nobody has counted the substrings any share will do.
-  for (const Form& form : FormsOf(Extended(SteppedModule(0), {Named("shading")}))) {
+  for (const Form& form : FormsOf(Extended(SteppedModule(0), {UseOf("shading")}))) {
     EXPECT_EQ(form.bounds[1].whole, 0);
   }
 }
 
 TEST(Forms, RangesLeaveOne) {
-  const Extension extension = Extended(SteppedModule(3), {Named("weak_cell", {{"d", {0.1, 0.9}}})});
+  const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
   const std::vector<Form> forms = FormsOf(extension);
   ASSERT_EQ(forms.size(), 1u);
   EXPECT_EQ(forms[0].free, 1);
@@ -109,7 +106,7 @@ TEST(Forms, RangesLeaveOne) {
 
 TEST(Forms, OfTwoEffectsAreAllPairs) {
   const Extension extension =
-      Extended(SteppedModule(3), {Named("shading"), Named("nonohmic_shunt")});
+      Extended(SteppedModule(3), {UseOf("shading"), UseOf("nonohmic_shunt")});
   EXPECT_EQ(FormsOf(extension).size(), 2u);  // a shunt has no shape, and one form
   for (const std::string& what : Descriptions(extension)) {
     EXPECT_THAT(what, HasSubstr("shading.d, shading.w, shading.Vb"));
@@ -138,7 +135,7 @@ TEST(Forms, PlacesOfAShapeAreInsideTheirBounds) {
 }
 
 TEST(Forms, APlaceOfAShapeSeesTheStep) {
-  const Extension extension = Extended(SteppedModule(2), {Named("shading")});
+  const Extension extension = Extended(SteppedModule(2), {UseOf("shading")});
   const std::vector<std::vector<double>> places =
       ShapePlaces(extension, FormsOf(extension).front());
   ASSERT_EQ(places.size(), 1u);
@@ -148,7 +145,7 @@ TEST(Forms, APlaceOfAShapeSeesTheStep) {
 
 TEST(Forms, SharesLeaveARest) {
   const Extension extension =
-      Extended(SteppedModule(5), {Named("substrings", {{"d1", {0, 0.9}},
+      Extended(SteppedModule(5), {UseOf("substrings", {{"d1", {0, 0.9}},
                                                        {"w1", {0.2, 0.8}},
                                                        {"d2", {0, 0.9}},
                                                        {"w2", {0.2, 0.8}},
@@ -172,7 +169,7 @@ TEST(Forms, SharesLeaveARest) {
 TEST(Forms, SharesThatAreNoWholeNumbersLeaveARestToo) {
   const Extension extension = Extended(
       SteppedModule(0),
-      {Named("substrings",
+      {UseOf("substrings",
              {{"d1", {0, 0.9}}, {"w1", {0.1, 0.9}}, {"d2", {0, 0.9}}, {"w2", {0.1, 0.9}}})});
   std::vector<double> p = extension.usual;
   p[1] = 0.7, p[3] = 0.5;

@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "draw.h"
 #include "lyrefit/base/random.h"
 #include "repeats.h"
 
@@ -15,10 +16,6 @@ namespace {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 constexpr int kLanes = Block::kLanes;
-
-double LogUniform(RandomStream* random, double low, double high) {
-  return low * std::pow(high / low, random->Uniform());
-}
 
 template <class F>
 Pack Draw(F draw) {

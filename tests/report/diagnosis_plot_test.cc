@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "../temp_folder.h"
 #include "sample_diagnosis.h"
 
@@ -18,8 +15,7 @@ using ::testing::Not;
 std::string Svg(const Diagnosis& diagnosis, const std::string& path) {
   const auto drawn = PlotDiagnosis(diagnosis, path);
   EXPECT_TRUE(drawn) << drawn.error().ToString();
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return FileText(path);
 }
 
 TEST(PlotDiagnosis, WritesAnSvgWithItsLabels) {

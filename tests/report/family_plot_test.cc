@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "../temp_folder.h"
 #include "sample_family.h"
 
@@ -17,8 +14,7 @@ using ::testing::HasSubstr;
 std::string Svg(const SampleFamily& sample, const std::string& path) {
   const auto drawn = PlotFamily(sample.report, sample.set, path);
   EXPECT_TRUE(drawn) << drawn.error().ToString();
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return FileText(path);
 }
 
 TEST(PlotFamily, WritesAnSvgWithItsLabels) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
+
 namespace lyrefit {
 namespace {
 
@@ -15,9 +17,7 @@ TEST(RunGnuplot, ReturnsWhatTheScriptPrints) {
 }
 
 TEST(RunGnuplot, ReportsTheFirstComplaint) {
-  const auto answer = RunGnuplot("nonsense here\n");
-  ASSERT_FALSE(answer);
-  EXPECT_THAT(answer.error().message, HasSubstr("could not draw the plot"));
+  EXPECT_THAT(MessageOf(RunGnuplot("nonsense here\n")), HasSubstr("could not draw the plot"));
 }
 
 TEST(RunGnuplot, RefusesAnEmptyPicture) { EXPECT_FALSE(RunGnuplot("x = 1\n")); }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_keys.h"
 #include "sample_certificate.h"
 
 namespace lyrefit {
@@ -13,12 +14,6 @@ namespace {
 
 using nlohmann::json;
 using Set = std::set<std::string>;
-
-Set Keys(const json& j) {
-  Set keys;
-  for (const auto& [key, value] : j.items()) keys.insert(key);
-  return keys;
-}
 
 TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(CertificateJson(RtcCertificate()));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_keys.h"
 #include "sample_diagnosis.h"
 #include "sample_healthy.h"
 
@@ -13,12 +14,6 @@ namespace {
 
 using nlohmann::json;
 using Set = std::set<std::string>;
-
-Set Keys(const json& j) {
-  Set keys;
-  for (const auto& [key, value] : j.items()) keys.insert(key);
-  return keys;
-}
 
 // The parameter with this symbol.
 json Of(const json& parameters, const std::string& symbol) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_keys.h"
 #include "sample_family.h"
 
 namespace lyrefit {
@@ -12,12 +13,6 @@ namespace {
 
 using nlohmann::json;
 using Set = std::set<std::string>;
-
-Set Keys(const json& j) {
-  Set keys;
-  for (const auto& [key, value] : j.items()) keys.insert(key);
-  return keys;
-}
 
 const Set kPair = {"measured_current_A", "solved_current_A"};
 const Set kInterval = {"value", "standard_error", "low_95", "high_95"};

@@ -5,18 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_keys.h"
 #include "sample_fits.h"
 
 namespace lyrefit {
 namespace {
 
 using nlohmann::json;
-
-std::set<std::string> Keys(const json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
 
 json Parsed(const FitReport& report) { return json::parse(JsonReport(report)); }
 
@@ -177,13 +172,6 @@ TEST(JsonReport, WritesNullForRefinedWithoutAPolish) {
   EXPECT_TRUE(j["rmse"]["best_bird_polished"]["measured_current_A"].is_null());
   EXPECT_TRUE(j["rmse"]["searched"]["solved_current_A"].is_number());
   EXPECT_TRUE(j["singlediode"]["photocurrent"].is_number());
-}
-
-void RemoveSeconds(json* value) {
-  if (value->is_object()) value->erase("seconds");
-  for (auto& child : *value) {
-    if (child.is_structured()) RemoveSeconds(&child);
-  }
 }
 
 TEST(JsonReport, KeepsWallClockTimesUnderSecondsOnly) {

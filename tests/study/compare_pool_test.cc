@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
+#include "json_keys.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/study/pool.h"
 #include "lyrefit/study/report/compare_json.h"
@@ -23,16 +24,10 @@ Comparison Compared(const std::vector<CompareCurve>& subjects, const CompareOpti
   return *comparison;
 }
 
-nlohmann::json WithoutSeconds(nlohmann::json value) {
-  if (value.is_object()) value.erase("seconds");
-  for (auto& child : value) {
-    if (child.is_structured()) child = WithoutSeconds(child);
-  }
-  return value;
-}
-
 nlohmann::json Figures(const Comparison& comparison) {
-  return WithoutSeconds(nlohmann::json::parse(CompareJson(comparison)));
+  nlohmann::json figures = nlohmann::json::parse(CompareJson(comparison));
+  RemoveSeconds(&figures);
+  return figures;
 }
 
 std::vector<CompareCurve> StringsAndFamilies() {

@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
+#include "json_keys.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "small_study.h"
 
@@ -16,21 +15,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string TextOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void DropSeconds(nlohmann::json* value) {
-  if (value->is_object()) value->erase("seconds");
-  for (auto& child : *value) {
-    if (child.is_structured()) DropSeconds(&child);
-  }
-}
-
 nlohmann::json WithoutSeconds(const Comparison& comparison) {
   nlohmann::json json = nlohmann::json::parse(CompareJson(comparison));
-  DropSeconds(&json);
+  RemoveSeconds(&json);
   return json;
 }
 
@@ -108,7 +95,7 @@ TEST_F(ResumeTest, EndsWithTheBitsOfAStudyThatWasNeverInterrupted) {
 TEST_F(ResumeTest, LeavesOutALineThatWasNeverFinished) {
   const auto whole = Run();
   ASSERT_TRUE(whole);
-  const std::string text = TextOf(options_.journal);
+  const std::string text = FileText(options_.journal);
   folder_.Write("study.jsonl", text.substr(0, text.size() - 20));
   const auto again = Run();
   ASSERT_TRUE(again) << again.error().ToString();
@@ -164,7 +151,7 @@ TEST_F(ResumeTest, NeverTouchesAFileThatIsNoJournal) {
     const auto comparison = Run();
     ASSERT_FALSE(comparison) << text;
     EXPECT_THAT(comparison.error().ToString(), HasSubstr("study.jsonl:1: expected a journal"));
-    EXPECT_EQ(TextOf(options_.journal), text);
+    EXPECT_EQ(FileText(options_.journal), text);
   }
   options_.journal = folder_.Path("");
   EXPECT_THAT(Run().error().ToString(), HasSubstr("expected a journal, or a file"));
@@ -172,7 +159,7 @@ TEST_F(ResumeTest, NeverTouchesAFileThatIsNoJournal) {
 
 TEST_F(ResumeTest, SaysWhichLineIsDamaged) {
   ASSERT_TRUE(Run(3));
-  std::string text = TextOf(options_.journal);
+  std::string text = FileText(options_.journal);
   const std::size_t place = text.find("\"refined_A\":");
   folder_.Write("study.jsonl",
                 text.substr(0, place) + "\"refined_A\":\"\",\"x\":" + text.substr(place + 12));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/equal_readings.h"
@@ -28,12 +29,6 @@ constexpr double kUsualCell_V = 0.62;
 constexpr double kDim_W_m2 = 50;   // below, a cell may have little voltage
 constexpr double kDark_W_m2 = 20;  // below, a sensor may show an offset
 
-double LargestOf(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::fabs(value));
-  return largest;
-}
-
 // What the checks after the first two look at.
 struct Examined {
   const IvCurve& curve;
@@ -46,8 +41,8 @@ struct Examined {
 
 Examined Examine(const IvCurve& curve) {
   constexpr double kNoise = 0.02;  // of the largest current
-  Examined look{curve, FindKeyPoints(curve.voltage_V, curve.current_A), LargestOf(curve.current_A),
-                LargestOf(curve.voltage_V)};
+  Examined look{curve, FindKeyPoints(curve.voltage_V, curve.current_A),
+                LargestMagnitude(curve.current_A), LargestMagnitude(curve.voltage_V)};
   for (std::size_t k = 0; k < curve.size(); ++k) {
     if (curve.voltage_V[k] >= 0) look.delivered_A = std::max(look.delivered_A, curve.current_A[k]);
   }
@@ -81,7 +76,7 @@ void LookForOverflow(const IvCurve& curve, Findings* out) {
 }
 
 void LookForNothing(const IvCurve& curve, Findings* out) {
-  const double largest = LargestOf(curve.current_A);
+  const double largest = LargestMagnitude(curve.current_A);
   const bool equal = std::all_of(curve.current_A.begin(), curve.current_A.end(),
                                  [&](double value) { return value == curve.current_A.front(); });
   std::string sentence;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 
 namespace lyrefit {
@@ -34,12 +35,6 @@ Line ResistantLine(const std::vector<double>& x, const std::vector<double>& y) {
   const double width = UpperMedian(ends[2]) - low_x;
   const double slope = width > 0 ? (UpperMedian(ends[3]) - low_y) / width : 0;
   return {low_y - slope * low_x, slope};
-}
-
-double LargestMagnitude(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
 }
 
 // The median of the three readings nearest to `voltage`, so that one outlier does not decide.

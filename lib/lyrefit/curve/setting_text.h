@@ -17,21 +17,21 @@ Expected<std::pair<std::string, std::pair<double, double>>> ReadRange(const std:
 std::string AssignmentText(const std::string& name, double value);
 std::string RangeText(const std::string& name, const std::pair<double, double>& range);
 
-// A map of values, or of ranges, that is given one by one: see base/option.h.
-template <auto First, auto... Rest>
-constexpr auto AssignmentsOption() {
+// A map that is given one by one, of values or of ranges, as `Read` reads them and `Text` writes
+// them: see base/option.h.
+template <auto Read, auto Text, auto First, auto... Rest>
+constexpr auto MapOption() {
   using Options = ClassOf<First>;
   return OptionText<Options>{[](const std::string& text, Options* options) -> Expected<void> {
-                               const auto assignment = ReadAssignment(text);
-                               if (!assignment) return tl::unexpected<Error>(assignment.error());
-                               Along<First, Rest...>(*options)[assignment->first] =
-                                   assignment->second;
+                               const auto named = Read(text);
+                               if (!named) return tl::unexpected<Error>(named.error());
+                               Along<First, Rest...>(*options)[named->first] = named->second;
                                return {};
                              },
                              [](const Options& options) {
                                std::vector<std::string> texts;
                                for (const auto& [name, value] : Along<First, Rest...>(options)) {
-                                 texts.push_back(AssignmentText(name, value));
+                                 texts.push_back(Text(name, value));
                                }
                                return texts;
                              },
@@ -39,22 +39,13 @@ constexpr auto AssignmentsOption() {
 }
 
 template <auto First, auto... Rest>
+constexpr auto AssignmentsOption() {
+  return MapOption<ReadAssignment, AssignmentText, First, Rest...>();
+}
+
+template <auto First, auto... Rest>
 constexpr auto RangesOption() {
-  using Options = ClassOf<First>;
-  return OptionText<Options>{[](const std::string& text, Options* options) -> Expected<void> {
-                               const auto range = ReadRange(text);
-                               if (!range) return tl::unexpected<Error>(range.error());
-                               Along<First, Rest...>(*options)[range->first] = range->second;
-                               return {};
-                             },
-                             [](const Options& options) {
-                               std::vector<std::string> texts;
-                               for (const auto& [name, range] : Along<First, Rest...>(options)) {
-                                 texts.push_back(RangeText(name, range));
-                               }
-                               return texts;
-                             },
-                             nullptr, true};
+  return MapOption<ReadRange, RangeText, First, Rest...>();
 }
 
 }  // namespace lyrefit

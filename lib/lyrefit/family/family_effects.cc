@@ -12,6 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
+#include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"
@@ -32,11 +33,7 @@ Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& 
         "with: effects stand beside the law of De Soto, not beside pvsyst: expected the family "
         "desoto, or free");
   }
-  if (options.objective == Objective::kMeasuredCurrent) {
-    return Fail(
-        "a model with effects is fitted to the solved current: it has no explicit "
-        "right-hand side for the measured one");
-  }
+  TRY(CheckObjectiveOfEffects(options.objective));
   if (std::isnan(family.fixed[family.translation.bandgap_slope])) {
     return Fail("free: dEgdT is held beside effects");
   }

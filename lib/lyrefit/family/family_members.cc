@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
@@ -36,17 +37,11 @@ int UsualCells(const CurveSet& set) {
   return cells.empty() ? 0 : static_cast<int>(UpperMedian(cells));
 }
 
-double LargestCurrent(const std::vector<double>& current_A) {
-  double largest = 0;
-  for (const double current : current_A) largest = std::max(largest, std::fabs(current));
-  return largest;
-}
-
 // Whether a curve delivers, at 0 V, more than what a meter says of a dark one.
 bool IsLit(const IvCurve& curve, double isc) {
   constexpr double kNothing = 0.002;  // of the largest current
   constexpr double kNoise = 5;        // of the noise
-  return isc > kNothing * LargestCurrent(curve.current_A) &&
+  return isc > kNothing * LargestMagnitude(curve.current_A) &&
          isc > kNoise * NoiseFromDifferences(curve.voltage_V, curve.current_A);
 }
 
@@ -149,8 +144,8 @@ void SetWeights(const FamilyOptions& options, double reference,
   for (FamilyMember& member : *members) {
     double weight = 1;
     if (options.weights == FamilyWeights::kIsc) {
-      const double own =
-          member.IsDark() ? LargestCurrent(member.joint.current_A) : member.short_circuit_current_A;
+      const double own = member.IsDark() ? LargestMagnitude(member.joint.current_A)
+                                         : member.short_circuit_current_A;
       weight = (reference / own) * (reference / own);
     }
     member.joint.weight.assign(member.joint.voltage_V.size(), weight);

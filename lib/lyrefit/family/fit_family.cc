@@ -45,13 +45,7 @@ struct Job {
 };
 
 FitOptions SingleFitOptions(const FamilyOptions& options) {
-  FitOptions fit;
-  fit.model = options.model;
-  fit.objective = options.objective;
-  fit.constants = options.constants;
-  fit.random_baseline = false;
-  fit.intervals = Intervals::kNone;
-  fit.threads = 1;
+  FitOptions fit = OwnFitOptions(options);
   fit.search.seed = options.search.seed;
   // Two idealities of one curve say little; the law holds the second one too.
   if (options.model == Model::kDoubleDiode) fit.fixed["n2"] = 2;

@@ -21,6 +21,17 @@ constexpr double kCorrelated = 0.01;  // p-value of the runs test
 
 }  // namespace
 
+FitOptions OwnFitOptions(const FamilyOptions& options) {
+  FitOptions fit;
+  fit.model = options.model;
+  fit.objective = options.objective;
+  fit.constants = options.constants;
+  fit.random_baseline = false;
+  fit.intervals = Intervals::kNone;
+  fit.threads = 1;
+  return fit;
+}
+
 FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer) {
   const Instant begin = Now();
@@ -94,19 +105,14 @@ FamilyReport FreeHead(const CurveSet& set, const FamilyOptions& options) {
 
 // Of every curve by itself.
 FitOptions FreeOptions(const FamilyOptions& options) {
-  FitOptions fit;
-  fit.model = options.model;
-  fit.objective = options.objective;
-  fit.constants = options.constants;
+  FitOptions fit = OwnFitOptions(options);
   fit.fixed = options.fixed;
   fit.with = options.with;
   fit.force_effects = options.force_effects;
   fit.bounds.overrides = options.bounds;
   fit.errors = options.errors;
   fit.search = options.search;
-  fit.random_baseline = false;
-  fit.intervals = options.intervals ? Intervals::kProfile : Intervals::kNone;
-  fit.threads = 1;
+  if (options.intervals) fit.intervals = Intervals::kProfile;
   return fit;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "lyrefit/family/family_options.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
@@ -15,6 +16,9 @@ struct FreeFits {
   double seconds = 0;
   bool interrupted = false;
 };
+
+// How a curve of the family is fitted by itself, with the diodes alone and without intervals.
+FitOptions OwnFitOptions(const FamilyOptions& options);
 
 FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer);

@@ -130,23 +130,35 @@ Expected<TranslationLaw> LawOf(const json& document, const json& dictionary,
               path);
 }
 
-// The values in the order of the translation that it makes.
-Expected<void> TakeDeSoto(Reader* reader, NamedParameters* module) {
-  const int cells = reader->TakeCells();
-  module->cells_stated = cells > 0;
-  TranslationSpec spec;
-  spec.cells_in_series = std::max(cells, 1);
+// The translation and the values that both laws have, in its order; whatever else there is comes
+// behind them.
+Expected<void> TakeShared(const TranslationSpec& spec, const char* ideality, Reader* reader,
+                          NamedParameters* module) {
   TRY(module->translation, MakeTranslation(spec));
   const Translation& at = module->translation;
   std::vector<double>& p = module->shared;
   p.resize(at.size());
   p[at.photocurrent] = reader->Take({"I_L_ref", 0, true});
   p[at.saturation_current] = reader->Take({"I_o_ref", 0, true});
-  p[at.n] = reader->Take({"a_ref", 0, true}) / at.device.module_thermal_voltage_V;
+  p[at.n] = reader->Take({ideality, 0, true});
   p[at.resistance_series] = reader->Take({"R_s", 0});
-  p[at.resistance_shunt] = reader->TakeShunt();
+  const bool may_be_perfect = spec.law == TranslationLaw::kDeSoto;
+  p[at.resistance_shunt] =
+      may_be_perfect ? reader->TakeShunt() : reader->Take({"R_sh_ref", 0, true});
   p[at.alpha_sc] = reader->Take({"alpha_sc", -kInfinity, true});
   p[at.bandgap] = reader->Take({"EgRef", 0, true, kPvlibBandgap_eV});
+  return {};
+}
+
+Expected<void> TakeDeSoto(Reader* reader, NamedParameters* module) {
+  const int cells = reader->TakeCells();
+  module->cells_stated = cells > 0;
+  TranslationSpec spec;
+  spec.cells_in_series = std::max(cells, 1);
+  TRY(TakeShared(spec, "a_ref", reader, module));
+  const Translation& at = module->translation;
+  std::vector<double>& p = module->shared;
+  p[at.n] /= at.device.module_thermal_voltage_V;
   p[at.bandgap_slope] = reader->Take({"dEgdT", -kInfinity, true, kPvlibBandgapSlope_1_K});
   return {};
 }
@@ -159,17 +171,9 @@ Expected<void> TakePvsyst(Reader* reader, NamedParameters* module) {
   spec.recombination = loss > 0;
   spec.cells_in_series = reader->TakeCells();
   if (spec.cells_in_series == 0) reader->Missing("cells_in_series");
-  TRY(module->translation, MakeTranslation(spec));
+  TRY(TakeShared(spec, "gamma_ref", reader, module));
   const Translation& at = module->translation;
   std::vector<double>& p = module->shared;
-  p.resize(at.size());
-  p[at.photocurrent] = reader->Take({"I_L_ref", 0, true});
-  p[at.saturation_current] = reader->Take({"I_o_ref", 0, true});
-  p[at.n] = reader->Take({"gamma_ref", 0, true});
-  p[at.resistance_series] = reader->Take({"R_s", 0});
-  p[at.resistance_shunt] = reader->Take({"R_sh_ref", 0, true});
-  p[at.alpha_sc] = reader->Take({"alpha_sc", -kInfinity, true});
-  p[at.bandgap] = reader->Take({"EgRef", 0, true, kPvlibBandgap_eV});
   p[at.n_slope] = reader->Take({"mu_gamma", -kInfinity, true});
   p[at.resistance_shunt_dark] = reader->Take({"R_sh_0", 0, true});
   p[at.shunt_exponent] = reader->Take({"R_sh_exp", 0, true, kPvlibShuntExponent});

@@ -16,16 +16,20 @@
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
+
+Expected<void> CheckObjectiveOfEffects(Objective objective) {
+  if (objective == Objective::kSolvedCurrent) return {};
+  return Fail(
+      "a model with effects is fitted to the solved current: it has no explicit "
+      "right-hand side for the measured one");
+}
+
 namespace {
 
 Expected<void> AddEffects(FitJob* job, FitReport* report) {
   const FitOptions& options = job->options;
   if (options.with.empty()) return {};
-  if (options.objective == Objective::kMeasuredCurrent) {
-    return Fail(
-        "a model with effects is fitted to the solved current: it has no explicit "
-        "right-hand side for the measured one");
-  }
+  TRY(CheckObjectiveOfEffects(options.objective));
   if (options.floor) return Fail("a floor is that of diodes alone: leave out the effects or it");
   TRY(auto device, Extend(report->device, options.model, options.constants, job->curve,
                           options.with, options.force_effects));

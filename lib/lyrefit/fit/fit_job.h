@@ -29,6 +29,9 @@ struct FitJob {
   int effects() const { return forms.empty() ? 0 : static_cast<int>(forms[0].bounds.size()); }
 };
 
+// Beside effects the measured current is refused.
+Expected<void> CheckObjectiveOfEffects(Objective objective);
+
 // Checks the curve and the options; the device, bounds and the problem to solve.
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/curve/find_step.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -40,10 +41,7 @@ struct Scale {
 
 Scale ScaleOf(const FitReport& report) {
   constexpr double kToSpeakOf = 0.1;
-  double largest = 0;
-  for (const double current : report.curve.current_A) {
-    largest = std::max(largest, std::fabs(current));
-  }
+  const double largest = LargestMagnitude(report.curve.current_A);
   const double isc = report.measured.short_circuit_current_A;
   if (isc > kToSpeakOf * largest) return {isc, "Isc"};
   return {largest, "the largest current"};

@@ -15,10 +15,7 @@ ParameterInfo SaturationInfo(std::string symbol, std::string name, std::string d
 }  // namespace
 
 std::optional<int> Device::Find(const std::string& symbol_or_name) const {
-  for (int i = 0; i < size(); ++i) {
-    if (parameters[i].symbol == symbol_or_name || parameters[i].name == symbol_or_name) return i;
-  }
-  return std::nullopt;
+  return FindParameter(parameters, symbol_or_name);
 }
 
 Device MakeDevice(Model model, const Conditions& conditions, ConstantSet constants) {

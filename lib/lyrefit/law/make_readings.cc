@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/largest.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
@@ -33,12 +34,6 @@ double CurrentNearZero(const IvCurve& curve) {
     if (std::fabs(curve.voltage_V[k]) < std::fabs(curve.voltage_V[nearest])) nearest = k;
   }
   return curve.current_A[nearest];
-}
-
-double LargestMagnitude(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::fabs(value));
-  return largest;
 }
 
 bool TimesIncrease(const std::vector<double>& time) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,16 @@ struct ParameterInfo {
   // shunt and the exponent of a dark shunt.
   std::array<int, 2> with = {-1, -1};
 };
+
+// The position of a symbol or a name in such a list.
+inline std::optional<int> FindParameter(const std::vector<ParameterInfo>& parameters,
+                                        const std::string& symbol_or_name) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const ParameterInfo& info = parameters[i];
+    if (info.symbol == symbol_or_name || info.name == symbol_or_name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
 
 // What it stands under in records: its name or, of an effect's, "shading.d", EFFECT.SYMBOL.
 inline const std::string& ParameterKey(const ParameterInfo& info) {

@@ -27,10 +27,7 @@ void AddShunt(Translation* t) {
 }  // namespace
 
 std::optional<int> Translation::Find(const std::string& symbol_or_name) const {
-  for (int i = 0; i < size(); ++i) {
-    if (parameters[i].symbol == symbol_or_name || parameters[i].name == symbol_or_name) return i;
-  }
-  return std::nullopt;
+  return FindParameter(parameters, symbol_or_name);
 }
 
 Expected<Translation> MakeTranslation(const TranslationSpec& spec) {

@@ -7,15 +7,16 @@
 #include <numeric>
 #include <utility>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
 namespace {
 
-double LargestMagnitude(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::fabs(value));
+// What sizes are measured in; 1 where all is 0.
+double ScaleOf(const std::vector<double>& values) {
+  const double largest = LargestMagnitude(values);
   return largest > 0 ? largest : 1;
 }
 
@@ -40,9 +41,9 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
   for (double& weight : weights) weight /= mean;
   problem.weights = std::move(weights);
   problem.points = MakePointSet(problem.voltage_V, problem.current_A, problem.weights);
-  problem.current_scale_A = LargestMagnitude(problem.current_A);
+  problem.current_scale_A = ScaleOf(problem.current_A);
   const double forward_V = problem.points.largest_voltage_V;
-  problem.voltage_scale_V = forward_V > 0 ? forward_V : LargestMagnitude(problem.voltage_V);
+  problem.voltage_scale_V = forward_V > 0 ? forward_V : ScaleOf(problem.voltage_V);
   return problem;
 }
 

@@ -120,6 +120,12 @@ struct ProblemResult {
   bool complete = true;
 };
 
+inline std::vector<std::string> ContenderNames(const ProblemResult& problem) {
+  std::vector<std::string> names;
+  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
+  return names;
+}
+
 struct Comparison {
   std::string version;
   CompareOptions options;

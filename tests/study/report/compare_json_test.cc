@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_keys.h"
 #include "sample_comparison.h"
 
 namespace lyrefit {
@@ -14,12 +15,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::set<std::string> Keys(const json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
 
 json Parsed(const Comparison& comparison) { return json::parse(CompareJson(comparison)); }
 
@@ -92,13 +87,6 @@ TEST(CompareJson, WritesNullForWhatIsNotKnown) {
   const std::string text = CompareJson(comparison);
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   EXPECT_THAT(text, Not(HasSubstr("inf")));
-}
-
-void RemoveSeconds(json* value) {
-  if (value->is_object()) value->erase("seconds");
-  for (auto& child : *value) {
-    if (child.is_structured()) RemoveSeconds(&child);
-  }
 }
 
 TEST(CompareJson, KeepsWallClockTimesUnderSecondsOnly) {

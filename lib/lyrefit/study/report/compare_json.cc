@@ -101,12 +101,6 @@ Json ContenderJson(const ContenderResult& contender, bool pooled) {
       {"runs", RunsJson(contender.runs, pooled)}};
 }
 
-std::vector<std::string> ContenderNames(const ProblemResult& problem) {
-  std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
-  return names;
-}
-
 }  // namespace
 
 void to_json(Json& j, const ProblemResult& problem) {

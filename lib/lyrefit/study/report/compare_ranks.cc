@@ -22,12 +22,6 @@ bool FirstIsBetter(const SignedRank& pair) {
   return pair.test.rank_sum_plus < pair.test.rank_sum_minus;
 }
 
-std::vector<std::string> NamesOf(const ProblemResult& problem) {
-  std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
-  return names;
-}
-
 // "mlo 1.20, de 1.80, ...", the best first.
 std::string MeanRanks(const std::vector<std::string>& names, const Friedman& friedman) {
   std::vector<int> order(friedman.mean_rank.size());
@@ -109,7 +103,7 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
 void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* stage,
               const std::string& note, Section* section) {
   if (ranking.friedman.contenders == 0) return;
-  const std::vector<std::string> names = NamesOf(problem);
+  const std::vector<std::string> names = ContenderNames(problem);
   const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
   section->blocks.push_back(
       block::Entry{fmt::format("Ranks, {}: Friedman over {} runs", stage, ranking.friedman.blocks),

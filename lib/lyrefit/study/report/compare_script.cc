@@ -21,12 +21,6 @@ std::string PanelTitle(const ProblemResult& problem) {
   return problem.curve_name + ", " + models[static_cast<int>(problem.model) - 1];
 }
 
-std::vector<std::string> Names(const ProblemResult& problem) {
-  std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
-  return names;
-}
-
 // The range of positive numbers on a logarithmic axis.
 struct LogRange {
   double low = 1e300;
@@ -117,7 +111,7 @@ Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
 Figure ConvergenceFigure(const Comparison& comparison) {
   Figure figure{fmt::format("Median of {} runs; dotted: target of {:g} above the reference",
                             comparison.options.runs, comparison.options.target_gap),
-                LegendOf(Names(comparison.problems[0]), LegendMark::kLine)};
+                LegendOf(ContenderNames(comparison.problems[0]), LegendMark::kLine)};
   figure.columns = Columns(comparison);
   for (const ProblemResult& problem : comparison.problems) {
     figure.panels.push_back(ConvergencePanel(comparison, problem));
@@ -129,7 +123,7 @@ Figure BoxFigure(const Comparison& comparison) {
   std::vector<std::string> legend = {"search alone"};
   if (comparison.options.polish) legend.emplace_back("after the polish");
   std::size_t longest = 0;
-  for (const std::string& name : Names(comparison.problems[0])) {
+  for (const std::string& name : ContenderNames(comparison.problems[0])) {
     longest = std::max(longest, name.size());
   }
   Figure figure{fmt::format("{} runs each; lowest line: equal to the reference within {:g}",

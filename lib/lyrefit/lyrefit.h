@@ -19,8 +19,8 @@
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // FitFamily fits one device to curves under different irradiance and temperature. Certify proves
 // how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone. Diagnose says
-// what the model gets wrong in a measurement and why. FitDocument, FamilyDocument and their kin are the
-// reports as data, for DrawText, DrawMarkdown and DrawHtml.
+// what the model gets wrong in a measurement and why. FitDocument, FamilyDocument and their kin are
+// the reports as data, for DrawText, DrawMarkdown and DrawHtml.
 //
 // Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_free.h fits every curve
 // of a set on its own, diagnose/healthy.h holds a sweep against healthy ones of the same module,

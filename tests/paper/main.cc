@@ -1,7 +1,7 @@
 // Does the published tables over again and writes the page of results.
 //
 //   lyrefit_paper data/paper --update README.md
-//   lyrefit_paper data/paper --out /tmp/page --batches 2 --peers ""
+//   lyrefit_paper data/paper --out page --batches 2 --peers ""
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -73,7 +73,7 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
     }
   }
   EXPECT_EQ(comparison.problems[0].parameters.at(comparison.problems[0].first_effect),
-            "substrings_light_deficit_1");
+            "substrings.d1");
 }
 
 TEST(ComparePooled, RunsADefaultFitAsItIs) {

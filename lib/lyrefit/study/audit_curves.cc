@@ -10,6 +10,7 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -17,11 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostCurves = 200;  // candidates taken from the places
-
-bool IsFolder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
 
 bool Exists(const fs::path& path) {
   std::error_code error;

@@ -29,6 +29,7 @@ bool IsFlag(const FlagText& flag) { return flag.name.rfind("--", 0) == 0; }
 
 std::string VerbNames(const std::vector<VerbText>& verbs) {
   std::vector<std::string> names;
+  names.reserve(verbs.size());
   for (const VerbText& verb : verbs) names.push_back(verb.name);
   return JoinWords(names);
 }

@@ -12,6 +12,7 @@ void Forget(About about, std::vector<Assumption>* assumptions) {
 
 std::vector<std::string> SentencesOf(const std::vector<Assumption>& assumptions) {
   std::vector<std::string> sentences;
+  sentences.reserve(assumptions.size());
   for (const Assumption& one : assumptions) sentences.push_back(one.sentence);
   return sentences;
 }

@@ -83,6 +83,7 @@ SeparableStart SolveFor(const RefineProblem& problem, const std::vector<double>&
   LinearPart part;
   part.scale.resize(size);
   std::vector<double> n;
+  n.reserve(chosen.size());
   for (int a = 0; a < size; ++a) {
     atb[a] = at.atb[column[a]];
     part.scale[a] = at.linear.scale[column[a]];

@@ -211,6 +211,7 @@ Look LookOf(int index) {
 
 std::vector<LegendEntry> LegendOf(const std::vector<std::string>& names, LegendMark mark) {
   std::vector<LegendEntry> legend;
+  legend.reserve(names.size());
   for (const std::string& name : names) {
     legend.push_back({name, LookOf(static_cast<int>(legend.size())), mark});
   }

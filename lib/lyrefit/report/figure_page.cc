@@ -41,7 +41,8 @@ std::string Legend(const Figure& figure, const PageLayout& page) {
   for (int i = 0; i < static_cast<int>(figure.legend.size()); ++i) {
     const LegendEntry& entry = figure.legend[i];
     const double x = left + page.entry_width * (i % page.legend_columns);
-    const double y = 1 - (kTitle + kLegendRow * (i / page.legend_columns + 0.5)) / h;
+    const int row = i / page.legend_columns;
+    const double y = 1 - (kTitle + kLegendRow * (row + 0.5)) / h;
     const double end = (x + kLine) / w;
     const std::string& colour = entry.look.colour;
     if (entry.mark == LegendMark::kBox) {
@@ -97,7 +98,8 @@ PageLayout LayOut(const Figure& figure) {
   page.entry_width = kLine + 34 + kLetter * static_cast<double>(longest);
   page.legend_columns = std::clamp(static_cast<int>((page.width - kLeft) / page.entry_width), 1,
                                    std::max(1, entries));
-  page.height = kTitle + kLegendRow * ((entries + page.legend_columns - 1) / page.legend_columns);
+  const int legend_rows = (entries + page.legend_columns - 1) / page.legend_columns;
+  page.height = kTitle + kLegendRow * legend_rows;
   for (int p = 0; p < panels; ++p) {
     const int first_of_row = p - p % page.columns;
     page.top.push_back(p == first_of_row ? page.height + kPanelTitle : page.top[first_of_row]);

@@ -30,7 +30,7 @@ struct adl_serializer<std::optional<T>> {
 
 template <class E>
 struct adl_serializer<
-    E, std::enable_if_t<std::is_enum_v<E> && (sizeof(lyrefit::EnumTable<E>::kRows) > 0)>> {
+    E, std::enable_if_t<std::is_enum_v<E>, std::void_t<decltype(lyrefit::EnumTable<E>::kRows)>>> {
   template <class J>
   static void to_json(J& json, E value) {
     json = lyrefit::ToText(value);
@@ -41,7 +41,9 @@ struct adl_serializer<
 
 // The to_json of a record whose keys are the names of these fields.
 #define LYREFIT_JSON_FIELDS(Record, ...)                                     \
-  void to_json(Json& nlohmann_json_j, const Record& nlohmann_json_t) {       \
+  void to_json(Json& j, const Record& record) {                              \
+    Json& nlohmann_json_j = j;                                               \
+    const Record& nlohmann_json_t = record;                                  \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
   }
 
@@ -54,10 +56,10 @@ void to_json(Json& j, const IvCurve& curve);  // name, source, conditions and as
 void to_json(Json& j, const OptionEcho& option);
 void to_json(Json& j, const ParameterInfo& info);
 void to_json(Json& j, const Estimate& estimate);
-void to_json(Json& j, const RmsePair& rmse);
-void to_json(Json& j, const KeyPoints& points);
-void to_json(Json& j, const Correlation& correlation);
-void to_json(Json& j, const ResidualStatistics& residuals);  // all but the largest error
+void to_json(Json& j, const RmsePair& record);
+void to_json(Json& j, const KeyPoints& record);
+void to_json(Json& j, const Correlation& record);
+void to_json(Json& j, const ResidualStatistics& record);  // all but the largest error
 void to_json(Json& j, const ErrorReport& errors);
 void to_json(Json& j, const TracePoint& point);
 

@@ -90,6 +90,7 @@ std::vector<SchemaCase> SchemaCases() {
       {"Budget",
        "budget " + shaded +
            "--with shading:w=0.3333 --models sd --algorithms mlo,random --budgets 20 --runs 2 "
+           "--multistart 2 "
            "--json FILE --quiet",
        "comparison"},
       {"Sensitivity", "sensitivity " + rtc + "--models sd --runs 2 --json FILE" + kSearch,

@@ -107,7 +107,8 @@ TEST(With, SaysWhatIsWrongWithAnEffect) {
 TEST(With, SearchesAreComparedOnIt) {
   const AppResult budget =
       RunApp("budget " + kShaded +
-             " --with shading:w=0.3333 --models sd --algorithms random --budgets 20 --runs 2");
+             " --with shading:w=0.3333 --models sd --algorithms random --budgets 20 --runs 2 "
+             "--multistart 2");
   ASSERT_EQ(budget.exit_code, 0) << budget.err;
   EXPECT_THAT(budget.out, HasSubstr("solved-current, with shading:w=0.3333"));
 }
@@ -124,7 +125,7 @@ TEST(With, HardBirdsAreSaidAndCounted) {
   EXPECT_GT(search["curve_evaluations"], search["evaluations"]);
   const AppResult budget = RunApp("budget " + kShaded +
                                   " --with shading:w=0.3333 --models sd --algorithms random,shape "
-                                  "--budgets 20 --runs 2 --birds hard --json -");
+                                  "--budgets 20 --runs 2 --multistart 2 --birds hard --json -");
   ASSERT_EQ(budget.exit_code, 0) << budget.err;
   const json contenders = json::parse(budget.out)["problems"][0]["contenders"];
   EXPECT_EQ(contenders[0]["birds"], "hard");

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "about.h"
 #include "command_line.h"
@@ -39,6 +40,8 @@ int Print(const std::string& text) {
 
 int Main(int argc, char** argv) {
   if (argc == 1) return Print(FirstPage());
+  char topic_follows[] = "help";  // lyrefit --help terms
+  if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
   CommandLine line(kFooter);
   for (const Verb* verb : {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb,
                            &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb, &kCoverageVerb,

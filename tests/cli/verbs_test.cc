@@ -59,6 +59,8 @@ TEST(Verbs, HelpOfOneIsTheSameTwoWays) {
 
 TEST(Verbs, TermsFitATerminalAndCoverTheTables) {
   const std::string terms = RunApp("help terms").out;
+  EXPECT_EQ(RunApp("--help terms").out, terms);
+  EXPECT_EQ(RunApp("--help fit").out, RunApp("fit --help").out);
   std::istringstream lines(terms);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   for (const char* term : {"Isc", "Rsh", "n1", "AICc", "corrected p", "misfit", "kept", "floor",

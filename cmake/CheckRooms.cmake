@@ -14,10 +14,13 @@ set(ALLOWED_fit base curve law search refine certify effects)
 set(ALLOWED_family base curve law search refine fit effects)
 set(ALLOWED_effects base curve law)  # knows no fitting
 set(ALLOWED_diagnose base curve law search refine fit family effects)
-set(ALLOWED_report base curve law search certify fit family diagnose)  # computes nothing
+set(ALLOWED_translate base curve law fit family effects diagnose)
+set(ALLOWED_report base curve law search certify fit family diagnose translate)  # computes nothing
 # A library of its own with its writers in study/report; what the core writes knows nothing of it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
-set(ROOMS base curve law search refine certify effects fit family diagnose report study)
+# Another: many curves, their rows and their page.
+set(ALLOWED_fleet base curve law fit family diagnose translate report)
+set(ROOMS base curve law search refine certify effects fit family diagnose translate report study fleet)
 
 set(PUBLIC)  # the headers that are installed
 if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
@@ -75,8 +78,8 @@ function(check_file room)
     elseif(header MATCHES "^CLI/")
       complain("the library must build without the app's dependencies (<${header}>)")
     endif()
-    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/study[/.]")
-      complain("the core knows nothing of the studies (\"${header}\")")
+    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|fleet)[/.]")
+      complain("the core knows nothing of the studies and of fleets (\"${header}\")")
     endif()
     if(room IN_LIST ROOMS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
       check_own_include(${room} "${header}")
@@ -97,7 +100,7 @@ foreach(FILE IN LISTS files)
     endif()
     check_file(${room})
   else()
-    check_file(top)  # lyrefit.h and study.h, the doors to every room
+    check_file(top)  # lyrefit.h, study.h and fleet.h, the doors to every room
   endif()
 endforeach()
 

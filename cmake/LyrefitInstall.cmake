@@ -115,18 +115,26 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/report/coverage_csv.h
   study/report/coverage_json.h
   study/report/documents.h)
+set(LYREFIT_FLEET_PUBLIC_HEADERS
+  fleet.h
+  fleet/fleet_source.h
+  fleet/result_row.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
+list(TRANSFORM LYREFIT_FLEET_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                               FILES ${LYREFIT_PUBLIC_HEADERS})
 target_sources(lyrefit_study PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
                                     FILES ${LYREFIT_STUDY_PUBLIC_HEADERS})
+target_sources(lyrefit_fleet PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
+                                    FILES ${LYREFIT_FLEET_PUBLIC_HEADERS})
 set_target_properties(lyrefit_study PROPERTIES EXPORT_NAME study)
+set_target_properties(lyrefit_fleet PROPERTIES EXPORT_NAME fleet)
 # Before 1.0 a new minor version may change the interface.
-set_target_properties(lyrefit lyrefit_study PROPERTIES VERSION ${PROJECT_VERSION}
+set_target_properties(lyrefit lyrefit_study lyrefit_fleet PROPERTIES VERSION ${PROJECT_VERSION}
                       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-install(TARGETS lyrefit lyrefit_study EXPORT lyrefit-targets
+install(TARGETS lyrefit lyrefit_study lyrefit_fleet EXPORT lyrefit-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -16,7 +16,7 @@ PackagesFor() {
   case $1 in
     build)
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
-        libexpected-dev libcsv-dev libboost-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
+        libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
     test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema ;;
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../repeats.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/curve_set.h"
@@ -224,6 +225,7 @@ std::map<std::string, Rates> MeasureRates(const DayPlan& plan) {
 class HealthyFieldTest : public ::testing::TestWithParam<DayPlan> {};
 
 TEST_P(HealthyFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
+  SKIP_IF_SANITIZED();
   auto rates = MeasureRates(GetParam());
   EXPECT_LE(rates["nothing"].found, 0.05);
   for (const char* fault : kFaults) {

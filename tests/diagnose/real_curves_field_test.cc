@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
@@ -63,6 +64,7 @@ std::vector<Labelled> ReadLabels() {
 }
 
 TEST(RealCurvesTest, CleanSweepsAreLeftAloneAndFaultsAreNamed) {
+  SKIP_IF_SANITIZED();
   const std::vector<Labelled> labels = ReadLabels();
   ASSERT_EQ(labels.size(), 68U);
   std::vector<std::vector<std::string>> named(labels.size());
@@ -135,6 +137,7 @@ double ShareNamed(const std::map<std::string, int>& count) {
 }
 
 TEST(RealCurvesTest, WholeDaysOfHealthyModulesAreSilent) {
+  SKIP_IF_SANITIZED();
   EXPECT_LE(ShareNamed(FirstNames("sandia_pvue125", 2)), 0.05);
   EXPECT_LE(ShareNamed(FirstNames("nist_ground_2015-07-20", 3)), 0.05);
   // A shade in the morning and in the evening, clouds about noon.

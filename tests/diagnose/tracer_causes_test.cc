@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../repeats.h"
 #include "diagnose/made_diagnosis.h"
 
 namespace lyrefit {
@@ -36,6 +37,7 @@ void ChangeRange(double below_A, double gain, IvCurve* curve) {
 }
 
 TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
+  SKIP_IF_SANITIZED();
   for (const double gain : {0.05, -0.06}) {
     IvCurve curve = Module(true);
     ChangeRange(6, gain, &curve);

@@ -65,6 +65,23 @@ TEST(ReadingErrors, WhiteOnesLeaveThePlainFitAlone) {
   EXPECT_LE(asked, 4);
 }
 
+TEST(ReadingErrors, AreNotLookedForWhereNobodyAsks) {
+  const IvCurve curve = WanderingCurve(1);
+  FitOptions options;
+  options.find_errors = false;
+  const auto without = Fit(curve, options);
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(without->errors.has_value());
+  EXPECT_TRUE(without->under_errors.empty());
+  const FitReport with = FitWith(curve, {});
+  EXPECT_TRUE(with.errors.has_value());
+  EXPECT_EQ(without->refined, with.refined);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(without->estimates[i].low_95, with.estimates[i].low_95);
+    EXPECT_EQ(without->estimates[i].high_95, with.estimates[i].high_95);
+  }
+}
+
 TEST(ReadingErrors, AFitWeighedByThemIsNotTheLowestButNearerToTheTruth) {
   double plain = 0, weighed = 0;
   for (int seed = 0; seed < 60; ++seed) {

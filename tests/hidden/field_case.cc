@@ -24,21 +24,6 @@ double MisfitPercent(const Rig& rig, Lit* lit) {
   return 100 * rms / ShortCircuit(lit->Whole());
 }
 
-// The size at which the healthy module, departure included, is missed by `wanted` of Isc.
-void SettleDeparture(const Sampled& curve, double wanted, Departure* departure) {
-  const double isc = ShortCircuit(curve), voc = OpenCircuit(curve);
-  departure->size = 1e-3;
-  for (int pass = 0; pass < 3; ++pass) {
-    std::vector<double> voltage, current;
-    for (int i = 0; i <= 120; ++i) {
-      const double u = 1.005 * i / 120, plain = curve.CurrentAt(u * voc);
-      voltage.push_back(u * voc);
-      current.push_back(plain + isc * departure->At(u, 1 - plain / isc));
-    }
-    departure->size *= wanted * isc / BestOneDiode(voltage, current).rms;
-  }
-}
-
 Measurement HandedOver(const Case& made, const Rig& rig, const Readings& readings, Random* random) {
   Measurement taken;
   const double suns = made.make.suns * (1 + 0.015 * random->Normal());
@@ -72,6 +57,20 @@ std::vector<std::string> Kinds() {
     for (const Fault& fault : *faults) kinds.push_back(fault.name);
   }
   return kinds;
+}
+
+void SettleDeparture(const Sampled& curve, double wanted, Departure* departure) {
+  const double isc = ShortCircuit(curve), voc = OpenCircuit(curve);
+  departure->size = 1e-3;
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<double> voltage, current;
+    for (int i = 0; i <= 120; ++i) {
+      const double u = 1.005 * i / 120, plain = curve.CurrentAt(u * voc);
+      voltage.push_back(u * voc);
+      current.push_back(plain + isc * departure->At(u, 1 - plain / isc));
+    }
+    departure->size *= wanted * isc / BestOneDiode(voltage, current).rms;
+  }
 }
 
 Case MakeCase(const std::string& kind, std::uint64_t seed) {

@@ -40,6 +40,9 @@ struct Case {
 };
 
 std::vector<std::string> Kinds();
+// The size at which the best single diode misses the healthy module, departure included, by
+// `wanted` of Isc.
+void SettleDeparture(const Sampled& curve, double wanted, Departure* departure);
 Case MakeCase(const std::string& kind, std::uint64_t seed);
 // The same with a misfit above a bound, as % of Isc; the strongest of many draws where none is.
 Case MakeCaseAbove(const std::string& kind, double misfit, std::uint64_t seed);

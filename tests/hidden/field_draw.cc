@@ -113,7 +113,41 @@ BypassDiode DrawDiode(double current_stc, double kelvin, Random* random) {
   return diode;
 }
 
+struct Wiring {
+  int cells, groups, chains;
+};
+
+Module Assemble(const Wiring& wiring, const Cell& like, const Spread& spread,
+                const BypassDiode& diode, Random* random) {
+  Module module;
+  for (int g = 0; g < wiring.groups; ++g) {
+    Group group;
+    group.diode = diode;
+    group.diode.saturation_A *= std::exp(0.2 * Usual(random));
+    group.chains.resize(wiring.chains);
+    for (auto& chain : group.chains) {
+      for (int c = 0; c < wiring.cells / wiring.groups; ++c) {
+        chain.push_back(Varied(like, spread, random));
+      }
+    }
+    module.groups.push_back(group);
+  }
+  return module;
+}
+
 }  // namespace
+
+Module DrawOfType(const ModuleType& type, double suns, double kelvin, Random* random) {
+  Random common(type.seed);
+  Make make;
+  make.suns = suns;
+  make.kelvin = kelvin;
+  make.open_circuit_V = type.open_circuit_V;
+  const Cell like = DrawCell(type.current, true, make, &common);
+  const Spread spread = DrawSpread(&common);
+  const BypassDiode diode = DrawDiode(type.current, kelvin, &common);
+  return Assemble({type.cells, type.groups, 1}, like, spread, diode, random);
+}
 
 Drawn DrawModule(Uniformity uniformity, Random* random) {
   const Layout& layout = kLayouts[random->Index(static_cast<int>(std::size(kLayouts)))];
@@ -130,18 +164,7 @@ Drawn DrawModule(Uniformity uniformity, Random* random) {
   const Spread spread = uniformity == Uniformity::kEveryCellItsOwn ? DrawSpread(random) : Spread{};
   BypassDiode diode = DrawDiode(current, make.kelvin, random);
   if (uniformity != Uniformity::kEveryCellItsOwn) diode.saturation_A *= 1e-5;  // a silicon junction
-  for (int g = 0; g < layout.groups; ++g) {
-    Group group;
-    group.diode = diode;
-    group.diode.saturation_A *= std::exp(0.2 * Usual(random));
-    group.chains.resize(chains);
-    for (auto& chain : group.chains) {
-      for (int c = 0; c < layout.cells / layout.groups; ++c) {
-        chain.push_back(Varied(like, spread, random));
-      }
-    }
-    drawn.module.groups.push_back(group);
-  }
+  drawn.module = Assemble({layout.cells, layout.groups, chains}, like, spread, diode, random);
   return drawn;
 }
 

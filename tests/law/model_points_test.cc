@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/law/current.h"
@@ -26,6 +27,22 @@ TEST(ModelKeyPoints, LieOnTheCurveAndAtTheSummitOfThePower) {
   EXPECT_NEAR(points.fill_factor,
               points.max_power_W / (points.short_circuit_current_A * points.open_circuit_voltage_V),
               1e-14);
+}
+
+TEST(ModelKeyPoints, AreFoundWhateverTheResistances) {
+  const Device device = MakeDevice(Model::kSingleDiode, {});
+  for (const double rs : {0.0, 1e-4, 0.05, 0.5}) {
+    for (const double rsh : {1.0, 50.0, 1e12}) {
+      const double p[] = {0.76, 3e-7, 1.48, rs, rsh};
+      const KeyPoints points = ModelKeyPoints(device, p);
+      EXPECT_DOUBLE_EQ(points.open_circuit_voltage_V, ModelOpenCircuit(device, p));
+      const auto power = [&](double v) { return v * SolveOperatingPoint(device, p, v).current_A; };
+      const double v = points.max_power_voltage_V;
+      EXPECT_NEAR(points.max_power_W, power(v), 1e-13) << rs << " " << rsh;
+      EXPECT_LT(std::max(power(0.999 * v), power(1.001 * v)), points.max_power_W);
+      EXPECT_NEAR(power(points.open_circuit_voltage_V), 0, 1e-12);
+    }
+  }
 }
 
 TEST(ModelKeyPoints, OfADarkDeviceAreUnknown) {

@@ -17,6 +17,7 @@ struct Progress {
   double lower_bound = 0;        // proved for `best`, where the stage proves one
   double part = 0;  // of the stage's work that is done, where iterations differ in size; 0: they
                     // are alike
+  std::string_view note = {};  // what else there is to say: "702 a second, 12 broken"
 };
 
 enum class ObserverAction { kContinue, kStop };

@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <pthread.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,8 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
-
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -30,60 +29,6 @@ constexpr std::chrono::minutes kStale(1);
 tl::unexpected<Error> CannotWrite(int reason, const std::string& path) {
   return Fail("cannot write the file: " + std::generic_category().message(reason), path);
 }
-
-// A file size limit sends a signal that ends the program. While this lives, the thread gets the
-// error of the write instead.
-class LimitIsAnError {
- public:
-  LimitIsAnError() {
-    sigemptyset(&limit_);
-    sigaddset(&limit_, SIGXFSZ);
-    pthread_sigmask(SIG_BLOCK, &limit_, &before_);
-  }
-  ~LimitIsAnError() {
-    const timespec at_once{};
-    while (sigtimedwait(&limit_, nullptr, &at_once) == SIGXFSZ) continue;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  LimitIsAnError(const LimitIsAnError&) = delete;
-  LimitIsAnError& operator=(const LimitIsAnError&) = delete;
-
- private:
-  sigset_t limit_;
-  sigset_t before_;
-};
-
-// An open file; closed at the end of its life at the latest.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { Close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  bool open() const { return number_ >= 0; }
-  int number() const { return number_; }
-
-  // Whether all of `text` was taken; else errno says why not.
-  bool Write(std::string_view text) const {
-    while (!text.empty()) {
-      const ssize_t taken = ::write(number_, text.data(), text.size());
-      if (taken < 0 && errno == EINTR) continue;
-      if (taken < 0) return false;
-      text.remove_prefix(static_cast<std::size_t>(taken));
-    }
-    return true;
-  }
-
-  bool Close() {
-    const int number = number_;
-    number_ = -1;
-    return number < 0 || ::close(number) == 0;
-  }
-
- private:
-  int number_;
-};
 
 // Pipes and terminals cannot be replaced by a rename, and /dev/stdout may stand for a regular file
 // that the shell still holds open.

@@ -61,6 +61,7 @@ constexpr Name kNames[] = {
     {"temp", ColumnKind::kTemperature},
     {"tcell", ColumnKind::kTemperature},
     {"tmodule", ColumnKind::kTemperature},
+    {"modt", ColumnKind::kTemperature},
     {"j", ColumnKind::kCurrentDensity},
     {"currentdensity", ColumnKind::kCurrentDensity},
 };

@@ -25,9 +25,12 @@ std::vector<Point> SortAndMerge(const std::vector<double>& voltage_V,
                                 const std::vector<double>& current_A) {
   std::vector<Point> points(voltage_V.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {voltage_V[i], current_A[i]};
-  std::stable_sort(points.begin(), points.end(),
-                   [](const Point& a, const Point& b) { return a.voltage_V < b.voltage_V; });
+  const auto lower = [](const Point& a, const Point& b) { return a.voltage_V < b.voltage_V; };
+  if (!std::is_sorted(points.begin(), points.end(), lower)) {
+    std::stable_sort(points.begin(), points.end(), lower);
+  }
   std::vector<Point> merged;
+  merged.reserve(points.size());
   for (std::size_t i = 0; i < points.size();) {
     double sum = 0;
     std::size_t end = i;

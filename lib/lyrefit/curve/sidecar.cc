@@ -227,6 +227,18 @@ Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_fi
   return sidecar;
 }
 
+Expected<Sidecar> SidecarOfKeys(const json& object, const std::string& path) {
+  const std::string text;  // nothing to point at
+  SidecarReading reading{
+      JsonFields(object, text, path), text, path, SidecarOf::kCurve, {}, false, {}};
+  return ReadKeys(&reading);
+}
+
+bool IsSidecarKey(std::string_view key) {
+  return std::any_of(std::begin(kKnownKeys), std::end(kKnownKeys),
+                     [&](const char* known) { return key == known; });
+}
+
 bool IsReport(const json& document) {
   return document.is_object() && document.contains("lyrefit_version");
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lyrefit/base/error.h"
@@ -32,6 +33,12 @@ enum class SidecarOf {
 // Unknown keys are left alone.
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
                               SidecarOf of = SidecarOf::kCurve);
+
+// The same from the keys themselves, wherever they stand: beside the readings of a row.
+Expected<Sidecar> SidecarOfKeys(const nlohmann::json& object, const std::string& path);
+
+// Whether a sidecar may have this key.
+bool IsSidecarKey(std::string_view key);
 
 // Whether a JSON document is a report that this library wrote.
 bool IsReport(const nlohmann::json& document);

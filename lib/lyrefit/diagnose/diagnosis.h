@@ -174,8 +174,8 @@ struct Diagnosis {
   Gain gain;
   std::optional<Plan> plan;  // where it was asked for
   // The extended model (the base model where nothing was found) as a fit like any other. With
-  // DiagnoseOptions::extend it is searched and polished; without, only `estimates`,
-  // `causes`, `curves` and `usable` are filled. `device` is empty: the law is the catalogue's.
+  // DiagnoseOptions::extend it is searched and polished; without, only `model`,
+  // `estimates`, `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled. `device` is empty: the law is the catalogue's.
   FitReport extended;
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;  // what the reader of the files had to assume

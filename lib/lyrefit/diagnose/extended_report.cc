@@ -268,12 +268,12 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool s
     searched = Reported(bench, fit.law, found.best);
   }
   AddEstimates(selection, searched, &report);
+  report.rmse.refined.solved_current_A = RmseOf(bench, fit.current);
+  report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
   if (!search) return report;
   AttachLaw(set, selection, &report);
   report.curve = AllPoints(set);
-  report.rmse.refined.solved_current_A = RmseOf(bench, fit.current);
   report.refine.termination = "converged";
-  report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
     report.model_current_A.push_back(fit.current[k] * readings.scale.current_A);
     report.residual_A.push_back(report.model_current_A[k] - report.curve.current_A[k]);

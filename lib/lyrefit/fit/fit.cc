@@ -193,7 +193,8 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   const Instant begin = Now();
   for (FitPoint& other : polish.ends) OrderAlike(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
-  if (!report->errors) FindIntervalsUnderErrors(job, polish.ends, end, report);
+  if (!report->errors && options.find_errors)
+    FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);
   report->refine.projected_gradient = end.projected_gradient;
   report->interval_seconds = SecondsSince(begin);

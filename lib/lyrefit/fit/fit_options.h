@@ -96,6 +96,9 @@ struct FitOptions {
   // are those of least squares, and where the residuals ask for it intervals under the error model
   // stand beside theirs. The others need the solved current and squared residuals.
   ErrorSpec errors;
+  // Whether kWhite looks for an error model in the residuals and for intervals under it, a sixth of
+  // the time of a fit.
+  bool find_errors = true;
   Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
   Intervals intervals =
@@ -162,6 +165,8 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
      "errors of the readings that the polish weighs by: white, field (found from the residuals), "
      "or a JSON file with their sizes",
      NoiseOption<&FitOptions::errors>()},
+    {"find-errors", "", "also intervals under the errors that the residuals show",
+     &FitOptions::find_errors, OptionTrait::kNoFlag},
     {"loss", "NAME", "of the polish", EnumOption<&FitOptions::loss>()},
     {"loss-scale", "NUMBER", "noise units beyond which a robust loss bends",
      &FitOptions::loss_scale, OptionTrait::kUnchecked},

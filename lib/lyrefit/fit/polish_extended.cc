@@ -57,7 +57,7 @@ void ClimbSettings(const FitJob& job, Basins* basins) {
 std::vector<FormReport> ReportForms(const FitJob& job, const Basins& basins) {
   std::vector<FormReport> reports;
   if (job.forms.size() < 2) return reports;
-  const double best = basins.ends()[basins.best()].paid;
+  const BasinEnd& best = basins.ends()[basins.best()];
   const double points = static_cast<double>(job.problem.voltage_V.size());
   for (std::size_t f = 0; f < job.forms.size(); ++f) {
     const BasinEnd* lowest = nullptr;
@@ -66,9 +66,13 @@ std::vector<FormReport> ReportForms(const FitJob& job, const Basins& basins) {
       if (own && (lowest == nullptr || end.paid < lowest->paid)) lowest = &end;
     }
     if (lowest == nullptr) continue;
+    // Two ends of one basin may differ by the rounding of one evaluation or another.
+    const bool chosen = best.start.form == static_cast<int>(f);
+    if (chosen) lowest = &best;
     reports.push_back({DescribeForm(*job.problem.device.extension, job.forms[f]), job.forms[f].free,
-                       std::sqrt(lowest->end.mean_square), points * std::log(lowest->paid / best),
-                       lowest->finished, lowest->paid == best});
+                       std::sqrt(lowest->end.mean_square),
+                       std::max(0.0, points * std::log(lowest->paid / best.paid)), lowest->finished,
+                       chosen});
   }
   return reports;
 }

@@ -10,8 +10,14 @@
 
 namespace lyrefit {
 
+// Asked for every parameter of every curve, mostly with the degrees of the last time.
 double StudentT95(int degrees_of_freedom) {
-  return StudentQuantile(0.975, std::max(degrees_of_freedom, 1));
+  thread_local int known_for = 0;
+  thread_local double known = 0;
+  const int degrees = std::max(degrees_of_freedom, 1);
+  if (known_for != degrees) known = StudentQuantile(0.975, degrees);
+  known_for = degrees;
+  return known;
 }
 
 double FTestPValue(double mean_square_simple, double mean_square_rich, int extra,

@@ -1,7 +1,12 @@
 #include "lyrefit/law/model_points.h"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
 
+#include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/extension.h"
@@ -9,14 +14,18 @@
 namespace lyrefit {
 namespace {
 
-// Root of a falling function between a (positive) and b (negative).
+// Root of a falling function between a (where it is not negative) and b (where it is not positive),
+// doi:10.1145/210089.210111.
 template <class F>
-double Bisect(const F& f, double a, double b) {
-  for (int k = 0; k < 200 && b - a > 1e-15 * std::fabs(b); ++k) {
-    const double middle = 0.5 * (a + b);
-    (f(middle) > 0 ? a : b) = middle;
-  }
-  return 0.5 * (a + b);
+double RootBetween(const F& f, double a, double b) {
+  const double at_a = f(a), at_b = f(b);
+  if (!(at_a > 0)) return a;
+  if (!(at_b < 0)) return b;
+  constexpr int kDigits = std::numeric_limits<double>::digits;
+  std::uintmax_t most = 200;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      f, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigits), most);
+  return 0.5 * (low + high);
 }
 
 // Of a fine sweep from short circuit to a little beyond open circuit.
@@ -24,7 +33,7 @@ KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
   constexpr int kPoints = 2000;
   Device base = device;
   base.extension = nullptr;
-  const double voc = ModelKeyPoints(base, p).open_circuit_voltage_V;
+  const double voc = ModelOpenCircuit(base, p);
   if (!(voc > 0)) return FindKeyPoints({}, {});
   std::vector<double> voltage_V;
   for (int k = 0; k <= kPoints; ++k) voltage_V.push_back(1.05 * voc * k / kPoints);
@@ -33,26 +42,37 @@ KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
 
 }  // namespace
 
+double ModelOpenCircuit(const Device& device, const double* p) {
+  if (device.extension != nullptr) return ExtendedKeyPoints(device, p).open_circuit_voltage_V;
+  // No current flows through Rs: the junction sees V itself.
+  const auto junction = [&](double v) { return JunctionCurrent(device, p, v); };
+  if (!(p[kIph] > 0)) return kUnknown;
+  double above = device.module_thermal_voltage_V;
+  for (int k = 0; k < 60 && junction(above) > 0; ++k) above *= 2;
+  return junction(above) > 0 ? kUnknown : RootBetween(junction, 0, above);
+}
+
 KeyPoints ModelKeyPoints(const Device& device, const double* p) {
   if (device.extension != nullptr) return ExtendedKeyPoints(device, p);
   KeyPoints points{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;
   // In the dark the root at V = 0 is zero but for rounding.
-  if (!(points.short_circuit_current_A > 1e-15 * p[kIph]) || !(p[kIph] > 0)) return points;
-  // At open circuit no current flows through Rs: the junction sees V itself.
-  const auto junction = [&](double v) { return JunctionCurrent(device, p, v); };
-  double above = device.module_thermal_voltage_V;
-  for (int k = 0; k < 60 && junction(above) > 0; ++k) above *= 2;
-  if (junction(above) > 0) return points;
-  const double voc = Bisect(junction, 0, above);
-  // dP/dV = I + V dI/dV with dI/dV = F' / (1 - Rs F') falls through zero once.
+  if (!(points.short_circuit_current_A > 1e-15 * p[kIph])) return points;
+  const double voc = ModelOpenCircuit(device, p);
+  if (std::isnan(voc)) return points;
+  // Over the junction's voltage Vj everything is explicit: I = F(Vj), V = Vj - I Rs. The power falls
+  // where dP/dVj = I + (Vj - 2 I Rs) F'(Vj) does not, which has the sign of dP/dV.
+  const double rs = p[device.resistance_series];
   const auto power_slope = [&](double v) {
-    const OperatingPoint point = SolveOperatingPoint(device, p, v);
-    return point.current_A + v * point.conductance_S * ImplicitFactor(device, p, point);
+    const Dual<1> current = JunctionCurrent(device, p, Dual<1>(v, 0));
+    return current.a + (v - 2 * current.a * rs) * current.v[0];
   };
+  // Short circuit.
+  const double lowest = points.short_circuit_current_A * rs;
+  const double junction_V = RootBetween(power_slope, lowest, voc);
   points.open_circuit_voltage_V = voc;
-  points.max_power_voltage_V = Bisect(power_slope, 0, voc);
-  points.max_power_current_A = SolveOperatingPoint(device, p, points.max_power_voltage_V).current_A;
+  points.max_power_current_A = JunctionCurrent(device, p, junction_V);
+  points.max_power_voltage_V = junction_V - points.max_power_current_A * rs;
   points.max_power_W = points.max_power_voltage_V * points.max_power_current_A;
   points.fill_factor = points.max_power_W / (points.short_circuit_current_A * voc);
   return points;

@@ -10,4 +10,7 @@ namespace lyrefit {
 // device gives no power (a dark curve).
 KeyPoints ModelKeyPoints(const Device& device, const double* p);
 
+// Voc alone, which is cheaper.
+double ModelOpenCircuit(const Device& device, const double* p);
+
 }  // namespace lyrefit

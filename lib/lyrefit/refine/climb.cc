@@ -17,7 +17,7 @@ struct Surroundings {
   Eigen::MatrixXd curvature;
 };
 
-Surroundings LookAround(const Function& value, const std::vector<double>& at) {
+Surroundings LookAround(const Function& value, const std::vector<double>& at, double value_there) {
   constexpr double kStep = 0.05;
   const int size = static_cast<int>(at.size());
   const auto beside = [&](int i, double a, int j, double b) {
@@ -27,7 +27,7 @@ Surroundings LookAround(const Function& value, const std::vector<double>& at) {
     return value(there);
   };
   Surroundings found;
-  found.value = value(at);
+  found.value = value_there;
   found.slope.resize(size);
   found.curvature.resize(size, size);
   std::vector<double> up(size);
@@ -48,15 +48,16 @@ Surroundings LookAround(const Function& value, const std::vector<double>& at) {
 }  // namespace
 
 Eigen::MatrixXd CurvatureAt(const Function& value, const std::vector<double>& at) {
-  return LookAround(value, at).curvature;
+  return LookAround(value, at, value(at)).curvature;
 }
 
 std::vector<double> Climb(const Function& value, std::vector<double> at, int most_steps) {
   constexpr double kLongest = 2;     // of a step, in any one of them
   constexpr double kSettled = 3e-3;  // the same
   const auto size = static_cast<Eigen::Index>(at.size());
+  double value_there = value(at);
   for (int step = 0; step < most_steps; ++step) {
-    const Surroundings here = LookAround(value, at);
+    const Surroundings here = LookAround(value, at, value_there);
     bool moved = false;
     double length = 0;
     for (double damping = 0; damping < 1e6 && !moved; damping = std::max(4 * damping, 0.1)) {
@@ -68,7 +69,8 @@ std::vector<double> Climb(const Function& value, std::vector<double> at, int mos
       if (length > kLongest) way *= kLongest / length;
       std::vector<double> there = at;
       for (Eigen::Index i = 0; i < size; ++i) there[i] += way[i];
-      moved = value(there) >= here.value;
+      value_there = value(there);
+      moved = value_there >= here.value;
       if (moved) at = std::move(there);
     }
     if (!moved || length < kSettled) break;

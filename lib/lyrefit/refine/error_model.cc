@@ -17,32 +17,36 @@ double OwnVariance(const ErrorModel& errors, int k) {
 
 double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
   const bool has_path = !errors.path.empty();
-  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(rows.cols());  // of the path, as foretold
-  double variance = 1, logs = 0;                                     // of the state
+  const Eigen::Index columns = rows.cols();
+  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // of the path, as foretold
+  double variance = 1, logs = 0;                                 // of the state
   int before = -1;
   for (int k = 0; k < errors.size(); ++k) {
     if (!used.empty() && used[k] == 0) {
       rows.row(k).setZero();
       continue;
     }
-    if (has_path) {
-      const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
-      const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
-      state *= kept;
-      variance = kept * kept * variance + (1 - kept * kept);
-    }
-    const double path = has_path ? errors.path[k] : 0.0;
     const double own = OwnVariance(errors, k);
-    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
-    logs += std::log(total);
     if (!has_path) {
-      rows.row(k) *= scale;
+      logs += std::log(own);
+      rows.row(k) *= 1 / std::sqrt(own);
       continue;
     }
-    rows.row(k) -= path * state;
-    state += (path * variance / total) * rows.row(k);
+    const double path = errors.path[k];
+    const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
+    const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
+    variance = kept * kept * variance + (1 - kept * kept);
+    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
+    const double learnt = path * variance / total;
+    logs += std::log(total);
+    double* const row = rows.data() + k * rows.outerStride();
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const double foretold = kept * state[c];
+      const double news = row[c] - path * foretold;
+      state[c] = foretold + learnt * news;
+      row[c] = news * scale;
+    }
     variance *= own / total;
-    rows.row(k) *= scale;
     before = k;
   }
   return logs;

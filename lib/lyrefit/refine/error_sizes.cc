@@ -131,6 +131,8 @@ bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
   ErrorModel errors;
+  errors.white.reserve(shape.current.size());
+  if (sizes.path > 0) errors.path.reserve(shape.current.size());
   for (std::size_t k = 0; k < shape.current.size(); ++k) {
     const double current =
         shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];

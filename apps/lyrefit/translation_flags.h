@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "flags.h"
+#include "lyrefit/translate/translate.h"
+
+namespace lyrefit {
+
+// What a translation and its field test are told of a device and its measurement; `whose` ends the sentence
+// about the file of coefficients.
+inline void AddTranslationFlags(VerbLine* verb, const std::string& whose,
+                                std::string* coefficients_file, std::string* module_file,
+                                TranslateOptions* options) {
+  verb->AddOption("--coefficients", coefficients_file,
+                  "JSON with alpha_sc_A_K, beta_oc_V_K, ..." + whose + "; flags go before it")
+      .Type("FILE")
+      .Reads()
+      .Group("Coefficients");
+  verb->AddOption("--module", module_file, kModuleHelp).Type("FILE").Reads().Group("Field test");
+  AddTableFlags(verb, kCoefficientTable, &options->coefficients);
+  AddTableFlags(verb, kFieldTestOptionTable, &options->field_test);
+  AddTableFlags(verb, kUncertaintyOptionTable, &options->uncertainty);
+  AddTableFlags(verb, kChecklistOptionTable, &options->checklist);
+  AddTableFlags(verb, kFieldNotesTable, &options->notes);
+}
+
+}  // namespace lyrefit

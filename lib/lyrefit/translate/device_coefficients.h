@@ -1,0 +1,109 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/translate/procedures.h"
+
+namespace lyrefit {
+
+// What a data sheet or a laboratory says of a device's coefficients. Of alpha and beta either form;
+// relative ones are of Isc and Voc at standard conditions.
+struct StatedCoefficients {
+  std::optional<double> alpha_A_K;
+  std::optional<double> alpha_percent_K;
+  std::optional<double> beta_V_K;
+  std::optional<double> beta_percent_K;
+  std::optional<double> kappa_ohm_K;
+  std::optional<double> resistance_series_ohm;
+  std::optional<double> b1;
+  std::optional<double> b2;
+  std::optional<double> epsilon_V;
+  std::optional<double> EgRef_eV;
+  std::optional<double> dEgdT_1_K;
+  std::optional<double> mu_gamma_1_K;
+};
+
+// "-0.3%" is in percent per kelvin, "-0.12" in the unit per kelvin.
+Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients);
+Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients);
+std::vector<std::string> AlphaTexts(const StatedCoefficients& coefficients);
+std::vector<std::string> BetaTexts(const StatedCoefficients& coefficients);
+
+inline constexpr OptionRow<StatedCoefficients> kCoefficientTable[] = {
+    OptionRow<StatedCoefficients>("Coefficients"),
+    {"alpha", "A/K|%", "temperature coefficient of Isc in A/K, or in percent: 0.05%",
+     OptionText<StatedCoefficients>{ReadAlpha, AlphaTexts}, OptionTrait::kNoDefault},
+    {"beta", "V/K|%", "temperature coefficient of Voc in V/K, or in percent: -0.3%",
+     OptionText<StatedCoefficients>{ReadBeta, BetaTexts}, OptionTrait::kNoDefault},
+    {"kappa", "ohm/K", "curve correction factor of procedures 1 and 2",
+     &StatedCoefficients::kappa_ohm_K, OptionTrait::kUnchecked},
+    {"rs", "OHM", "internal series resistance of procedures 1, 2 and 4",
+     &StatedCoefficients::resistance_series_ohm, OptionTrait::kUnchecked},
+    {"b1", "", "procedure 2: Voc(STC) / Voc(G) = 1 + B1 ln(1000 / G) + B2 ln(1000 / G)^2",
+     &StatedCoefficients::b1, OptionTrait::kUnchecked},
+    {"b2", "", "see --b1", &StatedCoefficients::b2, OptionTrait::kUnchecked},
+    {"epsilon", "V", "procedure 4: n Eg / q of one cell, 1.232 for crystalline silicon",
+     &StatedCoefficients::epsilon_V, OptionTrait::kUnchecked},
+    {"bandgap", "eV", "band gap at 25 C; without it De Soto's has Voc move by beta",
+     &StatedCoefficients::EgRef_eV, OptionTrait::kUnchecked},
+    {"bandgap-slope", "1/K", "its relative slope with temperature", &StatedCoefficients::dEgdT_1_K,
+     OptionTrait::kUnchecked},
+    {"mu-gamma", "1/K", "PVsyst's slope of the ideality; without it Voc moves by beta",
+     &StatedCoefficients::mu_gamma_1_K, OptionTrait::kUnchecked},
+};
+
+// From JSON: {"alpha_sc_A_K" or "alpha_sc_percent_K", "beta_oc_V_K" or "beta_oc_percent_K",
+// "kappa_ohm_K", "resistance_series_ohm", "B1", "B2", "epsilon_V",
+// "EgRef_eV", "dEgdT_1_K", "mu_gamma_1_K"}, also under "coefficients"; sidecars' alpha_Isc_A_per_K
+// and beta_Voc_V_per_K are understood. What is there already stays. Errors: no JSON object, a value
+// that is no number, no coefficient at all.
+Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coefficients);
+
+// What is usual of a technology, at standard conditions, with what modules of that kind scatter by
+// (standard deviations).
+struct TechnologyCoefficients {
+  const char* name;  // "c-Si"
+  double alpha_percent_K;
+  double alpha_scatter;
+  double beta_percent_K;
+  double beta_scatter;
+  double gamma_percent_K;  // of Pmax
+  double EgRef_eV;
+  double dEgdT_1_K;
+  bool crystalline_silicon;  // procedure 4
+};
+
+// By what people write: "mono-Si", "Multi-c-Si", "PERC", "TOPCon", "HJT", "HIT-Si", "CdTe", "CIGS",
+// "a-Si", "perovskite"; nullptr for what is not known. Empty: crystalline silicon.
+const TechnologyCoefficients* FindTechnology(const std::string& text);
+
+// Values of all inputs of a translation, and how they came to be.
+struct SettledInputs {
+  TranslationInputs values;
+  std::vector<std::string> assumptions;  // sentences on what nobody stated
+  // Relative standard deviations of what was assumed; none: stated, or not used.
+  std::optional<double> alpha_scatter;
+  std::optional<double> beta_scatter;
+  std::string usual_of;              // the technology that assumed values are of
+  double usual_gamma_percent_K = 0;  // its temperature coefficient of Pmax, for who was told none
+  bool bandgap_stated = false;       // else De Soto's law has one with which Voc moves by beta
+  bool mu_gamma_stated = false;      // the same of PVsyst's
+  bool crystalline_silicon = true;
+};
+
+// What is stated, completed: alpha, beta and the band gap by technology, kappa, Rs, B1 and B2 by the
+// fit and the shape of the curve:
+//   kappa = (Voc - Vmp - Rs Imp) / (T1 Imp)   so that the voltage at the maximum power moves as that
+//                                             of a junction does, in proportion to its distance
+//                                             from the barrier
+//   B1 = Ns n k 298 K / (q Voc_stc), B2 = B1^2   of a diode in the light
+// `values` comes with what is known of the curve: light, temperature, gains, leads.
+SettledInputs SettleInputs(const StatedCoefficients& stated, const std::string& technology,
+                           const PreparedCurve& curve, TranslationInputs values);
+
+}  // namespace lyrefit

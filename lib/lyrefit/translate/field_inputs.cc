@@ -1,0 +1,205 @@
+#include "lyrefit/translate/field_inputs.h"
+
+#include <glog/logging.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace lyrefit {
+namespace {
+
+constexpr double kFactor = 2;  // of all sizes among the options
+
+const char* LightTitle(LightSource source) {
+  switch (source) {
+    case LightSource::kReferenceCell:
+      return "irradiance, by a reference cell";
+    case LightSource::kPyranometer:
+      return "irradiance, by a pyranometer";
+    case LightSource::kLaboratory:
+      return "irradiance, in a laboratory";
+    case LightSource::kCurve:
+      return "irradiance, from the curve's own Isc";
+    case LightSource::kNotStated:
+      break;
+  }
+  return "irradiance, sensor not stated";
+}
+
+std::string LightWhy(const UncertaintyOptions& options) {
+  if (options.irradiance_percent) return "stated";
+  switch (options.light_source) {
+    case LightSource::kReferenceCell:
+      return "reference cell that just meets IEC 61829:2015, 3 %";
+    case LightSource::kPyranometer:
+      return "pyranometer that just meets IEC 61829:2015, 5 %";
+    case LightSource::kLaboratory:
+      return "calibrated reference in a laboratory, 1.2 %";
+    case LightSource::kCurve:
+      return "usual tolerance of the rated Isc, 3 %; without soiling";
+    case LightSource::kNotStated:
+      break;
+  }
+  return "nobody said what it was read from: as of a pyranometer, 5 %";
+}
+
+// A stated size, or that of the class.
+std::string Why(bool stated, const std::string& otherwise) {
+  return stated ? std::string("stated") : otherwise;
+}
+
+const TranslationInput& QuantityOf(const std::string& name) {
+  for (const TranslationInput& each : kTranslationInputs) {
+    if (name == each.name) return each;
+  }
+  LOG(FATAL) << "no input of a translation is called " << name;
+}
+
+class Collector {
+ public:
+  explicit Collector(const TranslationInputs& at) : at_(at) {}
+
+  // `expanded` in the unit of the quantity.
+  void Add(const char* quantity, const std::string& title, const char* group, double expanded,
+           std::string source, const char* name = nullptr) {
+    if (!(expanded > 0)) return;
+    const TranslationInput& of = QuantityOf(quantity);
+    UncertainInput input;
+    input.name = name != nullptr ? name : quantity;
+    input.title = title.empty() ? of.title : title;
+    input.group = group;
+    input.unit = of.unit;
+    input.quantity = quantity;
+    input.value = name != nullptr ? 0 : at_.*of.field;
+    input.standard_uncertainty = expanded / kFactor;
+    input.source = std::move(source);
+    inputs.push_back(std::move(input));
+  }
+
+  // In per cent of the value.
+  void AddPart(const char* quantity, const char* group, double percent, std::string source) {
+    const double value = at_.*QuantityOf(quantity).field;
+    Add(quantity, "", group, std::fabs(value) * percent / 100, std::move(source));
+  }
+
+  std::vector<UncertainInput> inputs;
+
+ private:
+  const TranslationInputs& at_;
+};
+
+void AddSky(const TranslationInputs& at, const UncertaintyOptions& options, Collector* to) {
+  to->Add("irradiance_W_m2", LightTitle(options.light_source), "light",
+          at.irradiance_W_m2 * IrradianceSize_percent(options) / 100, LightWhy(options));
+  to->AddPart("rear_irradiance_W_m2", "light", options.rear_percent, "by judgement");
+  if (at.rear_irradiance_W_m2 != 0) {
+    to->AddPart("bifaciality_isc", "light", options.bifaciality_percent,
+                "spread of data sheets, IEC TS 60904-1-2");
+  }
+  to->Add("temperature_C", "temperature, sensor", "temperature", TemperatureSize_K(options),
+          Why(options.temperature_K.has_value(),
+              options.temperature_source == TemperatureSource::kVoc
+                  ? "IEC 60904-5 with the rated Voc within 1 %"
+              : options.temperature_source == TemperatureSource::kLaboratory
+                  ? "laboratory, in equilibrium"
+                  : "sensor that just meets IEC 61829:2015, 1 K"));
+  to->Add("temperature_C", "temperature, cells above the sensor", "temperature",
+          CellOffsetSize_K(options, at.irradiance_W_m2),
+          Why(options.cell_offset_K.has_value(),
+              "2 to 3 K at 1000 W/m2 (SAND2004-3535), not corrected for"),
+          "cell_offset_K");
+}
+
+void AddInstrument(const UncertaintyOptions& options, Collector* to) {
+  const bool field = options.instrument == InstrumentClass::kField;
+  const double usual = field ? 1 : 0.2;
+  const std::string why =
+      field ? "instrument that just meets IEC 61829:2015, 1 %" : "laboratory instrument, 0.2 %";
+  to->Add("voltage_gain", "", "electrical", options.voltage_percent.value_or(usual) / 100,
+          Why(options.voltage_percent.has_value(), why));
+  to->Add("current_gain", "", "electrical", options.current_percent.value_or(usual) / 100,
+          Why(options.current_percent.has_value(), why));
+  to->AddPart("lead_resistance_ohm", "electrical", options.lead_percent, "of what is stated");
+}
+
+// Stated, else as its technology scatters, else usual.
+void AddTempco(const char* quantity, std::optional<double> stated_percent,
+               std::optional<double> scatter, double usual_percent, Collector* to) {
+  const double assumed = scatter ? kFactor * 100 * *scatter : usual_percent;
+  to->AddPart(quantity, "coefficients", stated_percent.value_or(assumed),
+              stated_percent ? "stated"
+              : scatter      ? "assumed of the technology, whose modules scatter by as much"
+                             : "data sheets beside measurements, by judgement");
+}
+
+void AddCoefficients(const SettledInputs& settled, const UncertaintyOptions& options,
+                     Collector* to) {
+  AddTempco("alpha_sc_A_K", options.alpha_percent, settled.alpha_scatter, 20, to);
+  AddTempco("beta_oc_V_K", options.beta_percent, settled.beta_scatter, 5, to);
+  to->AddPart("kappa_ohm_K", "coefficients", options.kappa_percent, "by judgement");
+  to->AddPart("resistance_series_ohm", "coefficients", options.series_resistance_percent,
+              "by judgement");
+  to->AddPart("b1", "coefficients", options.light_of_voc_percent, "by judgement");
+  to->AddPart("b2", "coefficients", options.light_of_voc_percent, "by judgement");
+  to->AddPart("epsilon_V", "coefficients", options.bandgap_percent, "by judgement");
+  to->AddPart("EgRef_eV", "coefficients", options.bandgap_percent, "by judgement");
+  to->AddPart("dEgdT_1_K", "coefficients", options.bandgap_slope_percent, "by judgement");
+  to->Add("mu_gamma_1_K", "", "coefficients", options.ideality_slope_percent_per_K / 100,
+          "by judgement");
+}
+
+}  // namespace
+
+double IrradianceSize_percent(const UncertaintyOptions& options) {
+  if (options.irradiance_percent) return *options.irradiance_percent;
+  switch (options.light_source) {
+    case LightSource::kReferenceCell:
+      return 3;
+    case LightSource::kLaboratory:
+      return 1.2;
+    case LightSource::kCurve:
+      return 3;
+    case LightSource::kPyranometer:
+    case LightSource::kNotStated:
+      break;
+  }
+  return 5;
+}
+
+double TemperatureSize_K(const UncertaintyOptions& options) {
+  if (options.temperature_K) return *options.temperature_K;
+  if (options.temperature_source == TemperatureSource::kVoc) return 2;
+  return options.temperature_source == TemperatureSource::kLaboratory ? 0.5 : 1;
+}
+
+double CellOffsetSize_K(const UncertaintyOptions& options, double irradiance_W_m2) {
+  if (options.cell_offset_K) return *options.cell_offset_K;
+  const bool sensed = options.temperature_source == TemperatureSource::kNotStated ||
+                      options.temperature_source == TemperatureSource::kBackOfModule;
+  return sensed ? 2.5 * irradiance_W_m2 / 1000 : 0;
+}
+
+std::vector<UncertainInput> FieldInputs(const SettledInputs& settled,
+                                        const UncertaintyOptions& options) {
+  Collector collector(settled.values);
+  AddSky(settled.values, options, &collector);
+  AddInstrument(options, &collector);
+  AddCoefficients(settled, options, &collector);
+  return std::move(collector.inputs);
+}
+
+InputFields FieldsOf(const std::vector<UncertainInput>& inputs) {
+  InputFields fields;
+  for (const UncertainInput& input : inputs) fields.push_back(QuantityOf(input.quantity).field);
+  return fields;
+}
+
+TranslationInputs WithInputs(const TranslationInputs& at, const std::vector<UncertainInput>& inputs,
+                             const InputFields& fields, const std::vector<double>& drawn) {
+  TranslationInputs moved = at;
+  for (std::size_t i = 0; i < fields.size(); ++i) moved.*fields[i] += drawn[i] - inputs[i].value;
+  return moved;
+}
+
+}  // namespace lyrefit

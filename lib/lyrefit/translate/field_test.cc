@@ -1,0 +1,222 @@
+#include "lyrefit/translate/field_test.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/translate/field_inputs.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kExpanded = 2;  // of all sizes among the options
+constexpr double kStandardIrradiance_W_m2 = 1000;
+constexpr double kStandardTemperature_C = 25;
+
+Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOptions& options) {
+  TRY(ValidateOptions(options, kFieldTestOptionTable));
+  if (!options.rated_W) return Fail("no rating to test against: state --rated-W");
+  if (!(*options.rated_W > 0)) {
+    return Fail("expected a rated power above 0 W, found " + NumberText(*options.rated_W));
+  }
+  if (!(standard.value > 0) || !std::isfinite(standard.standard_uncertainty)) {
+    return Fail("no Pmax at standard conditions with an uncertainty: nothing to test");
+  }
+  return {};
+}
+
+double Modules(const FieldTestOptions& options) {
+  return static_cast<double>(options.modules) * options.strings;
+}
+
+// What is left behind the cables: their loss is I^2 R of V I, and so in proportion to the current.
+double BehindCables(const FieldTestOptions& options, double irradiance_W_m2) {
+  return 1 - options.cabling_percent / 100 * irradiance_W_m2 / kStandardIrradiance_W_m2;
+}
+
+// The rating with a tolerance, of the whole string.
+double WithTolerance(const FieldTestOptions& options, double tolerance) {
+  const double module = options.tolerance.in_W ? *options.rated_W + tolerance
+                                               : *options.rated_W * (1 + tolerance / 100);
+  return Modules(options) * module * BehindCables(options, kStandardIrradiance_W_m2);
+}
+
+// The rating is uncertain itself: the limit has that uncertainty, and the test that of the
+// difference. Draws are spread by as much (a normal one more), in proportion.
+UncertainOutput WithRating(UncertainOutput standard, double percent, double limit_W) {
+  if (percent == 0) return standard;
+  const double rating = percent / 100 / kExpanded * limit_W;
+  const double before = standard.standard_uncertainty;
+  const double after = std::hypot(before, rating);
+  const double wider = before > 0 ? after / before : 0;
+  standard.standard_uncertainty = after;
+  standard.expanded_uncertainty =
+      before > 0 ? standard.expanded_uncertainty * wider : kExpanded * after;
+  if (before == 0) standard.samples.clear();
+  for (double& sample : standard.samples) {
+    sample = standard.value + (sample - standard.value) * wider;
+  }
+  standard.drawn.low = standard.value + (standard.drawn.low - standard.value) * wider;
+  standard.drawn.high = standard.value + (standard.drawn.high - standard.value) * wider;
+  return standard;
+}
+
+// Pmax as the instrument would read it without errors: gains, offsets, leads.
+double TruePower(const KeyPoints& key, const TranslationInputs& in) {
+  const double current = in.current_gain * key.max_power_current_A + in.current_offset_A;
+  const double voltage = in.voltage_gain * key.max_power_voltage_V + in.voltage_offset_V +
+                         in.lead_resistance_ohm * current;
+  return voltage * current;
+}
+
+// Rating brought to the conditions by its own temperature coefficient.
+double Predicted(const FieldTestOptions& options, const TranslationInputs& in, double rated_W,
+                 double coefficient_percent_K) {
+  const double irradiance = EquivalentIrradiance(in);
+  const double warmer = in.temperature_C - kStandardTemperature_C;
+  return Modules(options) * rated_W * irradiance / kStandardIrradiance_W_m2 *
+         (1 + coefficient_percent_K / 100 * warmer) * BehindCables(options, irradiance);
+}
+
+UncertainInput Promise(const char* name, const char* title, const char* unit, double value,
+                       double percent, const char* source) {
+  UncertainInput input;
+  input.name = name;
+  input.title = title;
+  input.group = "rating";
+  input.unit = unit;
+  input.value = value;
+  input.standard_uncertainty = std::fabs(value) * percent / 100 / kExpanded;
+  input.source = source;
+  return input;
+}
+
+// A model's prediction moves with light and temperature as the rating does, about its own value.
+UncertainModel PerformanceModel(const FieldMeasurement& measurement,
+                                const FieldTestOptions& options,
+                                const std::vector<UncertainInput>& inputs) {
+  const double coefficient = options.power_coefficient_percent_K.value_or(0);
+  const double at_inputs = Predicted(options, measurement.inputs, *options.rated_W, coefficient);
+  const double scale = measurement.predicted_W ? *measurement.predicted_W / at_inputs : 1;
+  UncertainModel model;
+  model.outputs = {{"performance_factor", "performance factor", ""}};
+  const std::size_t own = inputs.size() - 2;
+  const InputFields fields = FieldsOf({inputs.begin(), inputs.begin() + own});
+  model.evaluate = [&measurement, &options, inputs, scale, own,
+                    fields](const std::vector<double>& drawn) {
+    const TranslationInputs in = WithInputs(measurement.inputs, inputs, fields, drawn);
+    return std::vector<double>{TruePower(measurement.measured, in) /
+                               (scale * Predicted(options, in, drawn[own], drawn[own + 1]))};
+  };
+  return model;
+}
+
+// Of the inputs of a translation those that light, temperature and instrument have.
+std::vector<UncertainInput> SensorInputs(const FieldMeasurement& measurement,
+                                         const FieldTestOptions& options,
+                                         const UncertaintyOptions& uncertainty) {
+  SettledInputs settled;
+  settled.values = measurement.inputs;
+  std::vector<UncertainInput> inputs = FieldInputs(settled, uncertainty);
+  inputs.erase(
+      std::remove_if(inputs.begin(), inputs.end(),
+                     [](const UncertainInput& each) { return each.group == "coefficients"; }),
+      inputs.end());
+  inputs.push_back(
+      Promise("rated", "rated power", "W", *options.rated_W, options.rated_percent, "stated"));
+  inputs.push_back(Promise("gamma", "gamma (Pmax)", "%/K",
+                           options.power_coefficient_percent_K.value_or(0),
+                           options.power_coefficient_percent, "data sheet, by judgement"));
+  return inputs;
+}
+
+Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTestOptions& options,
+                              const UncertaintyOptions& uncertainty, FieldTest* test) {
+  test->measured_W = TruePower(measurement.measured, measurement.inputs);
+  const double coefficient = options.power_coefficient_percent_K.value_or(0);
+  test->predicted_W = measurement.predicted_W.value_or(
+      Predicted(options, measurement.inputs, *options.rated_W, coefficient));
+  test->predicted_by = measurement.predicted_W
+                           ? measurement.predicted_by
+                           : "the rating, in proportion to the light and by gamma";
+  if (!measurement.predicted_W && !options.power_coefficient_percent_K) {
+    test->predicted_by = "the rating, in proportion to the light";
+    test->notes.push_back(
+        fmt::format("no temperature coefficient of the power was stated (--gamma): the performance "
+                    "factor at {:.1f} C holds the effect of the temperature as well",
+                    measurement.inputs.temperature_C));
+  }
+  const std::vector<UncertainInput> inputs = SensorInputs(measurement, options, uncertainty);
+  TRY(test->performance_budget,
+      Propagate(PerformanceModel(measurement, options, inputs), {inputs}, uncertainty));
+  const UncertainOutput& factor = test->performance_budget.outputs[0];
+  test->performance_factor = factor.value;
+  test->performance_low = factor.low();
+  test->performance_high = factor.high();
+  return {};
+}
+
+std::string ZoneSentence(const FieldTest& test) {
+  const std::string least = fmt::format("{:.1f} W, the least that the rating of {:.1f} W allows",
+                                        test.lowest_W, test.rated_W);
+  const std::string have = fmt::format("{:.1f} W at standard conditions ({:.1f} .. {:.1f} W)",
+                                       test.standard_W, test.standard_low_W, test.standard_high_W);
+  const std::string wrong = test.probability_wrong < test.probability_step
+                                ? fmt::format("less than {:.2g} %", 100 * test.probability_step)
+                                : fmt::format("{:.2g} %", 100 * test.probability_wrong);
+  const char* relation = IsPass(test.zone) ? "reaches" : "misses";
+  return fmt::format("{}: {} {} {}; the probability that this is wrong is {}", ToText(test.zone),
+                     have, relation, least, wrong);
+}
+
+void AddNotes(const UncertaintyOptions& uncertainty, FieldTest* test) {
+  if (test->standard_low_W > test->highest_W) {
+    test->notes.push_back(fmt::format(
+        "all of the interval lies above the rating with its upper tolerance, {:.1f} W: the light "
+        "was brighter than its sensor said, or the rating is that of another module",
+        test->highest_W));
+  }
+  if (uncertainty.light_source == LightSource::kCurve) {
+    test->notes.push_back(
+        "the light was taken from the curve itself: whatever dims all cells alike, like uniform "
+        "soiling, cannot be seen in this power; a clean sensor beside the modules would show it");
+  }
+}
+
+}  // namespace
+
+Zone ZoneOf(double value, double low, double high, double limit) {
+  if (value >= limit) return low >= limit ? Zone::kPass : Zone::kPassWithin;
+  return high >= limit ? Zone::kFailWithin : Zone::kFail;
+}
+
+Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
+                                   const FieldMeasurement& measurement,
+                                   const FieldTestOptions& options,
+                                   const UncertaintyOptions& uncertainty) {
+  TRY(CheckFieldTest(standard, options));
+  FieldTest test;
+  test.tolerance = ToleranceText(options.tolerance) + (options.tolerance.in_W ? "" : " %");
+  test.rated_W = WithTolerance(options, 0);
+  test.lowest_W = WithTolerance(options, options.tolerance.low);
+  test.highest_W = WithTolerance(options, options.tolerance.high);
+  const UncertainOutput compared = WithRating(standard, options.rated_percent, test.lowest_W);
+  test.standard_W = standard.value;
+  test.standard_low_W = standard.low();
+  test.standard_high_W = standard.high();
+  test.zone = ZoneOf(compared.value, compared.low(), compared.high(), test.lowest_W);
+  const double below = compared.ProbabilityBelow(test.lowest_W);
+  test.probability_wrong = IsPass(test.zone) ? below : 1 - below;
+  if (!compared.samples.empty()) {
+    test.probability_step = 1 / static_cast<double>(compared.samples.size());
+  }
+  TRY(AddPerformance(measurement, options, uncertainty, &test));
+  test.sentence = ZoneSentence(test);
+  AddNotes(uncertainty, &test);
+  return test;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+
+namespace lyrefit {
+
+// How far the power of a module may be from its rating, as data sheets print it: "-0,+5" in per
+// cent, "-0W,+5W" in watt.
+struct PowerTolerance {
+  double low = -3;  // below the rating: 0 or negative
+  double high = 3;
+  bool in_W = false;
+};
+Expected<PowerTolerance> ReadTolerance(const std::string& text);
+std::string ToleranceText(const PowerTolerance& tolerance);
+
+// What was promised, and what is known of the string.
+struct FieldTestOptions {
+  std::optional<double> rated_W;
+  PowerTolerance tolerance;
+  double rated_percent = 0;
+  std::optional<double> power_coefficient_percent_K;
+  double power_coefficient_percent = 5;
+  int modules = 1;
+  int strings = 1;
+  double cabling_percent = 0;
+};
+
+inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
+    OptionRow<FieldTestOptions>("Field test"),
+    {"rated-W", "W", "rated Pmax of one module at 1000 W/m2 and 25 C", &FieldTestOptions::rated_W},
+    {"tolerance", "-L,+H", "of the rating, in % or as -0W,+5W",
+     OptionText<FieldTestOptions>{
+         [](const std::string& text, FieldTestOptions* options) -> Expected<void> {
+           const Expected<PowerTolerance> tolerance = ReadTolerance(text);
+           if (!tolerance) return tl::unexpected<Error>(tolerance.error());
+           options->tolerance = *tolerance;
+           return {};
+         },
+         [](const FieldTestOptions& options) -> std::vector<std::string> {
+           return {ToleranceText(options.tolerance)};
+         },
+         nullptr, false}},
+    {"rated-u", "%", "expanded uncertainty (k = 2) of the rating itself; 0: it is a promise",
+     &FieldTestOptions::rated_percent, 0, 50},
+    {"gamma", "%/K", "temperature coefficient of Pmax",
+     &FieldTestOptions::power_coefficient_percent_K},
+    {"gamma-u", "%", "its expanded uncertainty (k = 2), of itself",
+     &FieldTestOptions::power_coefficient_percent, 0, 1000},
+    {"modules", "N", "modules in series in the string", &FieldTestOptions::modules, 1, 1000},
+    {"strings", "N", "strings in parallel", &FieldTestOptions::strings, 1, 1000},
+    {"cabling-loss", "%", "of the power in the cables, at 1000 W/m2",
+     &FieldTestOptions::cabling_percent, 0, 50},
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,262 @@
+#include "lyrefit/translate/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/translate/complete_curve.h"
+#include "lyrefit/translate/extended_model.h"
+#include "lyrefit/translate/model_procedures.h"
+
+namespace lyrefit {
+namespace {
+
+bool Wanted(const TranslateOptions& options, Procedure procedure) {
+  return options.procedures.empty() ||
+         std::find(options.procedures.begin(), options.procedures.end(), procedure) !=
+             options.procedures.end();
+}
+
+CurvePoints PointsOf(const IvCurve& curve) { return ByVoltage({curve.voltage_V, curve.current_A}); }
+
+std::optional<SingleDiodeFit> DiodeOf(const Expected<FitReport>& fit, std::string* why_not) {
+  if (!fit) {
+    *why_not = fit.error().message;
+    return std::nullopt;
+  }
+  if (!fit->usable) *why_not = fit->not_usable_because;
+  const std::vector<double>& p = fit->refined;
+  const SingleDiodeFit diode = {p[kIph], p[SaturationCurrentIndex(0)], fit->nNsVth, p[kRs],
+                                p[kRsh]};
+  const bool finite = diode.photocurrent_A > 0 && diode.saturation_current_A > 0 &&
+                      std::isfinite(diode.nNsVth_V + diode.resistance_series_ohm);
+  if (!finite) {
+    if (why_not->empty()) *why_not = "the fit has no finite parameters";
+    return std::nullopt;
+  }
+  return diode;
+}
+
+// Standard deviation of a reading's current, from second differences of what the fit leaves, which
+// smooth misfit hardly reaches: those of white noise scatter by the square root of 6.
+double NoiseOf(const FitReport& fit) {
+  std::vector<double> second;
+  for (std::size_t i = 2; i < fit.residual_A.size(); ++i) {
+    second.push_back(
+        std::fabs(fit.residual_A[i] - 2 * fit.residual_A[i - 1] + fit.residual_A[i - 2]));
+  }
+  if (second.size() < 5) return fit.rmse.refined.solved_current_A;
+  constexpr double kOfMedian = 1.4826;
+  return kOfMedian * Median(std::move(second)) / std::sqrt(6.0);
+}
+
+Expected<void> RequireConditions(const IvCurve& curve) {
+  if (!curve.irradiance_known) {
+    return Fail("nobody stated the irradiance the curve was taken at: say --irradiance-Wm2",
+                curve.source);
+  }
+  if (!curve.temperature_known) {
+    return Fail("nobody stated the cell temperature the curve was taken at: say --temperature-C",
+                curve.source);
+  }
+  if (!(curve.conditions.irradiance_W_m2 > 0)) {
+    return Fail("a dark curve is translated by no procedure", curve.source);
+  }
+  return {};
+}
+
+// Readings that hold the point of maximum power, of a device that delivers some.
+Expected<void> RequirePower(const IvCurve& curve) {
+  const CurvePoints points = PointsOf(curve);
+  const std::size_t n = points.voltage_V.size();
+  std::size_t best = 0;
+  const auto power = [&](std::size_t i) {
+    return std::max(0.0, points.voltage_V[i]) * points.current_A[i];
+  };
+  for (std::size_t i = 1; i < n; ++i) {
+    if (power(i) > power(best)) best = i;
+  }
+  if (!(power(best) > 0)) {
+    return Fail("no reading delivers power: a dark curve is translated by no procedure",
+                curve.source);
+  }
+  const double largest_A = *std::max_element(points.current_A.begin(), points.current_A.end());
+  constexpr double kFallen = 0.5;
+  if (best + 1 == n && points.current_A[best] > kFallen * largest_A) {
+    return Fail(
+        fmt::format("the readings end at {:.4g} V, {:.3g} A, before the point of maximum power",
+                    points.voltage_V[best], points.current_A[best]),
+        curve.source);
+  }
+  return {};
+}
+
+// Coefficients and leads that no device has; mostly a unit gone wrong.
+Expected<void> RequirePlausible(const TranslateOptions& options, const Preparation& made) {
+  const CurvePoints& points = made.curve.points;
+  const double isc = *std::max_element(points.current_A.begin(), points.current_A.end());
+  const double voc = *std::max_element(points.voltage_V.begin(), points.voltage_V.end());
+  const TranslationInputs& in = made.inputs.values;
+  constexpr double kMostAlpha = 0.01, kMostBeta = 0.02;  // of Isc and Voc, 1/K
+  const double isc_there = isc * 1000 / EquivalentIrradiance(in);
+  if (std::fabs(in.alpha_sc_A_K) > kMostAlpha * isc_there) {
+    return Fail(fmt::format("alpha of {:.4g} A/K is {:.2g} % of Isc per kelvin, of no device",
+                            in.alpha_sc_A_K, 100 * in.alpha_sc_A_K / isc_there));
+  }
+  if (in.beta_oc_V_K > 0 || in.beta_oc_V_K < -kMostBeta * voc) {
+    return Fail(fmt::format("beta of {:.4g} V/K is {:+.2g} % of Voc per kelvin, of no device",
+                            in.beta_oc_V_K, 100 * in.beta_oc_V_K / voc));
+  }
+  if (options.lead_resistance_ohm * isc > 0.5 * voc) {
+    return Fail(
+        fmt::format("leads of {:g} ohm would take {:.4g} V at {:.3g} A, of {:.4g} V there are",
+                    options.lead_resistance_ohm, options.lead_resistance_ohm * isc, isc, voc));
+  }
+  return {};
+}
+
+TranslationInputs MeasuredInputs(const IvCurve& curve, const TranslateOptions& options) {
+  TranslationInputs inputs;
+  inputs.irradiance_W_m2 = curve.conditions.irradiance_W_m2;
+  inputs.rear_irradiance_W_m2 = options.rear_irradiance_W_m2;
+  inputs.bifaciality_isc = options.bifaciality_isc;
+  inputs.temperature_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
+  inputs.voltage_gain = inputs.current_gain = 1;
+  inputs.lead_resistance_ohm = options.lead_resistance_ohm;
+  return inputs;
+}
+
+Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
+  for (const IvCurve& curve : options.further) {
+    TRY(Validate(curve));
+    TRY(RequireConditions(curve));
+    std::string why_not;
+    FurtherCurve further;
+    further.points = PointsOf(curve);
+    further.irradiance_W_m2 = curve.conditions.irradiance_W_m2;
+    further.temperature_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
+    further.diode = DiodeOf(FitOneDiode(curve, options.diagnosis.threads), &why_not);
+    if (!why_not.empty()) made->warnings.push_back("a further curve: " + why_not);
+    made->curve.further.push_back(std::move(further));
+  }
+  return {};
+}
+
+// One more model for each cause that explains the readings as well as the first one, fitted in its
+// place.
+void AddRivals(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
+               Preparation* made) {
+  constexpr std::size_t kMostRivals = 4;
+  const Verdict& verdict = made->diagnosis->verdict;
+  if (verdict.causes.empty()) return;
+  const std::vector<std::string>& causes = made->diagnosis->extended.causes;
+  for (const std::string& id : verdict.causes.front().equivalents) {
+    if (made->curve.models.size() > kMostRivals) return;
+    FitOptions fit = FitOptions();
+    fit.search = FitOptions::SearchBesideShapes();
+    fit.starts = StartsFrom::kShape;
+    fit.intervals = Intervals::kNone;
+    fit.random_baseline = false;
+    fit.force_effects = true;
+    fit.threads = options.diagnosis.threads;
+    for (const std::string& cause : causes) {
+      const bool replaced = cause == verdict.causes.front().id;
+      const Effect* effect = FindEffect(replaced ? id : cause);
+      if (effect == nullptr || effect->parameters.empty()) continue;
+      fit.with.push_back({effect, {}});
+    }
+    if (fit.with.empty()) continue;
+    const auto report = Fit(curve, fit);
+    if (!report || !report->usable) continue;
+    // A rival that misses the readings by more than what was diagnosed explains less.
+    constexpr double kAsGood = 1.5;
+    const double best = made->diagnosis->extended.rmse.refined.solved_current_A;
+    if (report->rmse.refined.solved_current_A > kAsGood * best) continue;
+    FitReport named = *report;
+    named.causes.clear();
+    for (const EffectUse& use : fit.with) named.causes.push_back(use.effect->id);
+    auto model = MakeExtendedModel(curve, named, inputs);
+    if (model) made->curve.models.push_back(*model);
+  }
+}
+
+Expected<void> AddModels(const IvCurve& curve, const TranslateOptions& options,
+                         const Observer& observer, Preparation* made) {
+  if (!Wanted(options, Procedure::kExtended)) {
+    made->why_no_model = "it was not asked for";
+    return {};
+  }
+  Expected<Diagnosis> diagnosis = Diagnose(curve, options.diagnosis, observer);
+  if (!diagnosis) {
+    made->why_no_model = diagnosis.error().message;
+    return {};
+  }
+  made->diagnosis = std::move(*diagnosis);
+  const ExtendedInputs inputs = {made->inputs.values, !made->inputs.bandgap_stated};
+  const auto model = MakeExtendedModel(curve, *made->diagnosis, inputs);
+  if (!model) {
+    made->why_no_model = model.error().message;
+    return {};
+  }
+  made->curve.models.push_back(*model);
+  AddRivals(curve, options, inputs, made);
+  return {};
+}
+
+}  // namespace
+
+Expected<FitReport> FitOneDiode(const IvCurve& curve, int threads) {
+  FitOptions options;
+  options.intervals = Intervals::kNone;
+  options.random_baseline = false;
+  options.threads = threads;
+  return Fit(curve, options);
+}
+
+Expected<Preparation> Prepare(const IvCurve& curve, const TranslateOptions& options,
+                              const Observer& observer) {
+  TRY(Validate(curve));
+  TRY(RequireConditions(curve));
+  TRY(RequirePower(curve));
+  Preparation made;
+  made.curve.points = PointsOf(curve);
+  made.curve.cells_in_series = curve.conditions.cells_in_series;
+  made.curve.key_points = options.key_points;
+  made.curve.target = options.target;
+  TRY(made.curve.desoto, LawOf(Procedure::kDeSoto, made.curve.cells_in_series));
+  TRY(made.curve.pvsyst, LawOf(Procedure::kPvsyst, made.curve.cells_in_series));
+  Expected<FitReport> fit = FitOneDiode(curve, options.diagnosis.threads);
+  made.curve.diode = DiodeOf(fit, &made.curve.why_no_model);
+  if (fit) {
+    made.curve.noise_A = NoiseOf(*fit);
+    made.fit = std::move(*fit);
+  }
+  const std::string technology =
+      options.technology.empty() ? curve.notes.technology : options.technology;
+  made.inputs =
+      SettleInputs(options.coefficients, technology, made.curve, MeasuredInputs(curve, options));
+  TRY(RequirePlausible(options, made));
+  const TranslationInputs& inputs = made.inputs.values;
+  if (made.curve.diode) {
+    const SingleDiodeFit diode = TrueDiode(*made.curve.diode, inputs);
+    if (options.lead_resistance_ohm > 0 && diode.resistance_series_ohm < 0) {
+      made.warnings.push_back("the leads are stated with more resistance than is in the curve");
+    }
+    const int cells = made.curve.cells_in_series;
+    if (!made.inputs.bandgap_stated) made.curve.bandgap = AnchorBandgap(diode, cells, inputs);
+    if (!made.inputs.mu_gamma_stated) made.curve.mu_gamma = AnchorMuGamma(diode, cells, inputs);
+  }
+  TRY(AddFurther(options, &made));
+  TRY(AddModels(curve, options, observer, &made));
+  return made;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,254 @@
+#include "lyrefit/translate/translate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/translate/extended_model.h"
+#include "lyrefit/translate/key_point_noise.h"
+#include "lyrefit/translate/prepare.h"
+#include "lyrefit/translate/recommend.h"
+#include "lyrefit/translate/translation_budget.h"
+
+namespace lyrefit {
+namespace {
+
+struct Named {
+  Procedure procedure;
+  const char* title;
+};
+constexpr Named kProcedures[] = {{Procedure::kIec1, "IEC 60891 procedure 1"},
+                                 {Procedure::kIec2, "IEC 60891 procedure 2"},
+                                 {Procedure::kIec3, "IEC 60891 procedure 3"},
+                                 {Procedure::kIec4, "IEC 60891 procedure 4"},
+                                 {Procedure::kDeSoto, "De Soto"},
+                                 {Procedure::kPvsyst, "PVsyst"},
+                                 {Procedure::kExtended, "extended model"}};
+
+bool MovesBeyondVoc(Procedure procedure) {
+  return procedure == Procedure::kIec1 || procedure == Procedure::kIec4;
+}
+
+// Down to which current the readings have to go for the target's open circuit, as positive A, and
+// how far they do.
+struct Reach {
+  double needed_A = 0;
+  double there_A = 0;
+};
+Reach ReachOf(const PreparedCurve& curve, const TranslationInputs& inputs, double isc_A) {
+  const double gain = curve.target.irradiance_W_m2 / EquivalentIrradiance(inputs);
+  const std::vector<double>& current_A = curve.points.current_A;
+  return {isc_A * (gain - 1), -*std::min_element(current_A.begin(), current_A.end())};
+}
+
+// Why the readings do not do although the equations can be worked out.
+std::string WhyNotBelieved(Procedure procedure, const Preparation& made, const KeyPoints& source,
+                           TranslatedResult* result) {
+  if (procedure == Procedure::kIec4 && !made.inputs.crystalline_silicon) {
+    return "it is for crystalline silicon";
+  }
+  if (!MovesBeyondVoc(procedure)) return "";
+  const Reach reach = ReachOf(made.curve, made.inputs.values, source.short_circuit_current_A);
+  const double missing = reach.needed_A - reach.there_A;
+  if (!(missing > 0)) return "";
+  result->extrapolated = missing / result->key_points.short_circuit_current_A;
+  if (missing < 0.9 * result->key_points.max_power_current_A) return "";
+  return fmt::format(
+      "it needs readings down to {:.3g} A, beyond open circuit; the last one is at {:.3g} A",
+      -reach.needed_A, -reach.there_A);
+}
+
+TranslatedResult Compute(const Named& named, const Preparation& made, const KeyPoints& source) {
+  TranslatedResult result;
+  result.procedure = named.procedure;
+  result.title = named.title;
+  const PreparedCurve& curve = made.curve;
+  const TranslationInputs& inputs = made.inputs.values;
+  if (named.procedure == Procedure::kExtended && curve.models.empty()) {
+    result.why_not = made.why_no_model;
+    return result;
+  }
+  const auto key = TranslatedKeyPoints(named.procedure, curve, inputs);
+  const auto points = TranslatedPoints(named.procedure, curve, inputs);
+  if (!key || !points) {
+    result.why_not = key ? points.error().message : key.error().message;
+    return result;
+  }
+  result.key_points = *key;
+  result.curve = *points;
+  result.why_not = WhyNotBelieved(named.procedure, made, source, &result);
+  return result;
+}
+
+// Budgets of all that was computed, or of the recommended one: draws are for that, the others have
+// the linear propagation alone.
+void AddBudgets(const Preparation& made, const TranslateOptions& options,
+                TranslationReport* report) {
+  TranslationDoubts doubts;
+  doubts.noise = NoiseOfCurve(made.curve, options.uncertainty.seed);
+  for (std::size_t i = 0; i < report->results.size(); ++i) {
+    TranslatedResult& result = report->results[i];
+    const bool best = static_cast<int>(i) == report->recommended;
+    if (!result.computed() || !(best || options.all_budgets)) continue;
+    UncertaintyOptions sizes = options.uncertainty;
+    if (!best) sizes.draws = 0;
+    auto budget = TranslationBudget(result.procedure, made.curve, made.inputs, doubts, sizes);
+    if (!budget) {
+      report->warnings.push_back(result.title + ": no uncertainty: " + budget.error().message);
+      continue;
+    }
+    result.budget = std::move(*budget);
+  }
+}
+
+constexpr double kAssumedGamma_percent = 25;  // k = 2, modules of a technology
+
+bool IsStandard(const TranslationTarget& target) {
+  const TranslationTarget standard;
+  return target.irradiance_W_m2 == standard.irradiance_W_m2 &&
+         target.temperature_C == standard.temperature_C;
+}
+
+Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& options,
+                            TranslationReport* report) {
+  if (!options.field_test.rated_W) return {};
+  if (!IsStandard(report->target)) {
+    report->warnings.push_back("a rating is held against Pmax at 1000 W/m2 and 25 C: say --to STC");
+    return {};
+  }
+  const TranslatedResult* best = report->Recommended();
+  if (best == nullptr || best->budget.outputs.size() <= kMaxPowerOutput) return {};
+  FieldMeasurement measurement;
+  measurement.measured = KeyPointsBy(KeyPointMethod::kInterpolated, made.curve.points);
+  measurement.inputs = made.inputs.values;
+  FieldTestOptions test = options.field_test;
+  if (!test.power_coefficient_percent_K) {
+    test.power_coefficient_percent_K = made.inputs.usual_gamma_percent_K;
+    test.power_coefficient_percent = kAssumedGamma_percent;
+    report->assumptions.push_back(fmt::format(
+        "nobody stated gamma: {:.2f} %/K +- {:g} % of it (k = 2), as {} has it",
+        *test.power_coefficient_percent_K, test.power_coefficient_percent, made.inputs.usual_of));
+  }
+  TRY(report->field_test, JudgeFieldTest(best->budget.outputs[kMaxPowerOutput], measurement, test,
+                                         options.uncertainty));
+  return {};
+}
+
+void AddDiagnosis(const Preparation& made, TranslationReport* report) {
+  if (!made.diagnosis) return;
+  report->diagnosis = made.diagnosis;
+  report->verdict = made.diagnosis->verdict.sentence;
+  for (const Cause& cause : made.diagnosis->verdict.causes) report->causes.push_back(cause.id);
+  report->interrupted = made.diagnosis->interrupted;
+  if (made.curve.models.empty()) return;
+  report->kept = made.curve.models.front()->kept;
+  report->removed = made.curve.models.front()->removed;
+}
+
+// The procedure whose Pmax is farthest from the recommended one's, where that is beyond its interval.
+void AddSpread(const TranslatedResult& best, TranslationReport* report) {
+  if (best.budget.outputs.size() <= kMaxPowerOutput) return;
+  const double power = best.key_points.max_power_W;
+  double farthest = best.budget.outputs[kMaxPowerOutput].expanded_uncertainty;
+  const TranslatedResult* other = nullptr;
+  for (const TranslatedResult& result : report->results) {
+    const double off = std::fabs(result.key_points.max_power_W - power);
+    if (!result.computed() || !(off > farthest)) continue;
+    farthest = off;
+    other = &result;
+  }
+  if (other == nullptr) return;
+  report->warnings.push_back(
+      fmt::format("{} gives {:.4g} W, {:+.0f} % off and outside the stated interval: the choice of "
+                  "the procedure "
+                  "decides, and its reason is all there is for it",
+                  other->title, other->key_points.max_power_W,
+                  100 * (other->key_points.max_power_W / power - 1)));
+}
+
+// Sizes of the procedures' own errors were measured within these.
+void AddRange(TranslationReport* report) {
+  constexpr double kDimmest_W_m2 = 150, kBrightest_W_m2 = 1250, kColdest_C = 5, kHottest_C = 70;
+  const auto within = [&](double g, double t_C) {
+    return g >= kDimmest_W_m2 && g <= kBrightest_W_m2 && t_C >= kColdest_C && t_C <= kHottest_C;
+  };
+  const double source_C = report->inputs.values.temperature_C;
+  if (within(report->equivalent_irradiance_W_m2, source_C) &&
+      within(report->target.irradiance_W_m2, report->target.temperature_C)) {
+    return;
+  }
+  report->warnings.push_back(fmt::format(
+      "from {:.0f} W/m2, {:.0f} C to {:.0f} W/m2, {:.0f} C: how wrong procedures are was measured "
+      "from {:g} to {:g} W/m2 and {:g} to {:g} C, beyond it the stated uncertainty is too small",
+      report->equivalent_irradiance_W_m2, source_C, report->target.irradiance_W_m2,
+      report->target.temperature_C, kDimmest_W_m2, kBrightest_W_m2, kColdest_C, kHottest_C));
+}
+
+void AddWarnings(const Preparation& made, TranslationReport* report) {
+  for (const std::string& warning : made.warnings) report->warnings.push_back(warning);
+  const TranslatedResult* best = report->Recommended();
+  if (best == nullptr) return;
+  AddRange(report);
+  AddSpread(*best, report);
+  constexpr double kMuch = 0.02;
+  if (best->extrapolated > kMuch) {
+    report->warnings.push_back(fmt::format(
+        "the last {:.0f} % of the current at the target lie beyond the readings: the fitted diode "
+        "stands in, and Voc is its own",
+        100 * best->extrapolated));
+  }
+  for (const std::string& warning : best->budget.warnings) report->warnings.push_back(warning);
+}
+
+}  // namespace
+
+Expected<TranslationReport> TranslateCurve(const IvCurve& curve, const TranslateOptions& options,
+                                           const Observer& observer) {
+  const Instant start = Now();
+  TRY(ValidateTranslateOptions(options));
+  TRY(const Preparation made, Prepare(curve, options, observer));
+  TranslationReport report;
+  report.version = Version();
+  report.curve = curve;
+  report.target = options.target;
+  report.method = options.key_points;
+  report.seed = options.uncertainty.seed;
+  report.uncertainty = options.uncertainty;
+  report.notes = options.notes;
+  report.inputs = made.inputs;
+  report.assumptions = SentencesOf(curve.assumptions);
+  report.assumptions.insert(report.assumptions.end(), made.inputs.assumptions.begin(),
+                            made.inputs.assumptions.end());
+  report.equivalent_irradiance_W_m2 = EquivalentIrradiance(made.inputs.values);
+  report.source =
+      KeyPointsBy(options.key_points, TruePoints(made.curve.points, made.inputs.values));
+  for (const Named& named : kProcedures) {
+    const auto& wanted = options.procedures;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), named.procedure) == wanted.end())
+      continue;
+    report.results.push_back(Compute(named, made, report.source));
+  }
+  const Recommendation best = Recommend(made, report.results);
+  report.recommended = best.result;
+  report.reason = best.reason;
+  AddDiagnosis(made, &report);
+  AddBudgets(made, options, &report);
+  TRY(AddFieldTest(made, options, &report));
+  ConditionFacts facts;
+  facts.diagnosis = made.diagnosis ? &*made.diagnosis : nullptr;
+  facts.uncertainty = options.uncertainty;
+  facts.target = options.target;
+  if (best.result >= 0) facts.procedure = report.results[best.result].procedure;
+  report.checklist = CheckConditions(curve, facts, options.checklist);
+  AddWarnings(made, &report);
+  report.non_default_options = NonDefaults(options, kTranslateOptionTable);
+  report.seconds = SecondsSince(start);
+  return report;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,92 @@
+#include "lyrefit/translate/translate_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/number_text.h"
+
+namespace lyrefit {
+
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options) {
+  constexpr double kLowest_W_m2 = 1, kHighest_W_m2 = 2000, kColdest_C = -60, kHottest_C = 150;
+  if (LowerCase(TrimBlanks(text)) == "stc") {
+    options->target = TranslationTarget();
+    return {};
+  }
+  const std::size_t comma = text.find(',');
+  const auto irradiance = ParseNumber(text.substr(0, comma));
+  const auto temperature =
+      comma == std::string::npos ? std::nullopt : ParseNumber(text.substr(comma + 1));
+  if (!irradiance || !temperature) {
+    return Fail(fmt::format(
+        "expected irradiance in W/m2 and cell temperature in C such as 1000,25, or STC, found '{}'",
+        text));
+  }
+  if (!(*irradiance >= kLowest_W_m2 && *irradiance <= kHighest_W_m2)) {
+    return Fail(fmt::format("expected an irradiance of {} to {} W/m2, found {}", kLowest_W_m2,
+                            kHighest_W_m2, *irradiance));
+  }
+  if (!(*temperature >= kColdest_C && *temperature <= kHottest_C)) {
+    return Fail(fmt::format("expected a cell temperature of {} to {} C, found {}", kColdest_C,
+                            kHottest_C, *temperature));
+  }
+  options->target = {*irradiance, *temperature};
+  return {};
+}
+
+std::vector<std::string> TargetTexts(const TranslateOptions& options) {
+  return {NumberText(options.target.irradiance_W_m2) + "," +
+          NumberText(options.target.temperature_C)};
+}
+
+Expected<void> ReadModule(const std::string& path, TranslateOptions* options) {
+  constexpr std::uintmax_t kLargestFile = 1U << 20;
+  TRY(const std::string text, ReadTextFile(path, kLargestFile));
+  TRY(const nlohmann::json module, ParseJson(text, path));
+  if (!module.is_object()) return Fail("expected a JSON object, the sheet of a module", path);
+  const JsonFields fields(module, text, path);
+  FieldTestOptions& test = options->field_test;
+  TRY(const auto rated_W, fields.Number({"rated_power_W"}));
+  TRY(const auto gamma, fields.Number({"gamma_pmp_percent_K"}));
+  TRY(const auto modules, fields.WholeNumber({"modules_in_series"}));
+  TRY(const auto technology, fields.Text("technology"));
+  if (!test.rated_W) test.rated_W = rated_W;
+  if (!test.power_coefficient_percent_K) test.power_coefficient_percent_K = gamma;
+  if (test.modules == FieldTestOptions().modules) test.modules = modules.value_or(test.modules);
+  if (options->technology.empty()) options->technology = technology.value_or("");
+  return ReadCoefficients(path, &options->coefficients);
+}
+
+Expected<void> ValidateTranslateOptions(const TranslateOptions& options) {
+  TRY(ValidateOptions(options, kTranslateOptionTable));
+  TRY(ValidateOptions(options.uncertainty, kUncertaintyOptionTable));
+  TRY(ValidateOptions(options.field_test, kFieldTestOptionTable));
+  TRY(ValidateOptions(options.checklist, kChecklistOptionTable));
+  const StatedCoefficients& c = options.coefficients;
+  for (const auto* value : {&c.alpha_A_K, &c.alpha_percent_K, &c.beta_V_K, &c.beta_percent_K,
+                            &c.kappa_ohm_K, &c.resistance_series_ohm, &c.b1, &c.b2, &c.epsilon_V,
+                            &c.EgRef_eV, &c.dEgdT_1_K, &c.mu_gamma_1_K}) {
+    if (*value && !std::isfinite(**value)) return Fail("a coefficient is not a finite number");
+  }
+  if (c.resistance_series_ohm && *c.resistance_series_ohm < 0) {
+    return Fail("the internal series resistance is negative");
+  }
+  for (const auto* value : {&c.epsilon_V, &c.EgRef_eV}) {
+    if (*value && !(**value > 0)) return Fail("a band gap must be above 0");
+  }
+  if (options.rear_irradiance_W_m2 > 0 && options.bifaciality_isc == 0) {
+    return Fail(
+        "irradiance of the back counts by the bifaciality of the module: say --bifaciality too");
+  }
+  if (c.beta_percent_K && !(std::fabs(*c.beta_percent_K) < 2)) {
+    return Fail(fmt::format("beta of {:g} %/K is of no device", *c.beta_percent_K));
+  }
+  return {};
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/translate/checklist_options.h"
+#include "lyrefit/translate/device_coefficients.h"
+#include "lyrefit/translate/field_notes.h"
+#include "lyrefit/translate/field_test_options.h"
+#include "lyrefit/translate/procedures.h"
+#include "lyrefit/translate/uncertainty_options.h"
+
+namespace lyrefit {
+
+struct TranslateOptions {
+  TranslationTarget target;           // standard conditions
+  std::vector<Procedure> procedures;  // empty: all that the data allow
+  KeyPointMethod key_points = KeyPointMethod::kInterpolated;
+  double lead_resistance_ohm = 0;
+  double rear_irradiance_W_m2 = 0;
+  double bifaciality_isc = 0;
+  std::string technology;  // empty: as the curve's notes say
+  StatedCoefficients coefficients;
+  std::vector<IvCurve> further;  // of the same device under other conditions, procedure 3
+  UncertaintyOptions uncertainty;
+  FieldTestOptions field_test;  // judged where a rating is stated
+  ChecklistOptions checklist;
+  FieldNotes notes;
+  DiagnoseOptions diagnosis;  // of the extended model; nothing is held out
+  // Whether the procedures that are not recommended have their uncertainty too (the linear one).
+  bool all_budgets = true;
+};
+
+// The echo of options that lie within.
+template <auto Member, const auto& Table>
+constexpr OptionNest<TranslateOptions> NestedOptions() {
+  return {[](const TranslateOptions& options, const TranslateOptions& defaults,
+             std::vector<OptionEcho>* echoes) {
+    AppendNonDefaults(options.*Member, defaults.*Member, Table, echoes);
+  }};
+}
+
+// "1000,25" or "STC": irradiance in W/m2 and cell temperature in C.
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options);
+std::vector<std::string> TargetTexts(const TranslateOptions& options);
+
+inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {
+    OptionRow<TranslateOptions>("Translation"),
+    {"to", "G,T", "irradiance in W/m2 and cell temperature in C, or STC",
+     OptionText<TranslateOptions>{ReadTarget, TargetTexts}},
+    {"procedures", "NAME[,NAME]",
+     "those to compute: iec1, iec2, iec3, iec4, desoto, pvsyst, extended",
+     EnumListOption<&TranslateOptions::procedures>(), OptionTrait::kNone,
+     ": all that the data allow"},
+    {"key-points", "NAME", "how Isc, Voc and Pmax are taken from readings",
+     EnumOption<&TranslateOptions::key_points>()},
+    OptionRow<TranslateOptions>("Measurement"),
+    {"lead-resistance", "OHM", "of the leads between the device and where the voltage is read",
+     &TranslateOptions::lead_resistance_ohm, 0, 1000},
+    {"rear-irradiance-Wm2", "G", "on the back of the module (IEC TS 60904-1-2)",
+     &TranslateOptions::rear_irradiance_W_m2, 0, 2000},
+    {"bifaciality", "PHI", "Isc under light from the back / from the front",
+     &TranslateOptions::bifaciality_isc, 0, 1.5},
+    {"technology", "NAME", "c-Si, PERC, TOPCon, HJT, CdTe, CIGS, a-Si or perovskite",
+     &TranslateOptions::technology},
+    {"coefficients", "", "alpha, beta, ...",
+     NestedOptions<&TranslateOptions::coefficients, kCoefficientTable>()},
+    {"uncertainty", "", "how sure the inputs are",
+     NestedOptions<&TranslateOptions::uncertainty, kUncertaintyOptionTable>()},
+    {"field-test", "", "rating and tolerance",
+     NestedOptions<&TranslateOptions::field_test, kFieldTestOptionTable>()},
+    {"checklist", "", "limits of the conditions",
+     NestedOptions<&TranslateOptions::checklist, kChecklistOptionTable>()},
+    {"notes", "", "what is printed on the page",
+     NestedOptions<&TranslateOptions::notes, kFieldNotesTable>()},
+    {"diagnosis", "", "the options of the diagnosis",
+     NestedOptions<&TranslateOptions::diagnosis, kDiagnoseOptionTable>()},
+};
+
+// What the sheet of a module says, from JSON: rated_power_W, gamma_pmp_percent_K, technology,
+// modules_in_series, and the coefficients of ReadCoefficients. What is there already stays. Errors: no
+// JSON object, a value of another kind.
+Expected<void> ReadModule(const std::string& path, TranslateOptions* options);
+
+// Checks all of them.
+Expected<void> ValidateTranslateOptions(const TranslateOptions& options);
+
+}  // namespace lyrefit

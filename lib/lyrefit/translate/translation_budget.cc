@@ -1,0 +1,130 @@
+#include "lyrefit/translate/translation_budget.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/translate/extended_model.h"
+#include "lyrefit/translate/field_inputs.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kErrorFactor = 2;  // of the errors of procedures
+constexpr double kKelvinStep = 10;
+
+OutputTerm TranslationTerm(Procedure procedure, const PreparedCurve& curve,
+                           const TranslationInputs& inputs, const std::vector<double>& translated,
+                           const UncertaintyOptions& options) {
+  const TranslationError error = TranslationErrorOf(procedure);
+  const double folds =
+      std::fabs(std::log(curve.target.irradiance_W_m2 / EquivalentIrradiance(inputs)));
+  const double steps = std::fabs(curve.target.temperature_C - inputs.temperature_C) / kKelvinStep;
+  std::vector<double> sizes(translated.size());
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    sizes[k] =
+        std::hypot(error.light[k] * std::sqrt(folds), error.temperature[k] * std::sqrt(steps));
+  }
+  OutputTerm term = {
+      "translation", "translation by " + ToText(procedure), "translation", error.source, {}};
+  if (options.translation_percent) {
+    // The others keep their proportion to Pmax.
+    const double usual = sizes[kMaxPowerOutput];
+    const double stated = *options.translation_percent / 100;
+    for (double& size : sizes) size = usual > 0 ? size / usual * stated : stated;
+    term.source = "stated";
+  }
+  term.factors.push_back(std::move(sizes));
+  for (std::size_t k = 0; k < translated.size(); ++k) {
+    term.factors[0][k] *= translated[k] / kErrorFactor;
+  }
+  return term;
+}
+
+// What other procedures give; those that cannot be used here have no vote.
+OutputChoice ProcedureChoice(const std::vector<Procedure>& alternatives, const PreparedCurve& curve,
+                             const TranslationInputs& inputs) {
+  OutputChoice choice = {"procedure",
+                         "choice of the procedure",
+                         "translation",
+                         "spread of the answers of procedures that are as good a choice",
+                         {}};
+  for (const Procedure procedure : alternatives) {
+    const auto key = TranslatedKeyPoints(procedure, curve, inputs);
+    if (key) choice.answers.push_back(KeyPointVector(*key));
+  }
+  return choice;
+}
+
+OutputChoice CauseChoice(Procedure procedure, const PreparedCurve& curve,
+                         const TranslationInputs& inputs) {
+  OutputChoice choice = {"cause",
+                         "choice among equivalent causes",
+                         "cause",
+                         "spread of the answers of causes that explain the curve as well",
+                         {}};
+  for (int rival = 1; rival < static_cast<int>(curve.models.size()); ++rival) {
+    const auto key = TranslatedKeyPoints(procedure, curve, inputs, rival);
+    if (key) choice.answers.push_back(KeyPointVector(*key));
+  }
+  return choice;
+}
+
+// What was taken out as the sweep's own may be the device's after all: nothing but another sweep
+// tells. The readings as they are, carried as those of a healthy module, are the other answer.
+OutputChoice RemovalChoice(const PreparedCurve& curve, const TranslationInputs& inputs) {
+  std::string titles;
+  for (const std::string& title : curve.models.front()->removed) {
+    titles += (titles.empty() ? "" : ", ") + title;
+  }
+  OutputChoice choice = {"removal",
+                         "what was taken out of the sweep",
+                         "cause",
+                         "with and without " + titles + "; a further sweep would tell",
+                         {}};
+  for (const Procedure procedure : {Procedure::kDeSoto, Procedure::kIec4, Procedure::kIec2}) {
+    const auto key = TranslatedKeyPoints(procedure, curve, inputs);
+    if (!key) continue;
+    choice.answers.push_back(KeyPointVector(*key));
+    break;
+  }
+  return choice;
+}
+
+}  // namespace
+
+Expected<UncertaintyBudget> TranslationBudget(Procedure procedure, const PreparedCurve& curve,
+                                              const SettledInputs& settled,
+                                              const TranslationDoubts& doubts,
+                                              const UncertaintyOptions& options) {
+  const TranslationInputs& inputs = settled.values;
+  TRY(const KeyPoints key, TranslatedKeyPoints(procedure, curve, inputs));
+  const std::vector<double> translated = KeyPointVector(key);
+  UncertaintySources sources = {FieldInputs(settled, options)};
+  const KeyPointNoise noise = doubts.noise ? *doubts.noise : NoiseOfCurve(curve, options.seed);
+  sources.terms.push_back(NoiseTerm(noise, translated));
+  if (doubts.alternatives.empty()) {
+    sources.terms.push_back(TranslationTerm(procedure, curve, inputs, translated, options));
+  } else {
+    sources.choices.push_back(ProcedureChoice(doubts.alternatives, curve, inputs));
+  }
+  if (procedure == Procedure::kExtended && curve.models.size() > 1) {
+    sources.choices.push_back(CauseChoice(procedure, curve, inputs));
+  }
+  if (procedure == Procedure::kExtended && !curve.models.empty() &&
+      !curve.models.front()->removed.empty()) {
+    sources.choices.push_back(RemovalChoice(curve, inputs));
+  }
+  const InputFields fields = FieldsOf(sources.inputs);
+  UncertainModel model;
+  model.outputs = KeyPointQuantities();
+  model.evaluate = [&](const std::vector<double>& drawn) -> std::vector<double> {
+    const auto moved =
+        TranslatedKeyPoints(procedure, curve, WithInputs(inputs, sources.inputs, fields, drawn));
+    return moved ? KeyPointVector(*moved) : std::vector<double>{};
+  };
+  return Propagate(model, sources, options);
+}
+
+}  // namespace lyrefit

@@ -5,6 +5,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -178,6 +179,8 @@ Document CertificateDocument(const Certificate& certificate) {
                time,
                ListSection("Assumptions", SentencesOf(certificate.curve.assumptions))},
               &document);
+  document.verdict = Conclusion(certificate);
+  AddFigure(FigureBlock(certificate), &document.head);
   return document;
 }
 

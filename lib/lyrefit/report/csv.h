@@ -14,6 +14,7 @@ struct Certificate;
 struct DataSheetFit;
 struct FamilyReport;
 struct OddSweeps;
+struct TranslationReport;
 
 // A row a file, in their order: file, name, model, objective, cells_in_series, temperature_C,
 // irradiance_Wm2, points; the parameters under their symbols and units (Iph_A, Is1_A, n1, Rs_ohm,
@@ -40,6 +41,10 @@ std::string CertificateCsv(const Certificate& certificate);
 
 // A row a parameter.
 std::string DataSheetCsv(const DataSheetFit& fit);
+
+// A row a procedure: curve, procedure, recommended, the six key points each followed by its expanded
+// uncertainty (..._U), why_not.
+std::string TranslationCsv(const TranslationReport& report);
 
 // What tables are made of. A field as RFC 4180 wants it, in quotes where it holds a comma, a quote
 // or an end of line; the shortest text that reads back to the same number, empty for NaN and

@@ -69,9 +69,8 @@ Document DataSheetDocument(const DataSheetFit& fit) {
            fmt::format("{} in series; constants {}", Plural(spec.cells_in_series, "cell"),
                        ToText(spec.constants)),
            &document.head);
-  AddSections(
-      {SheetParameterSection(fit), CheckSection(fit), ListSection("Warnings", fit.warnings)},
-      &document);
+  AddSections({SheetParameterSection(fit), CheckSection(fit), WarningSection(fit.warnings)},
+              &document);
   return document;
 }
 

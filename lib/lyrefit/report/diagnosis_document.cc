@@ -141,6 +141,8 @@ Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::
   return section;
 }
 
+}  // namespace
+
 std::vector<Section> CauseSections(const Diagnosis& diagnosis) {
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
   std::vector<Section> sections;
@@ -150,6 +152,8 @@ std::vector<Section> CauseSections(const Diagnosis& diagnosis) {
   }
   return sections;
 }
+
+namespace {
 
 std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
   std::vector<Section> sections;
@@ -304,8 +308,10 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
               &document);
   AddSections(DiagnosisEvidenceSections(diagnosis), &document);
   AddSections({RunSection(diagnosis), ListSection("Assumed", diagnosis.assumptions),
-               ListSection("Warnings", diagnosis.warnings)},
+               WarningSection(diagnosis.warnings)},
               &document);
+  document.verdict = FullSentence(diagnosis.verdict.sentence);
+  AddFigure(FigureBlock(diagnosis), &document.head);
   return document;
 }
 

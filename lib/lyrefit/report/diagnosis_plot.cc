@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
@@ -248,6 +249,17 @@ Figure DiagnosisFigure(const Diagnosis& diagnosis) {
         ResidualPanel(shown, "Residuals with the causes", &DiagnosedPoint::after_A));
   }
   return figure;
+}
+
+void MarkCauses(const Diagnosis& diagnosis, Panel* panel) {
+  const ShownDiagnosis shown = Collect(diagnosis);
+  panel->bands.insert(panel->bands.end(), shown.bands.begin(), shown.bands.end());
+  const double span_V = panel->x.high - panel->x.low;
+  for (Note note : shown.notes) {
+    const double at_V = shown.low_V + note.x * shown.span_V;
+    if (span_V > 0) note.x = std::clamp((at_V - panel->x.low) / span_V, 0.03, 0.97);
+    panel->notes.push_back(std::move(note));
+  }
 }
 
 Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path,

@@ -17,9 +17,19 @@ void AddList(std::vector<std::string> sentences, Section* section) {
 
 void AddTable(block::Table table, Section* section) { section->blocks.push_back(std::move(table)); }
 
+void AddFigure(block::Figure figure, Section* section) {
+  if (!figure.figure.panels.empty()) section->blocks.push_back(std::move(figure));
+}
+
 Section ListSection(std::string heading, std::vector<std::string> sentences) {
   Section section = {std::move(heading)};
   AddList(std::move(sentences), &section);
+  return section;
+}
+
+Section WarningSection(std::vector<std::string> warnings) {
+  Section section = ListSection("Warnings", std::move(warnings));
+  section.warns = true;
   return section;
 }
 

@@ -72,11 +72,13 @@ struct Preformatted {
 };
 
 // A picture, of which a terminal shows nothing. Pages show the `file` it was drawn into, if there
-// is one, else the caption alone.
+// is one, else the caption alone; DrawPage() of page.h draws the `figure`, and below it what it
+// shows in numbers.
 struct Figure {
   std::string caption;
   std::string file = {};
   lyrefit::Figure figure = {};
+  Table readings = {};
 };
 
 using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Entry, Table,
@@ -89,21 +91,31 @@ struct Section {
   std::string heading;
   std::vector<block::Any> blocks = {};
   int depth = 0;
+  bool warns = false;  // of warnings, which pages show before all else
 };
 
 struct Document {
   std::vector<std::string> banners = {};  // what must be known before anything else is read
   Section head = {};                      // its heading is the title
   std::vector<Section> sections = {};
+  // What the report comes to, in a line or a few: DrawPage() begins with it. Texts say it in one of
+  // their sections.
+  std::string verdict = {};
+  // Who signs it: DrawPage() has a line for each at the end of what is printed on paper.
+  std::vector<std::string> signatures = {};
 };
 
 void AddField(std::string name, std::string text, Section* section);
 void AddSentence(std::string text, Section* section);
 void AddList(std::vector<std::string> sentences, Section* section);
 void AddTable(block::Table table, Section* section);
+void AddFigure(block::Figure figure, Section* section);  // not one without panels
 
 // A heading and a list below it.
 Section ListSection(std::string heading, std::vector<std::string> sentences);
+
+// The section "Warnings".
+Section WarningSection(std::vector<std::string> warnings);
 
 // One after the other. A section without blocks has nothing to say and is left out.
 void AddSections(std::vector<Section> sections, Document* document);

@@ -11,6 +11,7 @@
 namespace lyrefit {
 
 struct Certificate;
+struct CurveSet;
 struct DataSheetFit;
 struct Diagnosis;
 struct FamilyReport;
@@ -18,6 +19,7 @@ struct FitReport;
 struct FittedFile;
 struct HealthyComparison;
 struct OddSweeps;
+struct TranslationReport;
 
 // A fit: the answer, then how far to trust it. '*' marks the objective that was fitted.
 Document FitDocument(const FitReport& report);
@@ -29,6 +31,8 @@ Document FitsDocument(const std::vector<FittedFile>& fits);
 
 // A family. A report without shared parameters is that of curves fitted one by one.
 Document FamilyDocument(const FamilyReport& report);
+// The same with the picture of FamilyFigure(), which shows the readings of the set.
+Document FamilyDocument(const FamilyReport& report, const CurveSet& set);
 std::string FamilyText(const FamilyReport& report);
 std::string BriefFamily(const FamilyReport& report);
 
@@ -40,6 +44,8 @@ std::string BriefDiagnosis(const Diagnosis& diagnosis);
 
 // A sweep against healthy ones: what it says, the table of now against expected, who was compared.
 Document HealthyDocument(const HealthyComparison& comparison);
+// The same, then the diagnosis.
+Document HealthyDocument(const HealthyComparison& comparison, const Diagnosis& diagnosis);
 std::string HealthyText(const HealthyComparison& comparison);
 std::string BriefHealthy(const HealthyComparison& comparison);
 
@@ -58,5 +64,11 @@ std::string BriefCertificate(const Certificate& certificate);
 // The device behind a data sheet, and what it gives of what was printed.
 Document DataSheetDocument(const DataSheetFit& fit);
 std::string DataSheetText(const DataSheetFit& fit);
+
+// A curve at other conditions: the recommended result with its expanded uncertainties and the field
+// test first, then all procedures side by side, the budget, the conditions of the measurement.
+Document TranslationDocument(const TranslationReport& report);
+std::string TranslationText(const TranslationReport& report);
+std::string BriefTranslation(const TranslationReport& report);
 
 }  // namespace lyrefit

@@ -92,6 +92,10 @@ std::string DrawText(const Document& document) {
   const Section& head = document.head;
   text += (head.heading.empty() ? "" : head.heading + "\n") + TerminalText(head.blocks);
   for (const Section& section : document.sections) {
+    const bool seen =
+        std::any_of(section.blocks.begin(), section.blocks.end(),
+                    [](const auto& one) { return !std::holds_alternative<block::Figure>(one); });
+    if (!seen && !section.blocks.empty()) continue;  // pictures alone
     if (!text.empty()) text += "\n";
     if (!section.heading.empty()) text += Heading(section.heading);
     text += TerminalText(section.blocks);

@@ -275,6 +275,12 @@ Section FamilySearchSection(const FamilyReport& report) {
 
 }  // namespace
 
+Document FamilyDocument(const FamilyReport& report, const CurveSet& set) {
+  Document document = FamilyDocument(report);
+  AddFigure(FigureBlock(report, set), &document.head);
+  return document;
+}
+
 Document FamilyDocument(const FamilyReport& report) {
   Document document = {Banners(report.interrupted, report.usable, {}, report.doubts),
                        FamilyHead(report)};
@@ -283,8 +289,9 @@ Document FamilyDocument(const FamilyReport& report) {
               &document);
   AddSections(FamilyCurveSections(report), &document);
   AddSections({FamilySearchSection(report), ListSection("Assumptions", report.assumptions),
-               ListSection("Warnings", report.warnings)},
+               WarningSection(report.warnings)},
               &document);
+  document.verdict = FamilyVerdict(report);
   return document;
 }
 

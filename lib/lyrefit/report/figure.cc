@@ -5,87 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "lyrefit/report/figure_parts.h"
 
 namespace lyrefit {
 namespace {
 
-// Of a whole figure: what makes an svg of a megabyte. A mark takes ten times the room of a corner
-// of a line.
-constexpr std::size_t kMostMarksDrawn = 3 * kMostMarks;
-constexpr std::size_t kMostCorners = 4 * kMostMarks;
-constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
-
-// How many rows of a stretch a figure shows.
-struct Most {
-  std::size_t marks = kAllRows;
-  std::size_t corners = kAllRows;
-};
-
-bool HasMarks(const Series& series) {
-  return series.kind == SeriesKind::kPoints || series.kind == SeriesKind::kLineAndPoints;
-}
-
-// What each of some stretches may have at most for all to have `most`: short ones stay whole.
-std::size_t ShareOf(std::size_t most, std::vector<std::size_t> sizes) {
-  std::sort(sizes.begin(), sizes.end());
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const std::size_t each = most / (sizes.size() - i);
-    if (sizes[i] > each) return each;
-    most -= sizes[i];
-  }
-  return kAllRows;
-}
-
-Most MostOf(const Figure& figure) {
-  std::vector<std::size_t> marks, corners;
-  for (const Panel& panel : figure.panels) {
-    for (const Series& series : panel.series) {
-      std::vector<std::size_t>& sizes = HasMarks(series) ? marks : corners;
-      std::size_t begin = 0;
-      for (const std::size_t end : series.ends) {
-        sizes.push_back(end - begin);
-        begin = end;
-      }
-      sizes.push_back(series.rows.size() - begin);
+std::string DataOf(const Panel& panel, const Series& series, const MostRows& most) {
+  std::string data;
+  bool first = true;
+  for (const std::vector<FigureRow>& stretch : RowsToDraw(panel, series, most)) {
+    if (!first) data += "\n";
+    first = false;
+    for (const auto& [x, y, colour] : stretch) {
+      fmt::format_to(std::back_inserter(data), "{:.9g} {:.9g} {:.9g}\n", x, y, colour);
     }
   }
-  return {ShareOf(kMostMarksDrawn, std::move(marks)), ShareOf(kMostCorners, std::move(corners))};
-}
-
-// Rows of one stretch; places are equally far apart as they are seen.
-void AppendStretch(const Panel& panel, const Series& series, std::size_t begin, std::size_t end,
-                   std::size_t most, std::string* data) {
-  const auto append = [&](std::size_t i) {
-    const auto& [x, y, colour] = series.rows[i];
-    fmt::format_to(std::back_inserter(*data), "{:.9g} {:.9g} {:.9g}\n", x, y, colour);
-  };
-  if (end - begin <= most) {
-    for (std::size_t i = begin; i < end; ++i) append(i);
-    return;
-  }
-  std::vector<double> x, y;
-  for (std::size_t i = begin; i < end; ++i) {
-    x.push_back(panel.x.log ? std::log(series.rows[i][0]) : series.rows[i][0]);
-    y.push_back(series.rows[i][1]);
-  }
-  for (const std::size_t i : MarksToDraw(x, y, std::max<std::size_t>(most, 4))) append(begin + i);
-}
-
-std::string DataOf(const Panel& panel, const Series& series, const Most& rows) {
-  std::size_t most = HasMarks(series) ? rows.marks : rows.corners;
-  if (series.kind == SeriesKind::kStems) most = std::min(most, rows.marks);  // as their points
-  if (series.kind == SeriesKind::kBox) most = kAllRows;  // its quartiles are those of all
-  std::string data;
-  std::size_t begin = 0;
-  for (const std::size_t end : series.ends) {
-    AppendStretch(panel, series, begin, end, most, &data);
-    data += "\n";
-    begin = end;
-  }
-  AppendStretch(panel, series, begin, series.rows.size(), most, &data);
   return data;
 }
 
@@ -161,7 +96,7 @@ std::string Drawn(const Series& series, double point_size) {
   return "";
 }
 
-std::string PanelCommands(const Panel& panel, double point_size, const Most& rows) {
+std::string PanelCommands(const Panel& panel, double point_size, const MostRows& rows) {
   constexpr char kOutliers[] =
       "set style boxplot range 1.5 outliers pointtype 6\nset pointsize 0.35\n";
   std::string data, plot, outliers;
@@ -222,7 +157,7 @@ void Series::EndLine() { ends.push_back(rows.size()); }
 
 std::string FigureScript(const Figure& figure, const std::string& terminal, PlotPoints points) {
   const double point_size = terminal == "svg" ? 0.6 : 1;  // svg draws the same size larger
-  const Most rows = points == PlotPoints::kAll ? Most() : MostOf(figure);
+  const MostRows rows = points == PlotPoints::kAll ? MostRows() : MostOf(figure);
   const PageLayout page = LayOut(figure);
   std::string script = PageCommands(figure, page, terminal);
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,21 @@ constexpr std::size_t kMostMarks = 2000;
 // more.
 std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::vector<double>& y,
                                      std::size_t most = kMostMarks);
+
+// figure_rows.cc: what a figure draws of its rows: of each stretch no more than this many.
+constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
+struct MostRows {
+  std::size_t marks = kAllRows;
+  std::size_t corners = kAllRows;
+};
+
+// Such that the picture is less than a megabyte.
+MostRows MostOf(const Figure& figure);
+
+// The stretches of a series, each of rows that are joined: one more than the series has ends.
+using FigureRow = std::array<double, 3>;
+std::vector<std::vector<FigureRow>> RowsToDraw(const Panel& panel, const Series& series,
+                                               const MostRows& most);
 
 // gnuplot.cc: runs gnuplot on `script` and returns the picture, which the script must leave on standard output.
 // Reads no start-up files. Fails where gnuplot is not installed or does not understand the script.

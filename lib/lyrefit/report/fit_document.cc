@@ -5,6 +5,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -16,11 +17,6 @@ constexpr int kValueDigits = 6;
 constexpr int kErrorDigits = 2;
 constexpr int kRmseDigits = 10;
 constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
-
-// Where the words about residuals change. They are words only: nothing is decided by them.
-constexpr double kSurprising = 0.05;
-constexpr double kDurbinWatsonLow = 1.0;
-constexpr double kDurbinWatsonHigh = 3.0;
 
 Section FitHead(const FitReport& report) {
   Section head = {fmt::format("lyrefit {}: {} model of {}", report.version,
@@ -74,20 +70,6 @@ std::string FloorText(const FloorReport& floor) {
   return fmt::format(
       "Floor: no number of diodes with {} brings the measured-current RMSE below {} A, {}.", range,
       BoundText(floor.lower_bound_A), above);
-}
-
-std::string ResidualVerdict(const ResidualStatistics& r) {
-  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return "too few points to say";
-  const bool surprising = r.runs_p_value < kSurprising;
-  if ((surprising && r.runs < r.expected_runs) || r.durbin_watson < kDurbinWatsonLow) {
-    return "neighbouring residuals go together: the curve holds a shape that the model lacks, or "
-           "the readings drifted";
-  }
-  if ((surprising && r.runs > r.expected_runs) || r.durbin_watson > kDurbinWatsonHigh) {
-    return "neighbouring residuals alternate more than chance allows: look at the instrument or at "
-           "how the points were sorted";
-  }
-  return "consistent with independent noise: no pattern beyond chance";
 }
 
 std::string Decimals(double value) {
@@ -323,8 +305,10 @@ Document FitDocument(const FitReport& report) {
       {ChoiceSection(report), FormSection(report), ParameterSection(report), ErrorSection(report),
        RmseSection(report), KeyPointSection(report), ResidualSection(report), SearchSection(report),
        ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
-       ListSection("Warnings", report.warnings)},
+       WarningSection(report.warnings)},
       &document);
+  document.verdict = FitVerdict(report);
+  AddFigure(FigureBlock(report), &document.head);
   return document;
 }
 

@@ -75,9 +75,9 @@ Document FitsDocument(const std::vector<FittedFile>& fits) {
       fmt::format("lyrefit {}: fits of {}", Version(), Plural(fits.size(), "curve"));
   Section answers = {"Parameters"};
   if (!table.rows.empty()) AddTable(std::move(table), &answers);
-  AddSections({answers, ListSection("Not fitted", std::move(without)),
-               ListSection("Warnings", std::move(warnings))},
-              &document);
+  AddSections(
+      {answers, ListSection("Not fitted", std::move(without)), WarningSection(std::move(warnings))},
+      &document);
   return document;
 }
 

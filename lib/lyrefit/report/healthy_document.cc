@@ -85,6 +85,16 @@ Document HealthyDocument(const HealthyComparison& comparison) {
   return document;
 }
 
+Document HealthyDocument(const HealthyComparison& comparison, const Diagnosis& diagnosis) {
+  Document document = HealthyDocument(comparison);
+  Document below = DiagnosisDocument(diagnosis);
+  document.verdict = FullSentence(comparison.sentence) + " " + below.verdict;
+  document.banners.insert(document.banners.end(), below.banners.begin(), below.banners.end());
+  for (block::Any& any : below.head.blocks) document.head.blocks.push_back(std::move(any));
+  AddSections(std::move(below.sections), &document);
+  return document;
+}
+
 std::string HealthyText(const HealthyComparison& comparison) {
   return DrawText(HealthyDocument(comparison));
 }

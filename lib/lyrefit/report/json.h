@@ -11,6 +11,7 @@
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/translate/translation_report.h"
 
 // Records as the text of a JSON file. Keys stand in a fixed order, numbers have as many digits as
 // bring back the same bits, and what is not known or not finite is null. Every wall-clock time
@@ -77,5 +78,8 @@ std::string AnswersJson(const std::vector<std::string>& names,
 // The comparison and, beside it, the diagnosis of what it leaves.
 std::string HealthyJson(const HealthyComparison& comparison, const Diagnosis& diagnosis);
 std::string OddSweepsJson(const OddSweeps& odd);
+
+// Sizes are in the units of what they are of, expanded ones k = 2. Curves stand in `points`.
+std::string TranslationJson(const TranslationReport& report);
 
 }  // namespace lyrefit

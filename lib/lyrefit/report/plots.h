@@ -14,6 +14,7 @@ struct CurveSet;
 struct Diagnosis;
 struct FamilyReport;
 struct FitReport;
+struct TranslationReport;
 
 // A fit: above, current and power over voltage, measured points and the model; below, the residuals
 // with a band of +- the solved-current RMSE.
@@ -38,5 +39,11 @@ Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path
 // zero at the diodes of the floor and above zero nowhere.
 Figure CertificateFigure(const Certificate& certificate);
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path);
+
+// A curve at other conditions: the readings and what each procedure makes of them, the recommended
+// one drawn thick; the maximum power points are marked.
+Figure TranslationFigure(const TranslationReport& report);
+Expected<void> PlotTranslation(const TranslationReport& report, const std::string& path,
+                               PlotPoints points = PlotPoints::kThinned);
 
 }  // namespace lyrefit

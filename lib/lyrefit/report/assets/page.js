@@ -1,0 +1,332 @@
+// What a page does once scripts run; without them all of it is there to read. Offers `lyrefit` to
+// the scripts after it: data(id) and plotly(), which promise; colour(hex); onTheme(function).
+'use strict';
+const lyrefit = (() => {
+  const root = document.documentElement;
+  const darkWanted = matchMedia('(prefers-color-scheme: dark)');
+  const themeFunctions = [];
+
+  async function unpacked(text) {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+    return new Response(stream).text();
+  }
+
+  // The data of a script element, packed or not.
+  async function data(id) {
+    const element = document.getElementById(id);
+    const packed = element.type === 'application/gzip';
+    return JSON.parse(packed ? await unpacked(element.textContent) : element.textContent);
+  }
+
+  // Plotly, unpacked when it is first asked for; nothing where the page has none.
+  let plotlyPromise = null;
+  function plotly() {
+    plotlyPromise ??= (async () => {
+      const element = document.getElementById('plotly');
+      if (!element || typeof DecompressionStream === 'undefined') return null;
+      const script = document.createElement('script');
+      script.textContent = await unpacked(element.textContent);
+      element.remove();
+      document.head.append(script);
+      script.remove();
+      return window.Plotly ?? null;
+    })();
+    return plotlyPromise;
+  }
+
+  // What stands for a figure's colour in the light or the dark; `letters`: where it is read.
+  function colour(hex, letters = false) {
+    const name = `--${letters ? 't' : 'c'}-${hex.slice(1).toLowerCase()}`;
+    return getComputedStyle(root).getPropertyValue(name).trim() || hex;
+  }
+
+  const isDark = () => (root.dataset.theme ?? (darkWanted.matches ? 'dark' : 'light')) === 'dark';
+
+  function themeChanged() {
+    for (const button of document.querySelectorAll('[data-page=theme]')) {
+      button.textContent = isDark() ? 'Light' : 'Dark';
+    }
+    for (const each of themeFunctions) each();
+  }
+
+  function save(name, url) {
+    const link = document.createElement('a');
+    link.href = url;
+    link.download = name;
+    link.click();
+  }
+
+  // A file's name out of the page's title.
+  function fileName(extension) {
+    const words = document.title.replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '');
+    return `${words.slice(0, 80) || 'lyrefit'}.${extension}`;
+  }
+
+  async function saveRecord() {
+    const text = JSON.stringify(await data('record'), null, 2);
+    const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
+    save(fileName('json'), url);
+    setTimeout(() => URL.revokeObjectURL(url), 10000);
+  }
+
+  const pageActions = {
+    theme() {
+      root.dataset.theme = isDark() ? 'light' : 'dark';
+      themeChanged();
+    },
+    save: saveRecord,
+    print: () => window.print(),
+  };
+
+  // Rows of a long table, 25 at a time.
+  function addPager(details) {
+    const kRows = 25;
+    const rows = [...details.querySelectorAll('tbody tr')];
+    const pages = Math.ceil(rows.length / kRows);
+    if (pages < 2) return;
+    const pager = document.createElement('div');
+    pager.className = 'pager';
+    const buttons = ['Previous', 'Next'].map((text) => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = text;
+      return button;
+    });
+    const where = document.createElement('span');
+    where.setAttribute('role', 'status');
+    pager.append(...buttons, where);
+    let page = 0;
+    const show = () => {
+      rows.forEach((row, i) => { row.hidden = Math.floor(i / kRows) !== page; });
+      buttons[0].disabled = page === 0;
+      buttons[1].disabled = page === pages - 1;
+      const last = Math.min(rows.length, (page + 1) * kRows);
+      where.textContent = `Rows ${page * kRows + 1} to ${last} of ${rows.length}`;
+    };
+    buttons.forEach((button, i) => button.addEventListener('click', () => {
+      page += i === 0 ? -1 : 1;
+      show();
+    }));
+    details.append(pager);
+    show();
+  }
+
+  function start() {
+    const tools = document.querySelector('header .tools');
+    const record = document.getElementById('record');
+    for (const button of tools.querySelectorAll('button')) {
+      button.addEventListener('click', pageActions[button.dataset.page]);
+      if (button.dataset.page === 'save') button.hidden = !record;
+    }
+    tools.hidden = false;
+    darkWanted.addEventListener('change', themeChanged);
+    for (const details of document.querySelectorAll('details.readings')) addPager(details);
+    themeChanged();
+  }
+
+  start();
+  return {data, plotly, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
+})();
+
+// Charts take the place of the pictures that stand still: the same rows, colours, bands and notes.
+(() => {
+  const kNarrow = 560;  // pixels: below this all panels stand below each other
+  const kLetter = 6.7;  // pixels, of a title
+  const wantsStillness = matchMedia('(prefers-reduced-motion: reduce)');
+
+  // A copy in the page's colours; of letters where it is a font's.
+  function coloured(value, letters = false) {
+    if (Array.isArray(value)) return value.map((each) => coloured(each, letters));
+    if (value !== null && typeof value === 'object') {
+      return Object.fromEntries(Object.entries(value).map(
+          ([key, each]) => [key, coloured(each, letters || key === 'font')]));
+    }
+    const isColour = typeof value === 'string' && /^#[0-9a-f]{6}$/i.test(value);
+    return isColour ? lyrefit.colour(value, letters) : value;
+  }
+
+  function wrapped(text, width) {
+    const most = Math.max(20, Math.floor(width / kLetter));
+    const lines = [''];
+    for (const word of text.split(' ')) {
+      const last = lines.length - 1;
+      if (lines[last] && lines[last].length + word.length >= most) lines.push(word);
+      else lines[last] += (lines[last] ? ' ' : '') + word;
+    }
+    return lines.join('<br>');
+  }
+
+  function setPath(object, path, value) {
+    const keys = path.split('.');
+    const last = keys.pop();
+    let at = object;
+    for (const key of keys) at = at[key] ??= {};
+    at[last] = value;
+  }
+
+  const kSvg = 'http://www.w3.org/2000/svg';
+
+  // What an entry of the legend looks like.
+  function swatch(trace) {
+    const svg = document.createElementNS(kSvg, 'svg');
+    svg.setAttribute('viewBox', '0 0 34 14');
+    svg.setAttribute('aria-hidden', 'true');
+    const add = (tag, attributes) => {
+      const element = document.createElementNS(kSvg, tag);
+      for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+      svg.append(element);
+    };
+    const dashes = {dash: '6 4', dot: '2 3', dashdot: '6 3 2 3', longdashdot: '9 3 2 3'};
+    if (trace.mode.includes('lines')) {
+      add('path', {d: 'M0 7H34', 'stroke-width': 2.2, stroke: trace.line.color, fill: 'none',
+                   'stroke-dasharray': dashes[trace.line.dash] ?? 'none'});
+    }
+    if (trace.mode.includes('markers')) {
+      const {symbol, color} = trace.marker;
+      const look = {stroke: color, 'stroke-width': 1.4, fill: symbol.endsWith('open') ? 'none' : color};
+      const shapes = {triangle: 'M17 2L22.5 11.5H11.5Z', diamond: 'M17 1.5L22.5 7L17 12.5L11.5 7Z',
+                      square: 'M12 2H22V12H12Z', x: 'M13 3L21 11M21 3L13 11', cross: 'M17 2V12M12 7H22'};
+      const shape = shapes[symbol.split('-')[0]];
+      if (shape) add('path', {d: shape, ...look});
+      else add('circle', {cx: 17, cy: 7, r: 4.5, ...look});
+    }
+    return svg;
+  }
+
+  // The legend: a button an entry, which hides and shows what has its name.
+  function fillLegend(list, entries, hidden, changed) {
+    list.replaceChildren(...coloured(entries).map((entry) => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
+      const name = document.createElement('span');
+      name.innerHTML = entry.name;  // escaped where it was written
+      button.append(swatch(entry), name);
+      button.addEventListener('click', () => {
+        if (!hidden.delete(entry.name)) hidden.add(entry.name);
+        button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
+        changed();
+      });
+      const item = document.createElement('li');
+      item.append(button);
+      return item;
+    }));
+  }
+
+  // The layout for a box so wide, in the colours of now.
+  function layoutFor(chart, width) {
+    const narrow = width < kNarrow;
+    const layout = coloured(structuredClone(chart.layout));
+    const places = narrow ? chart.narrow : chart.wide;
+    for (const [path, value] of Object.entries(places)) setPath(layout, path, value);
+    const style = getComputedStyle(document.documentElement);
+    const say = (name) => style.getPropertyValue(name).trim();
+    layout.paper_bgcolor = 'rgba(0,0,0,0)';
+    layout.plot_bgcolor = 'rgba(0,0,0,0)';
+    layout.font = {color: say('--ink'), size: 13, family: getComputedStyle(document.body).fontFamily};
+    layout.hoverlabel = {bgcolor: say('--card'), bordercolor: say('--line'), font: {color: say('--ink')}};
+    const columns = narrow ? 1 : chart.columns;
+    for (const note of layout.annotations) {
+      if (note.name === 'title') note.text = wrapped(note.text, (width - 90) / columns);
+    }
+    layout.height += layout.margin.t;
+    layout.showlegend = false;  // the page has one for all widths
+    layout.width = width;
+    return layout;
+  }
+
+  function zoom(Plotly, live, factor) {
+    const change = {};
+    for (const [name, axis] of Object.entries(live._fullLayout)) {
+      if (!/^[xy]axis\d*$/.test(name) || !axis.range) continue;
+      const [low, high] = axis.range;
+      const middle = 0.5 * (low + high);
+      change[`${name}.range`] = [middle - factor * (middle - low), middle + factor * (high - middle)];
+    }
+    return Plotly.relayout(live, change);
+  }
+
+  async function savePicture(Plotly, chart, live) {
+    const layout = layoutFor(chart, 1000);
+    layout.paper_bgcolor = layout.plot_bgcolor =
+        getComputedStyle(document.documentElement).getPropertyValue('--paper').trim();
+    layout.title = {text: chart.title, font: {size: 15}, yref: 'container', y: 1, yanchor: 'top', pad: {t: 10}};
+    layout.showlegend = true;
+    layout.legend = {orientation: 'h', x: 0.5, xanchor: 'center', yref: 'container', yanchor: 'top',
+                     y: 1 - 34 / (layout.height + 70)};
+    layout.margin.t += 70;
+    layout.height += 70;
+    for (const [name, axis] of Object.entries(live._fullLayout)) {
+      if (/^[xy]axis\d*$/.test(name) && axis.range) layout[name].range = [...axis.range];
+    }
+    const url = await Plotly.toImage({data: coloured(chart.data), layout},
+                                     {format: 'png', width: 1000, height: layout.height, scale: 2});
+    lyrefit.save(lyrefit.fileName('png'), url);
+  }
+
+  function addButtons(figure, actions) {
+    const tools = figure.querySelector('.tools');
+    for (const [text, action] of actions) {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = text;
+      button.addEventListener('click', action);
+      tools.append(button);
+    }
+    tools.hidden = false;
+  }
+
+  async function takeOver(Plotly, figure) {
+    const chart = await lyrefit.data(`${figure.id}-chart`);
+    const live = figure.querySelector('.live');
+    const name = document.createElement('p');
+    name.className = 'live-title';
+    name.innerHTML = chart.title;  // escaped where it was written
+    const plot = document.createElement('div');
+    plot.setAttribute('role', 'img');
+    plot.setAttribute('aria-labelledby', `${figure.id}-caption`);
+    const legend = document.createElement('ul');
+    legend.className = 'legend';
+    const entries = chart.data.filter((trace) => trace.showlegend !== false);
+    const hidden = new Set();
+    live.append(name, legend, plot);
+    figure.classList.add('is-live');
+    const config = {displayModeBar: false, doubleClick: 'reset', showTips: false};
+    let width = 0;
+    const draw = () => {
+      width = Math.round(live.clientWidth);
+      const layout = layoutFor(chart, width);
+      if (wantsStillness.matches) layout.transition = {duration: 0};
+      const shown = chart.data.filter((trace) => !hidden.has(trace.legendgroup));
+      return Plotly.react(plot, coloured(shown), layout, config);
+    };
+    const redraw = () => {
+      fillLegend(legend, entries, hidden, draw);
+      return draw();
+    };
+    await redraw();
+    addButtons(figure, [
+      ['Zoom in', () => zoom(Plotly, plot, 0.5)],
+      ['Zoom out', () => zoom(Plotly, plot, 2)],
+      ['Reset', () => { hidden.clear(); return redraw(); }],
+      ['PNG', () => savePicture(Plotly, chart, plot)],
+    ]);
+    lyrefit.onTheme(redraw);
+    new ResizeObserver(() => {
+      if (live.clientWidth > 0 && Math.round(live.clientWidth) !== width) draw();
+    }).observe(live);
+  }
+
+  async function takeOverAll() {
+    const figures = [...document.querySelectorAll('figure[id]')].filter(
+        (figure) => document.getElementById(`${figure.id}-chart`));
+    if (figures.length === 0) return;
+    const Plotly = await lyrefit.plotly();
+    if (Plotly === null) return;
+    for (const figure of figures) await takeOver(Plotly, figure);
+    document.documentElement.dataset.charts = 'ready';
+  }
+
+  addEventListener('load', () => setTimeout(takeOverAll));
+})();

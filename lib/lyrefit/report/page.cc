@@ -1,0 +1,169 @@
+#include "lyrefit/report/page.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/report/figure_html.h"
+#include "lyrefit/report/html_parts.h"
+#include "lyrefit/report/page_shell.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kPackedFrom =
+    200000;                              // bytes of JSON; what is less can be read in the source
+constexpr std::size_t kFewSections = 4;  // so many need no list of contents
+
+std::string FigureId(std::size_t number) { return fmt::format("figure-{}", number); }
+
+// The pictures of a document in the order in which they are read.
+std::vector<const block::Figure*> FiguresOf(const Document& document) {
+  std::vector<const block::Figure*> figures;
+  const auto collect = [&figures](const Section& section) {
+    for (const block::Any& any : section.blocks) {
+      const auto* const figure = std::get_if<block::Figure>(&any);
+      if (figure != nullptr && !figure->figure.panels.empty()) figures.push_back(figure);
+    }
+  };
+  collect(document.head);
+  for (const Section& section : document.sections) collect(section);
+  return figures;
+}
+
+// A picture with its sentence, and below it, folded, what it shows in numbers.
+std::string FigureElement(const block::Figure& figure, const std::string& id,
+                          const std::string& still) {
+  std::string html = fmt::format("<figure id=\"{}\" aria-labelledby=\"{}-caption\">\n", id, id);
+  html += "<div class=\"tools\" hidden=\"\" role=\"group\" aria-label=\"Chart\"></div>\n";
+  html += "<div class=\"still\" role=\"group\" tabindex=\"0\" aria-label=\"Picture\">\n" + still +
+          "</div>\n<div class=\"live\"></div>\n";
+  html += fmt::format("<figcaption id=\"{}-caption\">{}</figcaption>\n", id,
+                      HtmlEscaped(figure.caption));
+  if (!figure.readings.rows.empty()) {
+    html += "<details class=\"readings\"><summary>The picture in numbers</summary>\n" +
+            HtmlTable(figure.readings, {true, {}}) + "</details>\n";
+  }
+  return html + "</figure>\n";
+}
+
+// Every picture as it stands in the page.
+std::map<const block::Figure*, std::string> DrawFigures(
+    const std::vector<const block::Figure*>& figures) {
+  std::vector<PagePicture> pictures;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    pictures.push_back({&figures[i]->figure, FigureId(i + 1), figures[i]->caption});
+  }
+  const Expected<std::vector<std::string>> svgs = InlineSvgs(pictures);
+  std::map<const block::Figure*, std::string> elements;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const std::string still =
+        svgs ? (*svgs)[i]
+             : "<p role=\"note\">" +
+                   HtmlElement("strong",
+                               "The picture could not be drawn: " + svgs.error().message + ".") +
+                   "</p>\n";
+    elements[figures[i]] = FigureElement(*figures[i], FigureId(i + 1), still);
+  }
+  return elements;
+}
+
+// Whether a section says the verdict and nothing else.
+bool IsVerdict(const Section& section, const std::string& verdict) {
+  if (section.blocks.size() != 1) return false;
+  const auto* const sentence = std::get_if<block::Sentence>(&section.blocks.front());
+  const auto* const conclusion = std::get_if<block::Conclusion>(&section.blocks.front());
+  return (sentence != nullptr && sentence->text == verdict) ||
+         (conclusion != nullptr && conclusion->text == verdict);
+}
+
+// The document in the order of a page: what stands below the title, and sections with their names.
+struct PageParts {
+  std::string summary;
+  std::vector<const Section*> sections;
+};
+
+PageParts Arrange(const Document& document) {
+  PageParts parts;
+  for (const std::string& banner : document.banners) {
+    parts.summary += "<p role=\"alert\">" + HtmlElement("strong", banner) + "</p>\n";
+  }
+  if (!document.verdict.empty()) {
+    parts.summary += "<div class=\"verdict\">\n<h2>Verdict</h2>\n";
+    std::istringstream lines(document.verdict);
+    for (std::string line; std::getline(lines, line);) {
+      parts.summary += HtmlElement("p", line) + "\n";
+    }
+    parts.summary += "</div>\n";
+  }
+  for (const Section& section : document.sections) {
+    if (section.warns) {
+      parts.summary += "<div role=\"note\">\n<h2>Warnings</h2>\n" +
+                       HtmlBlocks(section.blocks, {true, {}}) + "</div>\n";
+    } else if (!IsVerdict(section, document.verdict)) {
+      parts.sections.push_back(&section);
+    }
+  }
+  return parts;
+}
+
+std::string Contents(const std::vector<const Section*>& sections) {
+  if (sections.size() < kFewSections) return "";
+  std::string html = "<nav class=\"contents\" aria-label=\"Contents\">\n<ul>\n";
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (sections[i]->heading.empty() || sections[i]->depth > 0) continue;
+    html += fmt::format("<li><a href=\"#section-{}\">{}</a></li>\n", i + 1,
+                        HtmlEscaped(sections[i]->heading));
+  }
+  return html + "</ul>\n</nav>\n";
+}
+
+std::string SignatureLines(const std::vector<std::string>& signatures) {
+  if (signatures.empty()) return "";
+  std::string html = "<div class=\"sign\">\n";
+  for (const std::string& who : signatures) html += HtmlElement("p", who) + "\n";
+  return html + "</div>\n";
+}
+
+}  // namespace
+
+std::string DrawPage(const Document& document, const std::string& json,
+                     const PageOptions& options) {
+  const std::vector<const block::Figure*> figures = FiguresOf(document);
+  const auto elements = DrawFigures(figures);
+  const HtmlLooks looks = {true, [&elements](const block::Figure& figure) {
+                             const auto found = elements.find(&figure);
+                             return found == elements.end() ? std::string() : found->second;
+                           }};
+  const PageParts parts = Arrange(document);
+  PageShell page;
+  page.title = document.head.heading;
+  page.summary = parts.summary;
+  // Pictures first, then what was measured and how.
+  std::vector<block::Any> fields;
+  for (const block::Any& any : document.head.blocks) {
+    const auto* const figure = std::get_if<block::Figure>(&any);
+    if (figure == nullptr) {
+      fields.push_back(any);
+    } else {
+      page.body += looks.figure(*figure);
+    }
+  }
+  page.body +=
+      "<section>\n" + HtmlBlocks(fields, looks) + "</section>\n" + Contents(parts.sections);
+  for (std::size_t i = 0; i < parts.sections.size(); ++i) {
+    page.body += HtmlSection(*parts.sections[i], looks, fmt::format("section-{}", i + 1));
+  }
+  page.body += SignatureLines(document.signatures);
+  if (!json.empty()) page.data.push_back({"record", json, json.size() > kPackedFrom});
+  page.plotly = options.interactive && !figures.empty() && PlotlyIsEmbedded();
+  for (std::size_t i = 0; page.plotly && i < figures.size(); ++i) {
+    page.data.push_back({FigureId(i + 1) + "-chart", PlotlyJson(figures[i]->figure)});
+  }
+  return DrawShell(page);
+}
+
+}  // namespace lyrefit

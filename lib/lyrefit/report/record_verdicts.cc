@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/report/record_parts.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+// Where the words about residuals change. They are words only: nothing is decided by them.
+constexpr double kSurprising = 0.05;
+constexpr double kDurbinWatsonLow = 1.0;
+constexpr double kDurbinWatsonHigh = 3.0;
+
+// In the middle of a sentence.
+std::string LeftWords(const ResidualStatistics& residuals) {
+  std::string words = ResidualVerdict(residuals);
+  if (words.find("consistent") == 0) return words;
+  return "not noise alone, " + words;
+}
+
+// ", 0.10 % of Isc"; nothing where there is no Isc to take a part of.
+std::string PartOfIsc(double rmse_A, double isc_A) {
+  if (!(isc_A > 0) || !std::isfinite(rmse_A)) return "";
+  return fmt::format(", {} % of Isc", Significant(100 * rmse_A / isc_A, 2));
+}
+
+}  // namespace
+
+std::string ResidualVerdict(const ResidualStatistics& r) {
+  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return "too few points to say";
+  const bool surprising = r.runs_p_value < kSurprising;
+  if ((surprising && r.runs < r.expected_runs) || r.durbin_watson < kDurbinWatsonLow) {
+    return "neighbouring residuals go together: the curve holds a shape that the model lacks, or "
+           "the readings drifted";
+  }
+  if ((surprising && r.runs > r.expected_runs) || r.durbin_watson > kDurbinWatsonHigh) {
+    return "neighbouring residuals alternate more than chance allows: look at the instrument or at "
+           "how the points were sorted";
+  }
+  return "consistent with independent noise: no pattern beyond chance";
+}
+
+std::string FitVerdict(const FitReport& report) {
+  if (!report.usable) return FullSentence("Not to be used: " + report.not_usable_because);
+  const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
+  return FullSentence(fmt::format(
+      "The {} model{} follows the curve to {} A (solved-current RMSE{}): what it leaves is {}",
+      ModelTitle(report.model), PlusEffects(EffectsOf(report.device)),
+      Scientific(rmse.solved_current_A, 3),
+      PartOfIsc(rmse.solved_current_A, report.simulated.short_circuit_current_A),
+      LeftWords(report.residuals)));
+}
+
+std::string FamilyVerdict(const FamilyReport& report) {
+  if (!report.usable) return "Not to be used: the fit came to no device that could be one.";
+  const TranslationSpec& spec = report.translation.spec;
+  const double rmse_A = report.rmse.refined.solved_current_A;
+  std::size_t odd = 0;
+  for (const FamilyCurve& curve : report.curves) odd += curve.odd ? 1 : 0;
+  std::string text =
+      OneByOne(report)
+          ? fmt::format("Every curve has a {} model of its own", ModelTitle(spec.model))
+          : fmt::format("One {} device by the law of {} explains the curves",
+                        ModelTitle(spec.model), LawTitle(spec.law));
+  text += fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
+                      PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
+  if (odd > 0) {
+    text +=
+        fmt::format("; {} look{} like another device", Plural(odd, "curve"), odd == 1 ? "s" : "");
+  }
+  return FullSentence(text);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/record_parts.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+#include "lyrefit/translate/key_point_noise.h"
+#include "lyrefit/translate/translation_report.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kDigits = 4;
+
+std::string TargetWords(const TranslationTarget& target) {
+  return fmt::format("{:g} W/m2, {:g} C", target.irradiance_W_m2, target.temperature_C);
+}
+
+// "248.3 +- 4.1": as many decimals as the uncertainty has digits to be believed.
+std::string WithUncertainty(double value, double expanded) {
+  if (!std::isfinite(value)) return "-";
+  if (!(expanded > 0)) return Significant(value, kDigits);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(expanded))));
+  return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, expanded, decimals);
+}
+
+double ExpandedOf(const TranslatedResult& result, std::size_t k) {
+  return k < result.budget.outputs.size() ? result.budget.outputs[k].expanded_uncertainty
+                                          : kUnknown;
+}
+
+const std::vector<OutputQuantity>& Quantities() {
+  static const std::vector<OutputQuantity> quantities = KeyPointQuantities();
+  return quantities;
+}
+
+std::string HeadOf(const OutputQuantity& quantity) {
+  return quantity.unit.empty() ? quantity.title : quantity.title + " (" + quantity.unit + ")";
+}
+
+void AddHead(const TranslationReport& report, Section* head) {
+  head->heading = fmt::format("{} at {}", report.curve.name, TargetWords(report.target));
+  AddMeasurement(report, head);
+  const TranslationInputs& at = report.inputs.values;
+  if (at.rear_irradiance_W_m2 > 0) {
+    AddField(
+        "light",
+        fmt::format("{:.4g} W/m2 in front, {:.4g} W/m2 behind, bifaciality {:.3g}: {:.5g} W/m2 "
+                    "in all (IEC TS 60904-1-2)",
+                    at.irradiance_W_m2, at.rear_irradiance_W_m2, at.bifaciality_isc,
+                    report.equivalent_irradiance_W_m2),
+        head);
+  }
+  if (at.lead_resistance_ohm > 0) {
+    AddField("leads", fmt::format("{:.4g} ohm, taken off before all else", at.lead_resistance_ohm),
+             head);
+  }
+}
+
+Section RunSection(const TranslationReport& report) {
+  Section section = {"How it was made"};
+  AddField("lyrefit", report.version, &section);
+  AddField("seed", std::to_string(report.seed), &section);
+  AddField("options", OptionsText(report.non_default_options), &section);
+  return section;
+}
+
+// The answer.
+Section AnswerSection(const TranslationReport& report) {
+  Section section = {"At " + TargetWords(report.target)};
+  const TranslatedResult* best = report.Recommended();
+  if (best == nullptr) {
+    section.blocks.emplace_back(block::Warning{FullSentence(report.reason)});
+    return section;
+  }
+  const std::vector<double> source = KeyPointVector(report.source);
+  const std::vector<double> target = KeyPointVector(best->key_points);
+  block::Table table = {"lrr", {{"", "measured", "here, k = 2"}}};
+  for (std::size_t k = 0; k < Quantities().size(); ++k) {
+    table.rows.push_back({HeadOf(Quantities()[k]), Significant(source[k], kDigits + 1),
+                          WithUncertainty(target[k], ExpandedOf(*best, k))});
+  }
+  AddTable(std::move(table), &section);
+  AddSentence(fmt::format("Recommended is {}: {}.", best->title, report.reason), &section);
+  // That of Pmax stands under its budget.
+  for (std::size_t k = 0; k < best->budget.outputs.size(); ++k) {
+    const std::string& sentence = best->budget.outputs[k].sentence;
+    if (k != kMaxPowerOutput && !sentence.empty()) AddSentence(FullSentence(sentence), &section);
+  }
+  return section;
+}
+
+// All of them side by side.
+Section ProcedureSection(const TranslationReport& report) {
+  Section section = {"Procedures"};
+  block::Table table = {"lrrrrrr", {{"", "Isc", "Voc", "Imp", "Vmp", "Pmax", "FF"}}};
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < report.results.size(); ++i) {
+    const TranslatedResult& result = report.results[i];
+    if (!result.computed()) {
+      missing.push_back(result.title + ": " + result.why_not);
+      continue;
+    }
+    const bool best = static_cast<int>(i) == report.recommended;
+    block::Table::Row row = {(best ? "* " : "  ") + result.title};
+    const std::vector<double> values = KeyPointVector(result.key_points);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const bool power = k == kMaxPowerOutput;
+      row.push_back(power ? WithUncertainty(values[k], ExpandedOf(result, k))
+                          : Significant(values[k], kDigits));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  if (!table.rows.empty()) {
+    AddTable(std::move(table), &section);
+    AddSentence("* recommended; Pmax +- its expanded uncertainty, k = 2", &section);
+  }
+  if (!missing.empty()) {
+    for (std::string& sentence : missing) sentence.insert(0, "not computed: ");
+    AddList(std::move(missing), &section);
+  }
+  return section;
+}
+
+// What it comes to, and what becomes of the causes; the causes themselves stand below it.
+Section DiagnosisSection(const TranslationReport& report) {
+  Section section = {"What the diagnosis says"};
+  if (report.verdict.empty()) return section;
+  AddSentence(FullSentence(report.verdict), &section);
+  const auto add = [&](const char* what, const std::vector<std::string>& titles) {
+    for (const std::string& title : titles) AddField(what, title, &section);
+  };
+  add("acts at the target too", report.kept);
+  add("taken out", report.removed);
+  return section;
+}
+
+std::vector<Section> CausesOf(const TranslationReport& report) {
+  std::vector<Section> sections = {DiagnosisSection(report)};
+  if (!report.diagnosis) return sections;
+  for (Section& cause : CauseSections(*report.diagnosis)) {
+    cause.depth = 1;
+    sections.push_back(std::move(cause));
+  }
+  return sections;
+}
+
+Section CoefficientSection(const TranslationReport& report) {
+  Section section = {"Coefficients"};
+  block::Table table = {"lrl", {{"", "value", "unit"}}};
+  const auto first = std::find_if(std::begin(kTranslationInputs), std::end(kTranslationInputs),
+                                  [](const TranslationInput& input) {
+                                    return input.field == &TranslationInputs::alpha_sc_A_K;
+                                  });
+  for (auto input = first; input != std::end(kTranslationInputs); ++input) {
+    table.rows.push_back(
+        {input->title, Significant(report.inputs.values.*input->field, kDigits), input->unit});
+  }
+  AddTable(std::move(table), &section);
+  return section;
+}
+
+}  // namespace
+
+Document TranslationDocument(const TranslationReport& report) {
+  Document document;
+  document.banners =
+      Banners(report.interrupted, report.Recommended() != nullptr, report.reason, {});
+  AddHead(report, &document.head);
+  AddSections({AnswerSection(report)}, &document);
+  std::vector<Section> tested;
+  if (report.field_test) tested = FieldTestSections(*report.field_test);
+  if (!tested.empty()) AddSections({tested.front()}, &document);
+  Section curve = {"The curve"};
+  AddFigure(FigureBlock(report), &curve);
+  AddSections({std::move(curve)}, &document);
+  AddSections(CausesOf(report), &document);
+  const TranslatedResult* best = report.Recommended();
+  const UncertaintyBudget budget = best == nullptr ? UncertaintyBudget{} : best->budget;
+  AddSections({ProcedureSection(report), BudgetSection("Budget of Pmax", budget, kMaxPowerOutput)},
+              &document);
+  if (tested.size() > 1) AddSections({tested.begin() + 1, tested.end()}, &document);
+  AddSections({ChecklistSection(report.checklist), CoefficientSection(report),
+               ListSection("Assumptions", report.assumptions), RunSection(report),
+               WarningSection(report.warnings)},
+              &document);
+  document.verdict = TranslationVerdict(report);
+  document.signatures = {"Measured by, date", "Approved by, date"};
+  return document;
+}
+
+std::string TranslationText(const TranslationReport& report) {
+  return DrawText(TranslationDocument(report));
+}
+
+std::string BriefTranslation(const TranslationReport& report) {
+  const TranslatedResult* best = report.Recommended();
+  std::string line = fmt::format("{}: ", report.curve.name);
+  if (best == nullptr) return line + report.reason + "\n";
+  line +=
+      fmt::format("Pmax {} W at {} (k = 2, {})",
+                  WithUncertainty(best->key_points.max_power_W, ExpandedOf(*best, kMaxPowerOutput)),
+                  TargetWords(report.target), best->title);
+  if (report.field_test) line += fmt::format(", {}", ToText(report.field_test->zone));
+  if (!report.causes.empty()) {
+    line += "; ";
+    for (std::size_t i = 0; i < report.causes.size(); ++i) {
+      line += (i > 0 ? ", " : "") + report.causes[i];
+    }
+  }
+  return line + BriefMarks(report.interrupted, true, report.warnings.size()) + "\n";
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "../translate/made_string.h"
+#include "lyrefit/translate/translate.h"
+
+namespace lyrefit {
+
+// A made module of 60 cells from 800 W/m2, 45 C to standard conditions, without a diagnosis.
+inline TranslationReport SampleTranslation(int draws = 300) {
+  const MadeModule module;
+  TranslateOptions options;
+  options.coefficients = module.Coefficients();
+  options.procedures = {Procedure::kIec1, Procedure::kIec3, Procedure::kDeSoto};
+  options.uncertainty.draws = draws;
+  options.uncertainty.seed = 7;
+  return *TranslateCurve(module.Measured(800, 45), options);
+}
+
+}  // namespace lyrefit

@@ -1,7 +1,19 @@
 #pragma once
 
-// The door to many curves: lyrefit::fleet. Reads them one by one from a plant's folder or a table,
-// writes a row of each, and the page of a plant.
+// The door to many curves: lyrefit::fleet. OpenFleet reads them one by one from a plant's folder or
+// a table, RunBatch fits or diagnoses each and writes a row of it, MergeShards puts together what
+// several machines did. As in lyrefit.h nothing throws or prints.
+//
+//   const auto source = lyrefit::OpenFleet({"plant"});
+//   lyrefit::BatchOptions options;
+//   options.folder = "results";
+//   const auto done = lyrefit::RunBatch(source->get(), lyrefit::DiagnoseTask({}), options);
 
+#include "lyrefit/fleet/batch.h"
 #include "lyrefit/fleet/fleet_source.h"
+#include "lyrefit/fleet/fleet_task.h"
+#include "lyrefit/fleet/pack.h"
+#include "lyrefit/fleet/past.h"
+#include "lyrefit/fleet/plant_page.h"
 #include "lyrefit/fleet/result_row.h"
+#include "lyrefit/fleet/sketch.h"

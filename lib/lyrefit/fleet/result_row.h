@@ -19,10 +19,10 @@ struct ResultColumn {
 };
 
 // monostate: not known.
-using Cell = std::variant<std::monostate, std::string, double, std::int64_t, bool>;
+using ResultCell = std::variant<std::monostate, std::string, double, std::int64_t, bool>;
 
 struct ResultRow {
-  std::vector<Cell> cells;  // one a column
+  std::vector<ResultCell> cells;  // one a column
 };
 
 }  // namespace lyrefit

@@ -1,0 +1,20 @@
+# The style and the scripts of a plant's page, as a source file. The scripts are one, in the order of the list.
+#   cmake "-DSCRIPTS=a.js|b.js" -DSTYLE=plant.css -DOUT=plant_assets.cc -P EmbedPlantAssets.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(SOURCE "// Written by cmake/EmbedPlantAssets.cmake.\n#include \"lyrefit/fleet/plant_assets.h\"\n\nnamespace lyrefit {\n")
+# Texts of the files one after the other as the body of a function.
+function(embed function)
+  set(text "")
+  foreach(file IN LISTS ARGN)
+    file(READ "${file}" bytes HEX)
+    string(APPEND text "${bytes}")
+  endforeach()
+  string(REGEX REPLACE "(..)" "\\\\x\\1" text "${text}")
+  string(REGEX REPLACE "((\\\\x..)(\\\\x..)(\\\\x..)(\\\\x..)(\\\\x..)(\\\\x..)(\\\\x..)(\\\\x..))" "\\1\"\n\"" text "${text}")
+  set(SOURCE "${SOURCE}\nstd::string_view ${function}() {\n  return\n\"${text}\";\n}\n" PARENT_SCOPE)
+endfunction()
+string(REPLACE "|" ";" SCRIPTS "${SCRIPTS}")
+embed(PlantStyle "${STYLE}")
+embed(PlantScript ${SCRIPTS})
+file(WRITE "${OUT}" "${SOURCE}\n}  // namespace lyrefit\n")

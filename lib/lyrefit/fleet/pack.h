@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/fleet/fleet_source.h"
+
+namespace lyrefit {
+
+// Any shape of many curves as one curve a row, which OpenFleet reads back to the same curves, bit
+// for bit, and which can be split into shards.
+enum class PackFormat {
+  kJsonLines,
+  kCsv  // id, irradiance_W_m2, cell_temperature_C, cells_in_series, voltage_V, current_A, more
+};
+
+struct PackReport {
+  std::int64_t curves = 0;
+  std::int64_t broken = 0;  // of them; their rows hold the reason as "error"
+  std::string first_error;
+  bool interrupted = false;
+};
+
+// Takes the text of some rows.
+using PackSink = std::function<Expected<void>(std::string_view text)>;
+
+// Reads on up to `threads` threads (0: all cores) and writes in the order of the input. Conditions
+// that nobody stated are left out; what the reader assumed goes along as "assumptions". Errors: the
+// input cannot be read any further, or those of `sink`.
+Expected<PackReport> PackFleet(FleetSource* source, PackFormat format, int threads,
+                               const PackSink& sink, const Observer& observer = {});
+
+// One row with its end.
+std::string PackedRow(const FleetCurve& curve, PackFormat format);
+
+}  // namespace lyrefit

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lyrefit/base/descriptor.h"
+#include "lyrefit/base/error.h"
+#include "lyrefit/fleet/fleet_source.h"
+
+namespace lyrefit {
+
+// The file that a run over many curves writes row by row, so that it can be taken up again. Lines
+// of JSON: a head with all that a row depends on (version, task, options, shard, digest of the
+// input), the rows in the order of the input, and once all are there {"end": how many}.
+
+using PartHead = nlohmann::ordered_json;
+
+// DIR/results.part; of a shard of several DIR/shard-3-of-8.part.
+std::string PartPath(const std::string& folder, const Shard& shard);
+
+// The first thing in which a run differs from the one that wrote `before`, as a sentence.
+Expected<void> CheckSameHead(const PartHead& before, const PartHead& now, const std::string& path);
+
+// Where in the whole input the first and the last row of a part stand: which file, and which curve
+// of that; nothing where there are no rows.
+struct PartEnd {
+  std::int64_t rows = 0;
+  std::optional<std::pair<int, std::int64_t>> first;
+  std::optional<std::pair<int, std::int64_t>> last;
+};
+
+// What the last line of a part file says; nothing where the run has not finished.
+Expected<std::optional<PartEnd>> ReadPartEnd(const std::string& path);
+
+enum class PartStart {
+  kNew,      // nothing may be there
+  kResume,   // goes on with what is there, if it is of the same run
+  kReplace,  // begins anew
+};
+
+class PartFile {
+ public:
+  // Errors, and nothing is changed: what cannot be opened or is written by another process; what is
+  // there without kResume, or is of another run, or no part file. A last line without an end was
+  // never finished: it is cut off.
+  static Expected<std::unique_ptr<PartFile>> Open(const std::string& path, const PartHead& head,
+                                                  PartStart start);
+
+  std::int64_t rows() const { return rows_; }  // that are there
+  bool complete() const { return complete_; }
+  const std::string& path() const { return path_; }
+
+  // Whole lines, each with its end, `rows` of them. They are with the operating system when it
+  // returns, so a killed process loses none. What could not be written whole is taken back.
+  Expected<void> Append(const std::string& lines, std::int64_t rows);
+  // Says that all rows are there, which curves of the input they are of, and waits until they are on
+  // the disk.
+  Expected<void> Finish(const PartEnd& end);
+  Expected<void> Remove();
+
+ private:
+  PartFile(std::string path, int file) : path_(std::move(path)), file_(file) {}
+  Expected<void> Lock() const;
+  Expected<void> Take(const PartHead& head);
+  Expected<void> Cut(std::int64_t size) const;
+
+  std::string path_;
+  Descriptor file_;
+  std::int64_t size_ = 0;  // of whole lines
+  std::int64_t rows_ = 0;
+  bool complete_ = false;
+};
+
+// Reads the rows of a part file one after the other.
+class PartReader {
+ public:
+  static Expected<PartReader> Open(const std::string& path);
+
+  const PartHead& head() const { return head_; }
+  const std::string& path() const { return path_; }
+  // None after the last. Errors: a line that is no row; an end that is missing, or counts other
+  // rows than there were.
+  Expected<std::optional<nlohmann::json>> Next();
+
+ private:
+  PartReader(std::string path, std::ifstream in) : path_(std::move(path)), in_(std::move(in)) {}
+
+  std::string path_;
+  std::ifstream in_;
+  PartHead head_;
+  int line_ = 0;
+  std::int64_t rows_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace lyrefit

@@ -1,0 +1,74 @@
+# shellcheck shell=bash disable=SC2154 # the names of a run are those of lyrefit-slurm
+# How many shards: so many that a task lasts, by the rate that a sample of the input shows.
+
+readonly kEmptyParts=4194304 # so many that a shard holds a curve at most: what is left is the start-up
+
+# RunSample PARTS FOLDER: three shards of so many, spread over the input; adds what they took and wrote to
+# sample_us and sample_rows.
+RunSample() {
+  local parts=$1 place folder=$2/$1 started runner=()
+  [[ -z $on_node ]] || runner=(srun --quiet --ntasks=1 "--cpus-per-task=$cpus" "${sbatch_options[@]}")
+  sample_us=0 sample_rows=0
+  for place in $((parts / 6 + 1)) $((parts / 2 + 1)) $((parts - parts / 6)); do
+    started=${EPOCHREALTIME//[.,]/}
+    "${runner[@]}" "$lyrefit" batch "${inputs[@]}" --out "$folder" --shard "$place/$parts" \
+      --threads "$cpus" "${batch_options[@]}" > "$folder.log" 2>&1 ||
+      Die "the sample failed: $(tail -n 1 -- "$folder.log")"
+    sample_us=$((sample_us + ${EPOCHREALTIME//[.,]/} - started))
+    sample_rows=$((sample_rows + $(wc -l < "$folder/shard-$place-of-$parts.part") - 2)) # head and end
+  done
+}
+
+# Sets shards, and time_limit if the user did not, from the rate that three places of the input show. Empty
+# shards tell the start-up, which is no part of the rate.
+ChooseShards() {
+  local folder parts empty_us empty_rows most plan
+  folder=$(mktemp -d -p "$1" .lyrefit-sample.XXXXXX)
+  # shellcheck disable=SC2064  # the folder as it is now
+  trap "rm -rf -- $(printf %q "$folder")" EXIT
+  RunSample "$kEmptyParts" "$folder"
+  empty_us=$sample_us empty_rows=$sample_rows
+  parts=65536
+  until
+    RunSample "$parts" "$folder"
+    ((sample_us - empty_us > sample_seconds * 1000000 || parts == 4))
+  do
+    parts=$(LargerShards "$parts" $((sample_us - empty_us)))
+  done
+  ((sample_rows > empty_rows)) || Die "a sample of ${inputs[*]} holds no curves"
+  most=$(MostTasks)
+  plan=$(awk -v us=$((sample_us - empty_us)) -v rows=$((sample_rows - empty_rows)) -v all="$sample_rows" \
+    -v parts="$parts" -v start_us="$empty_us" -v minutes="$minutes" -v most="$most" 'BEGIN {
+      if (us < 1) us = 1
+      rate = rows / us * 1e6
+      curves = all / 3 * parts
+      n = minutes > 0 ? int(curves / rate / 60 / minutes) : most
+      n = n < 1 ? 1 : n > most ? most : n
+      start = start_us / 3e6
+      task = curves / rate / n + start
+      printf "%d %d %.1f %.2f %.0f %.2f %d", n, all, rate, start, curves, task / 60, task / 20 + 10
+    }')
+  local sampled rate start curves task limit
+  read -r shards sampled rate start curves task limit <<< "$plan"
+  : "${time_limit:=$limit}"
+  echo "$sampled curves of three places: $rate curves a second on $cpus core(s), start-up $start s" \
+    "(subtracted); about $curves curves"
+  echo "$shards shard(s) of about $task minutes each (at least $minutes, at most $most tasks)"
+  rm -rf -- "$folder"
+  trap - EXIT
+}
+
+# LargerShards PARTS MICROSECONDS: so few parts that a sample should last, after one that did not.
+LargerShards() {
+  local parts=$(($1 * ($2 > 0 ? $2 : 1) / (sample_seconds * 1200000)))
+  parts=$((parts > $1 / 4 ? $1 / 4 : parts < $1 / 16 ? $1 / 16 : parts))
+  echo $((parts > 4 ? parts : 4))
+}
+
+# What an array may hold, with indices from 1.
+MostTasks() {
+  local size
+  size=$(scontrol show config | awk '$1 == "MaxArraySize" { print $3 }')
+  [[ $size =~ ^[0-9]+$ ]] || Die "scontrol does not tell MaxArraySize: is there a Slurm?"
+  echo $((size - 1 < max_tasks ? size - 1 : max_tasks))
+}

@@ -88,13 +88,13 @@ Expected<int> RunBudget(VerbLine& verb, BudgetRequest& request) {
   TRY(CheckLandscape(verb, &study));
   const bool usual = study.landscape.empty() || verb.Given("--budgets");
   TRY(const auto contenders, BudgetContenders(study, usual ? request.budgets : kLandscapeBudgets));
-  return RunStudy(verb, study, contenders, BudgetText, {{study.output.plot_file, PlotBudget}});
+  return RunStudy(verb, study, contenders, BudgetDocument, {{study.output.plot_file, PlotBudget}});
 }
 
 }  // namespace
 
 const Verb kBudgetVerb = {"budget", "Evaluations each algorithm needs, by how far it is polished",
-                          kBudgetFooter, "its tables as text, --json, --csv and --plot",
+                          kBudgetFooter, "its tables as text, --json, --csv, --plot and --html",
                           Declare<BudgetRequest, DeclareBudget, RunBudget>};
 
 }  // namespace lyrefit

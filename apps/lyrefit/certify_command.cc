@@ -5,6 +5,7 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
 #include "verbs.h"
 
@@ -50,6 +51,9 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
   TRY(WriteWanted(output.csv_file, [&] { return CertificateCsv(certificate); }));
   TRY(DrawWanted(output.plot_file,
                  [&](const std::string& file) { return PlotCertificate(certificate, file); }));
+  TRY(WriteWanted(output.html_file, [&] {
+    return DrawPage(CertificateDocument(certificate), CertificateJson(certificate));
+  }));
   TRY(WriteText(verb, [&] {
     return output.brief ? BriefCertificate(certificate) : CertificateText(certificate);
   }));
@@ -60,7 +64,8 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
 }  // namespace
 
 const Verb kCertifyVerb = {"certify", "Prove how low the measured-current RMSE of a curve can go",
-                           kCertifyFooter, "the certificate as text, --json, --csv and --plot",
+                           kCertifyFooter,
+                           "the certificate as text, --json, --csv, --plot and --html",
                            Declare<CertifyRequest, DeclareCertify, RunCertify>};
 
 }  // namespace lyrefit

@@ -41,6 +41,7 @@ struct Flag::Impl {
   bool reads = false;
   bool curves = false;
   bool writes = false;
+  bool folder = false;  // that is written into
   bool draws = false;
   std::vector<std::string> choices;
 };
@@ -102,6 +103,11 @@ Flag& Flag::Reads() {
 Flag& Flag::ReadsCurves() {
   impl_->curves = true;
   return Reads();
+}
+
+Flag& Flag::WritesFolder() {
+  impl_->folder = true;
+  return Type("DIR").Group(kOutput);
 }
 
 Flag& Flag::Writes() {
@@ -243,7 +249,7 @@ bool VerbLine::StandardOutputTaken() const {
 bool VerbLine::Forced() const { return impl_->force; }
 
 void VerbLine::AddForce() {
-  const auto writes = [](const Flag::Impl& flag) { return flag.writes; };
+  const auto writes = [](const Flag::Impl& flag) { return flag.writes || flag.folder; };
   if (std::none_of(impl_->flags.begin(), impl_->flags.end(), writes)) return;
   impl_->app->add_flag("--force", impl_->force, "replace even what this run reads")->group(kOutput);
 }

@@ -62,6 +62,8 @@ class Flag {
   // Its value is a file that the run writes: a table, a report, a picture.
   Flag& Writes();
   Flag& Draws();
+  // Its value is a folder that the run writes into, which it looks after itself.
+  Flag& WritesFolder();
   // The texts that it takes, for completion: "sd, dd, td".
   Flag& OneOf(const std::string& texts);
   // Values allowed, both ends included.

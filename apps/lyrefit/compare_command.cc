@@ -46,7 +46,7 @@ void DeclareCompare(VerbLine* verb, CompareRequest* request) {
 Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
   TRY(const auto contenders, ParseContenders(request.study));
   return RunStudy(
-      verb, request.study, contenders, CompareText,
+      verb, request.study, contenders, CompareDocument,
       {{request.study.output.plot_file, PlotBoxes}, {request.convergence_file, PlotConvergence}});
 }
 
@@ -54,7 +54,7 @@ Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
 
 const Verb kCompareVerb = {
     "compare", "Compare search algorithms, pure and polished, over many runs", kCompareFooter,
-    "its tables as text, --json, --csv, --plot and --convergence-plot",
+    "its tables as text, --json, --csv, --plot, --convergence-plot and --html",
     Declare<CompareRequest, DeclareCompare, RunCompare>};
 
 }  // namespace lyrefit

@@ -10,6 +10,7 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
 #include "verbs.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr char kDiagnoseFooter[] =
     "Examples:\n"
-    "  lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --plot diagnosis.svg\n"
+    "  lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --html diagnosis.html\n"
     "  lyrefit diagnose folder_of_curves --base dd --json diagnosis.json --extend model.json\n"
     "  lyrefit diagnose roof/*.csv --effects nonohmic_shunt,clip --answers answers.json\n"
     "  lyrefit diagnose today.csv --healthy last_year/*.csv\n"
@@ -85,8 +86,10 @@ Expected<void> CheckNames(const DiagnoseRequest& request) {
 
 Expected<void> CheckRequest(const VerbLine& verb, const DiagnoseRequest& request) {
   if (request.files.empty()) return Fail("CURVE is required: a file or folder to diagnose");
-  if (request.Several() && !(request.output.plot_file.empty() && request.extend_file.empty())) {
-    return Fail("--plot and --extend are for one CURVE");
+  if (request.Several()) {
+    for (const char* flag : {"--plot", "--html", "--extend"}) {
+      if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
+    }
   }
   TRY(CheckEffects("--effects", request.options.effects));
   TRY(CheckNames(request));
@@ -152,6 +155,8 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request, const
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
     return PlotDiagnosis(first, file, output.marks());
   }));
+  TRY(WriteWanted(output.html_file,
+                  [&] { return DrawPage(DiagnosisDocument(first), DiagnosisJson(first)); }));
   return WriteText(verb, [&] {
     std::string text;
     for (const Diagnosis& diagnosis : all.found) {
@@ -183,9 +188,9 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
 
 }  // namespace
 
-const Verb kDiagnoseVerb = {"diagnose",
-                            "Say what a diode model gets wrong in a measurement, and why",
-                            kDiagnoseFooter, "the diagnosis as text, --json, --csv and --plot",
-                            Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>};
+const Verb kDiagnoseVerb = {
+    "diagnose", "Say what a diode model gets wrong in a measurement, and why", kDiagnoseFooter,
+    "the diagnosis as text, --json, --csv, --plot and --html",
+    Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>};
 
 }  // namespace lyrefit

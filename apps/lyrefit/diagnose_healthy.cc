@@ -6,6 +6,7 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
 
 namespace lyrefit {
@@ -32,6 +33,9 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
                   [&] { return JsonReport(diagnosis.extended, output.points()); }));
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
     return PlotDiagnosis(diagnosis, file, output.marks());
+  }));
+  TRY(WriteWanted(output.html_file, [&] {
+    return DrawPage(HealthyDocument(comparison, diagnosis), HealthyJson(comparison, diagnosis));
   }));
   return WriteText(verb, [&] {
     return output.brief ? BriefHealthy(comparison) + BriefDiagnosis(diagnosis)
@@ -76,6 +80,8 @@ Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
   TRY(const OddSweeps odd, FindOddSweeps(sweeps, request.healthy));
   TRY(WriteWanted(output.json_file, [&] { return OddSweepsJson(odd); }));
   TRY(WriteWanted(output.csv_file, [&] { return OddSweepsCsv(odd); }));
+  TRY(WriteWanted(output.html_file,
+                  [&] { return DrawPage(OddSweepsDocument(odd), OddSweepsJson(odd)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefOddSweeps(odd) : OddSweepsText(odd); }));
   return kExitFine;
 }

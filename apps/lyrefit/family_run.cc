@@ -14,6 +14,7 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/study/report/documents.h"
 #include "lyrefit/study/truth.h"
@@ -68,6 +69,8 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
     return PlotFamily(report, set, file, output.marks());
   }));
+  TRY(WriteWanted(output.html_file,
+                  [&] { return DrawPage(FamilyDocument(report, set), FamilyJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
   if (truth) {
     const std::string text = TruthText(CompareWithTruth(report, *truth));

@@ -11,7 +11,9 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
+#include "model_flag.h"
 #include "output.h"
 #include "verbs.h"
 
@@ -44,20 +46,7 @@ struct FitRequest {
 };
 
 void AddModelFlags(VerbLine* verb, FitRequest* fit) {
-  const auto read_model = [fit](const std::string& text) -> Expected<void> {
-    const std::optional<Model> model = FromText<Model>(text);
-    fit->auto_model = text == "auto";
-    if (!model && !fit->auto_model) {
-      return Fail("expected one of " + AllTexts<Model>() + ", auto, found '" + text + "'");
-    }
-    fit->options.model = model.value_or(Model::kSingleDiode);
-    return {};
-  };
-  verb->AddReader("--model", read_model,
-                  "number of diodes: sd, dd, td, or auto, which lets the data decide (default sd)")
-      .Type("NAME")
-      .OneOf(AllTexts<Model>() + ", auto")
-      .Group("Model");
+  AddModelFlag(verb, &fit->options.model, &fit->auto_model);
   AddNamedFlags(verb, kFitOptionTable, {"objective", "constants"}, &fit->options);
   AddBoundsFlag(verb, "Model", &fit->bounds);
   AddNamedFlags(verb, kFitOptionTable, {"bound", "fix"}, &fit->options);
@@ -118,6 +107,11 @@ Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
   TRY(WriteWanted(output.csv_file, [&] { return FitsCsv(fits); }));
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
     return PlotFit(*fits.front().report, file, output.marks());
+  }));
+  TRY(WriteWanted(output.html_file, [&] {
+    return one ? DrawPage(FitDocument(*fits.front().report),
+                          JsonReport(*fits.front().report, JsonPoints::kAll))
+               : DrawPage(FitsDocument(fits), FitsJson(fits, JsonPoints::kAll));
   }));
   return WriteText(verb, [&] {
     std::string text;
@@ -191,7 +185,7 @@ Expected<int> RunFit(VerbLine& verb, FitRequest& fit) {
 }  // namespace
 
 const Verb kFitVerb = {"fit", "Fit diode-model parameters to a measured I-V curve", kFitFooter,
-                       "the report as text, --json, --csv and --plot",
+                       "the report as text, --json, --csv, --plot and --html",
                        Declare<FitRequest, DeclareFit, RunFit>};
 
 }  // namespace lyrefit

@@ -185,6 +185,12 @@ void AddCsvFlag(VerbLine* verb, const std::string& table, ReportFlags* flags) {
   verb->AddOption("--csv", &flags->csv_file, table + "; - for standard output, alone").Writes();
 }
 
+void AddHtmlFlag(VerbLine* verb, const std::string& what, ReportFlags* flags) {
+  verb->AddOption("--html", &flags->html_file,
+                  "the " + what + " as a page to send, with pictures and data in one file")
+      .Writes();
+}
+
 void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,
                     const std::string& picture, ReportFlags* flags) {
   verb->AddOption("--json", &flags->json_file,
@@ -193,6 +199,7 @@ void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& 
   if (!table.empty()) AddCsvFlag(verb, table, flags);
   verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
       .Draws();
+  AddHtmlFlag(verb, what, flags);
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");
   verb->AddQuietSwitch();
 }

@@ -207,11 +207,16 @@ void AddCurveFlags(VerbLine* verb, CurveFlags* flags);
 void AddReadingFlags(VerbLine* verb, CurveFlags* flags);
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
+inline constexpr char kModuleHelp[] =
+    "JSON with what the sheet of a module says: rated_power_W, gamma_pmp_percent_K, "
+    "technology and coefficients; flags go before it";
+
 // What a verb with a report writes.
 struct ReportFlags {
   std::string json_file;
   std::string csv_file;
   std::string plot_file;
+  std::string html_file;
   bool brief = false;
   bool full_json = false;
   bool full_plot = false;
@@ -221,11 +226,12 @@ struct ReportFlags {
 
 // --full-json and --full-plot, where JSON repeats the readings of a fit and pictures show them.
 void AddFullSwitches(VerbLine* verb, ReportFlags* flags);
-// --json, --csv where `table` says what it holds, --plot, --brief and --quiet. `what` names the
+// --json, --csv where `table` says what it holds, --plot, --html, --brief and --quiet. `what` names the
 // report in the help, `picture` the plot.
 void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,
                     const std::string& picture, ReportFlags* flags);
 void AddCsvFlag(VerbLine* verb, const std::string& table, ReportFlags* flags);
+void AddHtmlFlag(VerbLine* verb, const std::string& what, ReportFlags* flags);
 
 // Writes what is wanted: `make` is called if there is a file to write it into.
 template <class Make>

@@ -50,8 +50,8 @@ Error NoSuchVerb(const std::string& word, const std::vector<const Verb*>& verbs)
 }
 
 std::optional<Error> OtherTarget(const Verb& verb, const std::vector<std::string>& words) {
-  for (const char* flag :
-       {"--json", "--csv", "--plot", "--brief", "--full-json", "--full-plot", "--quiet"}) {
+  for (const char* flag : {"--json", "--csv", "--plot", "--html", "--brief", "--full-json",
+                           "--full-plot", "--quiet"}) {
     for (const std::string& word : words) {
       if (word.substr(0, word.find('=')) != flag) continue;
       return Error{std::string(flag) + ": " + verb.name + " has none; it writes " + verb.writes,

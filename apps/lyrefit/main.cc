@@ -43,9 +43,10 @@ int Main(int argc, char** argv) {
   char topic_follows[] = "help";  // lyrefit --help terms
   if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
   CommandLine line(kFooter);
-  for (const Verb* verb : {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb,
-                           &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb, &kCoverageVerb,
-                           &kDiagnoseVerb, &kHelpVerb, &kCompletionVerb, &kManVerb}) {
+  for (const Verb* verb :
+       {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb, &kSensitivityVerb,
+        &kDataSheetVerb, &kAuditVerb, &kCoverageVerb, &kDiagnoseVerb, &kTranslateVerb, &kPackVerb,
+        &kBatchVerb, &kMergeVerb, &kHelpVerb, &kCompletionVerb, &kManVerb}) {
     line.Add(*verb);
   }
   const Expected<std::string> asked = line.Parse(argc, argv);

@@ -34,6 +34,8 @@ void ProgressText::Hear(const Progress& progress, double seconds) {
   stage_ = progress.stage;
   last_ = progress;
   last_.stage = {};
+  note_ = progress.note;
+  last_.note = {};
   const double part = Part();
   if (fresh) {
     begin_s_ = seconds;
@@ -62,12 +64,16 @@ std::string ProgressText::Line(double seconds) const {
   if (stage_.empty()) return seconds < kSoonest_s ? "" : "working, " + elapsed;
   const bool known = last_.best > 0 && std::isfinite(last_.best);
   const std::string best = known ? fmt::format(", best {:.4g}", last_.best) : "";
-  if (last_.iterations <= 0) {
+  const std::string note = best + (note_.empty() ? "" : ", " + note_);
+  if (last_.iterations <= 0 && last_.part <= 0) {
     if (last_.iteration <= 0) return fmt::format("{}, {}", stage_, elapsed);
-    return fmt::format("{}: {} done{}, {}", stage_, last_.iteration, best, elapsed);
+    return fmt::format("{}: {} done{}, {}", stage_, last_.iteration, note, elapsed);
   }
-  std::string line =
-      fmt::format("{} {} {} of {}{}", stage_, Bar(Part()), last_.iteration, last_.iterations, best);
+  // How many there are may be known by their work alone.
+  const std::string of =
+      last_.iterations > 0 ? fmt::format("of {}", last_.iterations) : std::string("done");
+  const std::string line =
+      fmt::format("{} {} {} {}{}", stage_, Bar(Part()), last_.iteration, of, note);
   const double left = SecondsLeft(seconds);
   if (left < 1) return line + ", " + elapsed;
   return line +

@@ -31,6 +31,7 @@ class ProgressText {
   std::string whole_;
   std::string stage_;
   Progress last_;
+  std::string note_;
   double begin_s_ = 0;     // of the stage
   double begin_part_ = 0;  // of the stage that an earlier process did
   double heard_s_ = 0;     // when the part last changed

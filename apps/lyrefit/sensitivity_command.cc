@@ -44,14 +44,14 @@ Expected<int> RunSensitivity(VerbLine& verb, SensitivityRequest& request) {
   TRY(const auto coefficients,
       ParseNumbers("--distance-coefficients", request.distance_coefficients));
   return RunStudy(verb, request.study,
-                  SensitivityContenders(rates, coefficients, request.study.search), SensitivityText,
-                  {});
+                  SensitivityContenders(rates, coefficients, request.study.search),
+                  SensitivityDocument, {});
 }
 
 }  // namespace
 
 const Verb kSensitivityVerb = {"sensitivity", "MLO over a grid of its settings Pm and gamma",
-                               kSensitivityFooter, "its tables as text, --json and --csv",
+                               kSensitivityFooter, "its tables as text, --json, --csv and --html",
                                Declare<SensitivityRequest, DeclareSensitivity, RunSensitivity>};
 
 }  // namespace lyrefit

@@ -24,6 +24,7 @@ Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
                   "everything as JSON; - for standard output, alone")
       .Writes();
   AddCsvFlag(verb, "one row a run", &flags->output);
+  AddHtmlFlag(verb, "report", &flags->output);
   verb->AddQuietSwitch();
   return curves;
 }

@@ -6,6 +6,7 @@
 #include "bounds_flag.h"
 #include "command_line.h"
 #include "flags.h"
+#include "lyrefit/report/document.h"
 #include "lyrefit/study/compare.h"
 #include "lyrefit/study/contenders.h"
 
@@ -89,7 +90,7 @@ struct StudyPicture {
 // Reads the curves, compares, writes what is wanted; returns the exit code.
 Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
                        const std::vector<Contender>& contenders,
-                       std::string (*text)(const Comparison&),
+                       Document (*document)(const Comparison&),
                        const std::vector<StudyPicture>& pictures);
 
 }  // namespace lyrefit

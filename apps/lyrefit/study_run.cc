@@ -1,5 +1,6 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/study/report/compare_csv.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "study_flags.h"
@@ -8,7 +9,7 @@ namespace lyrefit {
 
 Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
                        const std::vector<Contender>& contenders,
-                       std::string (*text)(const Comparison&),
+                       Document (*document)(const Comparison&),
                        const std::vector<StudyPicture>& pictures) {
   CompareOptions options = flags.options;
   if (!options.with.empty()) {
@@ -27,7 +28,9 @@ Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
     if (picture.path.empty() || comparison.problems.empty()) continue;
     TRY(picture.draw(comparison, picture.path));
   }
-  TRY(WriteText(verb, [&] { return text(comparison); }));
+  TRY(WriteWanted(flags.output.html_file,
+                  [&] { return DrawPage(document(comparison), CompareJson(comparison)); }));
+  TRY(WriteText(verb, [&] { return DrawText(document(comparison)); }));
   return comparison.interrupted ? kExitInterrupted : kExitFine;
 }
 

@@ -60,6 +60,11 @@ const Chapter kModel = {
       "laws that say how parameters follow irradiance and temperature, so that "
       "one device serves all curves of a family"},
      {"alpha, beta, gamma", "temperature coefficients of Isc, of Voc and of Pmp"},
+     {"translation",
+      "a measured curve carried to other irradiance and temperature, by one of the procedures of "
+      "IEC 60891 or by a model"},
+     {"k = 2",
+      "an expanded uncertainty: twice the standard one, some 95 % of a normal distribution"},
      {"EgRef", "band gap at 25 C in eV: 1.121 for silicon; how fast Is rises with temperature"}}};
 
 const Chapter kFit = {

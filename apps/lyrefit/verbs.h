@@ -17,6 +17,10 @@ extern const Verb kDataSheetVerb;
 extern const Verb kAuditVerb;
 extern const Verb kCoverageVerb;
 extern const Verb kDiagnoseVerb;
+extern const Verb kTranslateVerb;
+extern const Verb kPackVerb;
+extern const Verb kBatchVerb;
+extern const Verb kMergeVerb;
 // About lyrefit itself.
 extern const Verb kHelpVerb;
 extern const Verb kCompletionVerb;

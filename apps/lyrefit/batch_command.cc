@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "batch_request.h"
+#include "interrupt.h"
+#include "lyrefit/base/try.h"
+#include "verbs.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kBatchFooter[] =
+    "Examples:\n"
+    "  lyrefit batch plant_folder --task diagnose --out results\n"
+    "  lyrefit batch strings.jsonl --model dd --fix n2=2 --out results --threads 8\n"
+    "  lyrefit batch strings.jsonl --out results --resume\n"
+    "  lyrefit batch strings.jsonl --out shards --shard 3/40 && lyrefit merge shards --out "
+    "results\n"
+    "  lyrefit batch today_folder --task diagnose --healthy last_year_folder --out results\n"
+    "\n"
+    "Writes results.csv, results.jsonl and results.schema.json into DIR: a row a curve, always, "
+    "in\n"
+    "the order of the input, with status (fine, doubtful, not usable, broken) and reason. In a "
+    "folder\n"
+    "tree the paths are the identities: site/inverter/combiner/string. A run that was stopped or "
+    "killed\n"
+    "goes on with --resume, which begins anew where there is nothing to go on with.\n"
+    "\n"
+    "Exit codes: 0 every curve has its row; 1 bad input or options, or the rows cannot be written; "
+    "2\n"
+    "not one curve is fine; 130 stopped by Ctrl-C.";
+
+Expected<void> ReadShard(const std::string& text, Shard* shard) {
+  const char* const end = text.data() + text.size();
+  const auto k = std::from_chars(text.data(), end, shard->k);
+  const bool slash = k.ec == std::errc() && k.ptr != end && *k.ptr == '/';
+  const auto of = slash ? std::from_chars(k.ptr + 1, end, shard->of) : k;
+  const bool whole = slash && of.ec == std::errc() && of.ptr == end;
+  if (whole && shard->k >= 1 && shard->k <= shard->of) return {};
+  return Fail("expected K/N with K from 1 to N, such as 3/40, found '" + text + "'");
+}
+
+void DeclareBatch(VerbLine* verb, BatchRequest* request) {
+  verb->AddOption("INPUT", &request->inputs,
+                  "many curves: one a row (JSON Lines, CSV), a long table, a JSON list, a folder "
+                  "tree whose paths are the identities; - for standard input")
+      .Required()
+      .Reads();
+  verb->AddOption("--task", &request->task, "what is done with each: " + BatchTaskNames())
+      .Type("NAME")
+      .OneOf(BatchTaskNames())
+      .Group("Batch");
+  AddTableFlags(verb, kBatchOptionTable, &request->options);
+  AddSharedTaskFlags(verb, request);
+  verb->AddReader(
+          "--shard",
+          [request](const std::string& text) { return ReadShard(text, &request->options.shard); },
+          "the K-th of N parts of the input, for several machines; merge puts them together")
+      .Type("K/N")
+      .Group("Batch");
+  verb->AddOption("--healthy", &request->healthy_inputs,
+                  "healthy sweeps of the same strings, of the shapes of INPUT: each curve is "
+                  "compared with those of its own id, or in its folder ID/")
+      .Reads()
+      .Group("Against its own past");
+  AddTableFlags(verb, kHealthyOptionTable, &request->healthy);
+  AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
+  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  for (const BatchTask& task : BatchTasks()) task.declare(verb, request);
+  verb->AddOption("--html", &request->html_file, "the plant on one page, HTML").Writes();
+  verb->AddOption("--plant", &request->plant, "its name on that page; else that of the input")
+      .Type("NAME");
+  verb->AddOption("--out", &request->options.folder, "where the results go").WritesFolder();
+  verb->AddSwitch("--resume", &request->resume, "go on with a run that was stopped or killed")
+      .Group("Output");
+  verb->AddQuietSwitch();
+}
+
+const BatchTask* FindTask(const std::string& name) {
+  for (const BatchTask& task : BatchTasks()) {
+    if (task.name == name) return &task;
+  }
+  return nullptr;
+}
+
+// Results among the curves would be read as curves, now or the next time.
+Expected<void> CheckOutside(const BatchRequest& request) {
+  std::error_code error;
+  const fs::path out = fs::weakly_canonical(request.options.folder, error);
+  for (const auto* inputs : {&request.inputs, &request.healthy_inputs}) {
+    for (const std::string& input : *inputs) {
+      if (!fs::is_directory(input, error)) continue;
+      const fs::path folder = fs::canonical(input, error);
+      const auto ends = std::mismatch(folder.begin(), folder.end(), out.begin(), out.end());
+      if (ends.first != folder.end()) continue;
+      return Fail("--out lies inside of " + input +
+                      ", where every table is read as a curve: name a folder elsewhere",
+                  request.options.folder);
+    }
+  }
+  return {};
+}
+
+Expected<void> CheckRequest(const VerbLine& verb, const BatchRequest& request) {
+  if (request.options.folder.empty()) return Fail("--out is required: a folder for the results");
+  if (FindTask(request.task) == nullptr) {
+    return Fail("--task: expected one of " + BatchTaskNames() + ", found '" + request.task + "'");
+  }
+  const BatchTask& own = *FindTask(request.task);
+  for (const BatchTask& task : BatchTasks()) {
+    if (task.name == request.task || std::string(task.name) == own.takes) continue;
+    const std::string flag = task.given(verb);
+    if (!flag.empty()) return Fail(flag + " is for --task " + task.name);
+  }
+  if (!request.html_file.empty() && request.options.shard.of > 1) {
+    return Fail("--html is for a whole run: give it to merge");
+  }
+  if (request.resume && verb.Forced()) return Fail("only one of --resume and --force");
+  TRY(CheckOutside(request));
+  return verb.CheckFiles();
+}
+
+BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
+  BatchOptions options = request.options;
+  if (request.resume) options.start = BatchStart::kResume;
+  if (verb.Forced()) options.start = BatchStart::kReplace;
+  options.prepare = [conditions = request.conditions](IvCurve* curve) {
+    return ApplyConditionFlags(conditions, curve);
+  };
+  options.reading = NonDefaults(request.reading.reading, kReadOptionTable);
+  AppendNonDefaults(request.conditions, kConditionFlagTable, &options.reading);
+  return options;
+}
+
+Expected<FleetTask> MakeTask(const VerbLine& verb, const BatchRequest& request) {
+  TRY(FleetTask task, FindTask(request.task)->make(verb, request));
+  if (request.healthy_inputs.empty()) return task;
+  FleetReadOptions reading = request.reading;
+  reading.shard = {};
+  TRY(const auto source, OpenFleet(request.healthy_inputs, reading));
+  ConditionFlags module = request.conditions;  // light and temperature are today's
+  module.irradiance_W_m2.reset();
+  module.temperature_C.reset();
+  TRY(auto sweeps, ReadHealthy(source.get(), [module](IvCurve* curve) {
+        return ApplyConditionFlags(module, curve);
+      }));
+  return WithPast(std::move(task), std::move(sweeps), request.healthy);
+}
+
+// As it was said, else what the input is called.
+std::string PlantName(const BatchRequest& request) {
+  if (!request.plant.empty()) return request.plant;
+  fs::path input = request.inputs.front();
+  if (input.filename().empty()) input = input.parent_path();
+  const std::string name = input.stem().string();
+  return name.empty() || name == "-" ? "Plant" : name;
+}
+
+int ExitCode(const BatchSummary& summary) {
+  if (summary.interrupted) return kExitInterrupted;
+  const auto fine = summary.statuses.find(ToText(RowStatus::kFine));
+  const bool none = summary.rows > 0 && !summary.was_complete && fine == summary.statuses.end();
+  return none ? kExitNotUsable : kExitFine;
+}
+
+Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
+  TRY(CheckRequest(verb, request));
+  const BatchOptions options = Settled(verb, request);
+  FleetReadOptions reading = request.reading;
+  reading.shard = options.shard;
+  const InterruptGuard guard;
+  TRY(const FleetTask task, MakeTask(verb, request));
+  TRY(const auto source, OpenFleet(request.inputs, reading));
+  TRY(const BatchSummary summary,
+      RunBatch(source.get(), task, options,
+               TerminalObserver({"batch", "Ctrl-C keeps the rows that are done for --resume"})));
+  PrintRemarks(source->Remarks());
+  if (!request.html_file.empty() && !summary.interrupted) {
+    TRY(WritePlantPageOf(options.folder, request.html_file, PlantName(request)));
+  }
+  TRY(WriteText(verb, [&] { return BatchText(summary); }));
+  return ExitCode(summary);
+}
+
+}  // namespace
+
+const Verb kBatchVerb = {"batch", "Fit or diagnose many curves, a row of results each",
+                         kBatchFooter,
+                         "results.csv, results.jsonl and results.schema.json into the folder --out",
+                         Declare<BatchRequest, DeclareBatch, RunBatchVerb>};
+
+}  // namespace lyrefit

@@ -1,0 +1,160 @@
+#include "batch_request.h"
+#include "bounds_flag.h"
+#include "effect_text.h"
+#include "lyrefit/base/try.h"
+#include "model_flag.h"
+#include "translation_flags.h"
+
+namespace lyrefit {
+namespace {
+
+// Of the diagnosis' options those that a row can show: no gain on held-out readings, no plan.
+const std::vector<std::string> kDiagnoseRows = {
+    "base", "effects", "level", "floor-current", "floor-power", "draws", "largest-causes"};
+
+// Flags that AddSharedTaskFlags and the options of a batch declare.
+bool IsShared(const std::string& flag) {
+  return flag == "--seed" || flag == "--threads" || flag == "--noise";
+}
+
+// The first flag of a table that was given.
+template <class Options, class Table>
+std::string GivenOf(const VerbLine& verb, const Table& table, const Options& usual) {
+  std::string given;
+  ForRows(table, [&](const OptionRow<Options>& row, const std::string&) {
+    if (row.Is(OptionTrait::kNoFlag)) return;  // a verb's own, such as --force
+    const std::string flag = FlagName(row, usual);
+    if (given.empty() && !IsShared(flag) && verb.Has(flag) && verb.Given(flag)) given = flag;
+  });
+  return given;
+}
+
+void DeclareFitFlags(VerbLine* verb, BatchRequest* request) {
+  AddModelFlag(verb, &request->fit.model, &request->auto_model);
+  AddNamedFlags(verb, kFitOptionTable, {"objective", "constants"}, &request->fit);
+  AddBoundsFlag(verb, "Model", &request->bounds);
+  AddTableFlags(verb, kFitOptionTable, &request->fit, "Model");
+  AddTableFlags(verb, kFitOptionTable, &request->fit, "Search");
+  AddTableFlags(verb, kSearchOptionTable, &request->fit.search);
+  AddTableFlags(verb, kFitOptionTable, &request->fit);
+}
+
+std::string GivenFitFlag(const VerbLine& verb) {
+  if (verb.Given("--bounds")) return "--bounds";
+  const std::string flag = GivenOf(verb, kFitOptionTable, FitOptions());
+  return flag.empty() ? GivenOf(verb, kSearchOptionTable, SearchOptions()) : flag;
+}
+
+Expected<FleetTask> MakeFit(const VerbLine& verb, const BatchRequest& request) {
+  FitOptions options = request.fit;
+  const auto ranges = options.bounds.overrides;
+  TRY(options.bounds, NamedBounds(request.bounds, request.inputs.front()));
+  for (const auto& [name, range] : ranges) options.bounds.overrides[name] = range;
+  if (!options.with.empty()) {
+    const SearchOptions usual = FitOptions::SearchBesideShapes();
+    if (!verb.Given("--population")) options.search.population = usual.population;
+    if (!verb.Given("--iterations")) options.search.iterations = usual.iterations;
+    if (request.auto_model) {
+      return Fail(
+          "--model auto chooses among diodes alone: say which --model stands beside "
+          "--with");
+    }
+  }
+  return FitTask(options, request.auto_model);
+}
+
+void DeclareDiagnoseFlags(VerbLine* verb, BatchRequest* request) {
+  AddNamedFlags(verb, kDiagnoseOptionTable, kDiagnoseRows, &request->diagnose);
+}
+
+std::string GivenDiagnoseFlag(const VerbLine& verb) {
+  return GivenOf(verb, kDiagnoseOptionTable, DiagnoseOptions());
+}
+
+Expected<FleetTask> MakeDiagnose(const VerbLine& /*verb*/, const BatchRequest& request) {
+  TRY(CheckEffects("--effects", request.diagnose.effects));
+  return DiagnoseTask(request.diagnose);
+}
+
+// Draws of the propagation; --draws are those of the diagnosis.
+constexpr char kUncertaintyDraws[] = "--uncertainty-draws";
+
+// All but the target, which is standard conditions.
+const std::vector<std::string> kTranslateRows = {"procedures",      "key-points",
+                                                 "lead-resistance", "rear-irradiance-Wm2",
+                                                 "bifaciality",     "technology"};
+
+void DeclareFieldTestFlags(VerbLine* verb, BatchRequest* request) {
+  TranslateOptions& options = request->translate;
+  AddNamedFlags(verb, kTranslateOptionTable, kTranslateRows, &options);
+  AddTranslationFlags(verb, " of all strings", &request->coefficients_file, &request->module_file,
+                      &options);
+  const auto* const draws = FindRow(kUncertaintyOptionTable, "draws");
+  verb->AddOption(kUncertaintyDraws, &options.uncertainty.draws, draws->doc)
+      .Type("N")
+      .Group("Uncertainty");
+}
+
+std::string GivenFieldTestFlag(const VerbLine& verb) {
+  for (const char* file : {"--coefficients", "--module"}) {
+    if (verb.Given(file)) return file;
+  }
+  const TranslateOptions usual;
+  for (const std::string& flag : {GivenOf(verb, kTranslateOptionTable, usual),
+                                  GivenOf(verb, kCoefficientTable, usual.coefficients),
+                                  GivenOf(verb, kFieldTestOptionTable, usual.field_test),
+                                  GivenOf(verb, kFieldNotesTable, usual.notes),
+                                  GivenOf(verb, kChecklistOptionTable, usual.checklist)}) {
+    if (!flag.empty()) return flag;
+  }
+  if (verb.Given(kUncertaintyDraws)) return kUncertaintyDraws;
+  // --draws is the diagnosis'.
+  const std::string flag = GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
+  return flag == "--draws" ? "" : flag;
+}
+
+Expected<FleetTask> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {
+  TRY(CheckEffects("--effects", request.diagnose.effects));
+  TranslateOptions options = request.translate;
+  options.diagnosis = request.diagnose;
+  if (!request.coefficients_file.empty()) {
+    TRY(ReadCoefficients(request.coefficients_file, &options.coefficients));
+  }
+  if (!request.module_file.empty()) TRY(ReadModule(request.module_file, &options));
+  return FieldTestTask(options);
+}
+
+}  // namespace
+
+const std::vector<BatchTask>& BatchTasks() {
+  static const std::vector<BatchTask> tasks = {
+      {"fit", DeclareFitFlags, GivenFitFlag, MakeFit},
+      {"diagnose", DeclareDiagnoseFlags, GivenDiagnoseFlag, MakeDiagnose},
+      {"field-test", DeclareFieldTestFlags, GivenFieldTestFlag, MakeFieldTest, "diagnose"},
+  };
+  return tasks;
+}
+
+std::string BatchTaskNames() {
+  std::string names;
+  for (const BatchTask& task : BatchTasks()) {
+    names += (names.empty() ? "" : ", ") + std::string(task.name);
+  }
+  return names;
+}
+
+void AddSharedTaskFlags(VerbLine* verb, BatchRequest* request) {
+  const auto read_noise = [request](const std::string& text) -> Expected<void> {
+    const auto* const fit = FindRow(kFitOptionTable, "noise");
+    const auto* const diagnose = FindRow(kDiagnoseOptionTable, "noise");
+    TRY(std::get<OptionText<FitOptions>>(fit->field).read(text, &request->fit));
+    return std::get<OptionText<DiagnoseOptions>>(diagnose->field).read(text, &request->diagnose);
+  };
+  verb->AddReader("--noise", read_noise,
+                  "errors of the readings: white, field, or a JSON file with their sizes (default "
+                  "white of a fit, field of a diagnosis)")
+      .Type("NAME|FILE")
+      .Group("Batch");
+}
+
+}  // namespace lyrefit

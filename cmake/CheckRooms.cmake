@@ -19,7 +19,7 @@ set(ALLOWED_report base curve law search certify fit family diagnose translate) 
 # A library of its own with its writers in study/report; what the core writes knows nothing of it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
 # Another: many curves, their rows and their page.
-set(ALLOWED_fleet base curve law fit family diagnose translate report)
+set(ALLOWED_fleet base curve law fit effects family diagnose translate report)
 set(ROOMS base curve law search refine certify effects fit family diagnose translate report study fleet)
 
 set(PUBLIC)  # the headers that are installed

@@ -22,6 +22,9 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/simulate.h
   law/kernel.h
   search/search.h
+  translate/procedures.h
+  translate/translate.h
+  translate/uncertainty.h
   # their options
   certify/certify_options.h
   diagnose/diagnose_options.h
@@ -31,6 +34,12 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/error_spec.h
   fit/fit_options.h
   search/search_options.h
+  translate/checklist_options.h
+  translate/device_coefficients.h
+  translate/field_notes.h
+  translate/field_test_options.h
+  translate/translate_options.h
+  translate/uncertainty_options.h
   # their records
   curve/curve_set.h
   curve/iv_curve.h
@@ -41,6 +50,9 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/fit_report.h
   refine/error_terms.h
   search/search_summary.h
+  translate/checklist.h
+  translate/field_test.h
+  translate/translation_report.h
   # readers, and the writer of curves
   curve/assumption.h
   curve/check_readings.h
@@ -56,6 +68,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/documents.h
   report/figure.h
   report/json.h
+  report/page.h
   report/plots.h
   report/text_layout.h
   # laws, and what an effect of one's own is written with
@@ -117,8 +130,16 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/report/documents.h)
 set(LYREFIT_FLEET_PUBLIC_HEADERS
   fleet.h
+  fleet/batch.h
+  fleet/batch_options.h
   fleet/fleet_source.h
-  fleet/result_row.h)
+  fleet/fleet_task.h
+  fleet/pack.h
+  fleet/past.h
+  fleet/plant_page.h
+  fleet/result_row.h
+  fleet/sketch.h
+  fleet/string_pages.h)
 list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
 list(TRANSFORM LYREFIT_FLEET_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")

@@ -11,6 +11,10 @@ Die() {
   exit 1
 }
 
+# Unless COMMAND PACKAGE: the package of a command that is not there, whoever installed it. Node.js of other sources
+# than Debian holds npm, and Debian's npm does not go with it.
+Unless() { command -v "$1" > /dev/null || echo "$2"; }
+
 # The Debian packages of one purpose.
 PackagesFor() {
   case $1 in
@@ -18,7 +22,10 @@ PackagesFor() {
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
     test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema ;;
+    slurm) echo slurm-wlm munge procps python3 ;;
+    engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
+    pages) Unless node nodejs; Unless npm npm; Unless chromium chromium ;;  # what pages embed, a browser to test them
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;
     clang) echo clang libclang-rt-14-dev ;;
     benchmark) echo libbenchmark-dev libnlopt-dev libnlopt-cxx-dev libpagmo-dev ;;
@@ -58,8 +65,25 @@ InstallPackages() {
 Configure() {
   local generator=()
   [[ -f $1/CMakeCache.txt ]] || generator=(-G Ninja)
+  Modules "$LYREFIT_ROOT/cmake/plotly" "$1/plotly"
+  Modules "$LYREFIT_ROOT/tests/pages" "$1/tests/pages"
   Say "Configuring $1"
   cmake -S "$LYREFIT_ROOT" -B "$1" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "${@:2}"
+}
+
+# Modules SOURCE FOLDER: what SOURCE/package-lock.json pins, installed in FOLDER; nothing where it is there. Without
+# npm pages are built without charts, which the library's configuration says.
+Modules() {
+  command -v npm > /dev/null || return 0
+  cmp -s "$1/package-lock.json" "$2/package-lock.json" && [[ -d $2/node_modules ]] && return 0
+  Say "Installing what $1/package.json names"
+  mkdir -p "$2"
+  rm -rf "$2/node_modules" "$2/package-lock.json"
+  cp "$1/package.json" "$1/package-lock.json" "$1/.npmrc" "$2"
+  (cd "$2" && npm ci --ignore-scripts --silent) || {
+    rm -f "$2/package-lock.json"
+    Say "npm ci failed: pages will have no charts, or no tests in a browser"
+  }
 }
 
 # Build FOLDER [OPTION...] on every core.

@@ -1,16 +1,26 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+
+// Leaves out a test that takes minutes where the sanitizers make all slow, and whose code they see in others.
+#ifdef LYREFIT_SANITIZED
+#define SKIP_IF_SANITIZED() \
+  GTEST_SKIP() << "takes minutes under sanitizers, which see its code in other tests"
+#else
+#define SKIP_IF_SANITIZED() static_cast<void>(0)
+#endif
 
 namespace lyrefit {
 
-// How often to repeat what only makes a claim surer: a tenth where the sanitizers make all slow.
-constexpr int Repeats(int often) {
 #ifdef LYREFIT_SANITIZED
-  return std::max(1, often / 10);
+constexpr bool kSanitized = true;
 #else
-  return often;
+constexpr bool kSanitized = false;
 #endif
-}
+
+// How often to repeat what only makes a claim surer: a tenth where the sanitizers make all slow.
+constexpr int Repeats(int often) { return kSanitized ? std::max(1, often / 10) : often; }
 
 }  // namespace lyrefit

@@ -19,7 +19,8 @@
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // FitFamily fits one device to curves under different irradiance and temperature. Certify proves
 // how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone. Diagnose says
-// what the model gets wrong in a measurement and why. FitDocument, FamilyDocument and their kin are
+// what the model gets wrong in a measurement and why. TranslateCurve carries a curve to standard or
+// any conditions, with its uncertainty. FitDocument, FamilyDocument and their kin are
 // the reports as data, for DrawText, DrawMarkdown and DrawHtml.
 //
 // Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_free.h fits every curve
@@ -38,3 +39,4 @@
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/translate/translate.h"

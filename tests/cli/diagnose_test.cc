@@ -23,23 +23,22 @@ const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
 const std::string kQuick = "--effects nonohmic_shunt --draws 200 --no-held-out ";
 
 TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
-  ExpectRefusals(
-      "",
-      {
-          {"diagnose", "CURVE is required"},
-          {"diagnose no_such_file.csv", "no_such_file.csv: the file does not exist"},
-          {kVerb + "--level 7", "--level: 7 is outside ["},
-          {kVerb + "--base td", "--base: expected sd or dd, found 'td'"},
-          {kVerb + "--effects nonsense", "--effects: expected one of "},
-          {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
-          {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
-          {kVerb + "--json - --answers -", "only one of --json and --answers"},
-          {kVerb + "--json no_such_folder/x.json", "cannot write"},
-          {kVerb + "--plot x.pdf", ".svg or .png"},
-          {kVerb + "other.csv --plot x.svg", "--plot and --extend are for one CURVE"},
-          {kVerb + "elsewhere/rtc_france.csv --answers x.json", "two files are named 'rtc_france'"},
-          {"diagnose --explain nonsense", "--explain: expected one of "},
-      });
+  ExpectRefusals("", {
+                         {"diagnose", "CURVE is required"},
+                         {"diagnose no_such_file.csv", "no_such_file.csv: the file does not exist"},
+                         {kVerb + "--level 7", "--level: 7 is outside ["},
+                         {kVerb + "--base td", "--base: expected sd or dd, found 'td'"},
+                         {kVerb + "--effects nonsense", "--effects: expected one of "},
+                         {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
+                         {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
+                         {kVerb + "--json - --answers -", "only one of --json and --answers"},
+                         {kVerb + "--json no_such_folder/x.json", "cannot write"},
+                         {kVerb + "--plot x.pdf", ".svg or .png"},
+                         {kVerb + "other.csv --plot x.svg", "--plot is for one CURVE"},
+                         {kVerb + "elsewhere/rtc_france.csv --answers x.json",
+                          "two files are named 'rtc_france'"},
+                         {"diagnose --explain nonsense", "--explain: expected one of "},
+                     });
 }
 
 TEST(DiagnoseVerb, ListsTheEffectsWhereOneIsUnknown) {

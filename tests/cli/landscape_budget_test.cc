@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "../repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -79,6 +80,7 @@ TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
 }
 
 TEST(LandscapeBudget, HasTheSameBitsOnAnyThreadsAndWhenTakenUp) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const auto run = [&](const std::string& flags, const std::string& name) {
     const AppResult result = RunApp(kSmall + flags + " --json " + folder.Path(name + ".json") +

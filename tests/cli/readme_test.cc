@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cli/run_app.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -100,6 +101,7 @@ bool Prints(const std::string& output, const std::string& line) {
 class Page : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Page, CommandsRunWithWhatShipsAndPrintWhatIsShown) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   fs::copy(Project() / "data", folder.Path("data"), fs::copy_options::recursive);
   std::ifstream page(Project() / GetParam());

@@ -70,6 +70,11 @@ std::vector<SchemaCase> SchemaCases() {
       {"FamilyOneByOne", "fit " + set + "--family free --json FILE --quiet", "family"},
       {"Pvlib", "fit " + set + "--family pvsyst --pvlib FILE" + kSearch, "pvlib"},
       {"DataSheet", module + "--json FILE", "data_sheet"},
+      {"Translation",
+       "translate " + rtc +
+           "--irradiance-Wm2 1000 --rated-W 0.32 --json FILE --effects nonohmic_shunt,irr_step "
+           "--draws 200 --quiet",
+       "translation"},
       {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
       {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},
       {"DiagnosisOfSeveral", "diagnose " + rtc + kData + "pwp201 --json FILE" + kCauses,

@@ -44,7 +44,7 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   EXPECT_EQ(bare.err, "");
   EXPECT_EQ(bare.out, RunApp("help").out);
   for (const char* verb : {"fit", "simulate", "certify", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "coverage", "diagnose"}) {
+                           "datasheet", "audit", "coverage", "diagnose", "pack"}) {
     EXPECT_THAT(bare.out, HasSubstr(std::string("\n  ") + verb + " ")) << verb;
     EXPECT_THAT(bare.out, HasSubstr(std::string(" lyrefit ") + verb + " ")) << verb;
   }
@@ -79,8 +79,8 @@ TEST(Verbs, WithoutATargetSayWhatTheyWriteInstead) {
       {"audit x.csv --plot a.svg",
        "--plot: audit has none; it writes the findings as text, --json and --csv"},
       {"compare x.csv --brief",
-       "--brief: compare has none; it writes its tables as text, --json, --csv, --plot and "
-       "--convergence-plot"},
+       "--brief: compare has none; it writes its tables as text, --json, --csv, --plot, "
+       "--convergence-plot and --html"},
   };
   for (const auto& one : cases) {
     const AppResult result = RunApp(one.arguments);

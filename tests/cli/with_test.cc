@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../repeats.h"
 #include "../temp_folder.h"
 #include "lyrefit/base/file.h"
 #include "run_app.h"
@@ -105,6 +106,7 @@ TEST(With, SaysWhatIsWrongWithAnEffect) {
 }
 
 TEST(With, SearchesAreComparedOnIt) {
+  SKIP_IF_SANITIZED();
   const AppResult budget =
       RunApp("budget " + kShaded +
              " --with shading:w=0.3333 --models sd --algorithms random --budgets 20 --runs 2 "
@@ -114,6 +116,7 @@ TEST(With, SearchesAreComparedOnIt) {
 }
 
 TEST(With, HardBirdsAreSaidAndCounted) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const std::string file = folder.Path("fit.json");
   const AppResult fit =

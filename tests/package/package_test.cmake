@@ -14,6 +14,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/consumer -G ${GENER
 run(${CMAKE_COMMAND} --build ${WORK}/consumer --config ${CONFIG})
 run(${WORK}/consumer/consumer ${DATA})
 run(${WORK}/consumer/study ${DATA})
+run(${WORK}/consumer/fleet ${DATA}/../plant/strings.csv ${WORK}/results)
 run(${WORK}/consumer/own_effect WORKING_DIRECTORY ${DATA}/../..)
 if(EXISTS "${WORK}/prefix/bin/lyrefit")
   run(${WORK}/prefix/bin/lyrefit --version)

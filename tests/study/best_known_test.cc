@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "../repeats.h"
 #include "lyrefit/study/compare_run.h"
 #include "lyrefit/study/landscape.h"
 #include "pooled_study.h"
@@ -24,6 +25,7 @@ TEST(FindBestKnown, FindsNothingWhereNoneIsAskedFor) {
 }
 
 TEST(FindBestKnown, IsAtMostAsHighAsTheTruth) {
+  SKIP_IF_SANITIZED();
   const auto cases = MakeLandscape("strings_2", 2, 0);
   ASSERT_TRUE(cases);
   CompareOptions options;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "../repeats.h"
 #include "../temp_folder.h"
 #include "json_keys.h"
 #include "lyrefit/fit/fit.h"
@@ -93,6 +94,7 @@ TEST(ComparePooled, RunsADefaultFitAsItIs) {
 }
 
 TEST(ComparePooled, GivesTheSameBitsOnAnyNumberOfThreads) {
+  SKIP_IF_SANITIZED();
   CompareOptions options = PooledOptions();
   const nlohmann::json two = Figures(Compared(StringsAndFamilies(), options));
   options.threads = 1;

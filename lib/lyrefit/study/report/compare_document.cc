@@ -6,6 +6,7 @@
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/report/compare_parts.h"
+#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {
@@ -129,6 +130,23 @@ Section OverviewSection(const Comparison& comparison) {
           {std::move(table)}};
 }
 
+// What the polish left of the ranking, where few problems are compared.
+std::string PolishVerdicts(const Comparison& comparison) {
+  constexpr std::size_t kMostProblems = 4;
+  const std::vector<ProblemResult>& problems = comparison.problems;
+  std::string text;
+  if (problems.size() > kMostProblems) return text;
+  for (const ProblemResult& problem : problems) {
+    for (const block::Any& any : PolishVerdict(problem).blocks) {
+      const auto* const sentence = std::get_if<block::Sentence>(&any);
+      if (sentence == nullptr) continue;
+      text += (text.empty() ? "" : "\n") +
+              (problems.size() > 1 ? ProblemTitle(problem) + ": " : std::string()) + sentence->text;
+    }
+  }
+  return text;
+}
+
 std::string Title(const Comparison& comparison) {
   if (comparison.problems.empty()) return "nothing was completed";
   const std::size_t contenders = comparison.problems[0].contenders.size();
@@ -159,10 +177,21 @@ Document CompareDocument(const Comparison& comparison) {
              &head);
   }
   AddField("time", Duration(comparison.seconds), &head);
+  if (!comparison.problems.empty()) {
+    block::Figure boxes;
+    boxes.caption = fmt::format(
+        "How far above the reference the runs of each algorithm end, in A ({}): median, quartiles, "
+        "whiskers to 1.5 times their distance, and what lies beyond. The tables below have the "
+        "numbers.",
+        ToText(comparison.options.objective));
+    boxes.figure = BoxFigure(comparison);
+    AddFigure(std::move(boxes), &head);
+  }
   AddSections({OverviewSection(comparison)}, &document);
   for (const ProblemResult& problem : comparison.problems) {
     AddSections(CompareSections(comparison, problem), &document);
   }
+  document.verdict = PolishVerdicts(comparison);
   return document;
 }
 

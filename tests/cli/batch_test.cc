@@ -1,0 +1,199 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "../fleet/strings.h"
+#include "run_app.h"
+#include "start_app.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+#ifdef LYREFIT_SANITIZED
+constexpr double kPatience_s = 20;
+constexpr int kRows = 60;
+#else
+constexpr double kPatience_s = 5;
+constexpr int kRows = 400;
+#endif
+
+class BatchCommand : public testing::Test {
+ protected:
+  std::vector<std::string> Words(const std::string& out, const std::string& more = "--resume") {
+    return {"batch", file_, "--out", folder_.Path(out), "--threads", "2", more};
+  }
+  AppResult Run(const std::string& out, const std::string& more = "") {
+    return RunApp("batch '" + file_ + "' --out '" + folder_.Path(out) + "' --threads 2 " + more);
+  }
+  std::string PartOf(const std::string& out) { return folder_.Path(out) + "/results.part"; }
+
+  const TempFolder folder_;
+  const std::string file_ = folder_.Write("strings.jsonl", ManyRows(kRows));
+};
+
+TEST_F(BatchCommand, LosesNothingToKills) {
+  ASSERT_EQ(Run("whole").exit_code, 0);
+  int killed = 0;
+  for (int i = 0; i < 100; ++i) {
+    const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30 + 37 * i % 120));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (WIFEXITED(status)) break;
+    ++killed;
+  }
+  const AppResult last = Run("out", "--resume");
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_GE(killed, 1);
+  EXPECT_EQ(ResultsIn(folder_.Path("out")), ResultsIn(folder_.Path("whole")));
+}
+
+TEST_F(BatchCommand, EndsOnSignalsAndGoesOn) {
+  ASSERT_EQ(Run("whole").exit_code, 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
+    while (!Listens(child, SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    const auto begin = std::chrono::steady_clock::now();
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), kPatience_s);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130) << FileText(folder_.Path("err"));
+    EXPECT_THAT(FileText(folder_.Path("text")),
+                HasSubstr("the same command with --resume goes on from there"));
+    EXPECT_TRUE(std::filesystem::exists(PartOf("out")));
+  }
+  EXPECT_EQ(Run("out", "--resume").exit_code, 0);
+  EXPECT_EQ(ResultsIn(folder_.Path("out")), ResultsIn(folder_.Path("whole")));
+}
+
+TEST_F(BatchCommand, InShardsAndMergedGivesTheSameBytes) {
+  ASSERT_EQ(Run("whole").exit_code, 0);
+  for (const int of : {1, 3, 8}) {
+    const std::string name = "shards" + std::to_string(of);
+    for (int k = 1; k <= of; ++k) {
+      const AppResult shard = Run(name, fmt::format("--shard {}/{}", k, of));
+      EXPECT_EQ(shard.exit_code, 0) << shard.err;
+    }
+    if (of == 1) {  // the whole
+      EXPECT_EQ(ResultsIn(folder_.Path(name)), ResultsIn(folder_.Path("whole")));
+      continue;
+    }
+    const AppResult merged =
+        RunApp("merge '" + folder_.Path(name) + "' --out '" + folder_.Path(name + "m") + "'");
+    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    EXPECT_THAT(merged.out, HasSubstr("fit of many curves"));
+    EXPECT_EQ(ResultsIn(folder_.Path(name + "m")), ResultsIn(folder_.Path("whole"))) << of;
+  }
+}
+
+TEST_F(BatchCommand, RefusesAWriterBesideIt) {
+  const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
+  while (!std::filesystem::exists(PartOf("out"))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const AppResult second = Run("out", "--resume");
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) GTEST_SKIP() << "the first was done before the second began";
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_THAT(second.err, HasSubstr("another process is writing these rows"));
+}
+
+TEST_F(BatchCommand, SumsUpAndKnowsItsExitCodes) {
+  const AppResult fine = Run("out");
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_THAT(fine.out, HasSubstr("broken"));
+  EXPECT_THAT(fine.out, HasSubstr("strings compared with those of their combiner"));
+  EXPECT_EQ(Run("out").exit_code, 1);
+  EXPECT_THAT(Run("out").err, HasSubstr("say --force to replace them"));
+  EXPECT_EQ(Run("out", "--quiet --force").out, "");
+  EXPECT_THAT(Run("out", "--resume").out, HasSubstr("all rows were there before"));
+  const std::string broken = folder_.Write("broken.jsonl", "{\"id\":\"a\",\"voltage_V\":[1]}\n");
+  EXPECT_EQ(RunApp("batch '" + broken + "' --out '" + folder_.Path("b") + "'").exit_code, 2);
+}
+
+TEST_F(BatchCommand, DiagnosesWithItsOwnFlags) {
+  const std::string few = folder_.Write("few.jsonl", ManyRows(3));
+  const AppResult done =
+      RunApp("batch '" + few + "' --task diagnose --draws 200 --out '" + folder_.Path("out") + "'");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(FileText(folder_.Path("out") + "/results.csv"), HasSubstr(",cause,cause_title,"));
+  EXPECT_EQ(RunApp("batch '" + few + "' --task diagnose --force --draws 200 --quiet --out '" +
+                   folder_.Path("out") + "'")
+                .exit_code,
+            0);
+}
+
+TEST_F(BatchCommand, TestsStringsInTheFieldOntoAPage) {
+  const std::string few = folder_.Write("few.jsonl", ManyRows(2));
+  const std::string page = folder_.Path("plant.html");
+  const AppResult done =
+      RunApp("batch '" + few + "' --task field-test --draws 200 --effects clip " + "--html '" +
+             page + "' --out '" + folder_.Path("out") + "'");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string lines = FileText(folder_.Path("out") + "/results.jsonl");
+  const auto row = nlohmann::json::parse(lines.substr(0, lines.find('\n')));
+  EXPECT_EQ(row["rated_power_W"], 300);
+  EXPECT_THAT(row["zone"].get<std::string>(), ::testing::ContainsRegex("^(pass|fail)"));
+  EXPECT_GT(row["Pmax_stc_U_W"].get<double>(), 0);
+  EXPECT_GT(row["Pmax_stc_W"].get<double>(), row["Pmax_W"].get<double>()) << "at 40 C";
+  EXPECT_THAT(FileText(page), HasSubstr("site/comb0"));
+}
+
+TEST_F(BatchCommand, WritesPagesOfStringsThatThePlantsPageLeadsTo) {
+  const std::string few = folder_.Write("few.jsonl", ManyRows(2));
+  const std::string module =
+      folder_.Write("module.json", R"({"rated_power_W": 400, "beta_oc_percent_K": -0.28})");
+  const AppResult done =
+      RunApp("batch '" + few + "' --task field-test --draws 200 --effects clip --module '" +
+             module + "' --tracer PVA --operator 'Crew B' --pages failed --plant Elm --html '" +
+             folder_.Path("plant.html") + "' --out '" + folder_.Path("out") + "'");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string page = FileText(folder_.Path("out") + "/pages/site/comb0/str0.html");
+  EXPECT_THAT(page, HasSubstr("<p>Fail: "));
+  EXPECT_THAT(page, HasSubstr("Crew B"));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"plotly\"")));
+  const std::string plant = FileText(folder_.Path("plant.html"));
+  EXPECT_THAT(plant, HasSubstr("<a href=\"./out/pages/site/comb0/str0.html\">site/comb0/str0</a>"));
+  EXPECT_THAT(plant, HasSubstr("<h1>Elm</h1>"));
+}
+
+TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
+  const std::string command = " '" + file_ + "' --out '" + folder_.Path("never") + "'";
+  ExpectRefusals("batch",
+                 {
+                     {command + " --task sort", "expected one of fit, diagnose"},
+                     {command + " --pages some", "expected one of none, failed, all"},
+                     {command + " --shard 4/3", "expected K/N with K from 1 to N"},
+                     {command + " --draws 300", "--draws is for --task diagnose"},
+                     {command + " --task diagnose --model dd", "--model is for --task fit"},
+                     {command + " --resume --force", "only one of --resume and --force"},
+                     {" '" + file_ + "'", "--out is required"},
+                     {" '" + folder_.Path("") + "' --out '" + folder_.Path("in") + "'",
+                      "--out lies inside of"},
+                     {" '" + folder_.Path("no") + "' --out '" + folder_.Path("o") + "'", "no"},
+                 });
+  ExpectRefusals("merge", {{" '" + folder_.Path("no") + "' --out '" + folder_.Path("o") + "'",
+                            "cannot read the folder"},
+                           {" '" + folder_.Path("") + "'", "--out is required"}});
+  EXPECT_FALSE(std::filesystem::exists(folder_.Path("never")));
+}
+
+}  // namespace
+}  // namespace lyrefit

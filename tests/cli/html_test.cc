@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kData = LYREFIT_DATA_DIR;
+
+// The record that a page holds.
+nlohmann::json RecordOf(const std::string& html) {
+  const std::string begins = "<script type=\"application/json\" id=\"record\">";
+  const std::size_t at = html.find(begins);
+  if (at == std::string::npos) return nullptr;
+  const std::size_t begin = at + begins.size();
+  return nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
+TEST(Html, OfEveryVerbHoldsItsVerdictAPictureAndItsRecord) {
+  for (const std::string& verb :
+       {"fit " + kData + "/rtc_france", "diagnose " + kData + "/diagnosis/shaded_module.csv",
+        "certify " + kData + "/rtc_france", "fit " + kData + "/s75_constructed --family desoto",
+        "compare " + kData + "/rtc_france --runs 2 --models sd --iterations 20"}) {
+    const TempFolder folder;
+    const std::string page = folder.Path("page.html");
+    const std::string json = folder.Path("record.json");
+    const AppResult result = RunApp(verb + " --quiet --html " + page + " --json " + json);
+    ASSERT_EQ(result.exit_code, 0) << verb << "\n" << result.err;
+    EXPECT_EQ(result.out, "");
+    const std::string html = FileText(page);
+    EXPECT_TRUE(html.find("<h2>Verdict</h2>") != std::string::npos) << verb;
+    EXPECT_TRUE(html.find("<figure id=\"figure-1\"") != std::string::npos) << verb;
+    EXPECT_TRUE(html.find("<svg ") != std::string::npos) << verb;
+    EXPECT_EQ(RecordOf(html), nlohmann::json::parse(FileText(json))) << verb;
+    EXPECT_LT(html.size(), 1600000u) << verb;
+  }
+}
+
+TEST(Html, OfSeveralFitsIsTheirTable) {
+  const TempFolder folder;
+  const std::string page = folder.Path("page.html");
+  const std::string files = kData + "/rtc_france " + kData + "/pwp201";
+  ASSERT_EQ(RunApp("fit " + files + " --quiet --html " + page).exit_code, 0);
+  const std::string html = FileText(page);
+  EXPECT_TRUE(html.find("fits of 2 curves") != std::string::npos);
+  EXPECT_EQ(RecordOf(html).size(), 2u);
+}
+
+TEST(Html, OfADiagnosisIsForOneCurve) {
+  const std::string sweep = kData + "/diagnosis/shaded_module.csv ";
+  const AppResult result = RunApp("diagnose " + sweep + sweep + "--html x.html");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--html is for one CURVE"));
+}
+
+TEST(Html, IsNotPutWhereItCannotBe) {
+  const AppResult result = RunApp("fit " + kData + "/rtc_france --html /nowhere/page.html");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/nowhere/page.html"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,114 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string kCell = std::string("translate ") + LYREFIT_DATA_DIR + "/rtc_france ";
+const std::string kAt = "--irradiance-Wm2 1000 ";
+const std::string kQuick = "--draws 200 --effects nonohmic_shunt --alpha 0.05% --beta -0.35% ";
+
+TEST(TranslateVerb, RefusesBadInputWithOneSentence) {
+  ExpectRefusals("", {{"translate", "CURVE"},
+                      {kCell + kAt + "--to 1000", "--to: expected irradiance"},
+                      {kCell + kAt + "--to 1000,abc", "--to: expected irradiance"},
+                      {kCell + kAt + "--to 9000,25", "1 to 2000 W/m2"},
+                      {kCell + kAt + "--beta steep", "--beta: expected a number per kelvin"},
+                      {kCell + kAt + "--procedures iec5", "iec4"},
+                      {kCell + kAt + "--key-points by-eye", "--key-points"},
+                      {kCell + kAt + "--lead-resistance -1", "--lead-resistance"},
+                      {kCell + kAt + "--coefficients no_such.json", "no_such.json"},
+                      {kCell + kAt + "--with-curve no_such.csv", "no_such.csv"},
+                      {kCell + "--irradiance-Wm2 0 --temperature-C 25", "dark"}});
+}
+
+// Nothing absurd is carried without a word.
+TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
+  const TempFolder folder;
+  const auto write = [&](const std::string& name, const std::string& rows) {
+    const std::string path = folder.Path(name);
+    std::ofstream(path) << "voltage_V,current_A\n" << rows;
+    return "translate '" + path + "' --cells 1 --irradiance-Wm2 800 --temperature-C 45 ";
+  };
+  const std::string lit =
+      "0,0.76\n0.1,0.76\n0.2,0.757\n0.3,0.753\n0.35,0.74\n0.4,0.72\n0.45,0.68\n0.5,0.55\n"
+      "0.55,0.2\n0.57,0\n";
+  const std::string good = write("good.csv", lit);
+  ExpectRefusals("", {{write("one.csv", "0,0.76\n"), "at least two points"},
+                      {write("short.csv", "0,0.76\n0.1,0.76\n0.2,0.757\n0.3,0.753\n"),
+                       "before the point of maximum power"},
+                      {write("dark.csv", "0.1,-0.001\n0.3,-0.01\n0.5,-0.2\n0.55,-0.9\n0.6,-3\n"),
+                       "no reading delivers power"},
+                      {write("hole.csv", "0,0.76\n0.1,nan\n0.2,0.757\n"), "finite number"},
+                      {good + "--to 0,25", "1 to 2000 W/m2"},
+                      {good + "--to nan,25", "1 to 2000 W/m2"},
+                      {good + "--to 1000,-300", "-60 to 150 C"},
+                      {good + "--alpha 50", "of no device"},
+                      {good + "--beta 0.3%", "of no device"},
+                      {good + "--beta -30", "of no device"},
+                      {good + "--epsilon 0", "band gap"},
+                      {good + "--rs -1", "negative"},
+                      {good + "--lead-resistance 5", "leads of 5 ohm"},
+                      {good + "--rear-irradiance-Wm2 100", "say --bifaciality"},
+                      {good + "--with-curve '" + folder.Path("good.csv") + "'", "--irradiance-Wm2"},
+                      {kCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
+}
+
+TEST(TranslateVerb, WarnsOfStepsThatNobodyMeasured) {
+  const AppResult result = RunApp(kCell + "--irradiance-Wm2 60 " + kQuick + "--procedures desoto");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("the stated uncertainty is too small"));
+}
+
+TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
+  const AppResult result = RunApp(kCell + kAt + kQuick + "--to STC");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::size_t answer = result.out.find("here, k = 2"), table = result.out.find("Procedures");
+  ASSERT_NE(answer, std::string::npos) << result.out;
+  EXPECT_LT(answer, table);
+  EXPECT_THAT(result.out, HasSubstr("Recommended is "));
+  EXPECT_THAT(result.out, HasSubstr("Budget of Pmax"));
+  EXPECT_THAT(result.out, HasSubstr("needs a second curve"));
+  EXPECT_THAT(result.out, HasSubstr("200 draws (seed 1)"));
+}
+
+TEST(TranslateVerb, WritesWhatItPrints) {
+  const AppResult text = RunApp(kCell + kAt + kQuick + "--rated-W 0.3 --tolerance -3,+3 --json -");
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  const json j = json::parse(text.out, nullptr, false);
+  ASSERT_FALSE(j.is_discarded());
+  EXPECT_EQ(j["results"].size(), 7U);
+  EXPECT_EQ(j["target"]["irradiance_W_m2"], 1000);
+  EXPECT_EQ(j["seed"], 1);
+  EXPECT_TRUE(j["field_test"]["pass"].get<bool>());
+  for (const json& result : j["results"]) {
+    EXPECT_EQ(result["computed"].get<bool>(), result["why_not"].get<std::string>().empty());
+    if (!result["computed"].get<bool>()) continue;
+    EXPECT_EQ(result["budget"]["results"].size(), 6U);
+    EXPECT_GT(result["key_points"]["max_power_W"].get<double>(), 0.3);
+  }
+  const AppResult csv = RunApp(kCell + kAt + kQuick + "--csv -");
+  ASSERT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 8);
+  const AppResult again = RunApp(kCell + kAt + kQuick + "--csv - --threads 1");
+  EXPECT_EQ(csv.out, again.out);
+}
+
+TEST(TranslateVerb, IsBriefWhereItIsAskedTo) {
+  const AppResult result =
+      RunApp(kCell + kAt + kQuick + "--procedures iec4,desoto --to 800,25 --brief");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
+  EXPECT_THAT(result.out, HasSubstr("W at 800 W/m2, 25 C (k = 2, "));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,22 @@
+#include "lyrefit/fleet.h"
+
+#include <cstdio>
+#include <string>
+
+// Fits every curve of the strings given into the folder given, writes the page of them, and succeeds
+// if every one has its row and none is broken.
+int main(int argc, char** argv) {
+  if (argc != 3) return std::puts("fleet STRINGS FOLDER"), 1;
+  const auto source = lyrefit::OpenFleet({argv[1]});
+  if (!source) return std::puts(source.error().ToString().c_str()), 1;
+  lyrefit::BatchOptions options;
+  options.folder = argv[2];
+  const auto task = lyrefit::FitTask(lyrefit::FleetFitOptions());
+  const auto done = lyrefit::RunBatch(source->get(), task, options);
+  if (!done) return std::puts(done.error().ToString().c_str()), 1;
+  std::fputs(lyrefit::BatchText(*done).c_str(), stdout);
+  const auto rows =
+      lyrefit::WritePlantPage(options.folder + "/results.jsonl", options.folder + "/plant.html");
+  if (!rows) return std::puts(rows.error().ToString().c_str()), 1;
+  return *rows == done->rows && done->rows > 0 && done->statuses.count("broken") == 0 ? 0 : 1;
+}

@@ -139,6 +139,7 @@ Expected<void> AddPoints(const PlacedModel& placed, const std::vector<double>& v
 
 std::vector<double> EvenVoltages(double highest_V, int count) {
   std::vector<double> voltage_V;
+  voltage_V.reserve(count);
   for (int k = 0; k < count; ++k) voltage_V.push_back(highest_V * k / (count - 1));
   return voltage_V;
 }

@@ -60,4 +60,20 @@ inline std::string GoodRow(const std::string& id) {
          R"("voltage_V":[0,10,20,30,36],"current_A":[8.5,8.49,8.4,6,0.1]})";
 }
 
+inline const std::vector<double> kVoltage = {0, 10, 20, 30, 36};
+inline const std::vector<double> kCurrent = {8.5, 8.49, 8.4, 6, 0.1};
+
+// The one curve that GoodRow says, in whatever shape.
+inline void ExpectGood(const FleetCurve& one, const std::string& id) {
+  EXPECT_EQ(one.id, id);
+  ASSERT_TRUE(one.curve) << MessageOf(one.curve);
+  EXPECT_EQ(one.curve->voltage_V, kVoltage);
+  EXPECT_EQ(one.curve->current_A, kCurrent);
+  EXPECT_EQ(one.curve->conditions.irradiance_W_m2, 912);
+  EXPECT_EQ(one.curve->conditions.cell_temperature_K, 47 + 273.15);
+  EXPECT_EQ(one.curve->conditions.cells_in_series, 60);
+  EXPECT_TRUE(one.curve->irradiance_known && one.curve->temperature_known);
+  EXPECT_EQ(one.curve->name, id);
+}
+
 }  // namespace lyrefit

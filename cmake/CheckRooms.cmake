@@ -1,6 +1,7 @@
-# The house rules, as a test: a room includes only rooms above it, and the command only what is installed.
+# The house rules, as a test: a room includes only rooms above it, the command only what is installed, and no two
+# headers give one name to two types, of which a linker would keep one destructor for both.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckRooms.cmake
-# Lists every include that breaks a rule and fails if there is one.
+# Lists everything that breaks a rule and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
 # room -> the rooms of lib/lyrefit that its files may include, besides itself
@@ -88,9 +89,34 @@ function(check_file room)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
+# The types that a header defines outside of any other, each under its namespace: no other header may.
+function(check_types)
+  set(namespace lyrefit)
+  file(STRINGS "${ROOT}/${FILE}" lines REGEX "^(namespace [a-z]|}  // namespace|struct |class |enum class )")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^namespace ([a-z_:]+)")
+      set(namespace "${CMAKE_MATCH_1}")
+    elseif(line MATCHES "^}")
+      set(namespace lyrefit)
+    elseif(line MATCHES "^(struct|class|enum class) ([A-Za-z0-9]+) [{:f]")
+      set(type "${namespace}::${CMAKE_MATCH_2}")
+      if(DEFINED "HOME_${type}")
+        complain("${type} is the name of another type in ${HOME_${type}}")
+      else()
+        set("HOME_${type}" "${FILE}")
+        set("HOME_${type}" "${FILE}" PARENT_SCOPE)
+      endif()
+    endif()
+  endforeach()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/lib/*.h" "${ROOT}/lib/*.cc"
      "${ROOT}/apps/*.h" "${ROOT}/apps/*.cc")
 foreach(FILE IN LISTS files)
+  if(FILE MATCHES "[.]h$")
+    check_types()
+  endif()
   if(FILE MATCHES "^apps/")
     check_file(apps)
   elseif(FILE MATCHES "^lib/lyrefit/([^/]+)/")
@@ -108,6 +134,6 @@ list(LENGTH files count)
 if(count EQUAL 0)
   message(FATAL_ERROR "no source files under ${ROOT}")
 elseif(BROKEN)
-  message(FATAL_ERROR "${BROKEN} of the includes in ${count} files break the order of the rooms")
+  message(FATAL_ERROR "${BROKEN} remarks: ${count} files do not keep the order of the rooms")
 endif()
 message(NOTICE "${count} files keep the order of the rooms")

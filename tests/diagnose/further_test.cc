@@ -67,7 +67,7 @@ TEST(FurtherMeasurementsTest, CoveringLeavesTheOtherGroups) {
   const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
   const Further& cover = Find(all, "cover_part");
   ASSERT_EQ(cover.curves.size(), 3U);
-  for (const FurtherCurve& curve : cover.curves) {
+  for (const PlannedCurve& curve : cover.curves) {
     EXPECT_EQ(curve.readings.traits.cells, 40);
     EXPECT_EQ(SubstringsOf(curve.readings.traits), 2);
   }
@@ -104,7 +104,7 @@ TEST(LawOnTest, ACoveredShadeIsGone) {
 TEST(UnderTest, MovesWhatIsUnknown) {
   const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
   const Further& light = Find(all, "second_light");
-  const FurtherCurve& curve = light.curves.front();
+  const PlannedCurve& curve = light.curves.front();
   const Readings moved = Under(curve, {0.1, 2});
   EXPECT_DOUBLE_EQ(moved.points[3].irradiance, 0.55);
   EXPECT_DOUBLE_EQ(moved.points[3].temperature_K, curve.readings.points[3].temperature_K + 2);

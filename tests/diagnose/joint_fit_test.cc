@@ -55,7 +55,7 @@ TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
     const std::vector<double> unknown(further.unknown.size(), 0.0);
     const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, unknown);
     ASSERT_TRUE(joint) << further.id;
-    const JointEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
+    const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
     ASSERT_TRUE(end.usable) << further.id;
     EXPECT_NEAR(end.sum, healthy.fit.sum, 1e-3 * healthy.fit.sum) << further.id;
     EXPECT_LT(end.after.norm(), 0.1) << further.id;
@@ -68,7 +68,7 @@ TEST(FitJointTest, FindsWhatWasUnknown) {
   const Further further = Find(*healthy.made.bench.readings, "second_light");
   const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, {2, -1});
   ASSERT_TRUE(joint);
-  const JointEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
+  const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
   EXPECT_NEAR(end.sum - healthy.fit.sum, 5, 1.5);
   EXPECT_LT(end.after.norm(), 1);
 }

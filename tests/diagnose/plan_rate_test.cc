@@ -173,8 +173,8 @@ Outcome Try(const Pair& pair, int number) {
     auto joint = TakeFurther(made.bench, 1, further, made.truth, unknown);
     if (!joint) continue;
     Disturb(&random, &*joint);
-    const JointEnd own = FitJoint(*joint, candidates[0].fit.law, candidates[0].starts);
-    const JointEnd other = FitJoint(*joint, candidates[1].fit.law, candidates[1].starts);
+    const FurtherEnd own = FitJoint(*joint, candidates[0].fit.law, candidates[0].starts);
+    const FurtherEnd other = FitJoint(*joint, candidates[1].fit.law, candidates[1].starts);
     outcome.right[further.id] =
         own.usable &&
         (!other.usable || own.sum + candidates[0].charge < other.sum + candidates[1].charge);

@@ -47,6 +47,9 @@ expect(lib/lyrefit/base/a.h "#include <iostream>" "the library prints nothing")
 expect(lib/lyrefit/report/a.cc "#include <CLI/CLI.hpp>" "without the app's dependencies")
 expect(lib/lyrefit/attic/a.cc "#include <cmath>" "is no room of the house")
 
+expect(lib/lyrefit/fit/a.h "struct End {\n};\nnamespace block {\nstruct End {\n};\n}  // namespace block\nstruct Start;\nstruct Start {" "")
+expect(lib/lyrefit/fit/a.h "struct End {\n};\nclass End : Start {" "lyrefit::End is the name of another type in lib/lyrefit/fit/a.h")
+
 file(REMOVE_RECURSE "${WORK}")
 if(FAILURES)
   message(FATAL_ERROR "${FAILURES} of the trees were judged wrongly")

@@ -120,7 +120,7 @@ void AddS75Runs(const PaperStudy& study, Section* section) {
                    "polished, min and max", "polished runs at the optimum"}}};
   for (const ProblemResult& problem : study.s75.problems) {
     for (const ContenderResult& contender : problem.contenders) {
-      const Spread& s = contender.searched;
+      const RunSpread& s = contender.searched;
       table.rows.push_back(
           {problem.curve_name, contender.name, Scientific(s.min, 5), Scientific(s.mean, 5),
            Scientific(s.median, 5), Scientific(s.max, 5), Scientific(s.std, 2),

@@ -18,7 +18,7 @@ enum PublishedColumn { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kN
 
 // One statistic of a batch of searched figures.
 double Statistic(const std::vector<double>& values, const std::string& quantity) {
-  const Spread spread = SpreadOf(values, 1);
+  const RunSpread spread = SpreadOf(values, 1);
   if (quantity == "min") return spread.min;
   if (quantity == "mean") return spread.mean;
   if (quantity == "max") return spread.max;

@@ -22,7 +22,7 @@ TEST(ModelCurrents, HaveTheSlopesOfCentralDifferencesByEveryParameter) {
   measured = SolveCurrents(device, p.data(), unmeasured);
   for (double& current : measured) current += 0.01;
   const PointSet set = MakePointSet(voltage, measured);
-  const CurvePoints points{voltage, measured, set};
+  const CurveView points{voltage, measured, set};
   const std::size_t count = p.size();
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     const auto currents = [&](const std::vector<double>& at, double* slopes) {

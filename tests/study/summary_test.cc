@@ -12,7 +12,7 @@ using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 
 TEST(SpreadOf, AgreesWithFiguresWorkedOutByHand) {
-  const Spread spread = SpreadOf({4, 1, 2, 9}, 1);
+  const RunSpread spread = SpreadOf({4, 1, 2, 9}, 1);
   EXPECT_EQ(spread.min, 1);
   EXPECT_EQ(spread.mean, 4);
   EXPECT_EQ(spread.median, 3);
@@ -22,7 +22,7 @@ TEST(SpreadOf, AgreesWithFiguresWorkedOutByHand) {
 }
 
 TEST(SpreadOf, CountsRunsNearTheReference) {
-  const Spread spread = SpreadOf({1, 1 + 0.9e-9, 1 + 1.1e-9, 1 + 0.9e-6, 1 + 1.1e-6, 2}, 1);
+  const RunSpread spread = SpreadOf({1, 1 + 0.9e-9, 1 + 1.1e-9, 1 + 0.9e-6, 1 + 1.1e-6, 2}, 1);
   EXPECT_EQ(spread.within_1e9, 2);
   EXPECT_EQ(spread.within_1e6, 4);
 }
@@ -30,7 +30,7 @@ TEST(SpreadOf, CountsRunsNearTheReference) {
 TEST(SpreadOf, HasNoStdForOneRunAndNothingForUnknownOnes) {
   EXPECT_EQ(SpreadOf({7}, 1).std, 0);
   EXPECT_EQ(SpreadOf({7}, 1).median, 7);
-  const Spread unknown = SpreadOf({1, kUnknown}, 1);
+  const RunSpread unknown = SpreadOf({1, kUnknown}, 1);
   EXPECT_TRUE(std::isnan(unknown.min));
   EXPECT_TRUE(std::isnan(unknown.std));
   EXPECT_EQ(unknown.within_1e9, 0);
@@ -38,7 +38,7 @@ TEST(SpreadOf, HasNoStdForOneRunAndNothingForUnknownOnes) {
 
 TEST(SpreadOf, KeepsTheMeanOfEqualValuesBetweenThem) {
   const double x = 9.824848761e-4;
-  const Spread spread = SpreadOf(std::vector<double>(49, x), x);
+  const RunSpread spread = SpreadOf(std::vector<double>(49, x), x);
   EXPECT_EQ(spread.mean, x);
   EXPECT_EQ(spread.std, 0);
 }

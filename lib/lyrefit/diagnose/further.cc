@@ -25,8 +25,8 @@ std::vector<Reading> Brightest(const Readings& measured) {
   return points;
 }
 
-FurtherCurve CurveOf(const Readings& measured, const std::vector<Reading>& points) {
-  FurtherCurve curve;
+PlannedCurve CurveOf(const Readings& measured, const std::vector<Reading>& points) {
+  PlannedCurve curve;
   curve.readings = measured;
   curve.readings.points = points;
   for (Reading& r : curve.readings.points) {
@@ -36,7 +36,7 @@ FurtherCurve CurveOf(const Readings& measured, const std::vector<Reading>& point
   return curve;
 }
 
-void AddUnknownSky(FurtherCurve* curve, Further* further) {
+void AddUnknownSky(PlannedCurve* curve, Further* further) {
   curve->light = static_cast<int>(further->unknown.size());
   further->unknown.push_back(kLightUnknown);
   curve->temperature = static_cast<int>(further->unknown.size());
@@ -50,7 +50,7 @@ constexpr char kOtherSky[] =
 Further ReverseSweep(const Readings& measured) {
   Further further = {
       "reverse_sweep", "the same sweep in the opposite order, at once", kSameNoise, {}, {}};
-  FurtherCurve curve = CurveOf(measured, Brightest(measured));
+  PlannedCurve curve = CurveOf(measured, Brightest(measured));
   curve.at_once = true;
   std::vector<Reading>& points = curve.readings.points;
   std::reverse(points.begin(), points.end());
@@ -64,7 +64,7 @@ Further ReverseSweep(const Readings& measured) {
 
 Further SlowerSweep(const Readings& measured) {
   Further further = {"slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
-  FurtherCurve curve = CurveOf(measured, Brightest(measured));
+  PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.rate /= kSlower;
   AddUnknownSky(&curve, &further);
   further.curves = {curve};
@@ -73,7 +73,7 @@ Further SlowerSweep(const Readings& measured) {
 
 Further SecondLight(const Readings& measured) {
   Further further = {"second_light", "the same sweep under half the light", kOtherSky, {}, {}};
-  FurtherCurve curve = CurveOf(measured, Brightest(measured));
+  PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.irradiance *= kDimmer;
   AddUnknownSky(&curve, &further);
   further.curves = {curve};
@@ -86,7 +86,7 @@ Further DarkCurve(const Readings& measured) {
                      "noise as measured here, temperature known to 1 K",
                      {},
                      {}};
-  FurtherCurve curve = CurveOf(measured, Brightest(measured));
+  PlannedCurve curve = CurveOf(measured, Brightest(measured));
   std::vector<Reading>& points = curve.readings.points;
   const int last = static_cast<int>(points.size()) - 1;
   for (int k = 0; k <= last; ++k) {
@@ -110,7 +110,7 @@ Further CoveredParts(const Readings& measured, int groups) {
                      {}};
   const int cells = measured.traits.cells / groups * (groups - 1);
   for (int which = 0; which < groups; ++which) {
-    FurtherCurve curve = CurveOf(measured, Brightest(measured));
+    PlannedCurve curve = CurveOf(measured, Brightest(measured));
     curve.covered = which;
     curve.groups = groups;
     curve.readings.scale.cells = curve.readings.traits.cells = cells;
@@ -139,7 +139,7 @@ Further IscVoc(const Readings& measured) {
     pair[0].voltage = 0;
     pair[1].voltage = measured.pivot_voltage;
     pair[0].rate = pair[1].rate = 0;
-    FurtherCurve curve = CurveOf(measured, pair);
+    PlannedCurve curve = CurveOf(measured, pair);
     curve.open_circuit = true;
     curve.temperature = 0;
     curve.light = static_cast<int>(further.unknown.size());
@@ -166,7 +166,7 @@ std::vector<Further> FurtherMeasurements(const Readings& measured) {
   return all;
 }
 
-CurveLaw LawOn(const FurtherCurve& curve, const Law& law, const std::vector<double>& p) {
+CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& p) {
   CurveLaw own;
   own.law = law;
   own.law.effects.clear();
@@ -186,7 +186,7 @@ CurveLaw LawOn(const FurtherCurve& curve, const Law& law, const std::vector<doub
   return own;
 }
 
-Readings Under(const FurtherCurve& curve, const std::vector<double>& unknown) {
+Readings Under(const PlannedCurve& curve, const std::vector<double>& unknown) {
   Readings readings = curve.readings;
   for (Reading& r : readings.points) {
     if (curve.light >= 0) r.irradiance *= 1 + unknown[curve.light];

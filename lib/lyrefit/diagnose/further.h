@@ -8,7 +8,7 @@
 namespace lyrefit {
 
 // A curve that could be taken besides. Its currents are not known yet.
-struct FurtherCurve {
+struct PlannedCurve {
   Readings readings;
   // Follows the sweep that was taken at once, under its sky: what happens in time goes on. Else
   // nothing that happened in time comes again.
@@ -26,7 +26,7 @@ struct Further {
   std::string id;
   std::string title;
   std::string taken;
-  std::vector<FurtherCurve> curves;
+  std::vector<PlannedCurve> curves;
   // Standard deviations of what is not known of it beforehand: of a light in parts, of a
   // temperature in K, of a bypass drop in V per cell.
   std::vector<double> unknown;
@@ -41,9 +41,9 @@ struct CurveLaw {
   std::vector<int> from;  // the parameter of the whole law that each of its own is
   std::vector<double> p;  // its own, at those of the whole law
 };
-CurveLaw LawOn(const FurtherCurve& curve, const Law& law, const std::vector<double>& p);
+CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& p);
 
 // The readings under what turned out to be unknown, of this curve.
-Readings Under(const FurtherCurve& curve, const std::vector<double>& unknown);
+Readings Under(const PlannedCurve& curve, const std::vector<double>& unknown);
 
 }  // namespace lyrefit

@@ -21,7 +21,7 @@ bool Currents(const CurveLaw& own, const Readings& readings, double* current,
 
 // Moves the readings beyond 0 V to where the law delivers nothing. The other unknowns move light
 // and temperature only.
-bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, FurtherCurve* curve) {
+bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, PlannedCurve* curve) {
   constexpr int kHalvings = 40;
   std::vector<Reading>& points = curve->readings.points;
   std::vector<double> low, high, current(points.size());
@@ -65,7 +65,7 @@ std::vector<double> InUnits(const std::vector<double>& unknown, const std::vecto
 }
 
 // Residuals of one further curve from row `first` on, with derivatives by all parameters.
-bool EvaluateCurve(const Joint& joint, const FurtherCurve& curve, int first, const Law& law,
+bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, const Law& law,
                    const std::vector<double>& p, double* residuals, RowMatrix* rows) {
   const int count = static_cast<int>(curve.readings.points.size());
   const int size = law.size();
@@ -114,7 +114,7 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
   }
   if (jacobian != nullptr) rows.topLeftCorner(joint.taken, size) = slopes;
   int first = joint.taken;
-  for (const FurtherCurve& curve : joint.curves) {
+  for (const PlannedCurve& curve : joint.curves) {
     if (!EvaluateCurve(joint, curve, first, law, p, residuals,
                        jacobian != nullptr ? &rows : nullptr)) {
       return false;
@@ -144,7 +144,7 @@ std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
   for (double& sigma : joint.sigma) sigma *= deviation;
   joint.taken = static_cast<int>(measured.readings->points.size());
   const std::vector<double> values = InUnits(unknown, further.unknown);
-  for (FurtherCurve& curve : joint.curves) {
+  for (PlannedCurve& curve : joint.curves) {
     const CurveLaw own = LawOn(curve, truth.law, truth.p);
     if (curve.open_circuit && !FindOpenCircuit(own, values, &curve)) return std::nullopt;
     std::vector<double> current(curve.readings.points.size());
@@ -191,8 +191,8 @@ void Disturb(RandomStream* random, Joint* joint) {
   }
 }
 
-JointEnd FitJoint(const Joint& joint, const Law& law,
-                  const std::vector<std::vector<double>>& starts) {
+FurtherEnd FitJoint(const Joint& joint, const Law& law,
+                    const std::vector<std::vector<double>>& starts) {
   Readings old = joint.readings;
   old.points.resize(joint.taken);
   LeastSquaresProblem problem;
@@ -221,7 +221,7 @@ JointEnd FitJoint(const Joint& joint, const Law& law,
       best = std::move(end);
     }
   }
-  JointEnd fit;
+  FurtherEnd fit;
   if (!best.usable) return fit;
   std::vector<double> residuals(problem.residuals);
   fit.usable = problem.evaluate(best.p.data(), residuals.data(), nullptr);

@@ -11,7 +11,7 @@ namespace lyrefit {
 
 // Readings that were taken and, behind them, those of one further measurement.
 struct Joint {
-  std::vector<FurtherCurve> curves;
+  std::vector<PlannedCurve> curves;
   std::vector<double> unknown;  // as Further::unknown
   Readings readings;
   std::vector<double> sigma;
@@ -33,14 +33,14 @@ void Disturb(RandomStream* random, Joint* joint);
 // Errors of each reading, drawn.
 std::vector<double> DrawErrors(const ErrorModel& errors, RandomStream* random);
 
-struct JointEnd {
+struct FurtherEnd {
   bool usable = false;
   double sum = 0;         // of squared whitened residuals, old and new, and of the unknowns
   Eigen::VectorXd after;  // whitened residuals of the further readings
 };
 
 // A law fitted to all of them, from the best of `starts`.
-JointEnd FitJoint(const Joint& joint, const Law& law,
-                  const std::vector<std::vector<double>>& starts);
+FurtherEnd FitJoint(const Joint& joint, const Law& law,
+                    const std::vector<std::vector<double>>& starts);
 
 }  // namespace lyrefit

@@ -46,13 +46,13 @@ struct Contest {
 
 std::optional<Contest> Meet(const Joint& joint, const std::vector<PlanCandidate>& candidates,
                             std::size_t truth) {
-  const JointEnd own = FitJoint(joint, candidates[truth].fit.law, candidates[truth].starts);
+  const FurtherEnd own = FitJoint(joint, candidates[truth].fit.law, candidates[truth].starts);
   if (!own.usable) return std::nullopt;
   Contest contest;
   contest.between.resize(own.after.size(), static_cast<int>(candidates.size()) - 1);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (c == truth) continue;
-    const JointEnd other = FitJoint(joint, candidates[c].fit.law, candidates[c].starts);
+    const FurtherEnd other = FitJoint(joint, candidates[c].fit.law, candidates[c].starts);
     const int at = static_cast<int>(contest.ahead.size());
     // One that cannot follow at all is beaten for certain.
     const double ahead = other.usable ? other.sum - own.sum : 1e6;

@@ -130,7 +130,7 @@ void ByteSum::Add(std::string_view text) {
 }
 
 Expected<void> ByteSum::AddFile(const std::string& path, std::int64_t limit) {
-  InputFile file(path);
+  ByteInput file(path);
   std::vector<char> block(1U << 20);
   while (limit > 0) {
     const auto wanted = std::min<std::int64_t>(limit, static_cast<std::int64_t>(block.size()));

@@ -41,7 +41,7 @@ class JsonElements {
   Expected<void> TakeString(std::string* into);
   Expected<void> TakeElement(JsonElement* element);
 
-  InputFile file_;
+  ByteInput file_;
   std::optional<std::string> key_;
   std::size_t longest_;
   std::vector<char> block_;

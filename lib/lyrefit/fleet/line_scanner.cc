@@ -21,11 +21,11 @@ constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 
 }  // namespace
 
-InputFile::~InputFile() {
+ByteInput::~ByteInput() {
   if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
 }
 
-Expected<std::size_t> InputFile::Read(char* to, std::size_t size) {
+Expected<std::size_t> ByteInput::Read(char* to, std::size_t size) {
   if (descriptor_ < 0) {
     descriptor_ = path_ == "-" ? STDIN_FILENO : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ < 0) {

@@ -11,12 +11,12 @@ namespace lyrefit {
 
 // A file that is read once from its beginning, "-" for standard input. Closed at the end of its
 // life.
-class InputFile {
+class ByteInput {
  public:
-  explicit InputFile(std::string path) : path_(std::move(path)) {}
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
+  explicit ByteInput(std::string path) : path_(std::move(path)) {}
+  ~ByteInput();
+  ByteInput(const ByteInput&) = delete;
+  ByteInput& operator=(const ByteInput&) = delete;
 
   // Up to `size` bytes into `to`; 0 at the end. Opens the file when first called.
   Expected<std::size_t> Read(char* to, std::size_t size);
@@ -52,7 +52,7 @@ class LineScanner {
   Expected<void> Fill();
   Expected<void> SkipLine();
 
-  InputFile file_;
+  ByteInput file_;
   std::size_t longest_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // of what is not yet given

@@ -42,7 +42,7 @@ std::vector<Sloped> PrepareTerms(const Device& device, const double* p) {
 }  // namespace
 
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurvePoints& points, const Kernel& kernel, double* current, double* slopes,
+                   const CurveView& points, const Kernel& kernel, double* current, double* slopes,
                    const std::vector<char>* held, LawWorkspace* kept) {
   const bool measured = objective == Objective::kMeasuredCurrent;
   if (device.extension != nullptr) {

@@ -9,7 +9,7 @@
 namespace lyrefit {
 
 // Points of a curve as they were measured, and as the kernels take them.
-struct CurvePoints {
+struct CurveView {
   const std::vector<double>& voltage_V;
   const std::vector<double>& current_A;
   const PointSet& set;
@@ -23,7 +23,7 @@ struct CurvePoints {
 // leaves out the derivatives by what is `held` (1), which are 0 then, and may have a workspace that
 // is kept from one call to the next.
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurvePoints& points, const Kernel& kernel, double* current, double* slopes,
+                   const CurveView& points, const Kernel& kernel, double* current, double* slopes,
                    const std::vector<char>* held = nullptr, LawWorkspace* kept = nullptr);
 
 }  // namespace lyrefit

@@ -32,7 +32,7 @@ struct RunRecord {
   std::vector<double> parameters;
 };
 
-struct Spread {
+struct RunSpread {
   double min = kUnknown;
   double mean = kUnknown;
   double median = kUnknown;
@@ -56,10 +56,10 @@ struct ContenderResult {
   Birds birds = Birds::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
-  Spread searched;
-  Spread plain_polished;
-  Spread own_polished;
-  Spread polished;
+  RunSpread searched;
+  RunSpread plain_polished;
+  RunSpread own_polished;
+  RunSpread polished;
   int target_hits = 0;                     // runs whose search reached the target
   double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
                                            // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit

@@ -52,7 +52,7 @@ struct Failures {
 struct PooledLevel {
   int runs = 0;               // every run of every device
   int hits = 0;               // within kPoolHit of the device's reference
-  Spread excess;              // over the runs; its counts are those of the hits
+  RunSpread excess;           // over the runs; its counts are those of the hits
   double seconds = kUnknown;  // median of a run: the search and this level's polish
   Failures failures;
 };

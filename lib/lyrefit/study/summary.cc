@@ -102,9 +102,9 @@ BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
   return best;
 }
 
-Spread SpreadOf(std::vector<double> values, double reference) {
+RunSpread SpreadOf(std::vector<double> values, double reference) {
   CHECK(!values.empty());
-  Spread spread;
+  RunSpread spread;
   const auto unknown = [](double value) { return std::isnan(value); };
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
   // Sums have the same bits whatever the order of the runs.

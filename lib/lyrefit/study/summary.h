@@ -30,7 +30,7 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
 BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes);
 
 // `values` must not be empty; all NaN if one is NaN.
-Spread SpreadOf(std::vector<double> values, double reference);
+RunSpread SpreadOf(std::vector<double> values, double reference);
 
 // Ranks of `values[c][b]`, contender c in run b; empty for fewer than two of either. Infinity
 // counts as the largest number.

@@ -17,19 +17,19 @@ namespace {
 struct Level {
   const char* title;
   const char* column;
-  Spread ContenderResult::*stage;
-  int Spread::*hits;
+  RunSpread ContenderResult::*stage;
+  int RunSpread::*hits;
 };
 
 constexpr Level kLevels[] = {
     {"Search alone, runs of {} within 1e-6", "search alone", &ContenderResult::searched,
-     &Spread::within_1e6},
+     &RunSpread::within_1e6},
     {"One plain solve from the best bird, runs of {} within 1e-9", "plain solve",
-     &ContenderResult::plain_polished, &Spread::within_1e9},
+     &ContenderResult::plain_polished, &RunSpread::within_1e9},
     {"The best bird's own polish, runs of {} within 1e-9", "best bird",
-     &ContenderResult::own_polished, &Spread::within_1e9},
+     &ContenderResult::own_polished, &RunSpread::within_1e9},
     {"All starts (hybrid), runs of {} within 1e-9", "all starts", &ContenderResult::polished,
-     &Spread::within_1e9},
+     &RunSpread::within_1e9},
 };
 
 // The contenders of one algorithm, by rising budget.

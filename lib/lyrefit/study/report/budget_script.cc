@@ -10,15 +10,15 @@ namespace {
 
 struct DrawnLevel {
   const char* title;
-  Spread ContenderResult::*stage;
-  int Spread::*hits;
+  RunSpread ContenderResult::*stage;
+  int RunSpread::*hits;
 };
 
 constexpr std::array<DrawnLevel, 4> kDrawnLevels = {
-    {{"search alone", &ContenderResult::searched, &Spread::within_1e6},
-     {"one plain solve", &ContenderResult::plain_polished, &Spread::within_1e9},
-     {"best bird's polish", &ContenderResult::own_polished, &Spread::within_1e9},
-     {"all starts", &ContenderResult::polished, &Spread::within_1e9}}};
+    {{"search alone", &ContenderResult::searched, &RunSpread::within_1e6},
+     {"one plain solve", &ContenderResult::plain_polished, &RunSpread::within_1e9},
+     {"best bird's polish", &ContenderResult::own_polished, &RunSpread::within_1e9},
+     {"all starts", &ContenderResult::polished, &RunSpread::within_1e9}}};
 
 std::vector<std::string> Algorithms(const ProblemResult& problem) {
   std::vector<std::string> names;

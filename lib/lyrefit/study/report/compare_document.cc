@@ -24,15 +24,15 @@ bool LongNames(const ProblemResult& problem) {
 // A count as whole number, "-" for NaN.
 std::string Whole(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
-block::Table SpreadTable(const ProblemResult& problem, Spread ContenderResult::*stage, int digits,
-                         std::string caption) {
+block::Table SpreadTable(const ProblemResult& problem, RunSpread ContenderResult::*stage,
+                         int digits, std::string caption) {
   block::Table table = {"lrrrrrrr",
                         {{"algorithm", "min", "mean", "median", "max", "std", "1e-9", "1e-6"}},
                         {},
                         std::move(caption)};
   if (LongNames(problem)) digits = 5;
   for (const ContenderResult& contender : problem.contenders) {
-    const Spread& s = contender.*stage;
+    const RunSpread& s = contender.*stage;
     table.rows.push_back({contender.name, Scientific(s.min, digits), Scientific(s.mean, digits),
                           Scientific(s.median, digits), Scientific(s.max, digits),
                           Scientific(s.std, 2), std::to_string(s.within_1e9),
@@ -90,7 +90,7 @@ bool ManyCurves(const Comparison& comparison) {
 }
 
 block::Table::Row OverviewRow(const ContenderResult& contender, bool polish, bool brief) {
-  const Spread& s = contender.searched;
+  const RunSpread& s = contender.searched;
   block::Table::Row row = {contender.name,
                            Scientific(s.min, kOverviewDigits),
                            Scientific(s.mean, kOverviewDigits),
@@ -98,7 +98,7 @@ block::Table::Row OverviewRow(const ContenderResult& contender, bool polish, boo
                            Scientific(s.max, kOverviewDigits),
                            Scientific(s.std, 2)};
   if (polish) {
-    const Spread& p = contender.polished;
+    const RunSpread& p = contender.polished;
     row.push_back(Scientific(p.min, kOverviewDigits));
     if (!brief) row.push_back(Scientific(p.max, kOverviewDigits));
     row.push_back(std::to_string(p.within_1e9));

@@ -9,7 +9,7 @@
 namespace lyrefit {
 
 // Null where that stage was not asked for.
-void to_json(Json& j, const Spread& spread) {
+void to_json(Json& j, const RunSpread& spread) {
   j = nullptr;
   if (std::isnan(spread.min)) return;
   j = {{"min_A", spread.min},

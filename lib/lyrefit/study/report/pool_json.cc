@@ -21,7 +21,7 @@ void to_json(Json& j, const Failures& failures) {
 }
 
 void to_json(Json& j, const PooledLevel& level) {
-  const Spread& excess = level.excess;
+  const RunSpread& excess = level.excess;
   j = {{"runs", level.runs},
        {"hits", level.hits},
        {"excess",

@@ -72,16 +72,16 @@ std::vector<Section> SensitivitySections(const Comparison& comparison,
   const std::string objective = ToText(comparison.options.objective);
   const std::string runs = RunsText(comparison, problem);
   Section section = ProblemSection(comparison, problem);
-  const auto add = [&](const char* what, double Spread::*field, int digits) {
+  const auto add = [&](const char* what, double RunSpread::*field, int digits) {
     AddTable(Grid(problem, fmt::format("Search alone: {} ({}) of {} runs", what, objective, runs),
                   [field, digits](const ContenderResult& c) {
                     return Scientific(c.searched.*field, digits);
                   }),
              &section);
   };
-  add("smallest RMSE in A", &Spread::min, 6);
-  add("mean RMSE in A", &Spread::mean, 6);
-  add("standard deviation of the RMSE in A", &Spread::std, 4);
+  add("smallest RMSE in A", &RunSpread::min, 6);
+  add("mean RMSE in A", &RunSpread::mean, 6);
+  add("standard deviation of the RMSE in A", &RunSpread::std, 4);
   if (comparison.options.polish) {
     AddTable(
         Grid(problem,

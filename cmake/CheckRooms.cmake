@@ -1,5 +1,6 @@
-# The house rules, as a test: a room includes only rooms above it, the command only what is installed, and no two
-# headers give one name to two types, of which a linker would keep one destructor for both.
+# The house rules, as a test: a room includes only rooms above it, the command only what is installed, what is
+# installed is what the shared library shows, and no two headers give one name to two types, of which a linker would
+# keep one destructor for both.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckRooms.cmake
 # Lists everything that breaks a rule and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
@@ -92,10 +93,10 @@ endfunction()
 # The types that a header defines outside of any other, each under its namespace: no other header may.
 function(check_types)
   set(namespace lyrefit)
-  file(STRINGS "${ROOT}/${FILE}" lines REGEX "^(namespace [a-z]|}  // namespace|struct |class |enum class )")
+  file(STRINGS "${ROOT}/${FILE}" lines REGEX "^(namespace (LYREFIT_PUBLIC )?[a-z]|}  // namespace|struct |class |enum class )")
   foreach(line IN LISTS lines)
-    if(line MATCHES "^namespace ([a-z_:]+)")
-      set(namespace "${CMAKE_MATCH_1}")
+    if(line MATCHES "^namespace (LYREFIT_PUBLIC )?([a-z_:]+)")
+      set(namespace "${CMAKE_MATCH_2}")
     elseif(line MATCHES "^}")
       set(namespace lyrefit)
     elseif(line MATCHES "^(struct|class|enum class) ([A-Za-z0-9]+) [{:f]")
@@ -111,11 +112,29 @@ function(check_types)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
+# What is installed is what the shared library shows: the public headers, and no others, open their namespace with
+# LYREFIT_PUBLIC.
+function(check_shown)
+  string(REGEX REPLACE "^lib/lyrefit/" "" header "${FILE}")
+  file(STRINGS "${ROOT}/${FILE}" opened REGEX "^namespace .*lyrefit {")
+  foreach(line IN LISTS opened)
+    if(header IN_LIST PUBLIC AND NOT line MATCHES "LYREFIT_PUBLIC")
+      complain("is public: its namespace opens with `namespace LYREFIT_PUBLIC lyrefit {`")
+    elseif(NOT header IN_LIST PUBLIC AND line MATCHES "LYREFIT_PUBLIC")
+      complain("is closed: LYREFIT_PUBLIC is for the headers that are installed")
+    endif()
+  endforeach()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/lib/*.h" "${ROOT}/lib/*.cc"
      "${ROOT}/apps/*.h" "${ROOT}/apps/*.cc")
 foreach(FILE IN LISTS files)
   if(FILE MATCHES "[.]h$")
     check_types()
+  endif()
+  if(PUBLIC AND FILE MATCHES "^lib/")
+    check_shown()
   endif()
   if(FILE MATCHES "^apps/")
     check_file(apps)

@@ -25,5 +25,7 @@ function(lyrefit_batches target size)
     math(EXPR count "${count} + 1")
     set_source_files_properties("${source}" TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${folder}_${batch}")
   endforeach()
+  # A local name may be that of a function or a type of a neighbour.
+  target_compile_options(${target} PRIVATE -Wno-shadow)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

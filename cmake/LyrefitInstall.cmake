@@ -19,6 +19,7 @@ set(LYREFIT_PUBLIC_HEADERS
   family/fit_free.h
   family/pvlib_parameters.h
   fit/fit.h
+  fit/fit_files.h
   fit/simulate.h
   law/kernel.h
   search/search.h
@@ -55,7 +56,9 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/translation_report.h
   # readers, and the writer of curves
   curve/assumption.h
+  curve/bare_curve.h
   curve/check_readings.h
+  curve/condition_options.h
   curve/curve_files.h
   curve/nearest_curve.h
   curve/number_text.h
@@ -80,7 +83,9 @@ set(LYREFIT_PUBLIC_HEADERS
   law/pack.h
   law/pack.inc
   law/parameter.h
+  law/plain_stage.h
   law/reading.h
+  law/single_diodes.h
   law/solve.h
   law/string_layout.h
   law/term.h
@@ -99,6 +104,7 @@ set(LYREFIT_PUBLIC_HEADERS
   fit/effect_text.h
   base/parallel.h
   base/portable_exp.h
+  base/public.h
   base/random.h
   base/seconds.h
   base/version.h)
@@ -114,12 +120,9 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/coverage.h
   study/coverage_options.h
   study/landscape.h
-  study/pool.h
-  study/pool_ranks.h
   study/rank_tests.h
   study/read_audit_rows.h
   study/truth.h
-  study/verdict.h
   study/report/audit_csv.h
   study/report/audit_json.h
   study/report/compare_csv.h
@@ -140,29 +143,30 @@ set(LYREFIT_FLEET_PUBLIC_HEADERS
   fleet/result_row.h
   fleet/sketch.h
   fleet/string_pages.h)
-list(TRANSFORM LYREFIT_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
-list(TRANSFORM LYREFIT_STUDY_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
-list(TRANSFORM LYREFIT_FLEET_PUBLIC_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/lib/lyrefit/")
-target_sources(lyrefit PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
-                              FILES ${LYREFIT_PUBLIC_HEADERS})
-target_sources(lyrefit_study PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
-                                    FILES ${LYREFIT_STUDY_PUBLIC_HEADERS})
-target_sources(lyrefit_fleet PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib"
-                                    FILES ${LYREFIT_FLEET_PUBLIC_HEADERS})
-set_target_properties(lyrefit_study PROPERTIES EXPORT_NAME study)
-set_target_properties(lyrefit_fleet PROPERTIES EXPORT_NAME fleet)
-# Before 1.0 a new minor version may change the interface.
-set_target_properties(lyrefit lyrefit_study lyrefit_fleet PROPERTIES VERSION ${PROJECT_VERSION}
-                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYREFIT_FLEET_PUBLIC_HEADERS)
+  get_filename_component(folder "lyrefit/${header}" DIRECTORY)
+  install(FILES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}"
+          COMPONENT dev)
+endforeach()
 
-install(TARGETS lyrefit lyrefit_study lyrefit_fleet EXPORT lyrefit-targets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# What the records look like that are written as JSON.
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/schema" DESTINATION ${CMAKE_INSTALL_DATADIR}/lyrefit
-        FILES_MATCHING PATTERN "*.json")
-install(EXPORT lyrefit-targets NAMESPACE lyrefit:: DESTINATION ${LYREFIT_PACKAGE_DIR})
+# Components are for packages: `runtime` is the shared library, `dev` what others compile with, `command` the program
+# on the shared library (LyrefitPackages.cmake). `cmake --install` without one lays down the kind of library that
+# BUILD_SHARED_LIBS says; the other is made and installed when its component asks for it.
+foreach(kind static shared)
+  if(NOT TARGET lyrefit_${kind})
+    continue()
+  endif()
+  set(by_default)
+  if((kind STREQUAL "shared" AND NOT BUILD_SHARED_LIBS) OR (kind STREQUAL "static" AND BUILD_SHARED_LIBS))
+    set(by_default EXCLUDE_FROM_ALL)
+    set_target_properties(lyrefit_${kind} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
+  install(TARGETS lyrefit_${kind} EXPORT lyrefit-${kind}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev ${by_default}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev ${by_default})
+  install(EXPORT lyrefit-${kind} NAMESPACE lyrefit:: FILE lyrefit-${kind}-targets.cmake
+          DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT dev ${by_default})
+endforeach()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.in"
                               "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
@@ -172,4 +176,12 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/lyrefit-config-version.c
 install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
               "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindLibCsv.cmake"
-        DESTINATION ${LYREFIT_PACKAGE_DIR})
+        DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT dev)
+# Without Requires.private: pkg-config would ask for files of theirs even to use the shared library.
+# The file of pkg-config says where it lies relative to itself, so that a tree may be moved.
+file(RELATIVE_PATH LYREFIT_PREFIX_FROM_PC "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+configure_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit.pc.in" "${PROJECT_BINARY_DIR}/lyrefit.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/lyrefit.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+# What the records look like that are written as JSON.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/schema" DESTINATION ${CMAKE_INSTALL_DATADIR}/lyrefit COMPONENT dev
+        FILES_MATCHING PATTERN "*.json")

@@ -71,7 +71,7 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
       .Group("Against its own past");
   AddTableFlags(verb, kHealthyOptionTable, &request->healthy);
   AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
-  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   for (const BatchTask& task : BatchTasks()) task.declare(verb, request);
   verb->AddOption("--html", &request->html_file, "the plant on one page, HTML").Writes();
   verb->AddOption("--plant", &request->plant, "its name on that page; else that of the input")
@@ -134,7 +134,7 @@ BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
     return ApplyConditionFlags(conditions, curve);
   };
   options.reading = NonDefaults(request.reading.reading, kReadOptionTable);
-  AppendNonDefaults(request.conditions, kConditionFlagTable, &options.reading);
+  AppendNonDefaults(request.conditions, kConditionOptionTable, &options.reading);
   return options;
 }
 
@@ -144,7 +144,7 @@ Expected<FleetTask> MakeTask(const VerbLine& verb, const BatchRequest& request) 
   FleetReadOptions reading = request.reading;
   reading.shard = {};
   TRY(const auto source, OpenFleet(request.healthy_inputs, reading));
-  ConditionFlags module = request.conditions;  // light and temperature are today's
+  ConditionOptions module = request.conditions;  // light and temperature are today's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
   TRY(auto sweeps, ReadHealthy(source.get(), [module](IvCurve* curve) {

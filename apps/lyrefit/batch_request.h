@@ -16,7 +16,7 @@ struct BatchRequest {
   bool resume = false;
   BatchOptions options;
   FleetReadOptions reading;
-  ConditionFlags conditions;
+  ConditionOptions conditions;
   std::vector<std::string> healthy_inputs;
   HealthyOptions healthy;
   FitOptions fit = FleetFitOptions();

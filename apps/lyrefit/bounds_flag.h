@@ -10,7 +10,7 @@ namespace lyrefit {
 // --bounds, as every verb that fits understands it: those published for a curve lie beside it.
 void AddBoundsFlag(VerbLine* verb, const std::string& group, std::string* name);
 
-// What it names for the curve in `curve_file`.
-Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file);
+// What it names for the curve in `curve_file`; errors name the flag, or the file.
+Expected<BoundsSpec> FlaggedBounds(const std::string& name, const std::string& curve_file);
 
 }  // namespace lyrefit

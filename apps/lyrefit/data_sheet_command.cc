@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/csv.h"
@@ -25,26 +22,11 @@ constexpr char kDataSheetFooter[] =
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 no device gives all that the sheet prints.";
 
-// From here on an equation is not solved: beyond the digits of any sheet.
-constexpr double kNotSolved = 1e-6;
-
-// A value as printed, and half a unit of its last digit.
-struct Printed {
-  double value = 0;
-  double half_unit = 0;
-};
-
 // `text` given to `flag`; in percent of `whole` where a sign says so and `whole` is given.
-Expected<Printed> ParsePrinted(const char* flag, const std::string& text, double whole = 0) {
-  const bool percent = whole != 0 && !text.empty() && text.back() == '%';
-  const std::string number = percent ? text.substr(0, text.size() - 1) : text;
-  const std::optional<double> value = ParseNumber(number);
-  if (!value || !std::isfinite(*value)) {
-    return Fail(fmt::format("{}: expected a number{}, found '{}'", flag,
-                            whole != 0 ? " per kelvin, or in percent such as 0.05%" : "", text));
-  }
-  const double unit = percent ? whole / 100 : 1;
-  return Printed{*value * unit, HalfUnit(number) * std::fabs(unit)};
+Expected<PrintedValue> ParsePrinted(const char* flag, const std::string& text, double whole = 0) {
+  Expected<PrintedValue> printed = ReadPrintedValue(text, whole);
+  if (!printed) return Fail(fmt::format("{}: {}", flag, printed.error().message));
+  return printed;
 }
 
 struct DataSheetRequest {
@@ -124,12 +106,12 @@ Expected<DataSheet> Sheet(const DataSheetRequest& request) {
                &DataSheetValues::open_circuit_voltage_V}};
   for (const auto& row : rows) {
     const double whole = row.whole == nullptr ? 0 : values.*row.whole;
-    TRY(const Printed printed, ParsePrinted(row.flag, row.text, whole));
+    TRY(const PrintedValue printed, ParsePrinted(row.flag, row.text, whole));
     values.*row.field = printed.value;
     half.*row.field = request.exact ? 0 : printed.half_unit;
   }
   if (request.gamma.empty()) return sheet;
-  TRY(const Printed gamma, ParsePrinted("--gamma", request.gamma));
+  TRY(const PrintedValue gamma, ParsePrinted("--gamma", request.gamma));
   sheet.gamma_pmp_percent_K = gamma.value;
   return sheet;
 }
@@ -152,7 +134,7 @@ Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
     TRY(WriteOutput(request.pvlib_file, json));
   }
   TRY(WriteText(verb, [&] { return DataSheetText(fit); }));
-  return fit.largest_relative_error < kNotSolved ? kExitFine : kExitNotUsable;
+  return fit.Solved() ? kExitFine : kExitNotUsable;
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
   verb->AddSwitch("--together", &request->together,
                   "all files are one measurement: lit and dark, up and down, a family");
   AddColumnFlags(verb, &request->reading, &request->list_columns);
-  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   AddTableFlags(verb, kDiagnoseOptionTable, &request->options);
   AddHealthyFlags(verb, request);
   verb->AddSwitch("--list", &request->list, "list the effects that are known").Group("Catalogue");

@@ -14,7 +14,7 @@ namespace {
 
 Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
                                           const std::vector<std::string>& files,
-                                          const ConditionFlags& conditions) {
+                                          const ConditionOptions& conditions) {
   std::vector<IvCurve> sweeps;
   for (const std::string& file : files) {
     TRY(CurveSet set, ReadMeasurement(file, request.reading));
@@ -93,7 +93,7 @@ Expected<int> RunHealthy(const VerbLine& verb, const DiagnoseRequest& request) {
         fmt::format("--healthy compares one sweep, this measurement has {} curves", sweep.size()),
         request.files.front());
   }
-  ConditionFlags module = request.conditions;  // light and temperature are this sweep's
+  ConditionOptions module = request.conditions;  // light and temperature are this sweep's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
   TRY(const auto healthy, ReadSweeps(request, request.healthy_files, module));

@@ -15,7 +15,7 @@ struct DiagnoseRequest {
   bool together = false;
   ReadOptions reading;
   bool list_columns = false;
-  ConditionFlags conditions;
+  ConditionOptions conditions;
   DiagnoseOptions options;
   std::vector<std::string> healthy_files;
   bool module = false;

@@ -3,11 +3,11 @@
 #include "bounds_flag.h"
 #include "family_flags.h"
 #include "family_run.h"
-#include "fit_files.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/fit/fit_files.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -85,7 +85,7 @@ Expected<FitReport> FitFile(const FitRequest& fit, const std::string& file, int 
                             const Observer& observer) {
   FitOptions options = fit.options;
   options.threads = threads;
-  TRY(options.bounds, NamedBounds(fit.bounds, file));
+  TRY(options.bounds, FlaggedBounds(fit.bounds, file));
   for (const auto& [name, range] : fit.options.bounds.overrides) {
     options.bounds.overrides[name] = range;
   }
@@ -152,11 +152,9 @@ Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
   }
   const InterruptGuard guard;
-  const std::vector<FittedFile> fits =
-      FitFiles(fit.files, fit.options.threads, TerminalObserver({"fit"}),
-               [&fit](const std::string& file, const Observer& observer) {
-                 return FitFile(fit, file, 1, observer);
-               });
+  const std::vector<FittedFile> fits = FitFiles(
+      fit.files, fit.options.threads, TerminalObserver({"fit"}),
+      [&fit](int i, const Observer& observer) { return FitFile(fit, fit.files[i], 1, observer); });
   int exit_code = kExitFine;
   bool interrupted = fits.size() < fit.files.size();
   for (const FittedFile& file : fits) {

@@ -12,8 +12,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kColdest_C = -100;
-constexpr double kHottest_C = 150;
 constexpr double kMostSteps = 1e6;
 
 std::vector<std::string> Split(const std::string& text, char separator) {
@@ -29,28 +27,6 @@ std::vector<std::string> Split(const std::string& text, char separator) {
 tl::unexpected<Error> Misread(const std::string& flag, const char* example,
                               const std::string& text) {
   return Fail(fmt::format("{}: expected {}, found '{}'", flag, example, text));
-}
-
-Expected<void> CheckConditionFlags(const ConditionFlags& flags) {
-  if (flags.cells && *flags.cells < 1) {
-    return Fail(fmt::format("--cells: expected at least 1 cell in series, found {}", *flags.cells));
-  }
-  if (flags.temperature_C && *flags.temperature_C > kHottest_C) {
-    return Fail(
-        fmt::format("--temperature-C: {} looks like kelvin: expected degrees Celsius, "
-                    "{} to {}",
-                    NumberText(*flags.temperature_C), kColdest_C, kHottest_C));
-  }
-  if (flags.temperature_C && !(*flags.temperature_C >= kColdest_C)) {
-    return Fail(fmt::format("--temperature-C: expected degrees Celsius, {} to {}, found {}",
-                            kColdest_C, kHottest_C, NumberText(*flags.temperature_C)));
-  }
-  if (flags.irradiance_W_m2 &&
-      !(std::isfinite(*flags.irradiance_W_m2) && *flags.irradiance_W_m2 >= 0)) {
-    return Fail(fmt::format("--irradiance-Wm2: expected at least 0 W/m2, found {}",
-                            NumberText(*flags.irradiance_W_m2)));
-  }
-  return {};
 }
 
 }  // namespace
@@ -81,36 +57,22 @@ Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::str
   return steps;
 }
 
-Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve) {
-  TRY(CheckConditionFlags(flags));
-  curve->as_is = flags.as_is;
-  if (flags.cells) {
-    curve->conditions.cells_in_series = *flags.cells;
-    curve->cells_known = true;
-    Forget(About::kCells, &curve->assumptions);
-  }
-  if (flags.temperature_C) {
-    curve->conditions.cell_temperature_K = *flags.temperature_C + kZeroCelsius_K;
-    curve->temperature_known = true;
-    Forget(About::kTemperature, &curve->assumptions);
-  }
-  if (flags.irradiance_W_m2) {
-    curve->conditions.irradiance_W_m2 = *flags.irradiance_W_m2;
-    curve->irradiance_known = true;
-    Forget(About::kIrradiance, &curve->assumptions);
-  }
-  return {};
+namespace {
+
+// The library names an option, the command its flag.
+Expected<void> AsFlags(Expected<void> applied) {
+  if (!applied) applied.error().message = "--" + applied.error().message;
+  return applied;
 }
 
-Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set) {
-  for (IvCurve& curve : set->curves) {
-    TRY(ApplyConditionFlags(flags, &curve));
-  }
-  IvCurve common;  // carries the assumptions that hold for the whole set
-  common.assumptions = set->assumptions;
-  TRY(ApplyConditionFlags(flags, &common));
-  set->assumptions = common.assumptions;
-  return {};
+}  // namespace
+
+Expected<void> ApplyConditionFlags(const ConditionOptions& flags, IvCurve* curve) {
+  return AsFlags(ApplyConditions(flags, curve));
+}
+
+Expected<void> ApplyConditionFlags(const ConditionOptions& flags, CurveSet* set) {
+  return AsFlags(ApplyConditions(flags, set));
 }
 
 void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns) {
@@ -160,7 +122,7 @@ void AddReadingFlags(VerbLine* verb, CurveFlags* flags) {
       .Type("INDEX")
       .Group("Reading");
   AddColumnFlags(verb, &flags->reading, &flags->list_columns);
-  AddTableFlags(verb, kConditionFlagTable, &flags->conditions);
+  AddTableFlags(verb, kConditionOptionTable, &flags->conditions);
 }
 
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags) {

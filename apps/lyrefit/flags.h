@@ -13,6 +13,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/curve/condition_options.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
@@ -156,29 +157,10 @@ Flag AddResumeFlag(VerbLine* verb, const std::string& unit, std::string* target)
 // "0:0.6:50" given to `flag`: that many even steps, both ends included.
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text);
 
-// What the person at the terminal says about the measurement; it goes before any file.
-struct ConditionFlags {
-  std::optional<int> cells;
-  std::optional<double> temperature_C;
-  std::optional<double> irradiance_W_m2;
-  bool as_is = false;
-};
-
-inline constexpr OptionRow<ConditionFlags> kConditionFlagTable[] = {
-    OptionRow<ConditionFlags>("Conditions"),
-    {"cells", "N", "cells in series", &ConditionFlags::cells, OptionTrait::kUnchecked},
-    {"temperature-C", "T", "cell temperature in degrees Celsius", &ConditionFlags::temperature_C,
-     OptionTrait::kUnchecked},
-    {"irradiance-Wm2", "G", "irradiance in W/m2", &ConditionFlags::irradiance_W_m2,
-     OptionTrait::kUnchecked},
-    {"as-is", "", "take the readings as they are: what would be refused becomes a warning",
-     &ConditionFlags::as_is},
-};
-
-// Checks the flags and puts them into `curve`, where they replace what was assumed.
-Expected<void> ApplyConditionFlags(const ConditionFlags& flags, IvCurve* curve);
+// ApplyConditions(), whose errors name the flag.
+Expected<void> ApplyConditionFlags(const ConditionOptions& flags, IvCurve* curve);
 // The same for every curve of a set.
-Expected<void> ApplyConditionFlags(const ConditionFlags& flags, CurveSet* set);
+Expected<void> ApplyConditionFlags(const ConditionOptions& flags, CurveSet* set);
 
 // One curve and what is said about it.
 struct CurveFlags {
@@ -186,7 +168,7 @@ struct CurveFlags {
   std::optional<int> index;
   ReadOptions reading;  // without the index
   bool list_columns = false;
-  ConditionFlags conditions;
+  ConditionOptions conditions;
 };
 
 // Which columns of a table are read, and the area that makes currents of densities; and

@@ -42,7 +42,7 @@ bool IsOwnWork(const std::string& table) {
 
 struct SimulateRequest {
   SimulateOptions options;
-  ConditionFlags conditions;
+  ConditionOptions conditions;
   std::string from_file;
   std::string from_curve;
   std::string layout_file;
@@ -65,7 +65,7 @@ void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
       .Group("Device")
       .Type("FILE")
       .Reads();
-  AddTableFlags(verb, kConditionFlagTable, &request->conditions);
+  AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   verb->AddOption("--voltages", &request->voltages, "even steps in volt, both ends included")
       .Type("FROM:TO:COUNT")
       .Group("Points");

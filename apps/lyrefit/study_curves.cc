@@ -56,7 +56,7 @@ Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const Study
 
 Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& flags,
                    std::vector<CompareCurve>* curves) {
-  TRY(BoundsSpec bounds, NamedBounds(flags.bounds, file));
+  TRY(BoundsSpec bounds, FlaggedBounds(flags.bounds, file));
   for (const auto& [name, range] : flags.ranges) bounds.overrides[name] = range;
   curves->push_back(MakeSubject(std::move(curve), std::move(bounds)));
   return {};

@@ -13,7 +13,7 @@ namespace lyrefit {
 Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
   Flag curves = verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders");
   curves.ReadsCurves();
-  AddTableFlags(verb, kConditionFlagTable, &flags->conditions);
+  AddTableFlags(verb, kConditionOptionTable, &flags->conditions);
   AddTableFlags(verb, kStudyFlagTable, flags);
   AddTableFlags(verb, kCompareOptionTable, &flags->options, "Model");
   AddBoundsFlag(verb, "Model", &flags->bounds);

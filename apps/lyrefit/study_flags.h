@@ -21,7 +21,7 @@ struct StudyFlags {
   std::string algorithms = "lo,lo+mblss,lo+dmlss,mlo,de,random";
   std::string bounds = "physical";
   BoundsSpec::Table ranges;  // of single parameters
-  ConditionFlags conditions;
+  ConditionOptions conditions;
   CompareOptions options;
   SearchOptions search;
   Birds birds = Birds::kAll;  // of --algorithms that are searches

@@ -65,7 +65,7 @@ Expected<void> ReadFurther(const TranslateRequest& request, TranslateOptions* op
   }
   for (const std::string& file : request.further_files) {
     TRY(IvCurve curve, ReadCurveOrInput(file, request.curve.reading));
-    ConditionFlags cells;
+    ConditionOptions cells;
     cells.cells = request.curve.conditions.cells;
     TRY(ApplyConditionFlags(cells, &curve));
     options->further.push_back(std::move(curve));

@@ -4,10 +4,18 @@
 // a table, RunBatch fits or diagnoses each and writes a row of it, MergeShards puts together what
 // several machines did. As in lyrefit.h nothing throws or prints.
 //
-//   const auto source = lyrefit::OpenFleet({"plant"});
-//   lyrefit::BatchOptions options;
-//   options.folder = "results";
-//   const auto done = lyrefit::RunBatch(source->get(), lyrefit::DiagnoseTask({}), options);
+//   #include <iostream>
+//   #include "lyrefit/fleet.h"
+//
+//   int main() {
+//     const auto source = lyrefit::OpenFleet({"data/plant/strings.csv"});
+//     if (!source) return std::cerr << source.error().ToString() << '\n', 1;
+//     lyrefit::BatchOptions options;
+//     options.folder = "results";
+//     const auto done = lyrefit::RunBatch(source->get(), lyrefit::FitTask({}), options);
+//     if (!done) return std::cerr << done.error().ToString() << '\n', 1;
+//     std::cout << lyrefit::BatchText(*done);
+//   }
 
 #include "lyrefit/fleet/batch.h"
 #include "lyrefit/fleet/fleet_source.h"

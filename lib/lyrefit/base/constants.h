@@ -1,8 +1,9 @@
 #pragma once
 
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Which values of the Boltzmann constant and the elementary charge enter the thermal voltage. The
 // sets differ in the sixth digit of n, and in the RMSE only where n sits at a bound.
@@ -21,6 +22,7 @@ struct EnumTable<ConstantSet> {
   };
 };
 
+// 0 C in kelvin.
 constexpr double kZeroCelsius_K = 273.15;
 
 // Vt = k T / q in volt, of one cell at `temperature_K`.

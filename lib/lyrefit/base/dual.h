@@ -3,10 +3,12 @@
 #include <cmath>
 #include <type_traits>
 
+#include "lyrefit/base/public.h"
+
 // Calls cost more than what these functions do.
 #define LYREFIT_INLINE [[gnu::always_inline]]
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 template <int N, class T>
 struct Dual;
@@ -30,8 +32,8 @@ LYREFIT_INLINE inline Dual<N, T> Choose(const Condition& condition, const Dual<N
 // comparisons stand beside T. A value with its slope along one unknown is a Dual<1, T>.
 template <int N, class T = double>
 struct Dual {
-  T a;
-  T v[N];
+  T a;     // the value
+  T v[N];  // its derivatives
 
   Dual() = default;  // as T itself: without a value
   // Numbers are duals without derivative.
@@ -39,6 +41,7 @@ struct Dual {
   LYREFIT_INLINE Dual(const T& constant) : a(constant) {
     for (T& derivative : v) derivative = T(0.0);
   }
+  // The same of any other type of numbers.
   template <class Number,
             class = std::enable_if_t<std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>>>
   // NOLINTNEXTLINE(google-explicit-constructor)
@@ -54,6 +57,7 @@ struct Dual {
     return result;
   }
 
+  // Sums, differences, products, quotients: value and derivatives.
   LYREFIT_INLINE friend Dual operator+(const Dual& x, const Dual& y) {
     Dual result;
     result.a = x.a + y.a;
@@ -152,6 +156,7 @@ struct Dual {
   }
   LYREFIT_INLINE friend auto operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
 
+  // Elementary functions; the derivative of abs at 0 is that of x.
   LYREFIT_INLINE friend Dual exp(const Dual& x) {
     using std::exp;
     const T e = exp(x.a);
@@ -175,6 +180,7 @@ struct Dual {
   }
 };
 
+// A number without its derivatives.
 inline double ValueOf(double x) { return x; }
 template <int N, class T>
 T ValueOf(const Dual<N, T>& x) {

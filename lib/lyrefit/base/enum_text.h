@@ -4,19 +4,23 @@
 #include <string>
 #include <string_view>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One spelling of every enumeration, shared by flags, JSON, tables and messages. An enumeration
 // joins by specialising EnumTable with a `kRows` array of {value, text}.
 template <class E>
 struct EnumText {
-  E value;
-  std::string_view text;
+  E value;                // of the enumeration
+  std::string_view text;  // its one spelling
 };
 
+// Texts of an enumeration: each specialisation has `kRows`.
 template <class E>
 struct EnumTable;
 
+// The text of a value; "?" for one that the table has not.
 template <class E>
 std::string ToText(E value) {
   for (const auto& row : EnumTable<E>::kRows) {
@@ -25,6 +29,7 @@ std::string ToText(E value) {
   return "?";
 }
 
+// The value of a text, nothing for one that the table has not.
 template <class E>
 std::optional<E> FromText(std::string_view text) {
   for (const auto& row : EnumTable<E>::kRows) {

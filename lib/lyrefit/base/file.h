@@ -4,8 +4,9 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The whole file as it is. Refuses what is missing, a folder, unreadable or larger than
 // `largest_bytes`.

@@ -2,7 +2,9 @@
 
 #include <limits>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A number that nobody knows: unstated, not computed, not identifiable.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

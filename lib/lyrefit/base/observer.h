@@ -4,7 +4,9 @@
 #include <functional>
 #include <string_view>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Where a long computation stands. Progress bars, time limits and Ctrl-C are observers.
 struct Progress {
@@ -20,13 +22,14 @@ struct Progress {
   std::string_view note = {};  // what else there is to say: "702 a second, 12 broken"
 };
 
-enum class ObserverAction { kContinue, kStop };
+enum class ObserverAction { kContinue, kStop };  // Whether a computation is to go on.
 
 // Called once an iteration or more rarely. kStop ends the computation cleanly: what was found so
 // far is returned and marked as interrupted. An empty observer means "go on". It is called from one
 // thread at a time.
 using Observer = std::function<ObserverAction(const Progress&)>;
 
+// Asks an observer, which may be empty.
 inline bool StopRequested(const Observer& observer, const Progress& progress) {
   return observer && observer(progress) == ObserverAction::kStop;
 }

@@ -12,14 +12,15 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A value that differs from its default, as reports echo it.
 struct OptionEcho {
-  std::string name;
-  std::string value;
-  std::string default_value;
+  std::string name;           // as in flags and JSON
+  std::string value;          // as a flag would say it
+  std::string default_value;  // the same of the default
 };
 
 // A field that is told by text: an enumeration, a list, a map, what a file says.
@@ -37,13 +38,16 @@ struct OptionText {
 // A switch that is no member of the options themselves.
 template <class Options>
 struct OptionSwitch {
+  // Whether it is on.
   bool (*get)(const Options& options);
+  // Turns it on or off.
   void (*set)(Options* options, bool on);
 };
 
 // Options inside of options, with a table of their own.
 template <class Options>
 struct OptionNest {
+  // Appends those that differ.
   void (*echo)(const Options& options, const Options& defaults, std::vector<OptionEcho>* echoes);
 };
 
@@ -66,16 +70,20 @@ constexpr OptionTrait operator|(OptionTrait a, OptionTrait b) {
 // flag --no-NAME.
 template <class Options>
 struct OptionRow {
+  // Where a value lies, and of which type it is; monostate: nowhere.
   using Field = std::variant<std::monostate, int Options::*, std::int64_t Options::*,
                              std::uint64_t Options::*, double Options::*, bool Options::*,
                              std::string Options::*, std::vector<std::string> Options::*,
                              std::optional<int> Options::*, std::optional<double> Options::*,
                              OptionText<Options>, OptionSwitch<Options>, OptionNest<Options>>;
 
+  // A heading of the rows that follow.
   constexpr explicit OptionRow(const char* heading) : name(heading) {}
+  // A field of any type; of numbers, any number is allowed.
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       OptionTrait its = OptionTrait::kNone, const char* by_default = nullptr)
       : name(its_name), unit(its_unit), doc(line), field(at), traits(its), usual(by_default) {}
+  // A number from `least` to `most`.
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       double least, double most, OptionTrait its = OptionTrait::kNone)
       : name(its_name),
@@ -86,9 +94,11 @@ struct OptionRow {
         upper(most),
         traits(its) {}
 
+  // Whether the row has this trait.
   constexpr bool Is(OptionTrait trait) const {
     return (static_cast<unsigned>(traits) & static_cast<unsigned>(trait)) != 0;
   }
+  // Whether it is a heading.
   constexpr bool IsHeading() const { return std::holds_alternative<std::monostate>(field); }
 
   const char* name;       // in flags and JSON, lower case with '-'
@@ -173,6 +183,7 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
   return {};
 }
 
+// Appends the options that differ from `defaults`, in the table's order.
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Options& defaults, const Table& table,
                        std::vector<OptionEcho>* echoes) {
@@ -193,6 +204,7 @@ void AppendNonDefaults(const Options& options, const Options& defaults, const Ta
   }
 }
 
+// The same with the defaults of a new struct.
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Table& table,
                        std::vector<OptionEcho>* echoes) {
@@ -219,22 +231,24 @@ auto& Along(Options& options) {
   return ((options.*First).*....*Rest);
 }
 
+// The class of a pointer to a member.
 template <class Member>
 struct MemberParts;
 template <class C, class T>
 struct MemberParts<T C::*> {
-  using Class = C;
+  using Class = C;  // whose member it is
 };
 template <auto Member>
 using ClassOf = typename MemberParts<decltype(Member)>::Class;
 
+// What an optional holds, and any other type itself.
 template <class T>
 struct WithoutOptional {
-  using Type = T;
+  using Type = T;  // without it
 };
 template <class T>
 struct WithoutOptional<std::optional<T>> {
-  using Type = T;
+  using Type = T;  // what it holds
 };
 
 // An enumeration, or one that may be unset.

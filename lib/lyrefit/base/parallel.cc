@@ -7,6 +7,15 @@
 #include <vector>
 
 namespace lyrefit {
+namespace {
+
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+constexpr bool kHasThreads = false;  // a page has memory that one thread sees
+#else
+constexpr bool kHasThreads = true;
+#endif
+
+}  // namespace
 
 Expected<void> ValidateThreads(int threads) {
   if (threads >= 0) return {};
@@ -15,7 +24,7 @@ Expected<void> ValidateThreads(int threads) {
 
 void ParallelFor(int count, int threads, const std::function<void(int)>& body) {
   if (threads <= 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  threads = std::min(threads, count);
+  threads = kHasThreads ? std::min(threads, count) : 1;
   std::atomic<int> next{0};
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) body(i);

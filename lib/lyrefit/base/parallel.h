@@ -3,8 +3,9 @@
 #include <functional>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // More than any machine has; what a flag takes.
 constexpr int kMostThreads = 1024;

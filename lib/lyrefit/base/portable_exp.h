@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <cstring>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on
 // every IEEE 754 machine and in every vector width (the mathematics library's does not: its last
@@ -13,8 +15,13 @@ namespace lyrefit {
 //
 // Method: x = k ln 2 + r with |r| <= ln(2) / 2 (Cody and Waite's two-part ln 2), exp(r) = 1 + r +
 // r^2 q(r) with q the degree-9 Chebyshev fit (error 2e-17), then 2^k through the exponent bits.
+template <class V>
+struct ExpParts {
+  V power;   // 2^k
+  V beyond;  // exp(r) - 1
+};
 template <class V, class B>
-[[gnu::always_inline]] inline V PortableExp(V x) {
+[[gnu::always_inline]] inline ExpParts<V> SplitExp(V x) {
   static_assert(sizeof(V) == sizeof(B), "V and B must have the same shape");
   const V lowest = V{} - 700.0;
   x = x < lowest ? lowest : x;
@@ -30,13 +37,25 @@ template <class V, class B>
   const V q67 = 0x1.a019b90d2ae7ap-16 + r * 0x1.71de0dae63bb3p-19;
   const V q89 = 0x1.289185613a3d6p-22 + r * 0x1.af38a9b0ec855p-26;
   const V q = (q01 + r2 * q23) + r4 * ((q45 + r2 * q67) + r4 * q89);
-  const V mantissa = 1.0 + (r + r2 * q);
   B bits;
   std::memcpy(&bits, &shifted, sizeof bits);
   bits = (bits + 1023) << 52;
-  V power;
-  std::memcpy(&power, &bits, sizeof power);
-  return mantissa * power;
+  ExpParts<V> parts;
+  std::memcpy(&parts.power, &bits, sizeof bits);
+  parts.beyond = r + r2 * q;
+  return parts;
+}
+template <class V, class B>
+[[gnu::always_inline]] inline V PortableExp(V x) {
+  const ExpParts<V> parts = SplitExp<V, B>(x);
+  return (1.0 + parts.beyond) * parts.power;
+}
+
+// exp(x) - 1 to 3 ulp, also where it is close to 0.
+template <class V, class B>
+[[gnu::always_inline]] inline V PortableExpm1(V x) {
+  const ExpParts<V> parts = SplitExp<V, B>(x);
+  return parts.power * parts.beyond + (parts.power - 1.0);
 }
 
 // The same for one number of any size.
@@ -48,8 +67,8 @@ inline double PortableExp(double x) {
 // x = mantissa x 2^exponent with a mantissa in [1, 2), for finite x > 0.
 template <class V>
 struct BinaryParts {
-  V exponent;
-  V mantissa;
+  V exponent;  // a whole number
+  V mantissa;  // 1 to below 2
 };
 template <class V, class B>
 [[gnu::always_inline]] inline BinaryParts<V> SplitBinary(const V& x) {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One portable stream of random numbers per (seed, run): xoshiro256++ (Blackman and Vigna 2021,
 // doi:10.1145/3460772) under our own transforms, in integers and basic arithmetic only, so that a
@@ -10,8 +12,10 @@ namespace lyrefit {
 // portable but six times slower, and took a fifth of a whole search.)
 class RandomStream {
  public:
+  // The same numbers for the same seed and run, and unlike those of any other.
   explicit RandomStream(std::uint64_t seed, std::uint64_t run = 0);
 
+  // 64 random bits.
   std::uint64_t Bits() {
     const std::uint64_t result = Rotate(state_[0] + state_[3], 23) + state_[0];
     const std::uint64_t shifted = state_[1] << 17;

@@ -6,15 +6,16 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One diode of the mixture that attains the floor.
 struct FloorDiode {
-  double n = 0;
+  double n = 0;  // ideality, per cell
   double saturation_current_A = 0;
   double current_A = 0;  // at the reference voltage
 };
@@ -49,18 +50,20 @@ struct ModelCertificate {
   bool certified = false;   // the gap is at most kCertifiedGap, or rounding
   std::int64_t solved = 0;  // convex problems beyond those of the floor; 0: the floor proves it
 };
+// Largest (rmse - lower bound) / rmse that counts as a proof.
 constexpr double kCertifiedGap = 1e-9;
 constexpr double kCertifiedRounding = 1e-14;  // of the largest current: no difference of RMSEs
 
+// How low the RMSE of a curve can go, proved.
 struct Certificate {
   std::string version;
   IvCurve curve;
-  CertifyOptions options;
+  CertifyOptions options;  // what was asked for
   // End of the range of Rs that is gone through: at most the largest forward voltage over the
   // largest current. Beyond it the points come in the wrong order of junction voltage, which bounds
   // every model at once; the lower bounds hold for the whole range asked for.
   double rs_upper_ohm = 0;
-  double reference_voltage_V = 0;
+  double reference_voltage_V = 0;       // largest one at which the device delivers current
   double module_thermal_voltage_V = 0;  // Ns k T / q
   Floor floor;
   std::vector<ModelCertificate> models;

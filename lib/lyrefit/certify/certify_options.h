@@ -6,10 +6,12 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// Which models are certified, and within which bounds.
 struct CertifyOptions {
   double n_lower = 1;  // per cell
   double n_upper = 2;

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Something in the readings that no device does, or that is more likely the instrument's or the
 // file's than the device's.

@@ -2,7 +2,9 @@
 
 #include <string>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a file is to a measurement.
 enum class FileRole {

@@ -7,9 +7,10 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/assumption.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Under what a curve was taken.
 struct Conditions {
@@ -27,7 +28,7 @@ struct Conditions {
 // What the person at the bench knows besides the readings; empty where nobody said.
 struct DeviceNotes {
   std::string technology;
-  std::optional<int> bypass_diodes;
+  std::optional<int> bypass_diodes;  // of a module
   std::optional<double> bandgap_eV;
   std::optional<double> bandgap_slope_per_K;       // relative to the gap at 25 C, as pvlib's dEgdT
   std::optional<double> isc_tempco_per_K;          // relative, per kelvin
@@ -52,18 +53,19 @@ struct IvCurve {
   std::vector<double> current_A;
   std::vector<double> sigma_A;  // standard deviation of each current
   std::vector<double> time_s;
-  std::vector<int> sweep;
+  std::vector<int> sweep;  // which sweep each point is of
   std::vector<double> irradiance_W_m2;
   std::vector<double> temperature_C;
   std::vector<Assumption> assumptions;  // what the reader had to assume
   bool irradiance_known = true;         // false: nobody stated it, the conditions hold a default
-  bool temperature_known = true;
-  bool cells_known = true;         // false: conditions.cells_in_series is a guess
-  bool strings_known = true;       // false: so is conditions.strings_in_parallel
-  bool current_unit_known = true;  // false: ampere was assumed
-  bool voltage_unit_known = true;  // false: volt was assumed
+  bool temperature_known = true;        // the same of the temperature
+  bool cells_known = true;              // false: conditions.cells_in_series is a guess
+  bool strings_known = true;            // false: so is conditions.strings_in_parallel
+  bool current_unit_known = true;       // false: ampere was assumed
+  bool voltage_unit_known = true;       // false: volt was assumed
   bool as_is = false;  // taken as they are: what CheckReadings would refuse becomes a doubt
 
+  // How many points it has.
   std::size_t size() const { return voltage_V.size(); }
 };
 

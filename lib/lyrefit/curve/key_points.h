@@ -2,7 +2,9 @@
 
 #include <vector>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The five numbers a data sheet prints, and the fill factor. NaN where the curve does not reach.
 struct KeyPoints {
@@ -11,7 +13,7 @@ struct KeyPoints {
   double max_power_voltage_V;      // Vmp
   double max_power_current_A;      // Imp
   double max_power_W;              // Pmp
-  double fill_factor;
+  double fill_factor;              // Pmp / (Isc Voc)
 };
 
 // Key points of measured points in any order. Isc and Voc by linear interpolation between the two

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Position of the curve that was taken closest to an irradiance and cell temperature. The distance
 // is that of (G / 1000 W/m2, T / 100 K), the spans of an outdoor record: 10 W/m2 count as much as 1

@@ -1,9 +1,12 @@
 #include "lyrefit/curve/number_text.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <system_error>
@@ -12,12 +15,31 @@
 namespace lyrefit {
 namespace {
 
-std::optional<double> Convert(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+#if defined(__cpp_lib_to_chars)
+std::optional<double> ConvertPlain(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+#else  // a standard library that reads integers alone: C's function, less what it takes beyond that
+std::optional<double> ConvertPlain(std::string_view text) {
+  const bool beyond = text.empty() || text.find_first_of("xX") != std::string_view::npos ||
+                      std::isspace(static_cast<unsigned char>(text[0])) != 0 || text[0] == '+';
+  if (beyond) return std::nullopt;
+  const std::string copy(text);
+  char* end = nullptr;
+  errno = 0;
+  const double value = std::strtod(copy.c_str(), &end);
+  const bool out_of_range = errno == ERANGE && (value == 0 || std::isinf(value));
+  if (out_of_range || end != copy.c_str() + copy.size()) return std::nullopt;
+  return value;
+}
+#endif
+
+std::optional<double> Convert(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  return ConvertPlain(text);
 }
 
 // "8,892.6" without the separators of its thousands; anything else as it is.

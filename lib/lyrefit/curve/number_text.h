@@ -4,7 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A decimal number in any locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus, blanks around it
 // allowed; with `decimal_comma` also "1,5". Thousands may be set apart where a decimal part shows

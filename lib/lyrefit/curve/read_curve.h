@@ -7,10 +7,12 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// What a file does not say of itself.
 struct ReadOptions {
   // Which curve of a file that holds several: the Index of an ivcurves JSON file, the number in a
   // table's `sweep` or `curve` column, or the number of the table in a file that holds several, one
@@ -33,7 +35,7 @@ struct ReadOptions {
   // them. False: the first of them is an error.
   bool skip_missing = false;
   std::optional<double> area_cm2;  // of the cell; makes currents of current densities
-  std::uintmax_t largest_file_bytes = 64U << 20;
+  std::uintmax_t largest_file_bytes = 64U << 20;  // larger files are an error
 };
 
 inline constexpr OptionRow<ReadOptions> kReadOptionTable[] = {
@@ -93,11 +95,13 @@ struct ColumnNote {
   std::string use;   // "voltage", "current of curve 2", "not used", ...
 };
 
-// The columns of a table, for whoever has to choose among them.
+// The columns of a table, for whoever has to choose among them. Errors: a folder without a curve of
+// its own, a file that cannot be read or holds no table.
 Expected<std::vector<ColumnNote>> ListColumns(const std::string& path,
                                               const ReadOptions& options = {});
 
-// All curves of an ivcurves JSON file, in file order.
+// All curves of an ivcurves JSON file, in file order. Errors: what ReadCurve refuses; an index that
+// occurs twice; one curve that cannot be read refuses the file.
 Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
                                                 const ReadOptions& options = {});
 

@@ -6,8 +6,9 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a person writes to set single parameters: "n2=2", or a range of one, "Rs=0:0.5".
 Expected<std::pair<std::string, double>> ReadAssignment(const std::string& text);
@@ -38,11 +39,13 @@ constexpr auto MapOption() {
                              nullptr, true};
 }
 
+// NAME=VALUE, once for each.
 template <auto First, auto... Rest>
 constexpr auto AssignmentsOption() {
   return MapOption<ReadAssignment, AssignmentText, First, Rest...>();
 }
 
+// NAME=LOW:HIGH, once for each.
 template <auto First, auto... Rest>
 constexpr auto RangesOption() {
   return MapOption<ReadRange, RangeText, First, Rest...>();

@@ -3,9 +3,10 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A table that ReadCurve understands: voltage_V,current_A and the optional columns the curve has,
 // with as many digits as bring back the same bits.

@@ -7,13 +7,15 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct Effect;  // law/effect.h
 
+// Which causes are looked for, how sure they have to be, and what is done besides.
 struct DiagnoseOptions {
   double level = 0.05;               // rate of false alarms over the whole catalogue
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/plan.h"
 #include "lyrefit/fit/fit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Everything in a diagnosis is of the solved-current objective: r = I_model(V) - I_measured.
 
@@ -29,11 +30,12 @@ struct DiagnosedPoint {
   double time_s = 0;     // NaN where no times were recorded
 };
 
+// One curve of a diagnosis.
 struct DiagnosedCurve {
-  std::string name;
+  std::string name;  // the curve's
   double irradiance_W_m2 = 0;
   double temperature_C = 0;
-  bool dark = false;
+  bool dark = false;  // taken without light
   int points = 0;
 };
 
@@ -44,6 +46,7 @@ struct Finding {
   std::vector<int> points;  // positions in Diagnosis::points it is about; may be empty
 };
 
+// What the readings say before any cause is tried.
 struct Evidence {
   std::string kind;             // "one sweep from 0 V to beyond Voc", in words
   double noise_constant_A = 0;  // standard deviation, constant part (lit curves)
@@ -53,31 +56,33 @@ struct Evidence {
   double noise_stated_A = 0;    // median of what is stated and believed instead; 0: nothing is
   double noise_path_A = 0;      // of a rough path along the sweep that readings share; 0 without
   double misfit_ratio = 0;  // base residual's standard deviation / noise's from second differences
-  double autocorrelation = 0;  // lag 1, of the noise (smooth misfit removed)
-  double grid_step_A = 0;      // greatest common step of the currents; 0: none seen
-  double grid_step_V = 0;
-  int clipped_points = 0;
-  double clip_level_A = 0;
+  double autocorrelation = 0;          // lag 1, of the noise (smooth misfit removed)
+  double grid_step_A = 0;              // greatest common step of the currents; 0: none seen
+  double grid_step_V = 0;              // the same of the voltages
+  int clipped_points = 0;              // readings at a limit of the instrument
+  double clip_level_A = 0;             // that limit; 0 without such readings
   ResidualStatistics residuals;        // of the base model
   double whiteness_p_value = 1;        // portmanteau of the base residuals
   double whiteness_after_p_value = 1;  // of the extended model's
   std::vector<Finding> findings;
 };
 
+// A parameter of an effect as it was fitted.
 struct CauseParameter {
   std::string symbol;
-  std::string name;
+  std::string name;  // as code and JSON spell it
   std::string unit;
-  double value = kUnknown;
+  double value = kUnknown;  // in `unit`
   double low_95 = kUnknown;
   double high_95 = kUnknown;
   bool at_bound = false;
 };
 
+// What became of one effect of the catalogue.
 struct Trial {
-  std::string effect;
+  std::string effect;  // its id
   std::string title;
-  bool tried = false;
+  bool tried = false;             // false: these data cannot show it
   std::string why_not;            // where it was not
   double rmse_A = kUnknown;       // base model with this one effect
   double misfit = kUnknown;       // norm of what it takes away, in noise units
@@ -86,16 +91,17 @@ struct Trial {
   double delta_aicc = kUnknown;   // with the effect minus without: negative is better
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // part of the effect's signature the base model cannot absorb
-  std::vector<CauseParameter> parameters;
+  std::vector<CauseParameter> parameters;  // as fitted beside the base model
 };
 
 // A size with its 95 % interval.
 struct Sized {
-  double value = kUnknown;
+  double value = kUnknown;  // in the unit that its field says
   double low_95 = kUnknown;
   double high_95 = kUnknown;
 };
 
+// An effect that explains what the base model gets wrong.
 struct Cause {
   std::string id;
   std::string title;
@@ -107,12 +113,13 @@ struct Cause {
   std::vector<std::string> equivalents;   // other ids these data cannot separate from it
   std::vector<std::string> separate_by;   // measurements that would
   std::vector<CauseParameter> strength;   // with intervals
-  double corrected_p = kUnknown;
-  std::string evidence;     // "fit" or "values"
-  std::string acts;         // where on the curve, in words
-  std::vector<int> points;  // where it acts most: positions in Diagnosis::points
+  double corrected_p = kUnknown;          // p-value of the effect, the whole catalogue counted
+  std::string evidence;                   // "fit" or "values"
+  std::string acts;                       // where on the curve, in words
+  std::vector<int> points;                // where it acts most: positions in Diagnosis::points
 };
 
+// An effect that may be there unseen, since these data cannot show it.
 struct CannotBeExcluded {
   std::string id;
   std::string biases;  // symbols
@@ -120,27 +127,29 @@ struct CannotBeExcluded {
   std::string separate_by;
 };
 
+// What the diagnosis comes to.
 struct Verdict {
-  bool found = false;
+  bool found = false;         // at least one cause is named
   bool unexplained = false;   // something is there that no known cause fits
   std::vector<Cause> causes;  // the most certain first
   // There beyond doubt, but too small to act on.
   std::vector<Cause> below_floor;
   Sized departure;  // of the data from the base model beyond noise, rms in parts of Isc
-  std::vector<CannotBeExcluded> cannot_be_excluded;
+  std::vector<CannotBeExcluded> cannot_be_excluded;  // what the data cannot show
   std::string sentence;
 };
 
 // How the base model's parameters and the maximum power move when the causes are allowed for.
 struct ParameterShift {
   std::string symbol;
-  std::string name;
+  std::string name;  // as code and JSON spell it
   std::string unit;
-  double before = kUnknown;
-  double after = kUnknown;
+  double before = kUnknown;          // of the base model
+  double after = kUnknown;           // with the causes allowed for
   double standard_error = kUnknown;  // of `after`
 };
 
+// What the model wins by allowing for the causes, on readings that were not fitted too.
 struct Gain {
   double rmse_before_A = kUnknown;
   double rmse_after_A = kUnknown;
@@ -149,30 +158,31 @@ struct Gain {
   double held_out_gain_A2 = kUnknown;        // mean difference of squares over the blocks
   double held_out_gain_error_A2 = kUnknown;  // its standard error
   bool gain = false;                         // more than its standard error
-  int folds = 0;
-  bool by_sweeps = false;  // what was held out were whole sweeps
+  int folds = 0;                             // parts that were left out in turn
+  bool by_sweeps = false;                    // what was held out were whole sweeps
   std::string sentence;
   std::vector<ParameterShift> shifts;
 };
 
+// What a diagnosis found, with all that it rests on.
 struct Diagnosis {
-  std::string version;  // of lyrefit
-  std::string name;
-  std::string source;
+  std::string version;        // of lyrefit
+  std::string name;           // the curve's, or the set's
+  std::string source;         // the file it was read from
   std::string base;           // "sd" or "dd"
   std::string base_sentence;  // what the base model assumes
   std::uint64_t seed = 0;
-  double level = 0.05;
+  double level = 0.05;       // of significance: a cause has a smaller corrected p-value
   double floor_current = 0;  // smallest effect that is named, rms in parts of Isc
   double floor_power = 0;    // or in parts of Pmax
   int cells_in_series = 1;
-  std::vector<DiagnosedCurve> curves;
+  std::vector<DiagnosedCurve> curves;  // in the set's order
   std::vector<DiagnosedPoint> points;
-  Evidence evidence;
+  Evidence evidence;          // before any cause was tried
   std::vector<Trial> trials;  // in the order of the catalogue
-  Verdict verdict;
-  Gain gain;
-  std::optional<Plan> plan;  // where it was asked for
+  Verdict verdict;            // what it comes to
+  Gain gain;                  // what the causes are worth
+  std::optional<Plan> plan;   // where it was asked for
   // The extended model (the base model where nothing was found) as a fit like any other. With
   // DiagnoseOptions::extend it is searched and polished; without, only `model`,
   // `estimates`, `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled. `device` is empty: the law is the catalogue's.

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/healthy_comparison.h"
 #include "lyrefit/diagnose/healthy_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Compares by a single diode's FF, Rs Isc / Voc, n and Gsh Voc / Isc and by the shape of what it
 // misses, each healthy sweep's regressed on ln Isc and Voc, so that no curve is translated; the

@@ -3,23 +3,24 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One row of now against expected.
 struct HealthyRow {
   std::string symbol;  // "FF", "Rs", "n", "Gsh", "shape", "Isc/G"
-  std::string name;
+  std::string name;    // as code and JSON spell it
   std::string unit;
-  double now = 0;
+  double now = 0;       // of the sweep
   double expected = 0;  // at the sweep's own Isc and Voc, from the healthy sweeps
   double low_95 = 0;    // of what a healthy sweep would show
   double high_95 = 0;
   double z = 0;            // difference in standard deviations of its prediction
   double corrected_p = 1;  // all rows counted
   double power = 0;        // part of Pmax that the difference gives (+) or costs (-); NaN: none
-  bool differs = false;
+  bool differs = false;    // at the level of the options
 };
 
 // Something done to a healthy sweep that would make the difference.
@@ -36,9 +37,9 @@ struct HealthyCause {
 
 // A sweep against healthy ones of the same module.
 struct HealthyComparison {
-  std::string name;
-  bool differs = false;
-  double p_value = 1;  // of the difference, all looks at it counted
+  std::string name;      // the sweep's
+  bool differs = false;  // at the level of the options
+  double p_value = 1;    // of the difference, all looks at it counted
   std::string sentence;
   std::vector<HealthyRow> rows;
   // The best first; then those these rows cannot tell from it. Empty where nothing differs.
@@ -50,7 +51,7 @@ struct HealthyComparison {
   // The sweep less what all healthy sweeps' single diodes miss alike, for Diagnose, and the size of
   // that (root mean square, in parts of Isc).
   IvCurve without_common;
-  double common = 0;
+  double common = 0;  // the size of that
 };
 
 // The sweeps of one module against each other: each is compared with all others that are not odd

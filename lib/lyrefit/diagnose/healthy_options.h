@@ -2,9 +2,11 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// How sure a difference from the healthy sweeps has to be, and what is reckoned with.
 struct HealthyOptions {
   double level = 0.01;  // rate of false alarms over all that is compared
   int threads = 0;      // 0: all cores; never changes a result

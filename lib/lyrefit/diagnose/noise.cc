@@ -124,7 +124,7 @@ double CutScale(const Eigen::ArrayXd& squares, double guess) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);
     if (std::fabs(scale - before) < kSettled * scale) return std::max(scale, 1e-30);
   }
-  scale = UpperMedian({squares.begin(), squares.end()}) / 0.455;
+  scale = UpperMedian({squares.data(), squares.data() + squares.size()}) / 0.455;
   if (!(scale > 0)) scale = squares.sum() / count;
   for (int round = 0; round < kRounds; ++round) {
     scale = squares.min(kLargestSquare * scale).sum() / (kCutMean * count);

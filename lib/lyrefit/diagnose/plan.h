@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/fit/fit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One of the causes between which a further measurement is to decide.
 struct PlannedCause {
@@ -15,6 +16,7 @@ struct PlannedCause {
   std::string nearest;            // that other
 };
 
+// A further measurement, and what it would tell.
 struct PlannedMeasurement {
   std::string id;                 // "reverse_sweep"
   std::string title;              // what to do

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/effect.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Every effect lyrefit knows, in the order of reports. To add one: a file effects/<id>.cc with a
 // function that makes it, and its line in catalogue_entries.h.

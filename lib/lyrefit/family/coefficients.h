@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/translation.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How a device's key points follow the cell temperature at the reference (1000 W/m2, 25 C), as data
 // sheets state it.

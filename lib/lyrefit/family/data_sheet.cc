@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet_values.h"
 #include "lyrefit/family/key_point_solver.h"
@@ -149,6 +150,18 @@ void WarnOfTheRounding(bool all_ends, DataSheetFit* fit) {
 }
 
 }  // namespace
+
+Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole) {
+  const bool percent = whole != 0 && !text.empty() && text.back() == '%';
+  const std::string number = percent ? text.substr(0, text.size() - 1) : text;
+  const std::optional<double> value = ParseNumber(number);
+  if (!value || !std::isfinite(*value)) {
+    return Fail(fmt::format("expected a number{}, found '{}'",
+                            whole != 0 ? " per kelvin, or in percent such as 0.05%" : "", text));
+  }
+  const double unit = percent ? whole / 100 : 1;
+  return PrintedValue{*value * unit, HalfUnit(number) * std::fabs(unit)};
+}
 
 Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constants) {
   TRY(CheckDataSheet(sheet));

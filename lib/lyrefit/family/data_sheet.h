@@ -6,9 +6,10 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/translation.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a data sheet prints of a module at 1000 W/m2 and 25 C. Coefficients per kelvin, not in
 // percent, except that of the power.
@@ -21,6 +22,7 @@ struct DataSheetValues {
   double beta_oc_V_K = 0;              // of Voc
 };
 
+// A data sheet: its values and how exactly they are printed.
 struct DataSheet {
   DataSheetValues values;
   // Half a unit of the last printed digit of each value: 0.005 for "4.70 A". 0: exact.
@@ -29,12 +31,21 @@ struct DataSheet {
   int cells_in_series = 1;
 };
 
+// A value as a sheet prints it, and half a unit of its last digit.
+struct PrintedValue {
+  double value = 0;      // in the unit it is printed in
+  double half_unit = 0;  // half of its last digit
+};
+
+// Reads "4.70"; where `whole` is given also "0.05%", which is that part of it. Error: no number.
+Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole = 0);
+
 // What was asked for and what the device found gives.
 struct DataSheetCheck {
   std::string name;  // "Isc", "Voc", "Imp", "Vmp", "beta_oc", "alpha_sc", "gamma_pmp"
   std::string unit;
-  double asked;
-  double given;
+  double asked;  // printed
+  double given;  // by the device found
 };
 
 // How far a parameter moves while the printed values move to every corner of their rounding.
@@ -44,6 +55,7 @@ struct DataSheetRange {
   double high;
 };
 
+// A device that does what a data sheet prints.
 struct DataSheetFit {
   Translation translation;             // De Soto, one diode
   std::vector<double> shared;          // in its order; R_sh_ref infinite where no shunt is needed
@@ -52,6 +64,9 @@ struct DataSheetFit {
   std::vector<DataSheetRange> ranges;  // of I_L_ref, I_o_ref, n, R_s, R_sh_ref; empty if no
                                        // rounding is stated
   std::vector<std::string> warnings;
+
+  // Whether the five equations are solved, beyond the digits of any sheet.
+  bool Solved() const { return largest_relative_error < 1e-6; }
 };
 
 // The five parameters of the single-diode model from a data sheet alone, as pvlib's fit_desoto and

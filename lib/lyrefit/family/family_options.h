@@ -8,6 +8,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/family/read_pvlib.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/error_spec.h"
@@ -18,7 +19,7 @@
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How the curves of a set count in the sum of squares. Where every curve states a standard
 // deviation of each current, that counts instead.
@@ -33,6 +34,7 @@ struct EnumTable<FamilyWeights> {
                                                       {FamilyWeights::kIsc, "isc"}};
 };
 
+// Which law is fitted to the curves of a set, what is known of sensors, and what is tested.
 struct FamilyOptions {
   TranslationLaw law = TranslationLaw::kDeSoto;
   Model model = Model::kSingleDiode;  // sd or dd
@@ -77,6 +79,7 @@ struct FamilyOptions {
   std::vector<NamedParameters> against;
   int threads = 0;  // 0: all cores; never changes a result
 
+  // The search's own defaults for a family.
   static SearchOptions FamilySearch() {
     SearchOptions search;
     search.population = 30;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
@@ -14,16 +15,17 @@
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A value with its standard error and 95 % interval; NaN where not known.
 struct Interval {
-  double value = kUnknown;
+  double value = kUnknown;  // the estimate
   double standard_error = kUnknown;
   double low_95 = kUnknown;
   double high_95 = kUnknown;
 };
 
+// What a curve was used for.
 enum class CurveRole {
   kFitted,
   kHeldOut,  // not fitted, only tested
@@ -40,13 +42,13 @@ struct EnumTable<CurveRole> {
 // One curve under the joint parameters.
 struct FamilyCurve {
   std::string id;
-  CurveRole role = CurveRole::kFitted;
-  std::string reason;  // why left out
+  CurveRole role = CurveRole::kFitted;  // what it was used for
+  std::string reason;                   // why left out
   std::size_t points = 0;
   double irradiance_W_m2 = 0;  // as stated (a start where nobody stated it)
   double temperature_C = 0;
-  bool irradiance_known = true;
-  bool temperature_known = true;
+  bool irradiance_known = true;   // stated by somebody
+  bool temperature_known = true;  // the same
   // What the fit adds to the stated values for this curve alone; all NaN without such unknowns.
   Interval irradiance_offset_W_m2;
   Interval temperature_offset_K;
@@ -70,6 +72,7 @@ struct FamilyCurve {
   bool odd = false;  // does not belong to the device of the others
 };
 
+// The errors of a joint fit on its way, over all points of the curves named.
 struct FamilyRmseTable {
   RmsePair random_baseline;  // on the curves of the search
   RmsePair searched;         // on the curves of the search
@@ -83,12 +86,12 @@ struct FamilyRmseTable {
 
 // Errors of whole curves that were not fitted.
 struct HeldOut {
-  std::string how;  // "548 curves not fitted", "5 folds of whole curves"
-  int curves = 0;
+  std::string how;                  // "548 curves not fitted", "5 folds of whole curves"
+  int curves = 0;                   // how many were tested
   RmsePair rmse;                    // over all points
   double median_rmse_A = kUnknown;  // of the curves, solved-current
   double largest_rmse_A = kUnknown;
-  std::string largest_id;
+  std::string largest_id;                // of the curve with that
   std::vector<double> curve_rmse_A;      // of every curve tested, solved-current
   double median_free_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
 };
@@ -110,15 +113,15 @@ struct FamilyCandidate {
   // Held-out mean square beyond that of the best law, in standard errors of the difference from
   // curve to curve: below 1 the curves do not tell the two apart.
   double behind_best = kUnknown;
-  int free_parameters = 0;
-  bool chosen = false;
+  int free_parameters = 0;  // of the joint fit
+  bool chosen = false;      // the answer has this law
 };
 
 // The fit without the curves that look like another device's.
 struct WithoutOdd {
-  std::vector<std::string> ids;
+  std::vector<std::string> ids;  // the curves that were left out
   RmsePair rmse;
-  std::vector<double> shared;
+  std::vector<double> shared;  // parameters of the others, in the translation's order
 };
 
 // A temperature coefficient of the device at the reference, from its own model.
@@ -152,11 +155,12 @@ struct FamilyErrors {
   double gain = 0;        // twice that in ln likelihood over independent errors
 };
 
+// Everything that a joint fit of many curves can say.
 struct FamilyReport {
   std::string version;
-  std::string name;
-  std::string source;
-  bool free = false;  // every curve on its own: no shared parameters
+  std::string name;    // the set's
+  std::string source;  // the file or folder it was read from
+  bool free = false;   // every curve on its own: no shared parameters
   Translation translation;
   Objective objective = Objective::kSolvedCurrent;
   int cells_in_series = 1;
@@ -169,11 +173,11 @@ struct FamilyReport {
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN where not asked for
   Interval temperature_offset_K;
   std::vector<Coefficient> coefficients;
-  KeyPoints reference;  // of the model at 1000 W/m2 and 25 C
-  FamilyRmseTable rmse;
-  double noise_A = kUnknown;        // residual standard deviation (weighted, scaled to ampere)
-  std::vector<FamilyCurve> curves;  // in the set's order
-  std::vector<std::string> search_ids;
+  KeyPoints reference;                  // of the model at 1000 W/m2 and 25 C
+  FamilyRmseTable rmse;                 // of search and joint fit
+  double noise_A = kUnknown;            // residual standard deviation (weighted, scaled to ampere)
+  std::vector<FamilyCurve> curves;      // in the set's order
+  std::vector<std::string> search_ids;  // the curves that the search looked at
   std::optional<HeldOut> held_out;
   std::vector<Against> against;  // on the curves of `held_out`; without it on those fitted
   // The joint fit on the curves it was fitted to, where nothing else stands beside `against`.
@@ -190,8 +194,8 @@ struct FamilyReport {
   std::vector<Interval> under_errors;
   SearchOptions search_options;
   SearchSummary search;
-  std::string termination;  // of the joint fit
-  double projected_gradient = kUnknown;
+  std::string termination;               // of the joint fit
+  double projected_gradient = kUnknown;  // as in RefineReport
   double seconds = 0;
   double free_seconds = 0;              // of the fits one by one
   double joint_seconds = 0;             // of the joint fit, from all its starts
@@ -199,12 +203,12 @@ struct FamilyReport {
   double best_bird_seconds = kUnknown;  // and of its own joint fit
   // Effects beside the diodes, and the curves as they were taken, in which they act.
   std::vector<EffectUse> with;
-  std::shared_ptr<const CurveSet> taken;
-  std::vector<RejectedCurve> rejected;  // files or curves that could not be read
+  std::shared_ptr<const CurveSet> taken;  // none: no effects
+  std::vector<RejectedCurve> rejected;    // files or curves that could not be read
   std::vector<OptionEcho> non_default_options;
-  std::vector<std::string> assumptions;
-  std::vector<std::string> doubts;    // of the readings, before any fit; see CheckReadings
-  std::vector<std::string> warnings;  // these doubts among them
+  std::vector<std::string> assumptions;  // what the reader had to assume
+  std::vector<std::string> doubts;       // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> warnings;     // these doubts among them
   bool interrupted = false;
   bool usable = true;
 };

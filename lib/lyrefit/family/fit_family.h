@@ -2,12 +2,13 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/law/translation.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Fits one set of reference parameters to all light curves of a set: MLO over the shared parameters
 // on a few well-spread curves, then one bounded least-squares problem with shared and per-curve

@@ -4,18 +4,20 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/translation.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Defaults of pvlib's calcparams functions; a CEC row implies the band gap's.
 constexpr double kPvlibBandgap_eV = 1.121;
 constexpr double kPvlibBandgapSlope_1_K = -0.0002677;
 constexpr double kPvlibShuntExponent = 5.5;
 
+// A parameter under pvlib's name, in pvlib's unit.
 struct NamedValue {
-  std::string name;
-  double value;
+  std::string name;  // a keyword of pvlib, a column of SAM
+  double value;      // infinite for a shunt that is not there
 };
 
 // The shared parameters of a family under the names and in the units of pvlib-python: the keywords
@@ -33,9 +35,9 @@ Expected<std::vector<NamedValue>> PvlibParameters(const Translation& translation
 // alpha_sc (A/K), beta_oc (V/K), a_ref (V), I_L_ref, I_o_ref (A), R_s, R_sh_ref (ohm), Adjust (0),
 // gamma_r (%/K).
 struct CecModule {
-  std::string name;
+  std::string name;  // the row's
   std::string technology;
-  std::vector<NamedValue> values;
+  std::vector<NamedValue> values;  // in the order above
 };
 
 // Errors: those of PvlibParameters; a law other than De Soto's, or a band gap other than the

@@ -5,9 +5,10 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/extension.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // "shading:d=0.3,w=0.2:0.4" as an effect of the catalogue and what is said of its parameters;
 // DescribeUse() is the other way round.

@@ -6,9 +6,10 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/refine/error_terms.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a fit takes the errors of the readings for.
 enum class ErrorKind {
@@ -17,6 +18,7 @@ enum class ErrorKind {
   kStated,  // the error model with sizes that somebody knows
 };
 
+// The errors that a fit is to reckon with.
 struct ErrorSpec {
   ErrorKind kind = ErrorKind::kWhite;
   ErrorSizes sizes;            // where they are stated
@@ -27,7 +29,7 @@ struct ErrorSpec {
 // 0, the first or the last above. Errors carry file, line and column.
 Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 
-// "white", "field", or such a file.
+// "white", "field", or such a file. Errors: those of the file.
 Expected<ErrorSpec> ErrorsNamed(const std::string& name);
 
 // What the readings' errors are, by name or file: see base/option.h.

@@ -2,11 +2,12 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The hybrid estimator: search the bounds, polish the best bird, further elites and a separable
 // grid by bounded least squares, and say what is known and how well. Errors: an unusable curve,

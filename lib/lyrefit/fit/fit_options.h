@@ -8,6 +8,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/setting_text.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/effect_text.h"
@@ -18,7 +19,7 @@
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How the polish weighs large residuals. The robust ones are fitted by reweighting: r and k are the
 // residual and `loss_scale`, both in units of the noise.
@@ -63,7 +64,7 @@ inline constexpr char kBirdsDoc[] =
     "a bird is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
     "Is and Rsh are solved for";
 
-enum class Intervals { kNone, kSymmetric, kProfile };
+enum class Intervals { kNone, kSymmetric, kProfile };  // Which intervals a fit works out.
 
 template <>
 struct EnumTable<Intervals> {
@@ -72,6 +73,7 @@ struct EnumTable<Intervals> {
                                                   {Intervals::kProfile, "profile"}};
 };
 
+// How a curve is fitted; the defaults serve.
 struct FitOptions {
   Model model = Model::kSingleDiode;
   Objective objective = Objective::kSolvedCurrent;

@@ -9,6 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
@@ -16,9 +17,9 @@
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
-enum class BoundSide { kNone, kLower, kUpper };
+enum class BoundSide { kNone, kLower, kUpper };  // Which bound a parameter is pressed against.
 
 template <>
 struct EnumTable<BoundSide> {
@@ -26,6 +27,7 @@ struct EnumTable<BoundSide> {
       {BoundSide::kNone, "none"}, {BoundSide::kLower, "lower"}, {BoundSide::kUpper, "upper"}};
 };
 
+// How an interval was found.
 enum class IntervalMethod {
   kNone,       // fixed, or not asked for
   kSymmetric,  // estimate -+ t x standard error on the parameter's own scale, cut at the bounds
@@ -54,7 +56,7 @@ struct Estimate {
   double standard_error = kUnknown;
   double low_95 = kUnknown;
   double high_95 = kUnknown;
-  IntervalMethod interval = IntervalMethod::kNone;
+  IntervalMethod interval = IntervalMethod::kNone;  // how low_95 and high_95 were found
   BoundSide at_bound = BoundSide::kNone;
   bool identifiable = true;
   std::string reason;  // why not identifiable, in plain words
@@ -64,11 +66,13 @@ struct Estimate {
 struct RmsePair {
   double measured_current_A = kUnknown;
   double solved_current_A = kUnknown;
+  // That of one objective, in ampere.
   double Of(Objective objective) const {
     return objective == Objective::kMeasuredCurrent ? measured_current_A : solved_current_A;
   }
 };
 
+// The errors of one fit on its way: by search alone, polished, and best of all.
 struct RmseTable {
   RmsePair random_baseline;  // best of as many uniform random points as the search evaluated
   RmsePair searched;         // the metaheuristic's best bird as it is
@@ -84,9 +88,9 @@ struct RmseTable {
 struct FloorReport {
   double rmse_A = kUnknown;         // attained by a mixture of diodes
   double lower_bound_A = kUnknown;  // proved
-  double n_lower = kUnknown;
-  double n_upper = kUnknown;
-  double above = kUnknown;  // refined measured-current RMSE / rmse_A - 1
+  double n_lower = kUnknown;        // range of the ideality
+  double n_upper = kUnknown;        // that was allowed
+  double above = kUnknown;          // refined measured-current RMSE / rmse_A - 1
 };
 
 // One start of the polish and where it ended. Starts whose descents come to the same curve, to a
@@ -102,17 +106,17 @@ struct StartReport {
 // besides. A start beside an earlier end (one cell more, the next setting) comes back to its basin
 // sooner than another, and is in no estimate.
 struct BasinCount {
-  int ends = 0;
+  int ends = 0;  // starts that came to one
   int basins = 0;
   int best_visits = 0;  // ends in the best one
   struct Independent {  // of the starts that were not beside an earlier end
-    int ends = 0;
+    int ends = 0;       // starts that came to one
     int basins = 0;
-    int best_visits = 0;
-    int once = 0;   // basins with one end
-    int twice = 0;  // with two
+    int best_visits = 0;  // ends in the best one
+    int once = 0;         // basins with one end
+    int twice = 0;        // with two
   };
-  Independent independent;
+  Independent independent;  // starts that did not begin beside an earlier end
   // Chao's lower estimate, bias-corrected: once (once - 1) / (2 (twice + 1)),
   // doi:10.2307/2531532; unknown where `independent` has less than three ends.
   double unseen = kUnknown;
@@ -125,9 +129,10 @@ struct FormReport {
   double rmse_A = kUnknown;  // solved-current
   double bic_above = 0;      // Bayesian information criterion, above the chosen one's
   bool finished = false;     // false: given up as out of reach; its figures are upper limits
-  bool chosen = false;
+  bool chosen = false;       // the answer has this form
 };
 
+// How the polish went.
 struct RefineReport {
   std::string termination = "not run";  // "converged", "no convergence", "interrupted", "not run"
   std::string message;
@@ -143,12 +148,14 @@ struct RefineReport {
   std::optional<BasinCount> basins;     // of a model with effects
 };
 
+// Two parameters that the data hardly tell apart.
 struct Correlation {
-  std::string first;  // symbols
-  std::string second;
-  double value = 0;
+  std::string first;   // symbols
+  std::string second;  // the other one
+  double value = 0;    // -1 to 1
 };
 
+// What the fit costs in parameters: lower is better, on the same readings alone.
 struct InformationCriteria {
   int points = 0;
   int parameters = 0;  // free ones; the noise variance is counted on top
@@ -156,14 +163,15 @@ struct InformationCriteria {
   double bic = kUnknown;
 };
 
+// Whether the residuals look like noise.
 struct ResidualStatistics {
   double largest_A = kUnknown;  // largest |model - measured|, solved-current
   double largest_at_V = kUnknown;
   double mean_A = kUnknown;
-  int runs = 0;  // of one sign, in order of voltage
-  double expected_runs = kUnknown;
-  double runs_p_value = kUnknown;  // two-sided, Wald-Wolfowitz
-  double durbin_watson = kUnknown;
+  int runs = 0;                     // of one sign, in order of voltage
+  double expected_runs = kUnknown;  // of as many residuals in random order
+  double runs_p_value = kUnknown;   // two-sided, Wald-Wolfowitz
+  double durbin_watson = kUnknown;  // 2 for noise, towards 0 for a misfit
 };
 
 // What `auto` says of one candidate.
@@ -176,6 +184,7 @@ struct CandidateReport {
   bool identifiable = true;     // no diode may be absent
 };
 
+// What `auto` chose among one, two and three diodes, and why.
 struct ModelChoice {
   Model chosen = Model::kSingleDiode;
   std::vector<CandidateReport> candidates;  // SD, DD, TD
@@ -194,6 +203,7 @@ struct ErrorReport {
   RmsePair least_squares;  // where weighed: of the fit with the lowest RMSE
 };
 
+// Everything that a fit of one curve can say.
 struct FitReport {
   std::string version;  // of lyrefit
   IvCurve curve;
@@ -202,9 +212,9 @@ struct FitReport {
   ConstantSet constants = ConstantSet::kCodata;
   std::string bounds_name;  // "physical", "paper", "literature", "wide" or the file's name
   Device device;
-  std::vector<double> searched;  // parameter vectors in the device's order
-  std::vector<double> best_bird_polished;
-  std::vector<double> refined;  // equal to `searched` where there was no polish
+  std::vector<double> searched;            // parameter vectors in the device's order
+  std::vector<double> best_bird_polished;  // after its own polish; empty: not asked for
+  std::vector<double> refined;             // equal to `searched` where there was no polish
   bool polished = false;
   std::vector<Estimate> estimates;    // in the device's order
   std::optional<ErrorReport> errors;  // none: not looked for, or too few readings
@@ -212,17 +222,17 @@ struct FitReport {
   // Empty where they are not believed, or where `estimates` have them already.
   std::vector<Estimate> under_errors;
   double nNsVth = kUnknown;  // modified ideality of the first diode, in volt, as pvlib wants it
-  RmseTable rmse;
+  RmseTable rmse;            // of search and polish
   std::optional<FloorReport> floor;  // where it was asked for
   KeyPoints measured;
-  KeyPoints simulated;                  // of the refined model
-  std::vector<double> model_current_A;  // I(V) of the refined model at the measured voltages
-  std::vector<double> residual_A;       // model_current_A - current_A
-  InformationCriteria criteria;
-  ResidualStatistics residuals;
+  KeyPoints simulated;                    // of the refined model
+  std::vector<double> model_current_A;    // I(V) of the refined model at the measured voltages
+  std::vector<double> residual_A;         // model_current_A - current_A
+  InformationCriteria criteria;           // of the refined parameters
+  ResidualStatistics residuals;           // of the refined model, solved-current
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
-  SearchOptions search_options;
-  SearchSummary search;
+  SearchOptions search_options;           // as the search had them
+  SearchSummary search;                   // how the search went
   // Evaluations of the whole curve, with or without derivatives, that the search cost: as many as
   // its own, unless each bird solves for parameters (FitOptions::birds).
   std::int64_t curve_evaluations = 0;
@@ -232,15 +242,15 @@ struct FitReport {
   // the best bird and its own polish; 1 where there is one form.
   double form_price = 1;
   double best_bird_price = 1;
-  std::vector<FormReport> forms;  // of effects that have several; one is chosen
-  double interval_seconds = 0;
+  std::vector<FormReport> forms;      // of effects that have several; one is chosen
+  double interval_seconds = 0;        // of profiles and intervals
   double plain_seconds = kUnknown;    // of the best bird's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for
   std::optional<ModelChoice> choice;  // of `auto`
   // Of an extended model: ids of the effects beside the diodes, and how many curves under
   // conditions of their own it describes. What reads a fit back must know them.
   std::vector<std::string> causes;
-  int curves = 1;
+  int curves = 1;  // under one law
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> doubts;    // of the readings, before any fit; see CheckReadings
   std::vector<std::string> warnings;  // plain words, these doubts among them
@@ -251,8 +261,8 @@ struct FitReport {
 
 // A file and what came of it: its fit, or why there is none.
 struct FittedFile {
-  std::string file;
-  Expected<FitReport> report;
+  std::string file;            // as it was given
+  Expected<FitReport> report;  // or why there is none
 };
 
 }  // namespace lyrefit

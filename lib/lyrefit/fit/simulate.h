@@ -9,6 +9,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/setting_text.h"
@@ -16,17 +17,18 @@
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/extension.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One law behind many curves (extended_set.h) and the one of them to be simulated; at conditions of
 // one's own choice where the options' differ from those it was taken under.
 struct SharedLaw {
-  Law law;
+  Law law;  // of the whole set
   double reference_K = 298.15;
   CurveSet set;
-  int curve = 0;
+  int curve = 0;  // position in the set
 };
 
+// The device that is simulated, the sky above it, and the noise.
 struct SimulateOptions {
   Model model = Model::kSingleDiode;
   std::map<std::string, double> parameters;  // by symbol or name: all of the model, n per cell
@@ -47,10 +49,10 @@ struct SimulateOptions {
   // Cells that are not alike (law/string_layout.h); none: all have the parameters above.
   std::shared_ptr<const StringLayout> layout;
   // Independent Gaussian noise on every current, of the two parts' root of the sum of squares.
-  double noise_A = 0;         // standard deviation, constant part
-  double noise_relative = 0;  // standard deviation, part of |current|
-  std::uint64_t seed = 0;     // of the noise
-  std::string name = "simulated";
+  double noise_A = 0;              // standard deviation, constant part
+  double noise_relative = 0;       // standard deviation, part of |current|
+  std::uint64_t seed = 0;          // of the noise
+  std::string name = "simulated";  // of the curve made
 };
 
 inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
@@ -85,5 +87,8 @@ Expected<IvCurve> Simulate(const SimulateOptions& options);
 // of lyrefit, no such curve.
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path,
                                                const std::string& curve = "");
+// The same from the text of a report, which errors call `path`.
+Expected<SimulateOptions> ReadFitTextForSimulation(const std::string& text, const std::string& path,
+                                                   const std::string& curve = "");
 
 }  // namespace lyrefit

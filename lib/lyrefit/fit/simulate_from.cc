@@ -271,6 +271,11 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
 
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const std::string& curve) {
   TRY(const auto text, ReadTextFile(path, kLargestFitFile));
+  return ReadFitTextForSimulation(text, path, curve);
+}
+
+Expected<SimulateOptions> ReadFitTextForSimulation(const std::string& text, const std::string& path,
+                                                   const std::string& curve) {
   TRY(auto fit, ParseJson(text, path));
   const Report report{std::move(fit), text, path, curve};
   const std::optional<Model> model = FromText<Model>(TextAt(report.fit, "/model"));

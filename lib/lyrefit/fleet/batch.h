@@ -8,12 +8,13 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/fleet/batch_options.h"
 #include "lyrefit/fleet/fleet_source.h"
 #include "lyrefit/fleet/fleet_task.h"
 #include "lyrefit/report/document.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One thing done with each of many curves.
 //
@@ -34,24 +35,25 @@ namespace lyrefit {
 
 // Why a kind of rows is broken or not usable, and how many there are.
 struct ReasonCount {
-  std::int64_t rows = 0;
-  std::string where;  // the first of them
+  std::int64_t rows = 0;  // how many
+  std::string where;      // the first of them
 };
 
+// What a run came to.
 struct BatchSummary {
   std::string version;  // of lyrefit
-  std::string task;
-  std::string folder;
+  std::string task;     // "fit", "diagnose", "translate"
+  std::string folder;   // where the results are
   std::uint64_t seed = 0;
-  std::int64_t rows = 0;
+  std::int64_t rows = 0;         // in the results
   std::int64_t rows_before = 0;  // of them written by runs before this one
   double seconds = 0;
-  bool interrupted = false;   // there are no results yet; what follows is empty
-  bool was_complete = false;  // nothing was left to do
-  std::map<std::string, std::int64_t> statuses;
-  std::map<std::string, std::int64_t> zones;   // of a field test
-  std::map<std::string, std::int64_t> causes;  // where the task looks for any
-  std::map<std::string, std::int64_t> abouts;  // what those belong to: see AboutOf
+  bool interrupted = false;                      // there are no results yet; what follows is empty
+  bool was_complete = false;                     // nothing was left to do
+  std::map<std::string, std::int64_t> statuses;  // how many rows of each
+  std::map<std::string, std::int64_t> zones;     // of a field test
+  std::map<std::string, std::int64_t> causes;    // where the task looks for any
+  std::map<std::string, std::int64_t> abouts;    // what those belong to: see AboutOf
   // With all numbers in them written as "N"; the rarest beyond kMostReasons as one.
   std::map<std::string, ReasonCount> reasons;
   std::vector<ResultColumn> columns;  // of the results
@@ -59,6 +61,7 @@ struct BatchSummary {
   std::int64_t flagged = 0;           // of those
 };
 
+// So many different reasons are counted one by one.
 constexpr int kMostReasons = 40;
 
 // Hears every row of the results in their order, as soon as it is written.
@@ -73,9 +76,10 @@ Expected<BatchSummary> RunBatch(FleetSource* source, const FleetTask& task,
                                 const BatchOptions& options, const Observer& observer = {},
                                 const RowObserver& row_observer = {});
 
+// Where the results of all shards go.
 struct MergeOptions {
-  std::string folder;  // where the results go
-  bool replace = false;
+  std::string folder;    // where the results go
+  bool replace = false;  // results that are there already
 };
 
 // The results of all shards in these folders. Errors: shards that are missing or not finished, all

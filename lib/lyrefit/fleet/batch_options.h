@@ -8,11 +8,12 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/fleet/fleet_source.h"
 #include "lyrefit/fleet/string_pages.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What to do where a run was not finished, or results are there.
 enum class BatchStart {
@@ -21,6 +22,7 @@ enum class BatchStart {
   kReplace,  // begin anew
 };
 
+// How many curves are worked on, and where the rows go.
 struct BatchOptions {
   std::string folder;  // where the results go; made if it is not there
   Shard shard;         // which the source was opened with

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/read_curve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Many curves, read one by one in constant memory, whatever shape they come in:
 //   - one curve a row: JSON Lines, or CSV whose columns hold lists of voltages and currents ("0 1 2",
@@ -39,10 +40,11 @@ namespace lyrefit {
 // through what lies before it (about three seconds a gigabyte), for the numbers of the lines and for
 // the ids that are used already, so that N shards give what one run gives.
 struct Shard {
-  int k = 1;
-  int of = 1;
+  int k = 1;   // which part, from 1
+  int of = 1;  // how many parts
 };
 
+// How the input is read, and which part of it.
 struct FleetReadOptions {
   ReadOptions reading;  // largest_file_bytes limits a row, too
   Shard shard;
@@ -65,11 +67,12 @@ struct FleetItem {
 // What it holds. A broken one keeps the id it stands under, where that can be told.
 struct FleetCurve {
   std::string id;
-  Expected<IvCurve> curve;
+  Expected<IvCurve> curve;  // or why it cannot be read
   std::map<std::string, std::string>
       beside;  // what else stands beside it: date, rated_power_W, ...
 };
 
+// Where the curves of a fleet come from, one after the other.
 class FleetSource {
  public:
   virtual ~FleetSource() = default;

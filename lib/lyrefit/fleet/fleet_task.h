@@ -10,6 +10,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fleet/fleet_source.h"
@@ -17,7 +18,7 @@
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a row says of its curve.
 enum class RowStatus {

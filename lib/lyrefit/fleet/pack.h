@@ -7,9 +7,10 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/fleet/fleet_source.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Any shape of many curves as one curve a row, which OpenFleet reads back to the same curves, bit
 // for bit, and which can be split into shards.
@@ -18,10 +19,11 @@ enum class PackFormat {
   kCsv  // id, irradiance_W_m2, cell_temperature_C, cells_in_series, voltage_V, current_A, more
 };
 
+// What a run of PackFleet came to.
 struct PackReport {
-  std::int64_t curves = 0;
+  std::int64_t curves = 0;  // written, broken ones among them
   std::int64_t broken = 0;  // of them; their rows hold the reason as "error"
-  std::string first_error;
+  std::string first_error;  // of the first broken one
   bool interrupted = false;
 };
 

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/healthy_options.h"
 #include "lyrefit/fleet/batch_options.h"
 #include "lyrefit/fleet/fleet_source.h"
 #include "lyrefit/fleet/fleet_task.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Strings against their own past: healthy sweeps of every string, by their ids. They are kept in
 // memory, about 16 bytes a reading: what grows is this, not what is done with many curves.

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/fleet/result_row.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The page of a plant: one HTML file that needs no other and fetches nothing. What the rows come to
 // stands in it as text, tables and two pictures, to be read on paper, in mail and without scripts; a
@@ -33,10 +34,11 @@ namespace lyrefit {
 
 // A line about the whole: an instrument, options that are not the defaults, the seed.
 struct PlantFact {
-  std::string name;
-  std::string text;
+  std::string name;  // what the text is about
+  std::string text;  // in plain words
 };
 
+// What the page of a plant is called and says besides its rows.
 struct PlantPageOptions {
   std::string plant = "Plant";  // its name
   std::vector<PlantFact> facts = {};

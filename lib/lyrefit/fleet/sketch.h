@@ -3,10 +3,13 @@
 #include <string>
 #include <vector>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A curve as small as a stamp, for pages with many of them.
 
+// Currents in a sketch.
 constexpr int kSketchPoints = 24;
 
 // The currents at kSketchPoints even voltages from 0 to `open_circuit_voltage_V` (to the largest

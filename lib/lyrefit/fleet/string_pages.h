@@ -4,8 +4,9 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Which curves of a batch get a page of their own.
 enum class PagesOf {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/law/call_stage.h"
 #include "lyrefit/law/effect.h"
 #include "lyrefit/law/law.h"
 #include "lyrefit/law/reading.h"
@@ -190,7 +191,7 @@ template <class S>
 bool HasMore(const Bench<S>& bench, const Cell<S>& cell) {
   if (cell.reverse != ReverseLaw::kShunt) return true;
   for (const Effect* effect : bench.law.effects) {
-    if (effect->junction) return true;
+    if (effect->ChangesJunction()) return true;
   }
   return false;
 }
@@ -200,9 +201,13 @@ Tangent<S> MoreCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& phot
   Tangent<S> current = 0.0;
   if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->junction.template For<S>();
-    if (stage == nullptr) continue;
-    current = current + stage(bench.p + bench.offsets[e], cell, photocurrent, voltage);
+    const Effect& effect = *bench.law.effects[e];
+    const S* const p = bench.p + bench.offsets[e];
+    const auto stage = effect.junction.template For<S>();
+    if (stage != nullptr) current = current + stage(p, cell, photocurrent, voltage);
+    if (!effect.plain_junction) continue;
+    current =
+        current + CallStage(effect.plain_junction, effect.size(), p, cell, photocurrent, voltage);
   }
   return current;
 }
@@ -225,7 +230,7 @@ inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>&
 template <class S>
 bool HasMoreDrop(const Bench<S>& bench) {
   for (const Effect* effect : bench.law.effects) {
-    if (effect->series) return true;
+    if (effect->ChangesSeries()) return true;
   }
   return false;
 }
@@ -233,8 +238,13 @@ template <class S>
 Tangent<S> MoreDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
   Tangent<S> drop = 0.0;
   for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->series.template For<S>();
-    if (stage != nullptr) drop = drop + stage(bench.p + bench.offsets[e], cell, current);
+    const Effect& effect = *bench.law.effects[e];
+    const S* const p = bench.p + bench.offsets[e];
+    const auto stage = effect.series.template For<S>();
+    if (stage != nullptr) drop = drop + stage(p, cell, current);
+    if (!effect.plain_series) continue;
+    drop =
+        drop + CallStage(effect.plain_series, effect.size(), p, cell, cell.photocurrent, current);
   }
   return drop;
 }

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/reading.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A lit curve as it looks, without a model: current over voltage between short and open circuit,
 // sweeps up and down taken together.

@@ -7,11 +7,12 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/parameter.h"
 #include "lyrefit/law/term.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How many diodes stand in parallel.
 enum class Model { kSingleDiode = 1, kDoubleDiode = 2, kTripleDiode = 3 };
@@ -47,18 +48,20 @@ struct Extension;
 // AddRecombination appends stands last. Resistances are those of the whole module, n is per cell.
 struct Device {
   std::vector<ParameterInfo> parameters;
-  std::vector<Term> terms;
+  std::vector<Term> terms;              // summed over the junction voltage
   int resistance_series = -1;           // position of Rs
   double module_thermal_voltage_V = 0;  // Ns Vt
   // Effects beside the diodes, and the measurement in which they act; see extension.h. Their
   // parameters stand last. None: the device alone.
   std::shared_ptr<const Extension> extension;
 
+  // How many parameters it has.
   int size() const { return static_cast<int>(parameters.size()); }
   // Position of the parameter with this symbol ("Rs") or name ("resistance_series").
   std::optional<int> Find(const std::string& symbol_or_name) const;
 };
 
+// The single-, double- or triple-diode model of a device under these conditions.
 Device MakeDevice(Model model, const Conditions& conditions,
                   ConstantSet constants = ConstantSet::kCodata);
 
@@ -72,6 +75,7 @@ constexpr int kRs = 3;
 constexpr int kRsh = 4;
 constexpr int SaturationCurrentIndex(int diode) { return diode == 0 ? 1 : 3 + 2 * diode; }
 constexpr int IdealityIndex(int diode) { return SaturationCurrentIndex(diode) + 1; }
+// How many diodes stand in parallel.
 inline int DiodeCount(const Device& device) {
   int count = 0;
   for (const Term& term : device.terms) count += term.kind == TermKind::kDiode ? 1 : 0;

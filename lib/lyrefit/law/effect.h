@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,12 +9,14 @@
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/curve_shape.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/parameter.h"
+#include "lyrefit/law/plain_stage.h"
 #include "lyrefit/law/reading.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The terminal law, reading by reading (voltages per cell, currents in parts of the scale; I is
 // delivered, Vj the junction voltage of a cell):
@@ -34,17 +37,18 @@ using Wide = Dual<20, Pack>;    // up to 20
 
 // Eight readings at a time.
 struct ReadingBlock {
-  Pack voltage;  // per cell, V
-  Pack current;  // in current scales
-  Pack irradiance;
+  Pack voltage;     // per cell, V
+  Pack current;     // in current scales
+  Pack irradiance;  // as the sensor said, in suns
   Pack temperature_K;
-  Pack x;     // as in Reading
-  Pack rate;  // as in Reading
-  int first = 0;
+  Pack x;               // as in Reading
+  Pack rate;            // as in Reading
+  int first = 0;        // position of the block's first reading
   int count = 0;        // readings from `first` on; lanes beyond repeat the last of them
   bool one_sky = true;  // irradiance and temperature are the same in all lanes
 };
 
+// What really held when a reading was taken: a stage may correct it.
 template <class S>
 struct Sky {
   S voltage;        // at the terminals, per cell
@@ -54,9 +58,10 @@ struct Sky {
   S isc_tempco_per_K;
 };
 
+// One diode of a cell.
 template <class S>
 struct Diode {
-  S saturation;
+  S saturation;    // current, in scales
   S inverse_n_vt;  // 1 / (n Vt)
 };
 
@@ -73,47 +78,49 @@ enum class ReverseLaw {
 constexpr int kMostKinds = 8;
 template <class S>
 struct Kind {
-  S share;  // of all cells of the device
-  S light;  // part of the photocurrent
-  S leak;   // conductance beside that of the others
-  int part = 0;
-  bool beside = false;
+  S share;              // of all cells of the device
+  S light;              // part of the photocurrent
+  S leak;               // conductance beside that of the others
+  int part = 0;         // of the string that it lies in
+  bool beside = false;  // the second chain of a half-cut part
 };
+// What shares a bypass diode, or has none.
 struct Part {
-  bool bypassed = false;
-  double cells = 1;     // that one bypass diode spans
-  int string = 0;       // strings of different number stand in parallel
-  bool paired = false;  // one of its kinds stands beside the others
+  bool bypassed = false;  // it has a diode
+  double cells = 1;       // that one bypass diode spans
+  int string = 0;         // strings of different number stand in parallel
+  bool paired = false;    // one of its kinds stands beside the others
 };
 
+// The cells under one sky, in the units of Reading: a stage may change any of it.
 template <class S>
 struct Cell {
-  static constexpr int kMostDiodes = 4;
-  S irradiance;
-  S photocurrent;
-  int diodes = 0;
-  Diode<S> diode[kMostDiodes];
+  static constexpr int kMostDiodes = 4;  // side by side
+  S irradiance;                          // in suns
+  S photocurrent;                        // Iph, in scales
+  int diodes = 0;                        // that are there
+  Diode<S> diode[kMostDiodes];           // the first `diodes` of them count
   S saturation_2_unit;  // saturation current of a diode with n = 2 that carries 1 at the pivot
-  S conductance;
-  S resistance;
-  S thermal_voltage;
-  double reach = 1;            // largest |voltage| of the readings: where shunts are quoted
-  double cells = 1;            // in series
-  double substring_cells = 1;  // cells that share a bypass diode
-  int kinds = 1;               // one: all cells are alike, in one part without bypass diode
-  int parts = 1;
-  int strings = 1;
-  Kind<S>* kind = nullptr;  // kMostKinds of them
-  Part part[kMostKinds];
-  S bypass;  // voltage over a bypass diode that carries the current scale
-  double bypass_ideality = 1.2;
+  S conductance;        // Gsh, in scales per volt of a cell
+  S resistance;         // Rs, in volt of a cell per scale
+  S thermal_voltage;    // k T / q, V
+  double reach = 1;     // largest |voltage| of the readings: where shunts are quoted
+  double cells = 1;     // in series
+  double substring_cells = 1;    // cells that share a bypass diode
+  int kinds = 1;                 // one: all cells are alike, in one part without bypass diode
+  int parts = 1;                 // of the string
+  int strings = 1;               // side by side, which differ
+  Kind<S>* kind = nullptr;       // kMostKinds of them
+  Part part[kMostKinds];         // `parts` of them
+  S bypass;                      // voltage over a bypass diode that carries the current scale
+  double bypass_ideality = 1.2;  // of that diode
   ReverseLaw reverse = ReverseLaw::kShunt;
   S reverse_strength;  // Bishop's a
   S reverse_voltage;   // Bishop's -Vbr, the soft law's A; above 0
   S reverse_exponent;  // m
   // Every cell in two halves, the second reached through a lateral resistance.
   bool halved = false;
-  S lateral;
+  S lateral;  // in the unit of `resistance`
 };
 
 // Readings solved for: what instruments make of them.
@@ -122,24 +129,30 @@ struct Solved {
   S current;            // to be changed into the recorded one
   S diode_conductance;  // of the junction, d(diode current)/dVj
   S conductance;        // of the junction, all terms
-  S resistance;
+  S resistance;         // Rs of the cell
 };
 
 // The number type in which a stage is differentiated along its voltage or current: plain parameters
 // carry that one slope, duals have it in the chain already.
 template <class S>
 struct TangentOf {
+  // The type itself.
   using Type = S;
 };
+// Of plain parameters: with the slope.
 template <>
 struct TangentOf<Pack> {
+  // The type with a slope.
   using Type = Dual<1, Pack>;
 };
+// See TangentOf.
 template <class S>
 using Tangent = typename TangentOf<S>::Type;
 
+// Changes what held when the readings were taken.
 template <class S>
 using SkyStage = void (*)(const S* p, const ReadingBlock& readings, Sky<S>* sky);
+// Changes the cells under that sky.
 template <class S>
 using CellStage = void (*)(const S* p, Cell<S>* cell);
 // Current that is added over the junction voltage, of a cell under the light of its own.
@@ -148,21 +161,26 @@ using JunctionStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const S& p
                                      const Tangent<S>& voltage);
 template <class S>  // voltage that is added to V + I Rs at the delivered current
 using SeriesStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const Tangent<S>& current);
+// Changes the currents that were solved for into those recorded.
 template <class S>
 using InstrumentStage = void (*)(const S* p, const ReadingBlock& readings, Solved<S>* solved);
 
+// One stage of an effect, for every number type; empty where the effect leaves the stage alone.
 template <template <class> class Stage>
 struct Hook {
-  Stage<Pack> value = nullptr;
-  Stage<Narrow> narrow = nullptr;
-  Stage<Middle> middle = nullptr;
-  Stage<Wide> wide = nullptr;
+  Stage<Pack> value = nullptr;     // for currents alone
+  Stage<Narrow> narrow = nullptr;  // with derivatives
+  Stage<Middle> middle = nullptr;  // the same
+  Stage<Wide> wide = nullptr;      // the same
 
   Hook() = default;
+  // A lambda over its number type, without captures.
   template <class F>
   Hook(F f) : value(f), narrow(f), middle(f), wide(f) {}  // NOLINT: a lambda is a hook
 
+  // Whether the effect has this stage.
   explicit operator bool() const { return value != nullptr; }
+  // The one for this number type.
   template <class S>
   Stage<S> For() const {
     if constexpr (std::is_same_v<S, Pack>) {
@@ -192,15 +210,15 @@ struct EffectParameter {
   const char* symbol = "";  // "k"
   const char* name = "";    // "shunt_strength"
   const char* unit = "";    // of the reported value, "A/V^m"
-  const char* doc = "";
+  const char* doc = "";     // what it says, one line
   double lower = 0;
   double upper = 0;
   double neutral = 0;  // where the effect is not there (of the strength); where to start (others)
   bool searched = false;  // settled by trying the probes' values, not by descent: a step's time
-  double factor = 1;
-  int current = 0;
-  int cells = 0;
-  int rate = 0;
+  double factor = 1;      // see above
+  int current = 0;        // power of the current scale
+  int cells = 0;          // power of the number of cells
+  int rate = 0;           // power of the rate scale
   // What the value is multiplied by besides, given all of the effect's parameters.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
   // A fit keeps it at its neutral value unless it is asked for by name.
@@ -215,29 +233,42 @@ struct EffectParameter {
   double absent_at = kUnknown;
   Whole whole = Whole::kNo;  // where a fit of it by name searches among these
 
+  // What the value is multiplied by where a person reads it.
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 
+  // Of the reported value: sets `unit`.
   constexpr EffectParameter& Unit(const char* text) { return unit = text, *this; }
+  // Its bounds: sets `lower` and `upper`, in the units of Reading.
   constexpr EffectParameter& Between(double low, double high) {
     return lower = low, upper = high, *this;
   }
+  // Sets `neutral`.
   constexpr EffectParameter& From(double value) { return neutral = value, *this; }
+  // Sets `searched`.
   constexpr EffectParameter& Searched() { return searched = true, *this; }
+  // Sets `factor`, then the powers of the scales in the reported value.
   constexpr EffectParameter& Times(double value) { return factor = value, *this; }
   constexpr EffectParameter& CurrentPower(int power) { return current = power, *this; }
   constexpr EffectParameter& CellsPower(int power) { return cells = power, *this; }
   constexpr EffectParameter& RatePower(int power) { return rate = power, *this; }
+  // Sets `convert`.
   constexpr EffectParameter& Convert(double (*f)(const double*, const ReadingScale&)) {
     return convert = f, *this;
   }
+  // Sets `held`.
   constexpr EffectParameter& Held() { return held = true, *this; }
+  // Sets `scatter`.
   constexpr EffectParameter& Scatter(double deviation) { return scatter = deviation, *this; }
+  // A fit at its upper bound, or its lower one, is not this effect.
   constexpr EffectParameter& BelowUpper() { return below_upper = true, *this; }
   constexpr EffectParameter& AboveLower() { return above_lower = true, *this; }
+  // Sets `absent_at`.
   constexpr EffectParameter& AbsentAt(double value) { return absent_at = value, *this; }
+  // Sets `whole`.
   constexpr EffectParameter& Only(Whole kind) { return whole = kind, *this; }
 };
 
+// A parameter of an effect: its symbol in tables and flags, its name in code, what it says.
 constexpr EffectParameter Parameter(const char* symbol, const char* name, const char* doc) {
   EffectParameter made;
   made.symbol = symbol;
@@ -272,16 +303,17 @@ using Probe = std::vector<double>;
 
 // The same as the shape of a curve suggests it, for fits that stand on no other fit.
 struct ShapeStart {
-  Probe p;
+  Probe p;                 // where to begin
   std::vector<int> freed;  // parameters to descend in although fits usually keep them
 };
 
+// A named cause that changes the terminal law: what it is called, what it does, what shows it.
 struct Effect {
   const char* id = "";     // "nonohmic_shunt"
   const char* title = "";  // "non-ohmic shunt"
   Where where = Where::kDevice;
-  const char* equation = "";
-  const char* reference = "";
+  const char* equation = "";                // as reports print it
+  const char* reference = "";               // where it is from: DOI or clause
   const char* sentence = "";                // what a technician understands
   const char* needs = "";                   // data that show it
   const char* acts = "";                    // where on the curve it shows
@@ -296,9 +328,13 @@ struct Effect {
   Hook<JunctionStage> junction;
   Hook<SeriesStage> series;
   Hook<InstrumentStage> instrument;
+  // Beside these two, or in their place, as functions of plain numbers (plain_stage.h).
+  PlainStage plain_junction;
+  PlainStage plain_series;
   // Why data of this kind cannot show the effect; nothing where they can, none where all can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
-  std::vector<Probe> (*probes)(const DataTraits&) = nullptr;
+  // Where fits of it begin, full sets of its parameters each; the data decide how many.
+  std::function<std::vector<Probe>(const DataTraits&)> probes;
   // Where one lit condition was measured. `asked`: bounds of the parameters in a fit that was asked
   // for by name; empty in a diagnosis.
   std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&,
@@ -314,11 +350,18 @@ struct Effect {
   bool momentary = false;  // lasts a moment of the sweep: it can bend to any single reading
   int diode = 0;           // it is this diode of a device: a base of so many has it already
 
+  // How many parameters it has.
   int size() const { return static_cast<int>(parameters.size()); }
+  // Why such data cannot show it; nothing where they can.
   std::optional<std::string> WhyNot(const DataTraits& traits) const {
     return why_not != nullptr ? why_not(traits) : std::nullopt;
   }
-  bool HasStage() const { return sky || cell || junction || series || instrument; }
+  // False of what is found in the values alone: nothing of the law changes.
+  bool ChangesJunction() const { return junction || plain_junction; }
+  bool ChangesSeries() const { return series || plain_series; }
+  bool HasStage() const {
+    return sky || cell || ChangesJunction() || ChangesSeries() || instrument;
+  }
 };
 
 // Whether two different effects cannot stand in one law.

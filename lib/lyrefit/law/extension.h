@@ -7,19 +7,20 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/law.h"
 #include "lyrefit/law/reading.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // An effect that a model is to have, and what is known of its parameters: by symbol or name, in the
 // units of reports, [low, high]; equal ends hold the parameter there.
 struct EffectUse {
-  const Effect* effect = nullptr;
-  std::map<std::string, std::pair<double, double>> ranges;
+  const Effect* effect = nullptr;                           // of the catalogue, or one's own
+  std::map<std::string, std::pair<double, double>> ranges;  // by symbol or name
 };
 
 // A device extended by effects in the measurement of one curve (one sweep, or up and down) or of a
@@ -27,7 +28,7 @@ struct EffectUse {
 // voltages per cell, currents in parts of a scale), in which their parameters stand in the device's
 // vector; quote.h leads from there to the units of people and back.
 struct Extension {
-  Law law;
+  Law law;  // with its effects
   Readings readings;
   std::vector<ReadingBlock> blocks;  // of those
   std::vector<EffectUse> uses;

@@ -4,17 +4,18 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/law/pack.h"
 #include "lyrefit/law/solve.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Points of a curve laid out for kernels; the last block is filled up with copies of the last point
 // at weight 0.
 struct PointSet {
-  int size = 0;
-  double inverse_size = 0;
+  int size = 0;             // points
+  double inverse_size = 0;  // 1 / size
   double largest_voltage_V = 0;
   std::vector<Block> voltage_V;
   std::vector<Block> current_A;
@@ -43,6 +44,7 @@ struct Kernel {
 const std::vector<Kernel>& AvailableKernels();
 const Kernel& FastestKernel();
 std::string KernelNames();  // "portable, avx2"
+// Errors: no such kernel, or one this processor cannot run.
 Expected<const Kernel*> KernelNamed(const std::string& name);
 
 // Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. Of

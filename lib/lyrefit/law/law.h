@@ -4,12 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/effect.h"
 #include "lyrefit/law/reading.h"
 #include "lyrefit/law/string_layout.h"
 #include "lyrefit/law/translation.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Base model and causes together: one parameter vector for a whole measurement. Base parameters
 // first, then those of each effect in turn.
@@ -36,13 +37,14 @@ enum BaseParameter {
 // What a law may have: derivatives are carried for so many.
 constexpr int kMostParameters = 20;
 
+// The terminal law of a measurement: a base of diodes and the effects beside them.
 struct Law {
   Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
   // The base with its parameters as device.h orders them, in its units, at the reference and at
   // irradiance 1 instead; every model. A free alpha is in A/K.
   bool natural = false;
   ConstantSet constants = ConstantSet::kCodata;
-  std::vector<const Effect*> effects;
+  std::vector<const Effect*> effects;          // in the order of their parameters
   std::shared_ptr<const StringLayout> layout;  // of cells that are not alike; none: all are
   double bandgap_slope_per_K = 0;              // dEgdT
   ShuntLaw shunt = ShuntLaw::kConstant;        // or kInverse
@@ -51,12 +53,15 @@ struct Law {
   // Parameters of effects that are descended in although fits keep them where they are.
   std::vector<std::pair<const Effect*, int>> freed;
 
-  int TempcoAt() const {  // where free
+  // Where alpha stands among the parameters, where it is free.
+  int TempcoAt() const {
     const int diodes = static_cast<int>(model);
     return natural ? 3 + 2 * diodes : 4 + diodes;
   }
   int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // where free
+  // Parameters of the base: those of the effects follow.
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
+  // All of them.
   int size() const;
   int Offset(int effect) const;  // of its first parameter
   // Bounds of all parameters.
@@ -76,6 +81,7 @@ enum class GiveUp {
 // starts. For one law and one set of readings, which must not change in between.
 class LawWorkspace {
  public:
+  // Empty: the first evaluation fills it.
   explicit LawWorkspace(GiveUp give_up = GiveUp::kAbsurd);
   // On blocks that stand already (reading_blocks.h) and outlive this; every evaluation starts
   // afresh, and none is given up.
@@ -83,6 +89,7 @@ class LawWorkspace {
   ~LawWorkspace();
 
   struct State;
+  // What evaluations keep for these readings; made at the first call.
   State* Of(const Readings& readings);
 
  private:

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "lyrefit/base/portable_exp.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Eight numbers of a curve, laid out for loops that take as many at a time.
 struct alignas(64) Block {
-  static constexpr int kLanes = 8;
-  double lane[kLanes];
+  static constexpr int kLanes = 8;  // numbers in a block
+  double lane[kLanes];              // the numbers
 };
 
 // The pack of every processor; kernels have packs of their own for newer ones.

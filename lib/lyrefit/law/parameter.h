@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How a search lays its steps over a parameter's range.
 enum class SearchScale {
@@ -33,7 +34,7 @@ struct ParameterInfo {
   std::string symbol;  // "Rs"
   std::string name;    // "resistance_series"
   std::string unit;    // "ohm"; empty for pure numbers
-  std::string doc;
+  std::string doc;     // what it is, one line
   ParameterKind kind = ParameterKind::kPlain;
   double step = 1;  // natural size, of kPlain in its unit, of kPhotocurrent in largest currents
   // Positions in the same list of what it goes with: the ideality of a saturation current; the
@@ -96,8 +97,8 @@ inline ParameterRange RangeAround(ParameterKind kind, double value, double reach
 struct ParameterBounds {
   double lower = 0;
   double upper = kUnknown;
-  double search_lower = 0;
-  double search_upper = kUnknown;
+  double search_lower = 0;         // in the parameter's unit
+  double search_upper = kUnknown;  // NaN: not known yet
   SearchScale scale = SearchScale::kLinear;
   double whole = 0;  // the values it may have lie so far apart, from `lower` on; 0: all between
 };

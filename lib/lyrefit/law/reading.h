@@ -3,7 +3,9 @@
 #include <optional>
 #include <vector>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // One point of a measurement, in the units in which effects are written: voltages per cell in
 // volt, currents in parts of the measurement's current scale (about Isc), conductances in scale
@@ -28,26 +30,26 @@ struct Reading {
 // What the numbers of a measurement are scaled by.
 struct ReadingScale {
   double current_A = 1;
-  int cells = 1;
-  int strings = 1;          // in parallel
-  double rate_V_per_s = 1;  // per cell; per reading where no times were recorded
-  double span_s = 0;        // duration; 0 where no times were recorded
-  bool times = false;
+  int cells = 1;                 // in series
+  int strings = 1;               // in parallel
+  double rate_V_per_s = 1;       // per cell; per reading where no times were recorded
+  double span_s = 0;             // duration; 0 where no times were recorded
+  bool times = false;            // times were recorded
   double saturation_2_unit = 1;  // see Cell
   double reach_V = 1;            // largest |voltage| per cell
 };
 
 // What kind of measurement it is: decides which effects it can show.
 struct DataTraits {
-  int curves = 1;             // with conditions of their own
-  bool single = true;         // one condition only (whatever the number of sweeps)
-  bool reverse = false;       // points well below 0 V
-  bool beyond_voc = false;    // points of negative current at light
-  bool up_down = false;       // both directions under the same conditions
-  bool dark = false;          // a dark curve beside a lit one
-  bool only_dark = false;     // nothing but dark curves
-  int irradiance_levels = 1;  // of lit curves
-  int temperature_levels = 1;
+  int curves = 1;              // with conditions of their own
+  bool single = true;          // one condition only (whatever the number of sweeps)
+  bool reverse = false;        // points well below 0 V
+  bool beyond_voc = false;     // points of negative current at light
+  bool up_down = false;        // both directions under the same conditions
+  bool dark = false;           // a dark curve beside a lit one
+  bool only_dark = false;      // nothing but dark curves
+  int irradiance_levels = 1;   // of lit curves
+  int temperature_levels = 1;  // of all curves
   bool module = false;         // more than one cell in series
   int substrings = 0;          // bypass groups; 0: none, or not known
   bool bypass_known = false;   // stated by somebody
@@ -69,6 +71,7 @@ struct DataTraits {
 // Bypass groups to reckon with: as stated, else as modules of so many cells have them.
 int SubstringsOf(const DataTraits& traits);
 
+// All points of a measurement, and what is known of it as a whole.
 struct Readings {
   std::vector<Reading> points;
   ReadingScale scale;

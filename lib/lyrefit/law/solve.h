@@ -5,25 +5,28 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/portable_exp.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/term.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// What packs have beside them, for plain numbers.
 [[gnu::always_inline]] inline bool All(bool condition) { return condition; }
 [[gnu::always_inline]] inline double Magnitude(double x) { return std::fabs(x); }
 
 // Voltage-independent part of a device, prepared once per parameter vector. At most kMaxTerms
 // terms.
 struct PreparedDevice {
-  static constexpr int kMaxTerms = 16;
+  static constexpr int kMaxTerms = 16;  // of one device
   PreparedTerm<double> terms[kMaxTerms];
-  int count = 0;
-  double rs = 0;
-  double largest_current = 0;  // Iph + sum of Is: F(Vd) <= this - Vd / Rsh
-  double shunt_conductance = 0;
+  int count = 0;                 // of `terms` that are there
+  double rs = 0;                 // Rs, in ohm
+  double largest_current = 0;    // Iph + sum of Is: F(Vd) <= this - Vd / Rsh
+  double shunt_conductance = 0;  // 1 / Rsh, in siemens
   double steepest = 1e-6;  // largest ratio of curvature and slope of a term, 1 / (n Ns Vt), in 1/V
 };
 
+// Fills `d` for the parameters `p`, of which Rs is the one at `rs`.
 inline void PrepareDevice(const Term* terms, int count, int rs, double module_thermal_voltage_V,
                           const double* p, PreparedDevice* d) {
   d->count = count;
@@ -44,6 +47,7 @@ inline void PrepareDevice(const Term* terms, int count, int rs, double module_th
   }
 }
 
+// F(Vd), the sum of the terms at junction voltage `vd`, in ampere.
 template <class T>
 T PreparedCurrent(const PreparedDevice& d, const T& vd) {
   T current = TermCurrent(d.terms[0], vd);

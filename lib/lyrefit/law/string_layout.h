@@ -4,29 +4,31 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/effect.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How the cells of a device are wired, and what each kind of them is: constants of the law, where
 // effects have parameters. The device's own parameters are those of all its cells alike.
 struct StringLayout {
+  // Cells that are alike.
   struct Cells {
     double share = 1;   // of all cells of the device
     double light = 1;   // part of the photocurrent
     double leak_S = 0;  // conductance of each cell beside that of the others
-    int part = 0;
+    int part = 0;       // position in `parts`
   };
   std::vector<Cells> kinds;  // at most kMostKinds
-  std::vector<Part> parts;
+  std::vector<Part> parts;   // at most kMostKinds
   int cells_in_series = 1;
   int strings = 1;                // in parallel, all of as many cells
   double bypass_voltage_V = 0.5;  // at the current scale, which is about Isc
   double bypass_ideality = 1.2;   // towards 0: an ideal one, whose voltage stays there
   ReverseLaw reverse = ReverseLaw::kShunt;
-  double reverse_strength = 0.1;
+  double reverse_strength = 0.1;  // Bishop's a
   double reverse_voltage_V = 15;
-  double reverse_exponent = 3.4;
+  double reverse_exponent = 3.4;  // m of either law
 };
 
 // A layout from JSON:

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The terms of the terminal law
 //
@@ -26,6 +28,7 @@ enum class TermKind {
   kRecombination,
 };
 
+// One term of a device, and which parameters it takes.
 struct Term {
   TermKind kind;
   int parameter[3];  // positions in the device's parameter vector, -1 where unused
@@ -35,8 +38,8 @@ struct Term {
 template <class S>
 struct PreparedTerm {
   TermKind kind;
-  S a;
-  S b;
+  S a;  // the current or conductance in front
+  S b;  // 1 / (n Ns Vt) of a diode, NsVbi of the recombination
 };
 
 // Exponents are cut here, far outside any real device, so that even the square of a current is
@@ -50,6 +53,7 @@ constexpr double kSmallestBuiltInVoltage_V = 1e-3;
 // and concave at every voltage, and never a division by 0.
 constexpr double kClosestToPole = 1e-3;
 
+// The smaller and the larger of two, for every number type.
 template <class T>
 [[gnu::always_inline]] inline T Smaller(const T& a, const T& b) {
   return b < a ? b : a;
@@ -59,6 +63,7 @@ template <class T>
   return a < b ? b : a;
 }
 
+// What of the term is the same at every voltage, from the device's parameters `p`.
 template <class S>
 inline void PrepareTerm(const Term& term, const S* p, double module_thermal_voltage_V,
                         PreparedTerm<S>* prepared) {
@@ -93,6 +98,7 @@ template <class S, class T>
   return T(saturation) - exp(Smaller(vd * per_volt, T(kLargestExponent))) * saturation;
 }
 
+// See TermKind::kRecombination.
 template <class S, class T>
 [[gnu::always_inline]] inline T RecombinationCurrent(const PreparedTerm<S>& term, const T& vd) {
   const S closest = term.b * kClosestToPole;
@@ -118,6 +124,7 @@ template <class S, class T>
   return T(0.0);
 }
 
+// The current of any term at junction voltage `vd`, in ampere.
 template <class S, class T>
 inline T TermCurrent(const PreparedTerm<S>& term, const T& vd) {
   if (__builtin_expect(term.kind == TermKind::kRecombination, 0)) {

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How a device's parameters follow irradiance G and cell temperature T from their values at the
 // reference (1000 W/m2, 25 C).
@@ -34,11 +35,13 @@ struct EnumTable<ShuntLaw> {
                                                  {ShuntLaw::kExponential, "exponential"}};
 };
 
+// Standard conditions: what shared parameters are quoted at.
 constexpr double kReferenceIrradiance_W_m2 = 1000;
 constexpr double kReferenceTemperature_K = 298.15;
 constexpr double kReferenceTemperature_C = 25;
 constexpr double kDeSotoBandgapSlope_per_K = -2.677e-4;  // of silicon, De Soto 2006, eq. 10
 
+// Which law, for which device.
 struct TranslationSpec {
   TranslationLaw law = TranslationLaw::kDeSoto;
   Model model = Model::kSingleDiode;  // sd or dd
@@ -52,7 +55,7 @@ struct TranslationSpec {
 // papers', names are pvlib's), and the device they lead to. See translation.cc for equations and
 // sources.
 struct Translation {
-  TranslationSpec spec;
+  TranslationSpec spec;  // what it was made for
   std::vector<ParameterInfo> parameters;
   // The device at the reference temperature. Its thermal voltage stays the reference's: an ideality
   // handed to it is n T / Tref, so that one device serves every temperature.
@@ -78,10 +81,12 @@ struct Translation {
   // (extended_set.h), and where in the shared vector each of its parameters stands. Those of the
   // effects are the last shared ones, in numbers of their own.
   std::optional<Device> extended;
-  std::vector<int> shared_of;
-  int first_effect = -1;
+  std::vector<int> shared_of;  // by position in `extended`
+  int first_effect = -1;       // position among the shared ones
 
+  // How many parameters are shared.
   int size() const { return static_cast<int>(parameters.size()); }
+  // The position of a shared parameter.
   std::optional<int> Find(const std::string& symbol_or_name) const;
 };
 
@@ -159,7 +164,7 @@ void Translate(const Translation& translation, const S* shared, const S& irradia
 // The same for plain numbers, as a device of its own temperature: idealities as they are.
 struct TranslatedDevice {
   Device device;
-  std::vector<double> parameters;
+  std::vector<double> parameters;  // of `device`, in its order
 };
 TranslatedDevice TranslateTo(const Translation& translation, const std::vector<double>& shared,
                              double irradiance_W_m2, double temperature_K);

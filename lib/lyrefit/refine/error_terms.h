@@ -1,8 +1,9 @@
 #pragma once
 
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How large the errors of one instrument and one device are.
 struct ErrorSizes {

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/fit/fit_report.h"
 
 // Records as CSV: a row for each thing found. Numbers read back to the same bits, what is not known
 // is empty. Powers and currents are in parts as in the library, not in percent.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct Certificate;
 struct DataSheetFit;

@@ -5,19 +5,20 @@
 #include <variant>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/report/figure.h"
 
 // A report as data: what is said, in the order in which it is read. How that looks in a terminal,
 // in Markdown or on a page is the business of who draws it.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a section is made of. Texts are plain: nobody has wrapped or escaped them.
 namespace block {
 
 // A name and what is to be said of it. One without a name is one more text under the name above.
 struct Field {
-  std::string name;
-  std::string text;
+  std::string name;  // may be empty
+  std::string text;  // a line or several sentences
 };
 
 // A sentence or a few: a paragraph.
@@ -40,6 +41,7 @@ struct Warning {
   std::string text;
 };
 
+// Sentences, each on its own.
 struct List {
   std::vector<std::string> sentences;
 };
@@ -53,22 +55,23 @@ struct Entry {
 // `alignment` holds one letter a column: 'l', 'r', or 'w' for a last column of long texts. Heads
 // that need more than one line have as many rows. Missing cells are empty.
 struct Table {
+  // One text a column.
   using Row = std::vector<std::string>;
   // A line across the table which names the rows from `row` on to the next one.
   struct Span {
-    std::size_t row = 0;
+    std::size_t row = 0;  // the first one below the line
     std::string title;
   };
-  std::string alignment;
-  std::vector<Row> heads;
-  std::vector<Row> rows = {};
+  std::string alignment;       // a letter a column
+  std::vector<Row> heads;      // above the line
+  std::vector<Row> rows = {};  // below it
   std::string caption = {};
   std::vector<Span> spans = {};
 };
 
 // Lines whose blanks matter, each with its newline.
 struct Preformatted {
-  std::string lines;
+  std::string lines;  // shown as they stand
 };
 
 // A picture, of which a terminal shows nothing. Pages show the `file` it was drawn into, if there
@@ -76,11 +79,12 @@ struct Preformatted {
 // shows in numbers.
 struct Figure {
   std::string caption;
-  std::string file = {};
-  lyrefit::Figure figure = {};
+  std::string file = {};        // that the picture was drawn into; may be empty
+  lyrefit::Figure figure = {};  // the picture as data
   Table readings = {};
 };
 
+// Any of these.
 using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Entry, Table,
                          Preformatted, Figure>;
 
@@ -88,12 +92,13 @@ using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Ent
 
 // A heading may be missing. A section of depth 1 belongs to the one of depth 0 before it.
 struct Section {
-  std::string heading;
-  std::vector<block::Any> blocks = {};
-  int depth = 0;
-  bool warns = false;  // of warnings, which pages show before all else
+  std::string heading;                  // may be empty
+  std::vector<block::Any> blocks = {};  // in reading order
+  int depth = 0;                        // 0, or 1 below the last of 0
+  bool warns = false;                   // of warnings, which pages show before all else
 };
 
+// A report: its sections in reading order, and what stands before and after them.
 struct Document {
   std::vector<std::string> banners = {};  // what must be known before anything else is read
   Section head = {};                      // its heading is the title
@@ -105,6 +110,7 @@ struct Document {
   std::vector<std::string> signatures = {};
 };
 
+// Puts one more block at the end of a section.
 void AddField(std::string name, std::string text, Section* section);
 void AddSentence(std::string text, Section* section);
 void AddList(std::vector<std::string> sentences, Section* section);

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
 // What there is to read of each record: as a document, drawn for a terminal of 100 columns, and in
 // one line that ends with a newline. "-" stands for what is not known; every RMSE stands under its
 // label, measured-current or solved-current.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct Certificate;
 struct CurveSet;

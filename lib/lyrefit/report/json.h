@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/healthy.h"
@@ -22,7 +23,7 @@
 // and what is known of it: `searched` and `refined` of a fit, else `value`, `standard_error`,
 // `low_95`, `high_95`, ... It stands under its name or, one of an effect's, which has `effect` too,
 // under EFFECT.SYMBOL.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How much of the curve a report repeats under `data`.
 enum class JsonPoints {
@@ -31,6 +32,7 @@ enum class JsonPoints {
              // last; what every reading says stands in the other keys
 };
 
+// Curves of more readings are repeated with every n-th of them, unless all are asked for.
 constexpr int kMostJsonPoints = 2000;
 
 // Without a polish `refined` and the polished RMSEs are null. The values the fit answers with stand
@@ -57,6 +59,7 @@ std::string FamilyJson(const FamilyReport& report);
 // rounding for the floor.
 std::string CertificateJson(const Certificate& certificate);
 
+// The parameters found, and each check: what was asked for beside what the device gives.
 std::string DataSheetJson(const DataSheetFit& fit);
 
 // The parameters of the device `name` as pvlib takes them: which function, its keywords and no

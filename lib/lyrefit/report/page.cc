@@ -39,8 +39,12 @@ std::string FigureElement(const block::Figure& figure, const std::string& id,
                           const std::string& still) {
   std::string html = fmt::format("<figure id=\"{}\" aria-labelledby=\"{}-caption\">\n", id, id);
   html += "<div class=\"tools\" hidden=\"\" role=\"group\" aria-label=\"Chart\"></div>\n";
-  html += "<div class=\"still\" role=\"group\" tabindex=\"0\" aria-label=\"Picture\">\n" + still +
-          "</div>\n<div class=\"live\"></div>\n";
+  html += still.empty()
+              ? "<noscript><p role=\"note\">This picture needs scripts; below it stands what it "
+                "shows.</p></noscript>\n"
+              : "<div class=\"still\" role=\"group\" tabindex=\"0\" aria-label=\"Picture\">\n" +
+                    still + "</div>\n";
+  html += "<div class=\"live\"></div>\n";
   html += fmt::format("<figcaption id=\"{}-caption\">{}</figcaption>\n", id,
                       HtmlEscaped(figure.caption));
   if (!figure.readings.rows.empty()) {
@@ -50,23 +54,30 @@ std::string FigureElement(const block::Figure& figure, const std::string& id,
   return html + "</figure>\n";
 }
 
-// Every picture as it stands in the page.
-std::map<const block::Figure*, std::string> DrawFigures(
-    const std::vector<const block::Figure*>& figures) {
+// The pictures that stand still, drawn by one run of gnuplot; empty ones where none are wanted.
+std::vector<std::string> DrawStills(const std::vector<const block::Figure*>& figures,
+                                    const PageOptions& options) {
+  if (!options.stills) return std::vector<std::string>(figures.size());
   std::vector<PagePicture> pictures;
   for (std::size_t i = 0; i < figures.size(); ++i) {
     pictures.push_back({&figures[i]->figure, FigureId(i + 1), figures[i]->caption});
   }
-  const Expected<std::vector<std::string>> svgs = InlineSvgs(pictures);
+  Expected<std::vector<std::string>> svgs = InlineSvgs(pictures);
+  if (svgs) return *std::move(svgs);
+  const std::string why =
+      "<p role=\"note\">" +
+      HtmlElement("strong", "The picture could not be drawn: " + svgs.error().message + ".") +
+      "</p>\n";
+  return std::vector<std::string>(figures.size(), why);
+}
+
+// Every picture as it stands in the page.
+std::map<const block::Figure*, std::string> DrawFigures(
+    const std::vector<const block::Figure*>& figures, const PageOptions& options) {
+  const std::vector<std::string> stills = DrawStills(figures, options);
   std::map<const block::Figure*, std::string> elements;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const std::string still =
-        svgs ? (*svgs)[i]
-             : "<p role=\"note\">" +
-                   HtmlElement("strong",
-                               "The picture could not be drawn: " + svgs.error().message + ".") +
-                   "</p>\n";
-    elements[figures[i]] = FigureElement(*figures[i], FigureId(i + 1), still);
+    elements[figures[i]] = FigureElement(*figures[i], FigureId(i + 1), stills[i]);
   }
   return elements;
 }
@@ -133,7 +144,7 @@ std::string SignatureLines(const std::vector<std::string>& signatures) {
 std::string DrawPage(const Document& document, const std::string& json,
                      const PageOptions& options) {
   const std::vector<const block::Figure*> figures = FiguresOf(document);
-  const auto elements = DrawFigures(figures);
+  const auto elements = DrawFigures(figures, options);
   const HtmlLooks looks = {true, [&elements](const block::Figure& figure) {
                              const auto found = elements.find(&figure);
                              return found == elements.end() ? std::string() : found->second;

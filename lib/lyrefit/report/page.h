@@ -2,14 +2,18 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
 // A report as a page that can be sent: one file of HTML with pictures, tables and data, which
 // fetches nothing.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// What a page shows besides the document.
 struct PageOptions {
   bool interactive = true;  // charts to hover over and zoom, where this build has Plotly
+  // Pictures that gnuplot draws, beside the charts; false where no program can be run.
+  bool stills = true;
 };
 
 // The verdict of the document first, then its warnings and pictures, then the rest in the document's

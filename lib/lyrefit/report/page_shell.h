@@ -25,7 +25,7 @@ struct PageShell {
   bool plotly = false;  // embed it, `lyrefit.plotly()` in scripts; not where it is not installed
 };
 
-// The page. Scripts find what page.js offers in `lyrefit`: data(id), plotly(), colour(hex),
+// The page. Scripts find what page.js offers in `lyrefit`: data(id), bytes(id), plotly(), colour(hex),
 // onTheme(function). Without scripts everything in `body` is read as it stands.
 std::string DrawShell(const PageShell& shell);
 

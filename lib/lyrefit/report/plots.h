@@ -3,11 +3,12 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/report/figure.h"
 
 // The pictures of the records: a function that makes the figure, which is data, and one that draws
 // it into `path`, a .svg or .png file, with the errors of DrawFigure.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct Certificate;
 struct CurveSet;

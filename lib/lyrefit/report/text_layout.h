@@ -3,7 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 constexpr int kTextWidth = 100;  // columns of the terminal the text report is laid out for
 

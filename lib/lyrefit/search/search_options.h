@@ -6,8 +6,9 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The four settings of the lyrebird optimizer, what is built on it, and two plain baselines.
 enum class Algorithm {
@@ -35,6 +36,7 @@ struct EnumTable<Algorithm> {
   };
 };
 
+// How a search goes about it, and when it ends.
 struct SearchOptions {
   Algorithm algorithm = Algorithm::kMlo;
   std::uint64_t seed = 0;

@@ -8,10 +8,12 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/search/search_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// Why a search ended.
 enum class SearchTermination {
   kNotRun,
   kIterations,   // all iterations done
@@ -37,28 +39,30 @@ struct EnumTable<SearchTermination> {
 
 // A point of the box and its objective value.
 struct Bird {
-  std::vector<double> x;
-  double objective = kInfinity;
+  std::vector<double> x;         // as many as the box has sides
+  double objective = kInfinity;  // at x; infinite where there is none
 };
 
 // The best so far after an iteration (iteration 0: the first random birds).
 struct TracePoint {
-  std::int64_t iteration = 0;
+  std::int64_t iteration = 0;  // from 0
   std::int64_t evaluations = 0;
-  double best = kInfinity;
+  double best = kInfinity;  // objective
 };
 
+// What a search found, and how it went.
 struct SearchSummary {
   SearchTermination termination = SearchTermination::kNotRun;
   std::string message;
   Bird best;
   std::vector<Bird> elites;  // distinct birds, best first; the first one is `best`
   std::int64_t evaluations = 0;
-  std::int64_t iterations = 0;
+  std::int64_t iterations = 0;  // that were done
   double seconds = 0;
   std::vector<TracePoint> trace;
 };
 
+// Between what limits a search looks, a side for each parameter.
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;

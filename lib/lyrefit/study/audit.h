@@ -3,10 +3,11 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/audit_options.h"
 #include "lyrefit/study/audit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Checks published parameter rows against the curves they are said to fit: does the claimed RMSE
 // come out of the printed digits, and if not, which plain mistake brings it back?

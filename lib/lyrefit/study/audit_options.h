@@ -6,13 +6,15 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Checks published parameter rows against the curves they are said to fit: does the claimed RMSE
 // come out of the printed digits, and if not, which plain mistake brings it back?
 
+// How a table of published parameters is checked.
 struct AuditOptions {
   // Folders to look for curves in, after the folder of the rows and its parent.
   std::vector<std::string> curve_folders;

@@ -4,11 +4,12 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/compare_options.h"
 #include "lyrefit/study/comparison.h"
 #include "lyrefit/study/landscape.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A curve on its own.
 CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);

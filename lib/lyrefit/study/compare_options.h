@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/family/family_options.h"
@@ -18,7 +19,7 @@
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What of the hybrid a contender is about.
 enum class ContenderKind {
@@ -37,9 +38,9 @@ struct EnumTable<ContenderKind> {
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
 // run r all of ours start from the same first birds.
 struct Contender {
-  std::string name;       // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
-  std::string algorithm;  // without its setting, "mlo"; empty: the name
-  SearchOptions search;
+  std::string name;         // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
+  std::string algorithm;    // without its setting, "mlo"; empty: the name
+  SearchOptions search;     // budget and settings
   SearchFunction searcher;  // empty: Search()
   ContenderKind kind = ContenderKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
@@ -63,6 +64,7 @@ struct CompareCurve {
   FamilyOptions family;
 };
 
+// Who is compared, how often, and what is reported.
 struct CompareOptions {
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
   Objective objective = Objective::kMeasuredCurrent;  // of search, polish and every figure

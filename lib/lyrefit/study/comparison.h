@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/compare_options.h"
 #include "lyrefit/study/rank_tests.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // RMSE in ampere, all of the objective compared. NaN: not asked for. Where effects have several
 // forms (law/forms.h) it is times FitReport::form_price, so that the best form has the lowest.
@@ -22,7 +23,7 @@ struct RunRecord {
   std::int64_t curve_evaluations = 0;  // that those cost; see FitReport
   // Of the search alone, counted in whole iterations; -1: never reached.
   std::int64_t evaluations_to_target = -1;
-  double search_seconds = 0;
+  double search_seconds = 0;        // of the search alone
   double polish_seconds = 0;        // from all starts
   double plain_seconds = kUnknown;  // of the best bird's plain solve
   double own_seconds = kUnknown;    // of the best bird's own polish
@@ -32,14 +33,15 @@ struct RunRecord {
   std::vector<double> parameters;
 };
 
+// How a figure scatters over the runs of one contender.
 struct RunSpread {
-  double min = kUnknown;
-  double mean = kUnknown;
-  double median = kUnknown;
-  double max = kUnknown;
-  double std = kUnknown;  // n - 1 in the denominator; 0 for one run
-  int within_1e9 = 0;     // runs no more than that far (relative) above the reference
-  int within_1e6 = 0;
+  double min = kUnknown;     // over all runs
+  double mean = kUnknown;    // over all runs
+  double median = kUnknown;  // over all runs
+  double max = kUnknown;     // over all runs
+  double std = kUnknown;     // n - 1 in the denominator; 0 for one run
+  int within_1e9 = 0;        // runs no more than that far (relative) above the reference
+  int within_1e6 = 0;        // the same for 1e-6
 };
 
 // A point of the median course of the searches.
@@ -48,26 +50,27 @@ struct MedianPoint {
   double best_A = kUnknown;  // median over the runs of the best so far
 };
 
+// What one contender made of one problem.
 struct ContenderResult {
-  std::string name;
+  std::string name;  // see Contender
   std::string algorithm;
-  SearchOptions search;
+  SearchOptions search;  // as the runs had them
   ContenderKind kind = ContenderKind::kSearch;
   Birds birds = Birds::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   RunSpread searched;
-  RunSpread plain_polished;
-  RunSpread own_polished;
+  RunSpread plain_polished;  // see RunRecord
+  RunSpread own_polished;    // see RunRecord
   RunSpread polished;
   int target_hits = 0;                     // runs whose search reached the target
   double expected_evaluations = kUnknown;  // to the target: evaluations of all runs, each up to its
                                            // hit, by hits (Hansen et al. 2021, COCO); NaN: no hit
   double evaluations = 0;                  // mean of a run, as are the seconds
   double curve_evaluations = 0;            // and this
-  double search_seconds = 0;
-  double polish_seconds = 0;
-  std::vector<MedianPoint> trace;  // about 60 points, evenly spaced in the logarithm
+  double search_seconds = 0;               // mean of a run
+  double polish_seconds = 0;               // mean of a run
+  std::vector<MedianPoint> trace;          // about 60 points, evenly spaced in the logarithm
 };
 
 // What the runs are measured against.
@@ -88,9 +91,10 @@ struct Reference {
 struct Ranking {
   Friedman friedman;
   std::vector<RankPair> pairs;  // every pair of contenders
+  // Two contenders by Wilcoxon's test.
   struct SignedRank {
-    int first = 0;
-    int second = 0;
+    int first = 0;   // position among the contenders
+    int second = 0;  // the same
     Wilcoxon test;
     double p_holm = 1;  // over all pairs
   };
@@ -99,19 +103,19 @@ struct Ranking {
 
 // One curve, or set of curves, with one model.
 struct ProblemResult {
-  std::string curve_name;
+  std::string curve_name;  // or the set's
   Model model = Model::kSingleDiode;
-  std::string bounds_name;
+  std::string bounds_name;  // "physical", "paper", ... or the file's name
   // What it is pooled under (pool.h): the subject's own, else, of a curve with effects, the
   // curve's name. Empty: a plain problem on its own.
   std::string problem;
   Objective objective = Objective::kMeasuredCurrent;
   std::vector<EffectUse> with;
-  bool family = false;
+  bool family = false;                  // a joint fit of a set of curves
   std::vector<std::string> parameters;  // keys, in the order of Reference::parameters
   int first_effect = -1;                // where those of the effects begin; -1: none
   Reference reference;
-  std::vector<ContenderResult> contenders;
+  std::vector<ContenderResult> contenders;  // in the order given
   // Of the runs that every contender has done.
   Ranking searched;
   Ranking polished;  // the hybrid's figures; those within 1e-9 of each other count as equal
@@ -120,15 +124,17 @@ struct ProblemResult {
   bool complete = true;
 };
 
+// Their names, in the order of the results.
 inline std::vector<std::string> ContenderNames(const ProblemResult& problem) {
   std::vector<std::string> names;
   for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
   return names;
 }
 
+// Searches compared on one or several problems.
 struct Comparison {
   std::string version;
-  CompareOptions options;
+  CompareOptions options;               // what was asked for
   std::vector<ProblemResult> problems;  // curves in the order given, each with all models; those
                                         // without a single run are left out
   std::vector<std::string> doubts;      // of the readings, before any run; see CheckReadings

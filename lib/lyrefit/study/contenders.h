@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/study/compare_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Contenders for the common studies. `search` gives population, iterations and the settings of the
 // algorithms.

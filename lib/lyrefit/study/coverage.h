@@ -7,24 +7,26 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/law/parameter.h"
 #include "lyrefit/study/coverage_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What one simulated set says of one parameter.
 struct CoverageRow {
-  double truth = kUnknown;
+  double truth = kUnknown;  // what the set was made with
   Interval interval;
   bool fixed = false;
   bool identifiable = true;
 };
 
+// One simulated set and what its fit says of the parameters.
 struct CoverageSet {
   int cells_in_series = 1;
-  int curves = 0;
+  int curves = 0;                 // in the set
   std::string error;              // why there is no usable fit; empty: there is one
   std::vector<CoverageRow> rows;  // in the order of CoverageReport::parameters; empty: no fit
   double seconds = 0;
@@ -33,20 +35,21 @@ struct CoverageSet {
 // How often the 95 % intervals of one parameter hold the truth.
 struct ParameterCoverage {
   ParameterInfo info;
-  bool offset = false;       // of a sensor: no shared parameter
-  int fitted = 0;            // sets whose fit was usable and did not hold the parameter
-  int not_identifiable = 0;  // of those; they have no interval worth the name and are not counted
-  int counted = 0;           // of those: identifiable, with an interval
-  int covered = 0;
-  double coverage = kUnknown;
-  double low_95 = kUnknown;  // binomial, Wilson's interval
+  bool offset = false;         // of a sensor: no shared parameter
+  int fitted = 0;              // sets whose fit was usable and did not hold the parameter
+  int not_identifiable = 0;    // of those; they have no interval worth the name and are not counted
+  int counted = 0;             // of those: identifiable, with an interval
+  int covered = 0;             // of those: the interval holds the truth
+  double coverage = kUnknown;  // covered / counted
+  double low_95 = kUnknown;    // binomial, Wilson's interval
   double high_95 = kUnknown;
   double median_half_width = kUnknown;  // relative to the truth; of offsets in their own unit
 };
 
+// How often intervals of joint fits hold the truth.
 struct CoverageReport {
   std::string version;
-  CoverageOptions options;
+  CoverageOptions options;  // what was asked for
   // The shared parameters of the law, then the sensors' offsets that were fitted.
   std::vector<ParameterCoverage> parameters;
   std::vector<CoverageSet> sets;
@@ -56,6 +59,7 @@ struct CoverageReport {
   std::vector<std::string> remarks;  // on the journal, in plain sentences
 };
 
+// FitFamily, or what stands in its place in a test.
 using FamilyFitter =
     std::function<Expected<FamilyReport>(const CurveSet&, const FamilyOptions&, const Observer&)>;
 

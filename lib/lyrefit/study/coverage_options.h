@@ -6,10 +6,12 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/family/family_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// Which sets are simulated and fitted, and how many.
 struct CoverageOptions {
   int sets = 500;
   std::uint64_t seed = 0;            // of everything that is drawn; set s has its own stream

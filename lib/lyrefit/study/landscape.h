@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/law/extension.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Made measurements of a kind that has many basins: problems for searches. Everything is drawn from
 // ranges that modules, cells and tracers have, none of it with an eye on any search.
@@ -26,7 +27,7 @@ struct LandscapeCase {
   BoundsSpec bounds;
   std::vector<EffectUse> with;
   std::optional<CurveSet> set;  // of a family: fitted as `family` says, `model` and `with` in it
-  FamilyOptions family;
+  FamilyOptions family;         // how a set is fitted
   // What it was made with, in the units of reports: "Iph", "substrings.d1"; of a set the shared
   // parameters and, where no effect says it, "irradiance_offset_W_m2" and "temperature_offset_K",
   // true less shown.
@@ -34,6 +35,7 @@ struct LandscapeCase {
   double noise_A = 0;  // standard deviation of every current's error
 };
 
+// A kind of devices whose fit has many basins.
 struct LandscapeProblem {
   std::string name;   // "strings_3"
   std::string title;  // "three lights, one of three substrings each"

@@ -27,6 +27,7 @@ struct EnumTable<PolishLevel> {
                                                     {PolishLevel::kOwn, "best bird"},
                                                     {PolishLevel::kHybrid, "all starts"}};
 };
+// All of them, the least polished first.
 constexpr std::array<PolishLevel, 4> kPolishLevels = {PolishLevel::kSearch, PolishLevel::kPlain,
                                                       PolishLevel::kOwn, PolishLevel::kHybrid};
 
@@ -37,18 +38,19 @@ constexpr double kPoolHit = 1e-6;
 // Deviation: the largest of any parameter of the effects (of the device, where there are none) from
 // its value at the reference, relative to that; 1 where that is 0 and the run's is not.
 struct Failures {
-  int runs = 0;
-  int basins = 0;     // ends of one device within kPoolHit of each other are one
-  int commonest = 0;  // runs in the one that most ended in; of several the lowest
-  std::string commonest_device;
-  double commonest_excess = kUnknown;
-  double median_excess = kUnknown;
-  double worst_excess = kUnknown;
+  int runs = 0;                        // that ended elsewhere
+  int basins = 0;                      // ends of one device within kPoolHit of each other are one
+  int commonest = 0;                   // runs in the one that most ended in; of several the lowest
+  std::string commonest_device;        // where that happened
+  double commonest_excess = kUnknown;  // of that basin
+  double median_excess = kUnknown;     // over these runs
+  double worst_excess = kUnknown;      // over these runs
   double median_deviation = kUnknown;  // NaN of levels whose parameters are not kept
-  double worst_deviation = kUnknown;
-  std::string worst_parameter;
+  double worst_deviation = kUnknown;   // over these runs
+  std::string worst_parameter;         // the key of the one that deviates so
 };
 
+// What the runs of one contender came to at one level of polish.
 struct PooledLevel {
   int runs = 0;               // every run of every device
   int hits = 0;               // within kPoolHit of the device's reference
@@ -57,8 +59,9 @@ struct PooledLevel {
   Failures failures;
 };
 
+// One contender over all devices of a problem.
 struct PooledContender {
-  std::string name;
+  std::string name;  // see Contender
   std::string algorithm;
   ContenderKind kind = ContenderKind::kSearch;
   std::int64_t budget = 0;              // 0: none
@@ -67,16 +70,18 @@ struct PooledContender {
   // By PolishLevel; only the last one of contenders that are no searches. Empty: not known.
   std::array<std::optional<PooledLevel>, 4> levels;
 
+  // By name instead of position.
   const std::optional<PooledLevel>& At(PolishLevel level) const {
     return levels[static_cast<std::size_t>(level)];
   }
 };
 
+// All devices of a problem as one.
 struct PooledProblem {
-  std::string name;
+  std::string name;                           // see ProblemResult::problem
   std::vector<const ProblemResult*> devices;  // of the comparison, in its order
   int certified = 0;                          // of them
-  std::vector<PooledContender> contenders;
+  std::vector<PooledContender> contenders;    // in the order of the comparison
 };
 
 // Every problem of the comparison that has a name to be pooled under, in the order of the first
@@ -89,8 +94,8 @@ double SecondsAt(const RunRecord& run, PolishLevel level);
 
 // See Failures.
 struct Deviation {
-  double value = kUnknown;
-  int parameter = -1;
+  double value = kUnknown;  // relative
+  int parameter = -1;       // whose it is: position; -1: none
 };
 Deviation LargestDeviation(const ProblemResult& device, const std::vector<double>& parameters);
 

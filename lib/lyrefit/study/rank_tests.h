@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace lyrefit {
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Rank statistics of repeated runs. A block is what all contenders share (one seed, one curve); in
 // a block the smallest value ranks first and equal values share the mean of their ranks. Values
@@ -18,10 +20,10 @@ std::vector<double> JoinEqual(std::vector<double> values, double relative);
 // the correction for ties. `values[c][b]` is contender c in block b; at least two contenders and
 // one block (CHECKed).
 struct Friedman {
-  int contenders = 0;
-  int blocks = 0;
+  int contenders = 0;             // that were ranked
+  int blocks = 0;                 // in which they were
   std::vector<double> mean_rank;  // of each contender
-  double chi_square = 0;
+  double chi_square = 0;          // the statistic
   double p_value = 1;  // chi-square with contenders - 1 degrees of freedom; 1 if all values tie
 };
 Friedman FriedmanTest(const std::vector<std::vector<double>>& values);
@@ -30,8 +32,8 @@ Friedman FriedmanTest(const std::vector<std::vector<double>>& values);
 // doi:10.1080/00401706.1964.10490181), with the tie-corrected variance of the ranks. `values` are
 // those of the test: their ties enter the variance.
 struct RankPair {
-  int first = 0;
-  int second = 0;
+  int first = 0;          // position among the contenders
+  int second = 0;         // the same
   double difference = 0;  // mean rank of first - second
   double low_95 = 0;      // simultaneous 95 % interval (Sidak over all pairs)
   double high_95 = 0;
@@ -46,15 +48,15 @@ std::vector<RankPair> ComparePairs(const Friedman& friedman,
 // differences are left out. The p-value is exact (the distribution over all signs, given the ranks,
 // ties included) up to 200 pairs, beyond that normal with the variance corrected for ties.
 struct Wilcoxon {
-  int pairs = 0;  // with a difference
-  int zeros = 0;  // left out
-  bool ties = false;
-  double rank_sum_plus = 0;  // ranks of the pairs with first > second
-  double rank_sum_minus = 0;
-  double p_value = 1;
-  double p_normal = 1;    // normal approximation, tie-corrected, no continuity correction
-  bool exact = true;      // how p_value was found
-  double smallest_p = 1;  // the smallest p that so many pairs allow: 2^(1 - pairs)
+  int pairs = 0;              // with a difference
+  int zeros = 0;              // left out
+  bool ties = false;          // some differences are of one size
+  double rank_sum_plus = 0;   // ranks of the pairs with first > second
+  double rank_sum_minus = 0;  // those with first < second
+  double p_value = 1;         // two-sided
+  double p_normal = 1;        // normal approximation, tie-corrected, no continuity correction
+  bool exact = true;          // how p_value was found
+  double smallest_p = 1;      // the smallest p that so many pairs allow: 2^(1 - pairs)
 };
 Wilcoxon WilcoxonTest(const std::vector<double>& first, const std::vector<double>& second);
 

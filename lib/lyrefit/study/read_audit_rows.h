@@ -6,9 +6,10 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A number as a publication prints it: the digits say how exactly it is known.
 struct PrintedNumber {
@@ -28,17 +29,18 @@ struct AuditRow {
   std::vector<PrintedNumber> parameters;  // in the device's order
   // What the row says about its conditions; unset: those of the curve.
   std::optional<double> temperature_C;
-  std::optional<int> cells;
+  std::optional<int> cells;  // in series
   std::optional<ConstantSet> constants;
-  std::string bounds;  // "paper": bounds-paper.json beside the curve
-  std::string note;
-  int line = 0;
-  int device_column = 0;
-  int bounds_column = 0;
+  std::string bounds;     // "paper": bounds-paper.json beside the curve
+  std::string note;       // as the table has it; nothing reads it
+  int line = 0;           // of the file, from 1
+  int device_column = 0;  // where the device stands in its line, from 1
+  int bounds_column = 0;  // and where the bounds do; 0: they are not named
 };
 
+// A table of published parameters as it was read.
 struct AuditRows {
-  std::string path;
+  std::string path;  // of the table
   std::vector<AuditRow> rows;
   std::vector<Error> bad_rows;  // what could not be read, with file, line and column
 };

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/law/parameter.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The parameters that a curve was made from, as the contest sets of github.com/cwhanse/ivcurves
 // state them: of the whole module, n per cell, one diode.
@@ -25,8 +26,8 @@ Expected<std::vector<TruthRow>> ReadTruth(const std::string& path);
 // Errors of one parameter, each relative to the truth of its own curve.
 struct TruthParameter {
   ParameterInfo info;
-  double worst = kUnknown;  // largest |error|
-  std::string worst_id;
+  double worst = kUnknown;   // largest |error|
+  std::string worst_id;      // of the curve with that error
   double median = kUnknown;  // of |error|
   int intervals = 0;         // curves with a 95 % interval
   int covered = 0;           // of those: it holds the truth
@@ -46,6 +47,7 @@ struct TruthParameter {
   Interval by_curves;
 };
 
+// Fits held against what the curves were made with.
 struct TruthComparison {
   int rows = 0;                            // of truth
   int curves = 0;                          // compared

@@ -14,9 +14,11 @@ int EnoughHits(int runs);
 
 // How a problem was solved: by whom, how far polished.
 struct Way {
-  const PooledContender* contender = nullptr;
+  const PooledContender* contender = nullptr;  // by whom
   PolishLevel level = PolishLevel::kSearch;
+  // What the contender came to at the level.
   const PooledLevel& figures() const { return *contender->At(level); }
+  // Whether so many of its runs hit.
   bool IsEnough() const { return figures().hits >= EnoughHits(figures().runs); }
 };
 
@@ -25,13 +27,13 @@ struct Way {
 // of a run wins. Where starts from the shape alone are enough, "all starts", which has them, says
 // nothing of a search and does not count.
 struct SearchVerdict {
-  std::optional<Way> shape;   // where it was a contender, enough or not
-  std::optional<Way> search;  // the winner, random points among the searches
-  std::optional<Way> best;    // where none is enough: the most hits, then the least time
-  std::optional<Way> random;  // that of random points, where they are not the winner
-  int needed = 0;             // hits that are enough
-  bool shape_is_enough = false;
-  bool shape_wins = false;  // it is enough, and no search that is enough is faster
+  std::optional<Way> shape;      // where it was a contender, enough or not
+  std::optional<Way> search;     // the winner, random points among the searches
+  std::optional<Way> best;       // where none is enough: the most hits, then the least time
+  std::optional<Way> random;     // that of random points, where they are not the winner
+  int needed = 0;                // hits that are enough
+  bool shape_is_enough = false;  // that way is
+  bool shape_wins = false;       // it is enough, and no search that is enough is faster
 };
 SearchVerdict JudgePool(const PooledProblem& pool);
 

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// Whether something that a standard asks for held.
 enum class Condition { kMet, kNotMet, kNotKnown };
 
 template <>
@@ -22,12 +24,13 @@ struct EnumTable<Condition> {
                                                   {Condition::kNotKnown, "not known"}};
 };
 
+// One thing that a standard asks for, and what is known of it.
 struct CheckedCondition {
-  std::string id;     // "irradiance", "steadiness", ...
-  std::string title;  // "light above 700 W/m2"
-  Condition state = Condition::kNotKnown;
-  double value = kUnknown;  // the figure, in `unit`
-  double limit = kUnknown;
+  std::string id;                          // "irradiance", "steadiness", ...
+  std::string title;                       // "light above 700 W/m2"
+  Condition state = Condition::kNotKnown;  // nothing is met that nobody measured or said
+  double value = kUnknown;                 // the figure, in `unit`
+  double limit = kUnknown;                 // what it is held against, in the same
   std::string unit;
   std::string found;   // the figure in words; empty where nothing is known
   std::string source;  // where the figure is from
@@ -35,11 +38,12 @@ struct CheckedCondition {
   std::string cure;    // what would make it known, or met; empty where it is met
 };
 
+// All that the standards ask for.
 struct Checklist {
-  std::vector<CheckedCondition> conditions;
-  int met = 0;
-  int not_met = 0;
-  int not_known = 0;
+  std::vector<CheckedCondition> conditions;  // in a fixed order
+  int met = 0;                               // conditions that are met
+  int not_met = 0;                           // that are not
+  int not_known = 0;                         // of which nobody knows
   std::string sentence;
 };
 
@@ -48,7 +52,7 @@ struct ConditionFacts {
   const Diagnosis* diagnosis = nullptr;  // of this curve: what it says of the light; may be missing
   UncertaintyOptions uncertainty;        // sensors and instrument
   std::optional<Procedure> procedure;    // that carries it to `target`
-  TranslationTarget target;
+  TranslationTarget target;              // where the curve is carried to
 };
 
 // The conditions that IEC 61829:2015 (as summarised by others), IEC 60904-1, IEC 60891:2021 and

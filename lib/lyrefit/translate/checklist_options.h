@@ -3,8 +3,9 @@
 #include <optional>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Limits of the conditions of a field measurement, and what no curve can say of itself.
 struct ChecklistOptions {

@@ -6,10 +6,11 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/procedures.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What a data sheet or a laboratory says of a device's coefficients. Of alpha and beta either form;
 // relative ones are of Isc and Voc at standard conditions.
@@ -69,9 +70,9 @@ Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coe
 struct TechnologyCoefficients {
   const char* name;  // "c-Si"
   double alpha_percent_K;
-  double alpha_scatter;
+  double alpha_scatter;  // in percent per kelvin
   double beta_percent_K;
-  double beta_scatter;
+  double beta_scatter;     // the same
   double gamma_percent_K;  // of Pmax
   double EgRef_eV;
   double dEgdT_1_K;
@@ -93,7 +94,7 @@ struct SettledInputs {
   double usual_gamma_percent_K = 0;  // its temperature coefficient of Pmax, for who was told none
   bool bandgap_stated = false;       // else De Soto's law has one with which Voc moves by beta
   bool mu_gamma_stated = false;      // the same of PVsyst's
-  bool crystalline_silicon = true;
+  bool crystalline_silicon = true;   // procedure 4 is for no other
 };
 
 // What is stated, completed: alpha, beta and the band gap by technology, kappa, Rs, B1 and B2 by the

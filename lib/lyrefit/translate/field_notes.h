@@ -3,8 +3,9 @@
 #include <string>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What stands on a page that somebody signs and no curve says of itself. Nothing is computed from
 // it: a calibration counts by the options of UncertaintyOptions.

@@ -6,12 +6,13 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/field_test_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Pmax at standard conditions against the least that the rating allows, L. The interval is the
 // expanded one, k = 2, or the drawn one where both disagree:
@@ -34,6 +35,7 @@ struct EnumTable<Zone> {
                                              {Zone::kFail, "fail"}};
 };
 
+// For sure or within the uncertainty.
 inline bool IsPass(Zone zone) { return zone == Zone::kPass || zone == Zone::kPassWithin; }
 
 // What was measured, and where.
@@ -44,11 +46,12 @@ struct FieldMeasurement {
   std::string predicted_by;           // what gave it, in words
 };
 
+// Whether a string does what its rating says, and how sure that is.
 struct FieldTest {
-  double rated_W = kUnknown;    // of the string: modules times rating, less cabling
-  double lowest_W = kUnknown;   // the rating less its tolerance
-  double highest_W = kUnknown;  // the rating with it
-  std::string tolerance;
+  double rated_W = kUnknown;     // of the string: modules times rating, less cabling
+  double lowest_W = kUnknown;    // the rating less its tolerance
+  double highest_W = kUnknown;   // the rating with it
+  std::string tolerance;         // of the rating, as printed
   double standard_W = kUnknown;  // Pmax at standard conditions, and its interval
   double standard_low_W = kUnknown;
   double standard_high_W = kUnknown;
@@ -60,7 +63,7 @@ struct FieldTest {
       0;  // 1 / draws: what smaller probabilities cannot be told from; 0: none
   double measured_W = kUnknown;
   double predicted_W = kUnknown;  // at the conditions measured
-  std::string predicted_by;
+  std::string predicted_by;       // what gave the prediction, in words
   // Measured over predicted Pmax, with a budget of its own: nothing but rating, coefficient,
   // sensors and instrument is in it, no procedure.
   double performance_factor = kUnknown;
@@ -68,7 +71,7 @@ struct FieldTest {
   double performance_high = kUnknown;
   UncertaintyBudget performance_budget;
   std::string sentence;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  // sentences
 };
 
 // `standard`: Pmax at 1000 W/m2 and 25 C. Errors: no rating, a rating or a power that is not

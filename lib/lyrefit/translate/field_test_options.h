@@ -6,8 +6,9 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How far the power of a module may be from its rating, as data sheets print it: "-0,+5" in per
 // cent, "-0W,+5W" in watt.

@@ -7,10 +7,11 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How a curve measured at (G1, T1) is carried to (G2, T2). Equations in procedures.cc and
 // model_procedures.cc, clauses in the room's README.
@@ -61,10 +62,11 @@ struct TranslationInputs {
 struct TranslationInput {
   const char* name;  // with its unit, as in JSON
   const char* unit;
-  const char* title;  // "irradiance", for tables
-  double TranslationInputs::*field;
+  const char* title;                 // "irradiance", for tables
+  double TranslationInputs::*field;  // where it stands
 };
 
+// All of them, in the order of the struct.
 inline constexpr TranslationInput kTranslationInputs[] = {
     {"irradiance_W_m2", "W/m2", "irradiance", &TranslationInputs::irradiance_W_m2},
     {"rear_irradiance_W_m2", "W/m2", "irradiance of the back",
@@ -90,6 +92,7 @@ inline constexpr TranslationInput kTranslationInputs[] = {
     {"mu_gamma_1_K", "1/K", "slope of the ideality", &TranslationInputs::mu_gamma_1_K},
 };
 
+// How Isc, Voc and the maximum power are read off a curve.
 enum class KeyPointMethod {
   kInterpolated,  // curve/key_points.h
   kE1036,         // ASTM E1036, annex: straight lines and a polynomial in windows
@@ -101,6 +104,7 @@ struct EnumTable<KeyPointMethod> {
       {KeyPointMethod::kInterpolated, "interpolated"}, {KeyPointMethod::kE1036, "e1036"}};
 };
 
+// The conditions that a curve is carried to: standard ones unless said.
 struct TranslationTarget {
   double irradiance_W_m2 = 1000;
   double temperature_C = 25;
@@ -138,9 +142,10 @@ struct Translation;  // law/translation.h
 // A parameter of a diode's law that is such that Voc moves by beta: what follows when beta does.
 struct BetaAnchor {
   double beta_V_K = 0;
-  double value = 0;
-  double slope = 0;
+  double value = 0;       // of the parameter, where Voc moves by beta_V_K
+  double slope = 0;       // of it along beta
   double bandgap_eV = 0;  // beside which mu_gamma was found
+  // The parameter for another beta.
   double At(double beta) const { return value + slope * (beta - beta_V_K); }
 };
 
@@ -159,7 +164,8 @@ struct PreparedCurve {
   std::optional<BetaAnchor> bandgap;   // De Soto's; none: as stated
   std::optional<BetaAnchor> mu_gamma;  // PVsyst's; none: as stated
   // Both laws for so many cells (model_procedures.h); none: they are made anew for every answer.
-  std::shared_ptr<const Translation> desoto, pvsyst;
+  std::shared_ptr<const Translation> desoto;
+  std::shared_ptr<const Translation> pvsyst;
   // The first is the diagnosis, the others name another cause.
   std::vector<std::shared_ptr<const ExtendedModel>> models;
 };

@@ -2,11 +2,12 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/translate/translate_options.h"
 #include "lyrefit/translate/translation_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // A measured curve at other conditions by every procedure that the data allow, side by side, each
 // with the uncertainty of its key points; one of them is recommended (recommend.h). Procedures that

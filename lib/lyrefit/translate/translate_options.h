@@ -5,6 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/translate/checklist_options.h"
@@ -14,8 +15,9 @@
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty_options.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
+// Where a curve is carried to, by which procedures, and what is known of it.
 struct TranslateOptions {
   TranslationTarget target;           // standard conditions
   std::vector<Procedure> procedures;  // empty: all that the data allow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnosis.h"
@@ -16,7 +17,7 @@
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What one procedure makes of the curve, or why it makes nothing.
 struct TranslatedResult {
@@ -30,6 +31,7 @@ struct TranslatedResult {
   // in parts of Isc (beyond open circuit).
   double extrapolated = 0;
 
+  // Whether the procedure gave a curve.
   bool computed() const { return why_not.empty(); }
 };
 
@@ -37,10 +39,10 @@ struct TranslatedResult {
 struct TranslationReport {
   std::string version;  // of lyrefit
   IvCurve curve;
-  TranslationTarget target;
-  KeyPointMethod method = KeyPointMethod::kInterpolated;
-  double equivalent_irradiance_W_m2 = 0;  // front and back
-  KeyPoints source{};                     // of the readings, leads allowed for
+  TranslationTarget target;                               // where it was carried to
+  KeyPointMethod method = KeyPointMethod::kInterpolated;  // of all key points here
+  double equivalent_irradiance_W_m2 = 0;                  // front and back
+  KeyPoints source{};                                     // of the readings, leads allowed for
   SettledInputs inputs;
   std::vector<TranslatedResult> results;  // in the order of Procedure, those without one among them
   int recommended = -1;                   // position in `results`; -1: none was computed
@@ -51,8 +53,8 @@ struct TranslationReport {
   std::vector<std::string> kept;          // titles of causes that act at the target too
   std::vector<std::string> removed;       // of those that were of the sweep
   std::optional<FieldTest> field_test;    // where a rating was stated and the target is STC
-  Checklist checklist;
-  UncertaintyOptions uncertainty;  // what light, temperature and instrument are
+  Checklist checklist;                    // what the standards ask for
+  UncertaintyOptions uncertainty;         // what light, temperature and instrument are
   FieldNotes notes;
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> assumptions;  // of the reader, of the coefficients
@@ -61,6 +63,7 @@ struct TranslationReport {
   double seconds = 0;
   bool interrupted = false;
 
+  // The result to quote; nullptr: none was computed.
   const TranslatedResult* Recommended() const {
     return recommended < 0 ? nullptr : &results[recommended];
   }

@@ -7,15 +7,16 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/translate/uncertainty_options.h"
 
 // How sure a result is: the law of propagation of uncertainty (GUM, JCGM 100:2008, clause 5) and
 // the propagation of distributions by Monte Carlo (its Supplement 1, JCGM 101:2008, clause 7; of
 // several results at once as in Supplement 2, JCGM 102:2011), and whether both agree (JCGM 101,
 // clause 8).
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
-enum class Distribution { kNormal, kRectangular };
+enum class Distribution { kNormal, kRectangular };  // How an input scatters about its value.
 
 template <>
 struct EnumTable<Distribution> {
@@ -30,22 +31,22 @@ struct UncertainInput {
   std::string title;  // for people: "irradiance, reference cell"
   std::string group;  // "light", "temperature", "electrical", "coefficients", ...
   std::string unit;
-  std::string quantity;  // whose value it adds to; several inputs may act on one
-  double value = 0;
+  std::string quantity;             // whose value it adds to; several inputs may act on one
+  double value = 0;                 // in `unit`
   double standard_uncertainty = 0;  // k = 1
-  Distribution distribution = Distribution::kNormal;
-  std::string source;  // where the size is from: a sentence
+  Distribution distribution = Distribution::kNormal;  // with that standard deviation
+  std::string source;                                 // where the size is from: a sentence
 };
 
 // What acts on the results themselves: each factor is what one independent standard normal variable
 // adds to every result, so that the covariance of the term is the sum of factor factor^T. The
 // factors make one line of the budget.
 struct OutputTerm {
-  std::string name;
+  std::string name;  // for programs
   std::string title;
-  std::string group;
-  std::string source;
-  std::vector<std::vector<double>> factors;
+  std::string group;                         // as that of an input
+  std::string source;                        // where the size is from: a sentence
+  std::vector<std::vector<double>> factors;  // one number for each result, in its unit
 };
 
 // A choice that nobody can make for sure: equivalent causes, procedures. The result may lie
@@ -55,13 +56,14 @@ struct OutputTerm {
 // answers, whether it is listed or not. One draw serves all results; where one falls while the
 // first rises among the answers, it goes the other way.
 struct OutputChoice {
-  std::string name;
+  std::string name;  // for programs
   std::string title;
-  std::string group;
-  std::string source;
+  std::string group;                         // as that of an input
+  std::string source;                        // what the choice is between: a sentence
   std::vector<std::vector<double>> answers;  // one for each alternative, of all results
 };
 
+// What a result is called.
 struct OutputQuantity {
   std::string name;   // "max_power"
   std::string title;  // "Pmax"
@@ -71,7 +73,8 @@ struct OutputQuantity {
 // Results as a function of the inputs, in their order. It must be pure: it is called from several
 // threads. NaN: there is no such result there.
 struct UncertainModel {
-  std::vector<OutputQuantity> outputs;
+  std::vector<OutputQuantity> outputs;  // as many as `evaluate` returns
+  // One number for each output, in its unit.
   std::function<std::vector<double>(const std::vector<double>& inputs)> evaluate;
 };
 
@@ -89,16 +92,17 @@ struct BudgetEntry {
   double share = kUnknown;         // of the variance, 0 to 1
 };
 
+// One source of uncertainty: an input, a term or a choice.
 struct BudgetLine {
-  std::string name;
+  std::string name;  // for programs: "irradiance"
   std::string title;
-  std::string group;
+  std::string group;  // "light", "temperature", "electrical", "coefficients", ...
   std::string unit;
-  double value = kUnknown;
+  double value = kUnknown;  // of an input; NaN of terms and choices
   double standard_uncertainty = kUnknown;
-  Distribution distribution = Distribution::kNormal;
-  std::string source;
-  std::vector<BudgetEntry> entries;  // one a result
+  Distribution distribution = Distribution::kNormal;  // of the input
+  std::string source;                                 // where the size is from: a sentence
+  std::vector<BudgetEntry> entries;                   // one a result
 };
 
 // Whether the interval of the linear propagation is validated by Monte Carlo.
@@ -119,17 +123,18 @@ struct EnumTable<Agreement> {
 
 // What is drawn of one result. The interval has equal tails.
 struct DrawnInterval {
-  double mean = kUnknown;
-  double standard_deviation = kUnknown;
+  double mean = kUnknown;                // of the draws that have a result
+  double standard_deviation = kUnknown;  // of the same
   double low = kUnknown;
   double high = kUnknown;
-  double low_error = kUnknown;  // standard error of the ends, by order statistics
-  double high_error = kUnknown;
-  double skewness = kUnknown;
+  double low_error = kUnknown;   // standard error of the ends, by order statistics
+  double high_error = kUnknown;  // of the upper end
+  double skewness = kUnknown;    // third moment in standard deviations; 0: symmetric
 };
 
+// A result with its uncertainty, by both propagations.
 struct UncertainOutput {
-  OutputQuantity quantity;
+  OutputQuantity quantity;  // what it is of
   double value = kUnknown;  // at the inputs' values
   double standard_uncertainty = kUnknown;
   double expanded_uncertainty = kUnknown;  // coverage factor times that
@@ -147,12 +152,13 @@ struct UncertainOutput {
   double ProbabilityBelow(double x) const;
 };
 
+// How sure the results are, and what makes them unsure.
 struct UncertaintyBudget {
-  std::vector<BudgetLine> lines;
-  std::vector<UncertainOutput> outputs;
-  double coverage_factor = 2;
-  double coverage_probability = 0.9545;
-  int draws = 0;
+  std::vector<BudgetLine> lines;         // inputs in their order, then terms, then choices
+  std::vector<UncertainOutput> outputs;  // in the order of the model's
+  double coverage_factor = 2;            // k of the linear propagation
+  double coverage_probability = 0.9545;  // of the interval of the draws
+  int draws = 0;                         // 0: no Monte Carlo
   std::uint64_t seed = 0;
   std::vector<std::string> warnings;
 };

@@ -6,8 +6,9 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // What the irradiance was taken from.
 enum class LightSource {
@@ -44,6 +45,7 @@ struct EnumTable<TemperatureSource> {
       {TemperatureSource::kLaboratory, "laboratory"}};
 };
 
+// How well current and voltage are measured.
 enum class InstrumentClass { kField, kLaboratory };
 
 template <>

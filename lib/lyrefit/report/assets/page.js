@@ -1,22 +1,25 @@
 // What a page does once scripts run; without them all of it is there to read. Offers `lyrefit` to
-// the scripts after it: data(id) and plotly(), which promise; colour(hex); onTheme(function).
+// the scripts after it: data(id), bytes(id) and plotly(), which promise; colour(hex); onTheme(function).
 'use strict';
 const lyrefit = (() => {
   const root = document.documentElement;
   const darkWanted = matchMedia('(prefers-color-scheme: dark)');
   const themeFunctions = [];
 
-  async function unpacked(text) {
+  function unpacked(text) {
     const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-    return new Response(stream).text();
+    return new Response(stream);
   }
+
+  // The bytes of a packed script element.
+  const bytes = (id) => unpacked(document.getElementById(id).textContent).arrayBuffer();
 
   // The data of a script element, packed or not.
   async function data(id) {
     const element = document.getElementById(id);
     const packed = element.type === 'application/gzip';
-    return JSON.parse(packed ? await unpacked(element.textContent) : element.textContent);
+    return JSON.parse(packed ? await unpacked(element.textContent).text() : element.textContent);
   }
 
   // Plotly, unpacked when it is first asked for; nothing where the page has none.
@@ -26,7 +29,7 @@ const lyrefit = (() => {
       const element = document.getElementById('plotly');
       if (!element || typeof DecompressionStream === 'undefined') return null;
       const script = document.createElement('script');
-      script.textContent = await unpacked(element.textContent);
+      script.textContent = await unpacked(element.textContent).text();
       element.remove();
       document.head.append(script);
       script.remove();
@@ -68,6 +71,19 @@ const lyrefit = (() => {
     const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
     save(fileName('json'), url);
     setTimeout(() => URL.revokeObjectURL(url), 10000);
+  }
+
+  // Charts that no picture stands in for are dark on light on paper.
+  function dressForPaper() {
+    if (!document.querySelector('.is-live') || document.querySelector('.still')) return;
+    const {theme} = root.dataset;
+    root.dataset.theme = 'light';
+    themeChanged();
+    addEventListener('afterprint', () => {
+      if (theme === undefined) delete root.dataset.theme;
+      else root.dataset.theme = theme;
+      themeChanged();
+    }, {once: true});
   }
 
   const pageActions = {
@@ -121,12 +137,13 @@ const lyrefit = (() => {
     }
     tools.hidden = false;
     darkWanted.addEventListener('change', themeChanged);
+    addEventListener('beforeprint', dressForPaper);
     for (const details of document.querySelectorAll('details.readings')) addPager(details);
     themeChanged();
   }
 
   start();
-  return {data, plotly, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
+  return {data, bytes, plotly, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
 })();
 
 // Charts take the place of the pictures that stand still: the same rows, colours, bands and notes.

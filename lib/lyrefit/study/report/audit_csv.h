@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/audit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The findings as a table, one line a row of the audit, in its order. `changes` and `changed_A`
 // are those of the first explanation; what is not known is empty.

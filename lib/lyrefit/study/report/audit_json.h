@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/audit_report.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The audit as one JSON object: `findings` in the order of the rows, parameters under pvlib's
 // names, `bad_rows`, and in `summary` the number of rows of every verdict. What is not known is

@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/comparison.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The comparison as one JSON object, every run included, numbers with as many digits as bring back
 // the same bits; the four stages are named as in the report of a fit. What is not known or not

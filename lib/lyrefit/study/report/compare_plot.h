@@ -3,13 +3,14 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/comparison.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Pictures of a comparison, drawn with gnuplot into a .svg or .png file, one panel a problem.
 // Written completely or not at all. Errors: another extension, gnuplot missing, `path` not
-// writable, nothing to draw. CheckPlot() of plot/figure.h finds the first two
+// writable, nothing to draw. CheckPlot() of report/figure.h finds the first two
 // beforehand.
 
 // How far the runs end above the reference, on a logarithmic scale: a box a contender for the

@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/coverage.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // The coverage of the intervals as a table, a row a parameter; what is not known is empty.
 std::string CoverageCsv(const CoverageReport& report);

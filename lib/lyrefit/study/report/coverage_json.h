@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/study/coverage.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 // Everything, with the truth and the interval of every set.
 std::string CoverageJson(const CoverageReport& report);

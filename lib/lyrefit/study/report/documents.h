@@ -2,11 +2,12 @@
 
 #include <string>
 
+#include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
 // What there is to read of each study: as a document, and drawn for a terminal of 100 columns, which
 // ends with a newline. "-" stands for what is not known; every table of RMSEs names the objective.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct AuditReport;
 struct Comparison;

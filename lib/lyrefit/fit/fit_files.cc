@@ -1,4 +1,4 @@
-#include "fit_files.h"
+#include "lyrefit/fit/fit_files.h"
 
 #include <chrono>
 #include <mutex>
@@ -55,13 +55,12 @@ class Watch {
 
 std::vector<FittedFile> FitFiles(
     const std::vector<std::string>& files, int threads, const Observer& observer,
-    const std::function<Expected<FitReport>(const std::string& file, const Observer& observer)>&
-        fit) {
+    const std::function<Expected<FitReport>(int i, const Observer& observer)>& fit) {
   Watch watch(files.size(), observer);
   std::vector<std::optional<Expected<FitReport>>> reports(files.size());
   ParallelFor(static_cast<int>(files.size()), threads, [&](int i) {
     if (watch.stopped()) return;
-    reports[i] = fit(files[i], watch.ForOneFile());
+    reports[i] = fit(i, watch.ForOneFile());
     watch.FileDone();
   });
   std::vector<FittedFile> fits;

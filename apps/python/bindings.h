@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+// What the module offers, room by room: each of these adds the functions and types of one room of
+// the library to the module, and stands in ROOM_bindings.cc.
+namespace lyrefit::python {
+
+namespace py = pybind11;
+
+void BindErrors(py::module_* module);
+void BindResult(py::module_* module);
+void BindCurve(py::module_* module);
+void BindFit(py::module_* module);
+void BindFitMany(py::module_* module);
+void BindSimulate(py::module_* module);
+void BindFamily(py::module_* module);
+void BindDataSheet(py::module_* module);
+void BindDiagnose(py::module_* module);
+void BindTranslate(py::module_* module);
+void BindCertify(py::module_* module);
+void BindStudy(py::module_* module);
+void BindEffects(py::module_* module);
+void BindPvlib(py::module_* module);
+
+}  // namespace lyrefit::python

@@ -1,0 +1,22 @@
+# %% [markdown]
+# How low the measured-current RMSE of a curve can go, proved.
+
+# %%
+import os
+import pathlib
+
+import lyrefit
+
+data = pathlib.Path(os.environ.get("LYREFIT_ROOT", ".")) / "data"
+
+# %% The floor is that of any number of diodes; beside it the best each model can do
+proof = lyrefit.certify(data / "rtc_france")
+print(proof.frame().T)
+assert proof.certified
+
+# %% A fit stands against it
+fit = lyrefit.fit(data / "rtc_france", objective="measured-current")
+best = next(model for model in proof["models"] if model["model"] == "sd")
+above = fit["rmse"]["refined"]["measured_current_A"] / best["rmse_A"] - 1
+print(f"the fit is {above:.1e} above what is possible")
+assert above < 1e-9

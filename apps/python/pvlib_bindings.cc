@@ -1,0 +1,143 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+#include "errors.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/law/single_diodes.h"
+#include "work.h"
+
+// What lyrefit.pvlib computes with. Its arguments are checked and broadcast in pvlib.py.
+namespace lyrefit::python {
+namespace {
+
+using Numbers = py::array_t<double>;
+
+DeviceColumn AsColumn(const Numbers& numbers) {
+  return {numbers.data(), numbers.strides(0) / static_cast<py::ssize_t>(sizeof(double))};
+}
+
+// Of five or seven arrays of equal length, in the order of pvlib's arguments.
+SingleDiodes DevicesOf(const std::vector<Numbers>& parameters) {
+  SingleDiodes devices;
+  devices.size = static_cast<std::size_t>(parameters[0].size());
+  devices.photocurrent = AsColumn(parameters[0]);
+  devices.saturation_current = AsColumn(parameters[1]);
+  devices.resistance_series = AsColumn(parameters[2]);
+  devices.resistance_shunt = AsColumn(parameters[3]);
+  devices.nNsVth = AsColumn(parameters[4]);
+  if (parameters.size() > 5) {
+    devices.recombination = AsColumn(parameters[5]);
+    devices.built_in_voltage = AsColumn(parameters[6]);
+  }
+  return devices;
+}
+
+Numbers KeyPointTable(const std::vector<Numbers>& parameters) {
+  const SingleDiodes devices = DevicesOf(parameters);
+  const auto count = static_cast<py::ssize_t>(devices.size);
+  Numbers table({py::ssize_t{7}, count});
+  double* row[7];
+  for (py::ssize_t k = 0; k < 7; ++k) row[k] = table.mutable_data() + k * count;
+  Unlocked([&] {
+    KeyPointsOf(devices, {row[0], row[1], row[2], row[3], row[4], row[5], row[6]});
+    return 0;
+  });
+  return table;
+}
+
+using SolveMany = void (*)(const SingleDiodes&, const DeviceColumn&, double*);
+Numbers Solved(SolveMany solve, const Numbers& given, const std::vector<Numbers>& parameters) {
+  const SingleDiodes devices = DevicesOf(parameters);
+  Numbers answer(given.size());
+  double* out = answer.mutable_data();
+  const DeviceColumn at = AsColumn(given);
+  Unlocked([&] {
+    solve(devices, at, out);
+    return 0;
+  });
+  return answer;
+}
+
+std::vector<double> CopyOf(const Numbers& numbers) {
+  const auto values = numbers.unchecked<1>();
+  std::vector<double> copy;
+  for (py::ssize_t k = 0; k < values.shape(0); ++k) copy.push_back(values(k));
+  return copy;
+}
+
+CurveSet MakeSet(const std::vector<Numbers>& voltages, const std::vector<Numbers>& currents,
+                 const Numbers& irradiance_W_m2, const Numbers& temperature_C, int cells) {
+  CurveSet set;
+  set.name = "ivcurves";
+  for (std::size_t k = 0; k < voltages.size(); ++k) {
+    IvCurve curve;
+    curve.name = std::to_string(k);
+    curve.voltage_V = CopyOf(voltages[k]);
+    curve.current_A = CopyOf(currents[k]);
+    curve.conditions.cells_in_series = cells;
+    curve.conditions.irradiance_W_m2 = irradiance_W_m2.at(static_cast<py::ssize_t>(k));
+    curve.conditions.cell_temperature_K =
+        temperature_C.at(static_cast<py::ssize_t>(k)) + kZeroCelsius_K;
+    set.curves.push_back(std::move(curve));
+  }
+  return set;
+}
+
+// The shared parameters, and of every curve its own device and whether it belongs to the others'.
+py::dict DeSotoAnswer(const FamilyReport& report) {
+  py::dict shared;
+  for (const NamedValue& value : Must(PvlibParameters(report.translation, report.refined))) {
+    shared[py::str(value.name)] = value.value;
+  }
+  const auto curves = static_cast<py::ssize_t>(report.curves.size());
+  Numbers devices({curves, py::ssize_t{5}});
+  py::array_t<bool> belongs(curves);
+  for (py::ssize_t k = 0; k < curves; ++k) {
+    const FamilyCurve& curve = report.curves[static_cast<std::size_t>(k)];
+    for (py::ssize_t j = 0; j < 5; ++j) {
+      devices.mutable_at(k, j) =
+          curve.parameters.size() == 5 ? curve.parameters[static_cast<std::size_t>(j)] : kUnknown;
+    }
+    belongs.mutable_at(k) = curve.role == CurveRole::kFitted && !curve.odd;
+  }
+  py::dict answer;
+  answer["shared"] = shared;
+  answer["devices"] = devices;
+  answer["belongs"] = belongs;
+  answer["warnings"] = report.warnings;
+  answer["usable"] = report.usable;
+  return answer;
+}
+
+py::dict FitDeSoto(const std::vector<Numbers>& voltages, const std::vector<Numbers>& currents,
+                   const Numbers& irradiance_W_m2, const Numbers& temperature_C, int cells,
+                   const std::map<std::string, double>& fixed) {
+  const CurveSet set = MakeSet(voltages, currents, irradiance_W_m2, temperature_C, cells);
+  FamilyOptions options;
+  options.fixed = fixed;
+  options.intervals = options.free_fits = options.random_baseline = false;
+  options.folds = 0;
+  return DeSotoAnswer(Must(Work(
+      py::none(), [&](const Observer& observer) { return FitFamily(set, options, observer); })));
+}
+
+}  // namespace
+
+void BindPvlib(py::module_* module) {
+  module->def("_single_diode_points", &KeyPointTable);
+  module->def("_current_at", [](const Numbers& voltage, const std::vector<Numbers>& parameters) {
+    return Solved(CurrentsAt, voltage, parameters);
+  });
+  module->def("_voltage_at", [](const Numbers& current, const std::vector<Numbers>& parameters) {
+    return Solved(VoltagesAt, current, parameters);
+  });
+  module->def("_fit_desoto", &FitDeSoto);
+}
+
+}  // namespace lyrefit::python

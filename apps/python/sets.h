@@ -1,0 +1,28 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "curves.h"
+#include "lyrefit/curve/curve_set.h"
+
+namespace lyrefit::python {
+
+// What verbs take for a measurement of one or several curves:
+//   - a path, as read_curve and the command have it: a table with several curves, a folder, JSON;
+//     or a list of paths, read as one measurement,
+//   - a long frame or mapping with a column curve (curve_id, id) that says which curve a row
+//     belongs to, beside voltage and current, and irradiance and temperature where they are known,
+//   - a list of single curves, each as CurveOf takes it, or a mapping from their ids,
+//   - a single curve, with `current` or without.
+// What the keywords say holds for every curve.
+CurveSet SetOf(py::handle curves, py::handle current, const CurveKeywords& said);
+
+// Whether `value` is a list, tuple or mapping of curves, not one curve.
+bool IsSeveral(py::handle value);
+
+// The curves of several measurements, each as SetOf has it.
+std::vector<IvCurve> SweepsOf(py::handle value, const CurveKeywords& said);
+
+}  // namespace lyrefit::python

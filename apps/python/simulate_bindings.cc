@@ -1,0 +1,158 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings.h"
+#include "curves.h"
+#include "docs.h"
+#include "effects.h"
+#include "lyrefit/base/constants.h"
+#include "lyrefit/fit/simulate.h"
+#include "result.h"
+#include "work.h"
+
+namespace lyrefit::python {
+namespace {
+
+constexpr char kSimulateDoc[] =
+    "Solve the curve of a device: I(V) to rounding, then noise if wanted.\n\n"
+    "Parameters\n----------\n"
+    "parameters : mapping of str to float, Result, path, optional\n"
+    "    Of the model, under pvlib's names or the papers' symbols (photocurrent or Iph in A,\n"
+    "    saturation_current or Is1 in A, resistance_series or Rs and resistance_shunt or Rsh in\n"
+    "    ohm, n or n1 per cell); nNsVth in V in the place of n. Or a fit: what fit() gave, or the\n"
+    "    file of its JSON, whose conditions and effects then count. A shunt of inf is perfect.\n"
+    "    Each may be a keyword of its own.\n"
+    "voltage : array_like of shape (n,), optional\n"
+    "    Where to solve, in V; else `points` even steps from 0 to 2 % beyond open circuit.\n"
+    "string : path, optional\n"
+    "    JSON of cells that are not alike, their bypass diodes and reverse law.\n"
+    "curve_id : str, optional\n"
+    "    Which curve of a report of many.\n";
+
+constexpr char kSimulateEnd[] =
+    "Returns\n-------\n"
+    "Curve\n"
+    "    With `voltage` and `current`, each of shape (n,).\n\n"
+    "Raises\n------\n"
+    "lyrefit.Error\n"
+    "    A parameter that is missing, unknown or outside its physical range, no open-circuit\n"
+    "    voltage to end at.\n\n"
+    "Examples\n--------\n"
+    ">>> curve = lyrefit.simulate(photocurrent=0.7608, saturation_current=3.1e-7, n=1.477,\n"
+    "...                          resistance_series=0.0365, resistance_shunt=52.9,\n"
+    "...                          temperature_C=33)\n"
+    ">>> curve.current.max()\n";
+
+// Keywords that are parameters of a device, whatever the model.
+constexpr const char* kParameterKeywords[] = {
+    "photocurrent", "saturation_current",   "n",   "resistance_series",    "resistance_shunt",
+    "nNsVth",       "saturation_current_2", "n_2", "saturation_current_3", "n_3"};
+
+void SetParameters(py::handle values, SimulateOptions* options) {
+  for (const auto& [name, value] : py::dict(py::reinterpret_borrow<py::object>(values))) {
+    const std::string text = TextOf("parameters", name);
+    options->parameters[text] = NumberOf(text, value);
+  }
+}
+
+// What is to be simulated, before the keywords have their say.
+SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id) {
+  SimulateOptions options;
+  if (parameters.is_none()) return options;
+  if (py::isinstance<Result>(parameters)) {
+    const std::string json = parameters.cast<const Result&>().FullJson();
+    return Must(ReadFitTextForSimulation(json, "the fit", curve_id));
+  }
+  if (IsPath(parameters)) {
+    return Must(ReadFitForSimulation(TextOf("parameters", parameters), curve_id));
+  }
+  if (!py::hasattr(parameters, "keys")) {
+    Raise({"parameters: expected a mapping, a fit or a path", {}});
+  }
+  SetParameters(parameters, &options);
+  return options;
+}
+
+// pvlib's n Ns Vth as the ideality of a cell.
+void TakeModifiedIdeality(SimulateOptions* options) {
+  const auto given = options->parameters.find("nNsVth");
+  if (given == options->parameters.end()) return;
+  const double thermal = options->conditions.ModuleThermalVoltage(options->constants);
+  options->parameters["n"] = given->second / thermal;
+  options->parameters.erase("nNsVth");
+}
+
+void TakeLayout(Keywords* keywords, bool cells_told, SimulateOptions* options) {
+  const auto layout = keywords->Take("string");
+  if (!layout) return;
+  options->layout =
+      std::make_shared<const StringLayout>(Must(ReadStringLayout(TextOf("string", *layout))));
+  if (!cells_told) options->conditions.cells_in_series = options->layout->cells_in_series;
+}
+
+SimulateOptions ReadSimulateKeywords(py::handle parameters, Keywords* keywords, OwnEffects* own) {
+  std::string curve_id;
+  if (const auto id = keywords->Take("curve_id")) curve_id = TextOf("curve_id", *id);
+  SimulateOptions options = DeviceOf(parameters, curve_id);
+  const bool from_fit = options.taken.has_value() || options.shared.has_value() ||
+                        (!parameters.is_none() && !py::hasattr(parameters, "keys")) ||
+                        py::isinstance<Result>(parameters);
+  for (const char* name : kParameterKeywords) {
+    if (const auto value = keywords->Take(name)) options.parameters[name] = NumberOf(name, *value);
+  }
+  if (const auto with = keywords->Take("with_")) {
+    EffectsAsked effects = EffectsOf(*with);
+    for (EffectUse& use : effects.uses) options.with.push_back(std::move(use));
+    *own = std::move(effects.own);
+  }
+  ConditionOptions told;
+  keywords->Read(kConditionOptionTable, &told);
+  TakeLayout(keywords, from_fit || told.cells.has_value(), &options);
+  IvCurve conditions;
+  conditions.conditions = options.conditions;
+  ApplyTold(told, &conditions);
+  options.conditions = conditions.conditions;
+  if (const auto name = keywords->Take("name")) options.name = TextOf("name", *name);
+  keywords->Read(kSimulateOptionTable, &options);
+  TakeModifiedIdeality(&options);
+  return options;
+}
+
+IvCurve SimulateOne(py::handle parameters, py::handle voltage, const py::kwargs& given) {
+  Keywords keywords("simulate", given);
+  OwnEffects own;
+  SimulateOptions options = ReadSimulateKeywords(parameters, &keywords, &own);
+  keywords.Finish();
+  if (!voltage.is_none()) options.voltage_V = NumbersOf("voltage", voltage);
+  if (!voltage.is_none() && options.voltage_V.empty()) {
+    Raise({"voltage: expected at least one, found none", {}});
+  }
+  Expected<IvCurve> curve = Unlocked([&] { return Simulate(options); });
+  FaultsOf(own).Raise();
+  return Must(std::move(curve));
+}
+
+std::vector<KeywordNote> SimulateNotes() {
+  std::vector<KeywordNote> notes;
+  for (const char* name : kParameterKeywords) {
+    notes.push_back({name, "float", "None", "Device", ""});
+  }
+  AppendNotes(kSimulateOptionTable, SimulateOptions(), &notes);
+  AppendNotes(kConditionOptionTable, ConditionOptions(), &notes);
+  notes.push_back({"name", "str", "'simulated'", "Device", "of the curve"});
+  notes.push_back({"string", "str | PathLike[str]", "None", "Device", ""});
+  notes.push_back({"curve_id", "str", "None", "Device", ""});
+  return notes;
+}
+
+}  // namespace
+
+void BindSimulate(py::module_* module) {
+  DefineVerb(
+      module,
+      {"simulate", "parameters=None, voltage=None", kSimulateDoc, kSimulateEnd, SimulateNotes()},
+      &SimulateOne, py::arg("parameters") = py::none(), py::arg("voltage") = py::none());
+}
+
+}  // namespace lyrefit::python

@@ -1,0 +1,192 @@
+"""Families, diagnoses, translations, certificates and comparisons: what the command writes, byte for byte."""
+
+import json
+import tempfile
+import threading
+import time
+import unittest
+import _thread
+
+import numpy as np
+import pandas as pd
+
+import lyrefit
+from helpers import DATA, command, without_clocks
+
+CELL = DATA / "rtc_france"
+SHADED = DATA / "diagnosis" / "shaded_module.csv"
+SWEEPS = DATA / "diagnosis" / "sweeps"
+FAMILY = DATA / "s75_constructed"
+DEVICE = {"Iph": 0.7608, "Is1": 3.1e-7, "n1": 1.477, "Rs": 0.0365, "Rsh": 52.9}
+
+
+class Verbs(unittest.TestCase):
+    def same(self, result, *arguments, code=0):
+        self.assertEqual(without_clocks(command(*arguments, "--json", "-", code=code)), without_clocks(result.json))
+
+    def test_family(self):
+        joint = lyrefit.fit_family(FAMILY, family="desoto", folds=0, free_fits=False, search_curves=4, seed=3)
+        self.same(joint, "fit", FAMILY, "--family", "desoto", "--folds", 0, "--no-free-fits", "--search-curves", 4,
+                  "--seed", 3)
+        self.assertEqual(len(joint.frame()), len(joint["curves"]))
+        self.assertEqual(list(joint.parameter_frame()["parameter"]), list(joint.parameters))
+        self.assertEqual(joint.pvlib["parameters"]["R_s"], joint.parameters["R_s"])
+        self.assertIn("Rs", joint._repr_html_())
+        free = lyrefit.fit_family(FAMILY, family="free", intervals=False)
+        self.same(free, "fit", FAMILY, "--family", "free", "--intervals", "none")
+        self.assertEqual(len(free.fit_frame()), len(free["curves"]))
+
+    def test_data_sheet(self):
+        sheet = {"v_mp": "30.3", "i_mp": "8.58", "v_oc": "37.8", "i_sc": "9.05", "alpha_sc": "0.06%",
+                 "beta_voc": "-0.31%"}
+        flags = ["--vmp", "30.3", "--imp", "8.58", "--voc", "37.8", "--isc", "9.05", "--alpha", "0.06%",
+                 "--beta=-0.31%", "--cells", 60]
+        found = lyrefit.fit_datasheet(**sheet, cells_in_series=60, gamma_pmp="-0.41", name="M")
+        self.same(found, "datasheet", *flags, "--gamma=-0.41")
+        self.assertEqual(found.text, command("datasheet", *flags, "--gamma=-0.41"))
+        self.assertEqual(found.pvlib, json.loads(command("datasheet", *flags, "--name", "M", "--pvlib", "-")))
+        self.assertTrue(found.usable)
+        numbers = [30.3, 8.58, 37.8, 9.05, 9.05 * 0.0006, -37.8 * 0.0031, 60]
+        exact = lyrefit.fit_datasheet(*numbers)
+        self.assertIsNone(exact["parameters"]["R_s"]["low"])
+        self.assertLess(found["parameters"]["R_s"]["low"], exact.parameters["R_s"])
+        for name, value in found.parameters.items():
+            self.assertAlmostEqual(value, exact.parameters[name], delta=1e-9 * abs(value))
+        for wrong, sentence in [({"i_sc": "much"}, "i_sc: expected a number, found 'much'"),
+                                ({"beta_voc": None}, "beta_voc: expected a number"),
+                                ({"cells_in_series": 0}, "cells_in_series: 0 is outside"),
+                                ({"i_mp": 9.2}, "")]:
+            with self.subTest(wrong), self.assertRaisesRegex(lyrefit.Error, sentence):
+                lyrefit.fit_datasheet(**dict(sheet, cells_in_series=60) | wrong)
+
+    def test_a_search_of_ones_own(self):
+        """The fit goes on from its birds; what it raises is raised."""
+        seen = []
+
+        def mine(objective, lower, upper, options):
+            draws = np.random.default_rng(options["seed"]).uniform(lower, upper, (50, len(lower)))
+            seen.append(draws)
+            return draws[np.argsort(objective(draws))]
+
+        fit = lyrefit.fit(CELL, searcher=mine, seed=3)
+        self.assertEqual(fit["search"]["evaluations"], 50)
+        self.assertIn(fit["parameters"]["photocurrent"]["searched"], seen[0])
+        self.assertAlmostEqual(fit["rmse"]["refined"]["solved_current_A"],
+                               lyrefit.fit(CELL)["rmse"]["refined"]["solved_current_A"], delta=1e-12)
+        with self.assertRaises(ZeroDivisionError):
+            lyrefit.fit(CELL, searcher=lambda *all: 1 / 0)
+        with self.assertRaisesRegex(lyrefit.Error, "searcher: expected a function"):
+            lyrefit.fit(CELL, searcher="mlo")
+        with self.assertRaisesRegex(lyrefit.Error, "are for fit"):
+            lyrefit.fit_many([CELL], searcher=mine)
+
+    def test_family_of_a_long_frame(self):
+        curves = []
+        for light in (400, 700, 1000):
+            device = dict(DEVICE, Iph=0.7608 * light / 1000)
+            one = lyrefit.simulate(device, irradiance_Wm2=light, temperature_C=33, points=25).frame()
+            curves.append(one.assign(curve=f"at {light}", irradiance=light, temperature=33.0))
+        keywords = dict(folds=0, free_fits=False, fix={"R_sh_ref": 52.9}, shunt="constant")
+        of_frame = lyrefit.fit_family(pd.concat(curves), **keywords)
+        self.assertEqual(list(of_frame.frame()["id"]), ["at 400", "at 700", "at 1000"])
+        self.assertAlmostEqual(of_frame.parameters["R_s"], 0.0365, delta=1e-6)
+        of_list = lyrefit.fit_family(
+            {c["curve"].iloc[0]: lyrefit.Curve(c, irradiance_Wm2=c["irradiance"].iloc[0], temperature_C=33.0)
+             for c in curves}, **keywords)
+        self.assertEqual(of_frame.parameters, of_list.parameters)
+
+    def test_diagnose(self):
+        found = lyrefit.diagnose(SHADED, draws=400, held_out=False)
+        self.same(found, "diagnose", SHADED, "--draws", 400, "--no-held-out")
+        self.assertEqual(found.causes, ["shading"])
+        self.assertIn("partial shading", found.sentence)
+        self.assertEqual(len(found.frame()), len(found["trials"]))
+        self.assertEqual(list(found.cause_frame()["id" if "id" in found.cause_frame() else "cause"]), ["shading"])
+        self.assertIsNone(found.extended)
+
+    def test_diagnose_against_healthy_sweeps(self):
+        now = DATA / "diagnosis" / "sweep_now.csv"
+        options = dict(draws=200, held_out=False)
+        found = lyrefit.diagnose(now, healthy=SWEEPS, **options)
+        self.same(found, "diagnose", now, "--healthy", SWEEPS, "--draws", 200, "--no-held-out")
+        files = sorted(SWEEPS.glob("*.csv"))
+        if len(files) > 4:
+            one_by_one = lyrefit.diagnose(now, healthy=files, **options)
+            self.assertEqual(one_by_one.causes, found.causes)
+        odd = lyrefit.diagnose(SWEEPS, module=True)
+        self.same(odd, "diagnose", SWEEPS, "--module")
+        self.assertGreater(len(odd.frame()), 4)
+
+    def test_translate(self):
+        options = dict(procedures=["iec1", "desoto"], alpha="0.05%", draws=2000, seed=4, tracer="one")
+        found = lyrefit.translate(SHADED, to=(900, 40), **options)
+        self.same(found, "translate", SHADED, "--to", "900,40", "--procedures", "iec1,desoto", "--alpha", "0.05%",
+                  "--draws", 2000, "--seed", 4, "--tracer", "one")
+        self.assertEqual(list(found.frame()["procedure"])[:1], ["iec1"])
+        self.assertIn(found.recommended["procedure"], ("iec1", "desoto"))
+
+    def test_certify(self):
+        found = lyrefit.certify(CELL, models=["sd", "dd"], n_upper=2.5)
+        self.same(found, "certify", CELL, "--models", "sd,dd", "--n-upper", 2.5)
+        self.assertTrue(found.certified)
+        self.assertEqual(list(found.frame()["model"]), ["floor", "sd", "dd"])
+        curve = lyrefit.read_curve(CELL)
+        arrays = lyrefit.certify(curve.voltage, curve.current, temperature_C=33, models="sd")
+        self.assertEqual(arrays["floor"]["rmse_A"], lyrefit.certify(CELL, models="sd")["floor"]["rmse_A"])
+
+    def test_compare(self):
+        small = dict(models="sd", runs=4, population=10, iterations=10)
+        flags = ["--models", "sd", "--runs", 4, "--population", 10, "--iterations", 10]
+        found = lyrefit.compare(CELL, algorithms=["mlo", "random"], bounds="paper", **small)
+        self.same(found, "compare", CELL, "--algorithms", "mlo,random", "--bounds", "paper", *flags)
+        self.assertEqual(list(found.frame()["algorithm"]), ["mlo", "random"])
+        self.assertEqual(len(found.run_frame()), 8)
+
+        def mine(objective, lower, upper, options):
+            random = np.random.default_rng([options["seed"], options["run"]])
+            points = lower + (upper - lower) * random.random((options["population"] * options["iterations"], len(lower)))
+            return points[np.argsort(objective(points), kind="stable")[:4]]
+
+        twice = [lyrefit.compare(CELL, algorithms=["mlo", {"mine": mine}], **small) for _ in range(2)]
+        self.assertEqual(*(without_clocks(one.json) for one in twice))
+        own = twice[0].frame().set_index("algorithm").loc["mine"]
+        self.assertEqual(own["evaluations"], 100)
+        self.assertEqual(own["within_1e9"], 4)
+
+        def broken(objective, lower, upper, options):
+            return objective(lower[:-1])
+
+        with self.assertRaisesRegex(lyrefit.Error, "the objective takes arrays"):
+            lyrefit.compare(CELL, algorithms=broken, **small)
+        with self.assertRaisesRegex(ValueError, "best point"):
+            lyrefit.compare(CELL, algorithms=lambda *all: 3.0, **small)
+
+    def test_same_sentences(self):
+        """A mistake is said in the words of the command."""
+        for call, arguments in (
+            (lambda: lyrefit.diagnose("nowhere.csv"), ["diagnose", "nowhere.csv"]),
+            (lambda: lyrefit.certify("nowhere.csv"), ["certify", "nowhere.csv"]),
+            (lambda: lyrefit.fit_family(CELL), ["fit", CELL, "--family", "desoto"]),
+            (lambda: lyrefit.translate(SHADED, rated_W=-3), ["translate", SHADED, "--rated-W", "-3"]),
+        ):
+            with self.assertRaises(lyrefit.Error) as raised:
+                call()
+            self.assertIn(raised.exception.message, command(*arguments, code=1))
+        with self.assertRaisesRegex(TypeError, "did you mean 'draws'"):
+            lyrefit.diagnose(SHADED, draw=3)
+        with self.assertRaisesRegex(lyrefit.Error, "healthy and module"):
+            lyrefit.diagnose(SHADED, healthy=SWEEPS, module=True)
+
+    def test_progress_and_interrupt(self):
+        heard = []
+        lyrefit.compare(CELL, models="sd", runs=3, population=10, iterations=10, progress=heard.append)
+        self.assertIsInstance(heard[0], lyrefit.Progress)
+        begin = time.monotonic()
+        threading.Timer(0.3, _thread.interrupt_main).start()
+        with self.assertRaises(KeyboardInterrupt):
+            lyrefit.compare(CELL, runs=5000, threads=1)
+        self.assertLess(time.monotonic() - begin, 2.5)  # a second, on a machine that does much else
+
+
+if __name__ == "__main__":
+    unittest.main()

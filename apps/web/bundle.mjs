@@ -1,0 +1,48 @@
+// Packs the page into one file: its HTML, styles, scripts, examples, and the engine, packed.
+//   node bundle.mjs SCRIPT=engine.js WASM=engine.wasm SOURCE=repository VERSION=1.2.3 OUT=lyrefit.html LICENCES=file,file
+import {readFileSync, writeFileSync} from 'node:fs';
+import {basename, join} from 'node:path';
+import {gzipSync} from 'node:zlib';
+
+const given = Object.fromEntries(process.argv.slice(2).map((each) => {
+  const at = each.indexOf('=');
+  return [each.slice(0, at), each.slice(at + 1)];
+}));
+const text = (...path) => readFileSync(join(given.SOURCE, ...path), 'utf8');
+const page = (name) => text('apps/web/page', name);
+const report = (name) => text('lib/lyrefit/report/assets', name);
+
+const packed = (id, bytes) =>
+    `<script type="application/gzip" id="${id}">${gzipSync(bytes, {level: 9}).toString('base64')}</script>`;
+const packedJson = (id, data) => packed(id, JSON.stringify(data));
+// A script that stands in the page unread, for the worker.
+const unread = (id, script) => `<script type="text/plain" id="${id}">\n${script}</script>`;
+
+// Measurements with what lies beside them, under the names that they have in the page.
+const examples = {};
+for (const [name, folder, file] of [['rtc_france', 'rtc_france', 'curve'],
+                                    ['shaded_module', 'diagnosis', 'shaded_module']]) {
+  for (const extension of ['csv', 'json']) {
+    examples[`${name}.${extension}`] = text('data', folder, `${file}.${extension}`);
+  }
+}
+const licences = given.LICENCES.split(',').filter(Boolean)
+    .map((file) => `${'='.repeat(80)}\n${basename(join(file, '..'))}\n${'='.repeat(80)}\n\n${readFileSync(file, 'utf8')}`)
+    .join('\n');
+
+const parts = {
+  STYLE: report('page.css') + page('app.css'),
+  VERSION: given.VERSION,
+  DATA: [packed('engine-script', readFileSync(given.SCRIPT)), packed('engine-wasm', readFileSync(given.WASM)),
+         packedJson('examples', examples), packedJson('licences', licences),
+         unread('worker-script', page('worker.js'))].join('\n'),
+  SCRIPTS: [report('page.js'), ...['engine', 'curve_picture', 'form', 'read_view', 'report_view', 'app'].map(
+      (name) => page(`${name}.js`))].join('\n'),
+};
+for (const script of [parts.SCRIPTS, page('worker.js')]) {
+  if (/<\/script|<!--/i.test(script)) throw new Error('a script would end its element');
+}
+const html = page('index.html').replace(/@([A-Z]+)@/g, (whole, name) => parts[name] ?? whole);
+writeFileSync(given.OUT, html);
+const size = (name) => `${(readFileSync(given[name]).length / 1e6).toFixed(2)} MB`;
+console.log(`${given.OUT}: ${(html.length / 1e6).toFixed(2)} MB; the engine unpacked ${size('WASM')}, its script ${size('SCRIPT')}`);

@@ -1,0 +1,84 @@
+// Engines of the page: each a worker of its own, with the same files. Offers Engine, and engineParts(), which
+// promises what one is made of: unpacked and compiled once.
+let partsPromise = null;
+function engineParts() {
+  partsPromise ??= (async () => {
+    const [wasm, script] = await Promise.all([lyrefit.bytes('engine-wasm'), lyrefit.bytes('engine-script')]);
+    const worker = document.getElementById('worker-script').textContent;
+    return {
+      module: await WebAssembly.compile(wasm),
+      script: URL.createObjectURL(new Blob([script, '\n', worker], {type: 'text/javascript'})),
+    };
+  })();
+  return partsPromise;
+}
+
+class Engine {
+  constructor(parts) {
+    this.parts = parts;
+    this.files = new Map();
+    this.waiting = new Map();  // by number: what to do with an answer
+    this.last = 0;
+    this.begin();
+  }
+
+  begin() {
+    this.worker = new Worker(this.parts.script);
+    this.worker.onmessage = ({data}) => this.hear(data);
+    this.worker.onerror = (event) => {
+      event.preventDefault();
+      this.stop(`the engine failed: ${event.message}`);
+    };
+    this.worker.postMessage({action: 'start', module: this.parts.module});
+    for (const [name, bytes] of this.files) this.worker.postMessage({action: 'write', name, bytes});
+  }
+
+  hear({id, answer, failure, progress, memory}) {
+    const waiting = this.waiting.get(id);
+    if (failure !== undefined && !waiting) {
+      this.stop(`the engine failed: ${failure}`);
+      return;
+    }
+    if (!waiting) return;
+    if (progress) {
+      waiting.progress?.(progress);
+      return;
+    }
+    this.waiting.delete(id);
+    if (failure === undefined) {
+      this.memory = memory;
+      waiting.done(answer);
+    } else {
+      // What stands in its memory is not to be trusted: a new one takes its place.
+      waiting.done({error: `the engine failed: ${failure}`});
+      this.stop('the engine was begun anew');
+    }
+  }
+
+  write(name, bytes) {
+    this.files.set(name, bytes);
+    this.worker.postMessage({action: 'write', name, bytes});
+  }
+
+  remove(name) {
+    if (this.files.delete(name)) this.worker.postMessage({action: 'remove', name});
+  }
+
+  // The answer to a request; one with `stopped` where stop() came before it.
+  run(request, progress) {
+    const id = ++this.last;
+    return new Promise((done) => {
+      this.waiting.set(id, {done, progress});
+      this.worker.postMessage({action: 'run', id, request});
+    });
+  }
+
+  // Ends all work at once and is ready for more.
+  stop(why) {
+    this.worker.terminate();
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    this.begin();
+    for (const each of waiting) each.done({error: why, stopped: true});
+  }
+}

@@ -1,0 +1,86 @@
+// What was read of a file, as elements. Offers readView: what belongs to a file, its forms, its columns, its errors.
+const readView = (() => {
+  const kOwnGroups = ['Conditions', 'Reading'];  // of the options: these are said of each file
+  const kMainFields = {
+    cells: {label: 'Cells in series', unit: ''},
+    'temperature-C': {label: 'Cell temperature (°C)', unit: '°C'},
+    'irradiance-Wm2': {label: 'Irradiance (W/m²)', unit: 'W/m²'},
+  };
+  const kKnown = {cells: 'cells', 'temperature-C': 'temperature_C', 'irradiance-Wm2': 'irradiance_Wm2'};
+
+  // An error with the line of the file that it is about.
+  function showError(box, error, file) {
+    box.replaceChildren();
+    box.hidden = !error;
+    if (!error) return;
+    const sentence = document.createElement('strong');
+    sentence.textContent = error.text;
+    box.append(sentence);
+    const line = error.line > 0 && new TextDecoder('utf-8').decode(file.bytes).split('\n')[error.line - 1];
+    if (!line) return;
+    const excerpt = document.createElement('p');
+    excerpt.className = 'excerpt';
+    excerpt.append(`Line ${error.line}: `);
+    const at = document.createElement('mark');
+    at.textContent = line.slice(0, 300).replace(/\r$/, '');
+    excerpt.append(at);
+    box.append(excerpt);
+  }
+
+  function conditionFields(file, form, changed) {
+    const rows = form.filter((row) => kMainFields[row.name]).map((row) => {
+      const values = (file.look?.curves ?? []).map((curve) => curve[kKnown[row.name]]);
+      const one = values.length > 0 && values.every((value) => value === values[0]) ? values[0] : null;
+      const among = values.length > 1 && one === null && !values.includes(null);
+      const placeholder = one === null ? among ? 'as in the file' : 'not in the file' : String(Number(one.toPrecision(6)));
+      return {...row, ...kMainFields[row.name], placeholder, brief: true, unknown: one === null && !among};
+    });
+    const fields = formFields(rows, file.values, changed);
+    const known = (file.look?.curves ?? []).length > 0;
+    fields.forEach((field, i) => field.classList.toggle('unknown', rows[i].unknown && known));
+    return fields;
+  }
+
+  function columnTable(columns) {
+    const table = document.createElement('table');
+    const head = table.createTHead().insertRow();
+    for (const words of ['Column', 'Name', 'Read as']) {
+      const cell = document.createElement('th');
+      cell.scope = 'col';
+      cell.textContent = words;
+      head.append(cell);
+    }
+    const body = table.createTBody();
+    for (const {place, name, use} of columns) {
+      const row = body.insertRow();
+      for (const text of [place, name, use]) row.insertCell().textContent = text;
+    }
+    const box = document.createElement('div');
+    box.className = 'box';
+    box.tabIndex = 0;
+    box.setAttribute('role', 'group');
+    box.setAttribute('aria-label', 'Columns of the table');
+    box.append(table);
+    return box;
+  }
+
+  // Columns may be chosen from those that there are.
+  function readingFields(file, form, changed) {
+    const columns = file.look?.columns ?? [];
+    const rows = form.filter((row) => kOwnGroups.includes(row.group) && !kMainFields[row.name]).map((row) => {
+      const takesColumn = ['voltage-column', 'current-column'].includes(row.name) && columns.length > 0;
+      return !takesColumn ? row : {...row, choices: columns.map(({place}) => String(place)),
+                                   labels: columns.map(({place, name}) => `${place} ${name}`)};
+    });
+    return formFields(rows, file.values, changed);
+  }
+
+  // Writes a form anew, and leaves the keyboard where it was.
+  function fill(holder, fields) {
+    const field = holder.contains(document.activeElement) ? document.activeElement.closest('.field') : null;
+    holder.replaceChildren(...fields);
+    if (field) holder.querySelector(`[data-name="${field.dataset.name}"] :is(input, select, textarea)`)?.focus();
+  }
+
+  return {isOwn: (row) => kOwnGroups.includes(row.group), showError, conditionFields, readingFields, columnTable, fill};
+})();

@@ -1,0 +1,159 @@
+#include "request.h"
+
+#include <utility>
+
+#include "lyrefit/base/try.h"
+
+namespace lyrefit {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The rows of a form that no table has as the page needs them: which curve of a file, a model that
+// the data choose, the box that is searched.
+constexpr char kCurve[] = "curve";
+constexpr char kModel[] = "model";
+constexpr char kBounds[] = "bounds";
+constexpr char kAuto[] = "auto";
+
+void DescribeReading(ordered_json* rows) {
+  DescribeTable(kConditionOptionTable, ConditionOptions(), rows);
+  DescribeTable(kReadOptionTable, ReadOptions(), rows);
+}
+
+ordered_json DescribeFit() {
+  ordered_json rows = ordered_json::array();
+  DescribeReading(&rows);
+  rows.push_back({{"group", "Reading"},
+                  {"name", kCurve},
+                  {"unit", "INDEX"},
+                  {"doc", "which curve of a file that holds several"},
+                  {"kind", "text"},
+                  {"choices", ordered_json::array()}});
+  DescribeTable(kFitOptionTable, FitOptions(), &rows);
+  for (ordered_json& row : rows) {
+    if (row["name"] == kModel) row["choices"].push_back(kAuto);
+  }
+  rows.push_back({{"group", "Model"},
+                  {"name", kBounds},
+                  {"unit", "NAME"},
+                  {"doc", "the box that is searched: physical, derived from the curve, or wide"},
+                  {"kind", "text"},
+                  {"choices", {"physical", "wide"}},
+                  {"default", "physical"}});
+  DescribeTable(kSearchOptionTable, SearchOptions(), &rows);
+  return rows;
+}
+
+ordered_json DescribeDiagnose() {
+  ordered_json rows = ordered_json::array();
+  DescribeReading(&rows);
+  DescribeTable(kDiagnoseOptionTable, DiagnoseOptions(), &rows);
+  return rows;
+}
+
+// Takes the text of an option out of a form; empty where it says nothing.
+std::string Take(const std::string& name, FormTexts* form) {
+  const auto found = form->find(name);
+  if (found == form->end() || found->second.empty()) return "";
+  std::string text = found->second.front();
+  form->erase(found);
+  return text;
+}
+
+Expected<void> ReadReading(FormTexts* form, ReadingForm* file) {
+  const std::string curve = Take(kCurve, form);
+  if (!curve.empty()) {
+    int index = 0;
+    if (auto read = ReadNumber(curve, &index); !read) {
+      return Fail(std::string(kCurve) + ": " + read.error().message);
+    }
+    file->reading.curve = index;
+  }
+  TRY(ReadForm(kReadOptionTable, form, &file->reading));
+  return ReadForm(kConditionOptionTable, form, &file->conditions);
+}
+
+Expected<void> CheckNothingLeft(const FormTexts& form) {
+  if (form.empty()) return {};
+  return Fail("there is no option '" + form.begin()->first + "'");
+}
+
+// One text, or a list of them.
+Expected<std::vector<std::string>> TextsOf(const std::string& name, const nlohmann::json& value) {
+  std::vector<std::string> texts;
+  for (const nlohmann::json& each : value.is_array() ? value : nlohmann::json::array({value})) {
+    if (!each.is_string()) return Fail(name + ": expected text");
+    if (!each.get_ref<const std::string&>().empty()) texts.push_back(each);
+  }
+  return texts;
+}
+
+}  // namespace
+
+Expected<PageRequest> ReadRequest(const std::string& json) {
+  const nlohmann::json asked = nlohmann::json::parse(json, nullptr, false);
+  if (!asked.is_object()) return Fail("expected a request in JSON");
+  PageRequest request;
+  const auto text = [&asked](const char* name) {
+    const auto found = asked.find(name);
+    return found != asked.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  request.verb = text("verb");
+  request.file = text("file");
+  const auto options = asked.find("options");
+  if (options == asked.end()) return request;
+  if (!options->is_object()) return Fail("options: expected an object");
+  for (const auto& [name, value] : options->items()) {
+    TRY(std::vector<std::string> texts, TextsOf(name, value));
+    if (!texts.empty()) request.form[name] = std::move(texts);
+  }
+  return request;
+}
+
+ordered_json DescribeForms() { return {{"fit", DescribeFit()}, {"diagnose", DescribeDiagnose()}}; }
+
+Expected<ReadingForm> ReadLookForm(FormTexts form) {
+  ReadingForm file;
+  TRY(ReadReading(&form, &file));
+  return file;
+}
+
+Expected<FitForm> ReadFitForm(FormTexts form) {
+  FitForm fit;
+  TRY(ReadReading(&form, &fit.file));
+  if (form[kModel] == std::vector<std::string>{kAuto}) {
+    fit.automatic = true;
+    form.erase(kModel);
+  }
+  if (form[kModel].empty()) form.erase(kModel);
+  const std::string bounds = Take(kBounds, &form);
+  if (!bounds.empty() && bounds != "physical" && bounds != "wide") {
+    return Fail("bounds: expected physical or wide, found '" + bounds + "'");
+  }
+  TRY(ReadForm(kFitOptionTable, &form, &fit.options));
+  if (!bounds.empty()) fit.options.bounds.name = bounds;
+  if (!fit.options.with.empty()) {
+    if (fit.automatic) {
+      return Fail("model auto chooses among diodes alone: say which model stands beside 'with'");
+    }
+    const SearchOptions usual = FitOptions::SearchBesideShapes();
+    fit.options.search.population = usual.population;
+    fit.options.search.iterations = usual.iterations;
+  }
+  TRY(ReadForm(kSearchOptionTable, &form, &fit.options.search));
+  fit.options.threads = 1;
+  TRY(CheckNothingLeft(form));
+  return fit;
+}
+
+Expected<DiagnoseForm> ReadDiagnoseForm(FormTexts form) {
+  DiagnoseForm diagnose;
+  TRY(ReadReading(&form, &diagnose.file));
+  TRY(ReadForm(kDiagnoseOptionTable, &form, &diagnose.options));
+  diagnose.options.threads = 1;
+  TRY(CheckNothingLeft(form));
+  return diagnose;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,67 @@
+#include <cstdio>
+#include <stdexcept>
+#include <typeinfo>
+
+#include "lyrefit/fleet.h"
+#include "lyrefit/lyrefit.h"
+#include "lyrefit/search/search.h"
+
+// What goes over the border of a shared library: exceptions of the user's through the library, the
+// library's error thrown by a header of the user's, and a class that one side derives and the other
+// one calls.
+namespace {
+
+struct Enough : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+class NoCurves : public lyrefit::FleetSource {
+ public:
+  lyrefit::Expected<std::optional<lyrefit::FleetItem>> Next() override { return std::nullopt; }
+  lyrefit::FleetCurve Read(const lyrefit::FleetItem& /*item*/) const override { return {}; }
+  std::int64_t size() const override { return 0; }
+  lyrefit::Expected<std::string> Digest() const override { return "none"; }
+  std::vector<std::string> Remarks() const override { return {}; }
+};
+
+bool ThrowsThrough() {
+  lyrefit::Box box;
+  box.lower = {0};
+  box.upper = {1};
+  try {
+    lyrefit::Search([](const double*) -> double { throw Enough("enough"); }, box, {});
+  } catch (const Enough& enough) {
+    return enough.what() == std::string("enough");
+  }
+  return false;
+}
+
+bool ThrowsAnError() {
+  try {
+    lyrefit::ReadCurve("/nowhere/curve.csv").value();
+  } catch (const tl::bad_expected_access<lyrefit::Error>& bad) {
+    return bad.error().ToString().find("/nowhere/curve.csv") != std::string::npos;
+  }
+  return false;
+}
+
+bool CallsADerivedClass(const char* folder) {
+  NoCurves none;
+  lyrefit::BatchOptions options;
+  options.folder = folder;
+  const auto done = lyrefit::RunBatch(&none, lyrefit::FitTask(lyrefit::FleetFitOptions()), options);
+  return done && done->rows == 0 && typeid(none) != typeid(lyrefit::FleetSource);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::puts("across FOLDER"), 1;
+  const bool through = ThrowsThrough();
+  const bool error = ThrowsAnError();
+  const bool derived = CallsADerivedClass(argv[1]);
+  std::printf(
+      "an exception through the library %d, its error thrown %d, a derived class called %d\n",
+      through, error, derived);
+  return through && error && derived ? 0 : 1;
+}

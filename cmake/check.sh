@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds lyrefit with its tests and runs every test. With LYREFIT_FIELD_DATA=FOLDER in
+# Sets the machine up, builds lyrefit and its Python module with their tests and runs every test. With LYREFIT_FIELD_DATA=FOLDER in
 # the environment the tests on field measurements run as well.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
 
-InstallPackages build test peers pages
+InstallPackages build test peers pages python reference packages
 cd -- "$LYREFIT_ROOT"
-Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_FIELD_DATA="$field_data"
+Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build
 RunTests build

@@ -2,7 +2,7 @@
 # Builds with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs the tests
 # there: all but those of rates, which do the same thing many hundred times over, and those of browsers and
 # engines. What takes minutes there and is seen in other tests is skipped by itself (tests/repeats.h).
-# -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report.
+# -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report. `sanitize.sh --build` builds alone.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
@@ -10,6 +10,7 @@ field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
 InstallPackages build test clang
 cd -- "$LYREFIT_ROOT"
 Configure build-sanitize -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
-  -DLYREFIT_SANITIZE=ON -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_FIELD_DATA="$field_data"
+  -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld -DLYREFIT_SANITIZE=ON -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build-sanitize
+[[ ${1:-} != --build ]] || exit 0
 RunTests build-sanitize

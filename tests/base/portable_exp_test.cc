@@ -31,6 +31,18 @@ TEST(PortableExp, HasTheseBits) {
   EXPECT_EQ(PortableExp(33.3), 0x1.078401f5a3ec8p+48);
 }
 
+TEST(PortableExpm1, IsWithinThreeUlpAlsoCloseToZero) {
+  RandomStream random(4);
+  for (int k = 0; k < 1000000; ++k) {
+    const double size = std::pow(10.0, -300 + 302.5 * random.Uniform());
+    const double x = random.Uniform() < 0.5 ? -size : size;
+    const long double exact = std::expm1(static_cast<long double>(x));
+    const double found = PortableExpm1<double, std::uint64_t>(x);
+    ASSERT_LE(std::fabs(static_cast<double>((found - exact) / exact)), 3 * 0x1p-53) << x;
+  }
+  EXPECT_EQ((PortableExpm1<double, std::uint64_t>(0.0)), 0.0);
+}
+
 TEST(PortableLog, IsWithinTwoUlpOfTheLongDoubleLogarithm) {
   RandomStream random(3);
   for (int k = 0; k < 200000; ++k) {

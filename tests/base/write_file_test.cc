@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLimit = 1000;
+constexpr std::uintmax_t kMostBytes = 1000;
 
 int FilesIn(const std::string& folder) {
   int count = 0;
@@ -35,7 +35,7 @@ TEST(WriteTextFileTest, WritesAndReplacesAndLeavesNothingElse) {
   const std::string path = folder.Path("a.txt");
   ASSERT_TRUE(WriteTextFile(path, "one"));
   ASSERT_TRUE(WriteTextFile(path, "two"));
-  EXPECT_EQ(*ReadTextFile(path, kLimit), "two");
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "two");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
 }
 
@@ -47,7 +47,7 @@ TEST(WriteTextFileTest, KeepsPermissionsAndSymbolicLinks) {
   std::filesystem::create_symlink(path, folder.Path("link.txt"));
   ASSERT_TRUE(WriteTextFile(folder.Path("link.txt"), "new"));
   EXPECT_TRUE(std::filesystem::is_symlink(folder.Path("link.txt")));
-  EXPECT_EQ(*ReadTextFile(path, kLimit), "new");
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "new");
   EXPECT_EQ(std::filesystem::status(path).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
@@ -114,7 +114,7 @@ TEST(WriteTextFileTest, ALimitOfTheFileSizeIsAnErrorAndTheOldFileStays) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("cannot write the file: File too large"));
-  EXPECT_EQ(*ReadTextFile(path, kLimit), "old");
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "old");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
 }
 
@@ -148,7 +148,7 @@ TEST(WriteTextFileTest, ReplacesInSharedMemoryToo) {
   if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "no /dev/shm";
   ASSERT_TRUE(WriteTextFile(path, "one"));
   ASSERT_TRUE(WriteTextFile(path, "two"));
-  EXPECT_EQ(*ReadTextFile(path, kLimit), "two");
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "two");
   fs::remove(path);
 }
 

@@ -9,13 +9,13 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kRows = DataFolder("paper/rows.csv");
+const std::string kRowsFile = DataFolder("paper/rows.csv");
 const std::string kHead = "source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_A,n1\n";
-const std::string kGood =
+const std::string kGoodRow =
     "T,rtc_france,sd,a,9.8602E-04,0.760776,0.036377,53.7185,3.23021E-07,1.48118\n";
 
 TEST(AuditVerb, AuditsThePaperAndEndsWell) {
-  const AppResult result = RunApp("audit '" + kRows + "'");
+  const AppResult result = RunApp("audit '" + kRowsFile + "'");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("per cell (x 36)"));
   EXPECT_THAT(result.out, HasSubstr("at 75 C in place of 25 C"));
@@ -24,7 +24,7 @@ TEST(AuditVerb, AuditsThePaperAndEndsWell) {
 }
 
 TEST(AuditVerb, WritesJsonAloneOnRequest) {
-  const json j = json::parse(RunApp("audit '" + kRows + "' --json -").out, nullptr, false);
+  const json j = json::parse(RunApp("audit '" + kRowsFile + "' --json -").out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
   EXPECT_EQ(j["findings"].size(), 40U);
 }
@@ -32,8 +32,8 @@ TEST(AuditVerb, WritesJsonAloneOnRequest) {
 TEST(AuditVerb, ReportsBadRowsByLineAndAuditsTheRest) {
   const TempFolder folder;
   const std::string rows =
-      folder.Write("rows.csv", kHead + kGood + "T,nowhere,sd,b,1e-3,0.76,0.036,53,3e-7,1.48\n" +
-                                   "T,rtc_france,sd,c,1e-3,much,0.036,53,3e-7,1.48\n" + kGood);
+      folder.Write("rows.csv", kHead + kGoodRow + "T,nowhere,sd,b,1e-3,0.76,0.036,53,3e-7,1.48\n" +
+                                   "T,rtc_france,sd,c,1e-3,much,0.036,53,3e-7,1.48\n" + kGoodRow);
   const AppResult result = RunApp("audit '" + rows + "' --curves '" + DataFolder("") + "'");
   EXPECT_EQ(result.exit_code, 1);
   const std::string all = result.out + result.err;

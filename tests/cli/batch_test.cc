@@ -19,10 +19,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 #ifdef LYREFIT_SANITIZED
-constexpr double kPatience_s = 20;
+constexpr double kBatchPatience_s = 20;
 constexpr int kRows = 60;
 #else
-constexpr double kPatience_s = 5;
+constexpr double kBatchPatience_s = 5;
 constexpr int kRows = 400;
 #endif
 
@@ -69,7 +69,7 @@ TEST_F(BatchCommand, EndsOnSignalsAndGoesOn) {
     int status = 0;
     waitpid(child, &status, 0);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(took.count(), kPatience_s);
+    EXPECT_LT(took.count(), kBatchPatience_s);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 130) << FileText(folder_.Path("err"));
     EXPECT_THAT(FileText(folder_.Path("text")),

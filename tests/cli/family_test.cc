@@ -144,7 +144,7 @@ class FamilyVerbOnASet : public ::testing::Test {
 };
 
 // Quick, for tests that look at something else.
-const std::string kQuick = " --folds 0 --no-free-fits --iterations 20 --population 15";
+const std::string kQuickFamily = " --folds 0 --no-free-fits --iterations 20 --population 15";
 
 TEST_F(FamilyVerbOnASet, FindsTheDeviceBehindTheCurves) {
   const json j = FitJson(Set() + " --family desoto");
@@ -202,7 +202,7 @@ TEST_F(FamilyVerbOnASet, TestsParametersFromElsewhereOnTheSameCurves) {
       "other.json",
       R"({"a_ref": 1.0, "I_L_ref": 5.05, "I_o_ref": 1.2e-9, "R_s": 0.25, "R_sh_ref": 300,
           "alpha_sc": 0.0025})");
-  const std::string flags = " --family desoto" + kQuick;
+  const std::string flags = " --family desoto" + kQuickFamily;
   ASSERT_EQ(RunApp("fit " + Set() + flags + " --pvlib '" + own + "'").exit_code, 0);
   const std::string against = flags + " --against '" + own + "' --against '" + other + "'";
   const json j = FitJson(Set() + against);
@@ -248,8 +248,8 @@ TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
 }
 
 TEST_F(FamilyVerbOnASet, LeavesOutHoldsAndFrees) {
-  const json j =
-      FitJson(Set() + " --family desoto --leave-out c2,c5 --fix n=1.08 --free dEgdT" + kQuick);
+  const json j = FitJson(Set() + " --family desoto --leave-out c2,c5 --fix n=1.08 --free dEgdT" +
+                         kQuickFamily);
   int left_out = 0;
   for (const json& curve : j["curves"]) left_out += curve["role"] == "left-out";
   EXPECT_EQ(left_out, 2);
@@ -261,8 +261,8 @@ TEST_F(FamilyVerbOnASet, LeavesOutHoldsAndFrees) {
 }
 
 TEST_F(FamilyVerbOnASet, GivesTheSameTwice) {
-  json first = FitJson(Set() + " --family pvsyst --seed 7 --threads 1" + kQuick);
-  json second = FitJson(Set() + " --family pvsyst --seed 7 --threads 2" + kQuick);
+  json first = FitJson(Set() + " --family pvsyst --seed 7 --threads 1" + kQuickFamily);
+  json second = FitJson(Set() + " --family pvsyst --seed 7 --threads 2" + kQuickFamily);
   for (json* j : {&first, &second}) {
     RemoveSeconds(j);
     j->erase("options");
@@ -271,7 +271,7 @@ TEST_F(FamilyVerbOnASet, GivesTheSameTwice) {
 }
 
 TEST_F(FamilyVerbOnASet, IsBriefOnRequest) {
-  const AppResult result = RunApp("fit " + Set() + " --family desoto --brief" + kQuick);
+  const AppResult result = RunApp("fit " + Set() + " --family desoto --brief" + kQuickFamily);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith("set: desoto sd, 6 fitted"));
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);

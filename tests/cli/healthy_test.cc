@@ -15,10 +15,10 @@ using ::testing::StartsWith;
 
 const std::string kSweeps = "'" + DataFolder("diagnosis/sweeps") + "'";
 const std::string kNow = "'" + DataFolder("diagnosis/sweep_now.csv") + "'";
-const std::string kQuick = " --effects nonohmic_shunt --draws 200 --no-held-out ";
+const std::string kQuickHealthy = " --effects nonohmic_shunt --draws 200 --no-held-out ";
 
 TEST(DiagnoseHealthy, ComparesASweepWithItsPast) {
-  const AppResult result = RunApp("diagnose " + kNow + " --healthy " + kSweeps + kQuick);
+  const AppResult result = RunApp("diagnose " + kNow + " --healthy " + kSweeps + kQuickHealthy);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("series resistance +"));
   EXPECT_THAT(result.out, HasSubstr("13: unlike the other healthy sweeps"));
@@ -28,7 +28,7 @@ TEST(DiagnoseHealthy, ComparesASweepWithItsPast) {
 
 TEST(DiagnoseHealthy, WritesJson) {
   const AppResult result =
-      RunApp("diagnose " + kNow + " --healthy " + kSweeps + kQuick + "--json -");
+      RunApp("diagnose " + kNow + " --healthy " + kSweeps + kQuickHealthy + "--json -");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json j = json::parse(result.out);
   EXPECT_EQ(j["comparison"]["causes"][0]["id"], "series_resistance");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -10,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kData = LYREFIT_DATA_DIR;
+const std::string kShipped = LYREFIT_DATA_DIR;
 
 // The record that a page holds.
 nlohmann::json RecordOf(const std::string& html) {
@@ -22,10 +23,12 @@ nlohmann::json RecordOf(const std::string& html) {
 }
 
 TEST(Html, OfEveryVerbHoldsItsVerdictAPictureAndItsRecord) {
+  SKIP_IF_SANITIZED();
   for (const std::string& verb :
-       {"fit " + kData + "/rtc_france", "diagnose " + kData + "/diagnosis/shaded_module.csv",
-        "certify " + kData + "/rtc_france", "fit " + kData + "/s75_constructed --family desoto",
-        "compare " + kData + "/rtc_france --runs 2 --models sd --iterations 20"}) {
+       {"fit " + kShipped + "/rtc_france", "diagnose " + kShipped + "/diagnosis/shaded_module.csv",
+        "certify " + kShipped + "/rtc_france",
+        "fit " + kShipped + "/s75_constructed --family desoto",
+        "compare " + kShipped + "/rtc_france --runs 2 --models sd --iterations 20"}) {
     const TempFolder folder;
     const std::string page = folder.Path("page.html");
     const std::string json = folder.Path("record.json");
@@ -44,7 +47,7 @@ TEST(Html, OfEveryVerbHoldsItsVerdictAPictureAndItsRecord) {
 TEST(Html, OfSeveralFitsIsTheirTable) {
   const TempFolder folder;
   const std::string page = folder.Path("page.html");
-  const std::string files = kData + "/rtc_france " + kData + "/pwp201";
+  const std::string files = kShipped + "/rtc_france " + kShipped + "/pwp201";
   ASSERT_EQ(RunApp("fit " + files + " --quiet --html " + page).exit_code, 0);
   const std::string html = FileText(page);
   EXPECT_TRUE(html.find("fits of 2 curves") != std::string::npos);
@@ -52,14 +55,14 @@ TEST(Html, OfSeveralFitsIsTheirTable) {
 }
 
 TEST(Html, OfADiagnosisIsForOneCurve) {
-  const std::string sweep = kData + "/diagnosis/shaded_module.csv ";
+  const std::string sweep = kShipped + "/diagnosis/shaded_module.csv ";
   const AppResult result = RunApp("diagnose " + sweep + sweep + "--html x.html");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("--html is for one CURVE"));
 }
 
 TEST(Html, IsNotPutWhereItCannotBe) {
-  const AppResult result = RunApp("fit " + kData + "/rtc_france --html /nowhere/page.html");
+  const AppResult result = RunApp("fit " + kShipped + "/rtc_france --html /nowhere/page.html");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("/nowhere/page.html"));
 }

@@ -13,7 +13,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kSmall =
+const std::string kSmallLandscape =
     "budget --landscape strings_2,td_wide --devices 2 --algorithms shape,mlo,random "
     "--budgets 10,40 --multistart 2 ";
 
@@ -40,8 +40,8 @@ std::string Columns(const std::string& csv, std::size_t from, std::size_t count)
 
 TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
   const TempFolder folder;
-  const AppResult result =
-      RunApp(kSmall + "--json " + folder.Path("a.json") + " --csv " + folder.Path("a.csv"));
+  const AppResult result = RunApp(kSmallLandscape + "--json " + folder.Path("a.json") + " --csv " +
+                                  folder.Path("a.csv"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("Which search, from which budget, or none\n  strings_2: "));
   EXPECT_THAT(result.out, HasSubstr("starts from the curve's shape alone hit "));
@@ -83,8 +83,9 @@ TEST(LandscapeBudget, HasTheSameBitsOnAnyThreadsAndWhenTakenUp) {
   SKIP_IF_SANITIZED();
   const TempFolder folder;
   const auto run = [&](const std::string& flags, const std::string& name) {
-    const AppResult result = RunApp(kSmall + flags + " --json " + folder.Path(name + ".json") +
-                                    " --csv " + folder.Path(name + ".csv"));
+    const AppResult result =
+        RunApp(kSmallLandscape + flags + " --json " + folder.Path(name + ".json") + " --csv " +
+               folder.Path(name + ".csv"));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return Timeless(json::parse(FileText(folder.Path(name + ".json")), nullptr, false));
   };
@@ -96,7 +97,7 @@ TEST(LandscapeBudget, HasTheSameBitsOnAnyThreadsAndWhenTakenUp) {
       << "seconds too: they are those of the runs";
   EXPECT_EQ(Columns(FileText(folder.Path("one.csv")), 0, 14),
             Columns(FileText(folder.Path("three.csv")), 0, 14));
-  const AppResult other = RunApp(kSmall + "--seed 2 " + journal);
+  const AppResult other = RunApp(kSmallLandscape + "--seed 2 " + journal);
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_THAT(other.err, HasSubstr("this study was begun with"));
 }

@@ -9,6 +9,7 @@
 #include <regex>
 #include <thread>
 
+#include "repeats.h"
 #include "run_app.h"
 #include "start_app.h"
 
@@ -21,7 +22,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 // Slow enough for the slowest build; met within seconds.
-constexpr int kPatience_s = 120;
+constexpr int kAlarm_s = 120;
 
 // What a run shows on a terminal until it ends or hears a Ctrl-C, which comes as soon as it has
 // shown `until`.
@@ -33,7 +34,7 @@ std::string OnTerminal(std::vector<std::string> arguments, const std::string& un
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
-    alarm(kPatience_s);
+    alarm(kAlarm_s);
     execv(LYREFIT_APP, words.data());
     _exit(127);
   }
@@ -94,12 +95,13 @@ TEST(Progress, LivesInAStageThatTellsNoEnd) {
 }
 
 TEST(Progress, SaysElsewhereOnceThatARunWillTakeLong) {
-  const std::string said = OnStandardError(kStudy, kPatience_s);
+  const std::string said = OnStandardError(kStudy, kAlarm_s);
   EXPECT_THAT(said, StartsWith("lyrefit: this takes about "));
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
 }
 
 TEST(Progress, IsSilentWhereAsked) {
+  SKIP_IF_SANITIZED();
   std::vector<std::string> quiet = kStudy;
   quiet.push_back("--quiet");
   EXPECT_EQ(OnStandardError(quiet, 3), "");

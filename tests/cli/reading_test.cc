@@ -15,13 +15,13 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::string kFormats = std::string(LYREFIT_DATA_DIR) + "/formats/";
-const std::string kQuick = " --brief --no-polish --intervals none --population 5 --iterations 2";
+const std::string kQuickFit = " --brief --no-polish --intervals none --population 5 --iterations 2";
 
 TEST(ReadingFlags, ChooseColumnsAndArea) {
   for (const char* line :
        {"wide.csv --column 2", "pairs.csv --column I2", "two_tables.csv --curve 1",
         "other_names.csv --voltage-column 2 --current-column Proud", "density.txt --area-cm2 4"}) {
-    const AppResult result = RunApp("fit " + kFormats + line + kQuick);
+    const AppResult result = RunApp("fit " + kFormats + line + kQuickFit);
     EXPECT_NE(result.exit_code, 1) << line << ": " << result.err;
     EXPECT_THAT(result.out, HasSubstr("RMSE")) << line;
   }
@@ -46,7 +46,7 @@ TEST(ReadingFlags, ColumnsAreListed) {
 
 TEST(ReadingFlags, StandardInputIsRead) {
   for (const char* file : {"ec_lab.mpt", "utf16le.csv", "lists.json"}) {
-    const AppResult result = RunApp("fit -" + kQuick, kFormats + file);
+    const AppResult result = RunApp("fit -" + kQuickFit, kFormats + file);
     EXPECT_NE(result.exit_code, 1) << file << ": " << result.err;
     EXPECT_THAT(result.out, HasSubstr("standard input: sd")) << file;
   }
@@ -57,7 +57,7 @@ TEST(ReadingFlags, AReportInThePlaceOfTheSidecarIsUnderstood) {
   const std::string curve = folder.Path("module.csv");
   std::filesystem::copy_file(kFormats + "plain.csv", curve);
   const std::string report = folder.Path("module.json");
-  const std::string fit = "fit " + curve + " --cells 60 --temperature-C 47" + kQuick;
+  const std::string fit = "fit " + curve + " --cells 60 --temperature-C 47" + kQuickFit;
   ASSERT_NE(RunApp(fit + " --json " + report + " --force").exit_code, 1);
   const AppResult again = RunApp("fit " + curve + " --no-polish --intervals none");
   EXPECT_THAT(again.out, HasSubstr("module.json is a report of lyrefit, not a sidecar"));

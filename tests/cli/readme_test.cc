@@ -1,7 +1,7 @@
 // Every command of the README and of the pages it leads to that can be run with what ships is run,
 // and prints what stands below it. Left out are synopses (they hold brackets or CAPITALS for what
 // is to be filled in) and what a page itself says needs other data or takes its time, in a comment
-// on its line: "# needs ...", "# takes ...".
+// on its line: "# needs ...", "# takes a minute" (but not "# takes seconds").
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ bool StartsWith(const std::string& line, const std::string& start) {
 bool IsToBeRun(const std::string& command) {
   static const std::regex kFilledIn(
       R"([\[\]|]|\.\.\.|\b(CURVE|SET|ROWS|FILE|FIT|NAME)\b|=[A-Z]\b| [A-Z]\b)");
-  static const std::regex kLeftOut("# (needs|takes) ");
+  static const std::regex kLeftOut("# (needs|takes (?!(some )?seconds)) ?");
   return !std::regex_search(command, kFilledIn) && !std::regex_search(command, kLeftOut);
 }
 
@@ -123,18 +123,60 @@ TEST_P(Page, CommandsRunWithWhatShipsAndPrintWhatIsShown) {
   fs::current_path(before);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Readme, Page,
-    ::testing::Values("README.md", "data/README.md", "data/json.md", "data/diagnosis/README.md",
-                      "data/field/README.md", "data/formats/README.md",
-                      "lib/lyrefit/effects/README.md", "lib/lyrefit/family/README.md",
-                      "lib/lyrefit/fit/README.md"),
-    [](const ::testing::TestParamInfo<const char*>& page) {
-      std::string name = page.param;
-      std::replace_if(
-          name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-      return name;
-    });
+constexpr const char* kPages[] = {"README.md",
+                                  "data/README.md",
+                                  "data/json.md",
+                                  "data/diagnosis/README.md",
+                                  "data/field/README.md",
+                                  "data/formats/README.md",
+                                  "data/landscapes/README.md",
+                                  "lib/lyrefit/effects/README.md",
+                                  "lib/lyrefit/family/README.md",
+                                  "lib/lyrefit/fit/README.md"};
+
+INSTANTIATE_TEST_SUITE_P(Readme, Page, ::testing::ValuesIn(kPages),
+                         [](const ::testing::TestParamInfo<const char*>& page) {
+                           std::string name = page.param;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
+
+// The pages of the project, relative to it.
+std::vector<fs::path> AllPages() {
+  std::vector<fs::path> pages = {"README.md"};
+  for (const char* part : {"apps", "data", "lib", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(Project() / part)) {
+      if (entry.path().extension() != ".md") continue;
+      pages.push_back(fs::relative(entry.path(), Project()));
+    }
+  }
+  return pages;
+}
+
+TEST(Readme, EveryPageWithCommandsToBeRunIsAmongThoseRun) {
+  for (const fs::path& path : AllPages()) {
+    std::ifstream page(Project() / path);
+    const bool listed =
+        std::find(std::begin(kPages), std::end(kPages), path.string()) != std::end(kPages);
+    EXPECT_TRUE(listed || CommandsOf(page).empty()) << path;
+  }
+}
+
+// What takes its time, or needs another machine, is not run; but it is there.
+TEST(Readme, ScriptsThatPagesCallAreThere) {
+  static const std::regex kScript(R"((?:^|[\s'`])((?:cmake|tests|apps)/[\w/.-]+\.(?:sh|py|gp)))");
+  int scripts = 0;
+  for (const fs::path& path : AllPages()) {
+    const std::string text = FileText((Project() / path).string());
+    for (std::sregex_iterator script(text.begin(), text.end(), kScript);
+         script != std::sregex_iterator(); ++script, ++scripts) {
+      EXPECT_TRUE(fs::exists(Project() / (*script)[1].str())) << path << ": " << (*script)[1];
+    }
+  }
+  EXPECT_GE(scripts, 8);
+}
 
 // The heading that "#how-it-works" leads to, as pages are shown on the web.
 bool HasHeading(const fs::path& page, const std::string& anchor) {
@@ -154,22 +196,16 @@ bool HasHeading(const fs::path& page, const std::string& anchor) {
 TEST(Readme, LinksOfEveryPageLeadSomewhere) {
   static const std::regex kLink(R"(\]\(([^)#:\s]*)(?:#([^)\s]*))?\))");
   int links = 0;
-  for (const char* part : {"README.md", "data", "lib", "tests"}) {
-    std::vector<fs::path> pages = {Project() / part};
-    if (fs::is_directory(pages[0])) {
-      pages.assign(fs::recursive_directory_iterator(pages[0]), {});
-    }
-    for (const fs::path& page : pages) {
-      if (page.extension() != ".md") continue;
-      const std::string text = FileText(page.string());
-      for (std::sregex_iterator link(text.begin(), text.end(), kLink);
-           link != std::sregex_iterator(); ++link, ++links) {
-        const std::string path = (*link)[1];
-        const std::string anchor = (*link)[2];
-        const fs::path target = path.empty() ? page : page.parent_path() / path;
-        EXPECT_TRUE(fs::exists(target)) << page << ": " << link->str();
-        EXPECT_TRUE(anchor.empty() || HasHeading(target, anchor)) << page << ": " << link->str();
-      }
+  for (const fs::path& path : AllPages()) {
+    const fs::path page = Project() / path;
+    const std::string text = FileText(page.string());
+    for (std::sregex_iterator link(text.begin(), text.end(), kLink); link != std::sregex_iterator();
+         ++link, ++links) {
+      const std::string path = (*link)[1];
+      const std::string anchor = (*link)[2];
+      const fs::path target = path.empty() ? page : page.parent_path() / path;
+      EXPECT_TRUE(fs::exists(target)) << page << ": " << link->str();
+      EXPECT_TRUE(anchor.empty() || HasHeading(target, anchor)) << page << ": " << link->str();
     }
   }
   EXPECT_GE(links, 40);

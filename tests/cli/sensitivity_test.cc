@@ -9,10 +9,10 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kSmall = " --models sd --runs 2 --population 10 --iterations 20 ";
+const std::string kSmallStudy = " --models sd --runs 2 --population 10 --iterations 20 ";
 
 TEST(SensitivityVerb, PrintsGridsOfPmAndGamma) {
-  const AppResult result = RunApp("sensitivity " + kRtc + kSmall);
+  const AppResult result = RunApp("sensitivity " + kRtc + kSmallStudy);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("gamma = 0.75"));
@@ -21,10 +21,11 @@ TEST(SensitivityVerb, PrintsGridsOfPmAndGamma) {
 }
 
 TEST(SensitivityVerb, SharesTheCornerWithThePlainOptimizer) {
-  const std::string grid =
-      RunApp("sensitivity " + kRtc + kSmall + "--memory-rates 0 --distance-coefficients 0 --json -")
-          .out;
-  const std::string plain = RunApp("compare " + kRtc + kSmall + "--algorithms lo --json -").out;
+  const std::string grid = RunApp("sensitivity " + kRtc + kSmallStudy +
+                                  "--memory-rates 0 --distance-coefficients 0 --json -")
+                               .out;
+  const std::string plain =
+      RunApp("compare " + kRtc + kSmallStudy + "--algorithms lo --json -").out;
   const json a = json::parse(grid, nullptr, false)["problems"][0]["contenders"][0];
   const json b = json::parse(plain, nullptr, false)["problems"][0]["contenders"][0];
   EXPECT_EQ(a["name"], "Pm=0 gamma=0");
@@ -39,7 +40,7 @@ TEST(SensitivityVerb, RefusesBadLists) {
       {"--memory-rates 0,0", "is named twice"},
   };
   for (const auto& [flags, says] : cases) {
-    const AppResult result = RunApp("sensitivity " + kRtc + kSmall + flags);
+    const AppResult result = RunApp("sensitivity " + kRtc + kSmallStudy + flags);
     EXPECT_EQ(result.exit_code, 1) << flags;
     EXPECT_THAT(result.err, HasSubstr(says)) << flags;
   }

@@ -121,7 +121,7 @@ TEST(Simulate, RedrawsAFitWithoutPolish) {
   EXPECT_EQ(RunApp("simulate --from " + fit).exit_code, 0);
 }
 
-void ExpectRefused(const std::string& arguments, const std::string& says) {
+void ExpectSimulateRefused(const std::string& arguments, const std::string& says) {
   const AppResult result = RunApp(arguments);
   EXPECT_EQ(result.exit_code, 1) << arguments;
   EXPECT_EQ(result.out, "");
@@ -132,25 +132,26 @@ void ExpectRefused(const std::string& arguments, const std::string& says) {
 
 TEST(Simulate, RefusesWhatItCannotSimulate) {
   const TempFolder folder;
-  ExpectRefused("simulate --set Iph=1", "no value for");
-  ExpectRefused(kDevice + "--set n2=2", "n2");
-  ExpectRefused(kDevice + "--set Rsh=0", "Rsh");
-  ExpectRefused(kDevice + "--set Is1=-1", "Is1");
-  ExpectRefused(kDevice + "--set Iph=0", "open-circuit");
-  ExpectRefused(kDevice + "--voltages 0:1", "FROM:TO:COUNT");
-  ExpectRefused(kDevice + "--points 1", "points");
-  ExpectRefused(kDevice + "--noise-A -1", "noise");
-  ExpectRefused(kParameters + "--cells 0", "--cells: expected at least 1");
-  ExpectRefused(kParameters + "--temperature-C 318", "kelvin");
-  ExpectRefused(kDevice + "--cells 3", "--cells: given more than once");
-  ExpectRefused(kDevice + "--out " + folder.Path("no/x.csv"), "no/x.csv");
-  ExpectRefused(kDevice + "--out " + folder.Path("x.json"), ".json");
-  ExpectRefused("simulate --from " + folder.Path("no.json"), "does not exist");
-  ExpectRefused("simulate --from " + folder.Write("list.json", "[1, 2]"), "fit report");
-  ExpectRefused("simulate --from " + folder.Write("odd.json", R"({"model":"sd","constants":"codata",
+  ExpectSimulateRefused("simulate --set Iph=1", "no value for");
+  ExpectSimulateRefused(kDevice + "--set n2=2", "n2");
+  ExpectSimulateRefused(kDevice + "--set Rsh=0", "Rsh");
+  ExpectSimulateRefused(kDevice + "--set Is1=-1", "Is1");
+  ExpectSimulateRefused(kDevice + "--set Iph=0", "open-circuit");
+  ExpectSimulateRefused(kDevice + "--voltages 0:1", "FROM:TO:COUNT");
+  ExpectSimulateRefused(kDevice + "--points 1", "points");
+  ExpectSimulateRefused(kDevice + "--noise-A -1", "noise");
+  ExpectSimulateRefused(kParameters + "--cells 0", "--cells: expected at least 1");
+  ExpectSimulateRefused(kParameters + "--temperature-C 318", "kelvin");
+  ExpectSimulateRefused(kDevice + "--cells 3", "--cells: given more than once");
+  ExpectSimulateRefused(kDevice + "--out " + folder.Path("no/x.csv"), "no/x.csv");
+  ExpectSimulateRefused(kDevice + "--out " + folder.Path("x.json"), ".json");
+  ExpectSimulateRefused("simulate --from " + folder.Path("no.json"), "does not exist");
+  ExpectSimulateRefused("simulate --from " + folder.Write("list.json", "[1, 2]"), "fit report");
+  ExpectSimulateRefused(
+      "simulate --from " + folder.Write("odd.json", R"({"model":"sd","constants":"codata",
       "parameters":{},"curve":[],"rmse":[1]})"),
-                "curve.conditions");
-  ExpectRefused(
+      "curve.conditions");
+  ExpectSimulateRefused(
       "simulate --from " + folder.Write("many.json", R"({"model":"sd","constants":"codata",
       "parameters":{},"curves":3})"),
       "a model of 3 curves");

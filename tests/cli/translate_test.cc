@@ -14,7 +14,8 @@ using ::testing::HasSubstr;
 
 const std::string kCell = std::string("translate ") + LYREFIT_DATA_DIR + "/rtc_france ";
 const std::string kAt = "--irradiance-Wm2 1000 ";
-const std::string kQuick = "--draws 200 --effects nonohmic_shunt --alpha 0.05% --beta -0.35% ";
+const std::string kQuickTranslation =
+    "--draws 200 --effects nonohmic_shunt --alpha 0.05% --beta -0.35% ";
 
 TEST(TranslateVerb, RefusesBadInputWithOneSentence) {
   ExpectRefusals("", {{"translate", "CURVE"},
@@ -63,13 +64,14 @@ TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
 }
 
 TEST(TranslateVerb, WarnsOfStepsThatNobodyMeasured) {
-  const AppResult result = RunApp(kCell + "--irradiance-Wm2 60 " + kQuick + "--procedures desoto");
+  const AppResult result =
+      RunApp(kCell + "--irradiance-Wm2 60 " + kQuickTranslation + "--procedures desoto");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("the stated uncertainty is too small"));
 }
 
 TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
-  const AppResult result = RunApp(kCell + kAt + kQuick + "--to STC");
+  const AppResult result = RunApp(kCell + kAt + kQuickTranslation + "--to STC");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::size_t answer = result.out.find("here, k = 2"), table = result.out.find("Procedures");
   ASSERT_NE(answer, std::string::npos) << result.out;
@@ -81,7 +83,8 @@ TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
 }
 
 TEST(TranslateVerb, WritesWhatItPrints) {
-  const AppResult text = RunApp(kCell + kAt + kQuick + "--rated-W 0.3 --tolerance -3,+3 --json -");
+  const AppResult text =
+      RunApp(kCell + kAt + kQuickTranslation + "--rated-W 0.3 --tolerance -3,+3 --json -");
   ASSERT_EQ(text.exit_code, 0) << text.err;
   const json j = json::parse(text.out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
@@ -95,16 +98,16 @@ TEST(TranslateVerb, WritesWhatItPrints) {
     EXPECT_EQ(result["budget"]["results"].size(), 6U);
     EXPECT_GT(result["key_points"]["max_power_W"].get<double>(), 0.3);
   }
-  const AppResult csv = RunApp(kCell + kAt + kQuick + "--csv -");
+  const AppResult csv = RunApp(kCell + kAt + kQuickTranslation + "--csv -");
   ASSERT_EQ(csv.exit_code, 0) << csv.err;
   EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 8);
-  const AppResult again = RunApp(kCell + kAt + kQuick + "--csv - --threads 1");
+  const AppResult again = RunApp(kCell + kAt + kQuickTranslation + "--csv - --threads 1");
   EXPECT_EQ(csv.out, again.out);
 }
 
 TEST(TranslateVerb, IsBriefWhereItIsAskedTo) {
   const AppResult result =
-      RunApp(kCell + kAt + kQuick + "--procedures iec4,desoto --to 800,25 --brief");
+      RunApp(kCell + kAt + kQuickTranslation + "--procedures iec4,desoto --to 800,25 --brief");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
   EXPECT_THAT(result.out, HasSubstr("W at 800 W/m2, 25 C (k = 2, "));

@@ -19,7 +19,7 @@ constexpr const char* kLaboratory = " --noise white --floor-current 0 --floor-po
 using ::nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr char kQuick[] = " --iterations 15 --population 12 --quiet ";
+constexpr char kQuickRun[] = " --iterations 15 --population 12 --quiet ";
 
 class WithFamily : public ::testing::Test {
  protected:
@@ -128,7 +128,7 @@ TEST_F(WithFamily, ADiagnosisOfManyCurvesIsSimulatedAgain) {
 
 TEST_F(WithFamily, APlainFamilysCurveIsThatOfItsOwnParameters) {
   ASSERT_EQ(Fit("--family pvsyst --temperature-offset --irradiance-accuracy 1 --json " +
-                Quoted("plain.json") + kQuick)
+                Quoted("plain.json") + kQuickRun)
                 .exit_code,
             0);
   const json report = Read("plain.json");
@@ -147,7 +147,7 @@ TEST_F(WithFamily, APlainFamilysCurveIsThatOfItsOwnParameters) {
 
 TEST_F(WithFamily, SaysWhatIsWrong) {
   ExpectRefusals(
-      "fit " + Quoted("set") + kQuick + " ",
+      "fit " + Quoted("set") + kQuickRun + " ",
       {
           {"--family desoto --with nonsense", "there is no effect 'nonsense'"},
           {"--family desoto --with shading", "each curve of a set has its own (--force"},

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kField[] = LYREFIT_FIELD_DATA_DIR;
+constexpr char kMeasured[] = LYREFIT_FIELD_DATA_DIR;
 
 std::vector<fs::path> TablesUnder(const fs::path& folder) {
   std::vector<fs::path> tables;
@@ -38,7 +38,7 @@ bool SaysThatTheSignWasTurned(const IvCurve& curve) {
 }
 
 TEST(FieldDataTest, EverySingleCurveIsReadWithItsSign) {
-  const fs::path root(kField);
+  const fs::path root(kMeasured);
   for (const char* folder : {"field", "benchmark"}) {
     const std::vector<fs::path> tables = TablesUnder(root / folder);
     EXPECT_GE(tables.size(), 8U);
@@ -54,7 +54,7 @@ TEST(FieldDataTest, EverySingleCurveIsReadWithItsSign) {
 }
 
 TEST(FieldDataTest, ACurveOfASetIsReadByItsNumber) {
-  const fs::path root(kField);
+  const fs::path root(kMeasured);
   const std::string path = (root / "field/sdle_ddiv_timeseries/curves.csv").string();
   EXPECT_FALSE(ReadCurve(path));
   ReadOptions options;
@@ -71,7 +71,7 @@ TEST(FieldDataTest, AllContestCurvesAreRead) {
   int curves = 0;
   for (const char* name : {"case1", "case2", "case3a", "case3b", "case3c", "case3d"}) {
     SCOPED_TRACE(name);
-    const fs::path path = fs::path(kField) / "ivcurves" / (std::string(name) + ".json");
+    const fs::path path = fs::path(kMeasured) / "ivcurves" / (std::string(name) + ".json");
     const auto set = ReadIvCurvesJson(path.string());
     ASSERT_TRUE(set) << set.error().ToString();
     for (const IvCurve& curve : *set) {
@@ -85,7 +85,7 @@ TEST(FieldDataTest, AllContestCurvesAreRead) {
 
 TEST(FieldDataTest, EveryPanelCaseIsReadWholeOrSweepBySweep) {
   int cases = 0;
-  for (const fs::path& table : TablesUnder(fs::path(kField) / ".." / "panel" / "cases")) {
+  for (const fs::path& table : TablesUnder(fs::path(kMeasured) / ".." / "panel" / "cases")) {
     SCOPED_TRACE(table);
     ++cases;
     ReadOptions options;

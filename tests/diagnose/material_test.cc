@@ -7,6 +7,7 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/words.h"
 #include "made_bench.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -143,6 +144,7 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
 }
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
+  SKIP_IF_SANITIZED();
   // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
   const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const Done done = Do("weak_cell", weak);
@@ -182,6 +184,7 @@ TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
 }
 
 TEST(FieldDiagnosis, FindsAWeakCellInOneHalfOfAHalfCutModule) {
+  SKIP_IF_SANITIZED();
   // At the terminals a third of the substring's light is missing, of its cell two thirds.
   const Done done = Do("weak_cell", {0.33, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 2});
   const Diagnosis d = DiagnosedInTheField(done.curve);

@@ -38,7 +38,7 @@ Noisy MakeNoisy(const std::vector<Recipe>& recipes) {
   return made;
 }
 
-Noise Estimate(const Noisy& made, const DeviceNotes& notes = {}, const Grids& grids = {}) {
+Noise EstimateNoiseOf(const Noisy& made, const DeviceNotes& notes = {}, const Grids& grids = {}) {
   Measurement measurement = made.measurement;
   measurement.notes = notes;
   measurement.values.grids = grids;
@@ -60,7 +60,8 @@ TEST(EstimateNoiseTest, FindsEqualNoise) {
       recipe.points = points;
       recipe.seed = seed;
       const Noisy made = MakeNoisy({recipe});
-      return UpperMedian(Estimate(made).sigma) * made.measurement.readings.scale.current_A / 0.004;
+      return UpperMedian(EstimateNoiseOf(made).sigma) * made.measurement.readings.scale.current_A /
+             0.004;
     });
     EXPECT_GT(ratio, 0.9) << points;
     EXPECT_LT(ratio, 1.15) << points;
@@ -76,7 +77,7 @@ TEST(EstimateNoiseTest, FindsNoiseInProportion) {
     recipe.noise_relative = 0.003;
     recipe.seed = seed;
     const Noisy made = MakeNoisy({recipe});
-    const Noise noise = Estimate(made);
+    const Noise noise = EstimateNoiseOf(made);
     const auto& points = made.measurement.readings.points;
     top.push_back(noise.sigma.front() / 0.003);
     int smallest = 0;
@@ -95,11 +96,12 @@ TEST(EstimateNoiseTest, NeverFallsBelowWhatAGridLeaves) {
   recipe.noise_A = 1e-6;
   Noisy made = MakeNoisy({recipe});
   const double grid = 0.01;
-  for (const double sigma : Estimate(made, {}, {grid, grid}).sigma) EXPECT_GE(sigma, 0.25 * grid);
+  for (const double sigma : EstimateNoiseOf(made, {}, {grid, grid}).sigma)
+    EXPECT_GE(sigma, 0.25 * grid);
   const double step = 0.02;  // of noise that is mostly rounding
   RandomStream random(3);
   for (double& r : made.residual) r = step * (random.Uniform() - 0.5);
-  const double found = UpperMedian(Estimate(made, {}, {step, step}).sigma);
+  const double found = UpperMedian(EstimateNoiseOf(made, {}, {step, step}).sigma);
   EXPECT_NEAR(found, step / std::sqrt(12), 0.3 * step / std::sqrt(12));
 }
 
@@ -107,7 +109,7 @@ TEST(IsCoarseTest, WeighsAGridAgainstTheNoise) {
   Recipe recipe;
   recipe.points = 100;
   const Noisy made = MakeNoisy({recipe});
-  const Noise noise = Estimate(made);
+  const Noise noise = EstimateNoiseOf(made);
   const double sigma = UpperMedian(noise.sigma);
   const auto coarse = [&](const Grids& grids) {
     Measurement measurement = made.measurement;
@@ -124,21 +126,21 @@ TEST(EstimateNoiseTest, SmoothMisfitIsNoNoise) {
   Recipe recipe;
   recipe.points = 150;
   Noisy made = MakeNoisy({recipe});
-  const double before = UpperMedian(Estimate(made).sigma);
+  const double before = UpperMedian(EstimateNoiseOf(made).sigma);
   for (std::size_t k = 0; k < made.residual.size(); ++k) {
     made.residual[k] += 0.02 * std::sin(4 * made.measurement.readings.points[k].x);
   }
-  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.05 * before);
+  EXPECT_NEAR(UpperMedian(EstimateNoiseOf(made).sigma), before, 0.05 * before);
 }
 
 TEST(EstimateNoiseTest, StepsAndOutliersAreNoNoise) {
   Recipe recipe;
   recipe.points = 150;
   Noisy made = MakeNoisy({recipe});
-  const double before = UpperMedian(Estimate(made).sigma);
+  const double before = UpperMedian(EstimateNoiseOf(made).sigma);
   made.residual[40] += 0.05;
   for (std::size_t k = 90; k < made.residual.size(); ++k) made.residual[k] += 0.01;
-  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.25 * before);
+  EXPECT_NEAR(UpperMedian(EstimateNoiseOf(made).sigma), before, 0.25 * before);
 }
 
 TEST(EstimateNoiseTest, DarkCurvesHaveTheirOwn) {
@@ -149,7 +151,7 @@ TEST(EstimateNoiseTest, DarkCurvesHaveTheirOwn) {
   dark.noise_A = 0.0002;
   dark.seed = 5;
   const Noisy made = MakeNoisy({lit, dark});
-  const Noise noise = Estimate(made);
+  const Noise noise = EstimateNoiseOf(made);
   const double scale = made.measurement.readings.scale.current_A;
   EXPECT_NEAR(noise.sigma.front() * scale, 0.004, 0.0012);
   EXPECT_NEAR(noise.dark.constant * scale, 0.0002, 0.00008);
@@ -162,32 +164,32 @@ TEST(EstimateNoiseTest, AStatedShapeIsKeptAndItsSizeMeasured) {
   DeviceNotes notes;
   notes.current_noise_constant_A = 0.04;  // ten times what it is
   notes.current_noise_relative = 0.0;
-  const Noise noise = Estimate(made, notes);
+  const Noise noise = EstimateNoiseOf(made, notes);
   EXPECT_NEAR(noise.lit.constant * made.measurement.readings.scale.current_A, 0.004, 0.0008);
   EXPECT_NEAR(noise.sigma.front(), noise.sigma.back(), 1e-6 * noise.sigma.front());
 }
 
 TEST(EstimateNoiseTest, LeftOutReadingsDoNotCount) {
   Noisy made = MakeNoisy({Recipe()});
-  const double before = UpperMedian(Estimate(made).sigma);
+  const double before = UpperMedian(EstimateNoiseOf(made).sigma);
   for (const int k : {10, 20, 21, 30}) {
     made.residual[k] = 3;
     made.used[k] = 0;
   }
-  EXPECT_NEAR(UpperMedian(Estimate(made).sigma), before, 0.25 * before);
+  EXPECT_NEAR(UpperMedian(EstimateNoiseOf(made).sigma), before, 0.25 * before);
 }
 
 TEST(EstimateNoiseTest, FewReadingsAndNoNoiseAreNoHarm) {
   Recipe recipe;
   recipe.points = 7;
   recipe.noise_A = 0;
-  for (const double sigma : Estimate(MakeNoisy({recipe})).sigma) {
+  for (const double sigma : EstimateNoiseOf(MakeNoisy({recipe})).sigma) {
     EXPECT_TRUE(std::isfinite(sigma));
     EXPECT_GT(sigma, 0);
   }
   Noisy none = MakeNoisy({Recipe()});
   none.used.assign(none.used.size(), 0);
-  for (const double sigma : Estimate(none).sigma) EXPECT_GT(sigma, 0);
+  for (const double sigma : EstimateNoiseOf(none).sigma) EXPECT_GT(sigma, 0);
 }
 
 Autocorrelation Correlate(double rho, int points, int seed) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kOrdinary = 1.2, kMisfit = 0.004, kFloor = 0.0025;
 
-Recipe Module(bool and_back = false) {
+Recipe SweptModule(bool and_back = false) {
   Recipe recipe;
   recipe.cells = 60;
   recipe.and_back = and_back;
@@ -39,7 +39,7 @@ LawFit Before(double n = kOrdinary) {
 }
 
 TEST(HasPossibleSize, RefusesWhatCannotBe) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const Readings& readings = *made.bench.readings;
   const auto possible = [&](const Rival& rival, const LawFit& before = Before()) {
     return HasPossibleSize(readings, before, rival);
@@ -62,7 +62,7 @@ std::size_t Preferred(const MadeBench& made, const std::vector<Rival>& rivals) {
 }
 
 TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 92)}),
             1U);
   EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("mismatch", kUnequal, 80)}),
@@ -70,7 +70,7 @@ TEST(Prefer, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
 }
 
 TEST(Prefer, TakesWhatLeavesAsLittleAndSupposesLess) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const auto leaving = [](Rival rival, double left) {
     rival.left = left;
     return rival;
@@ -83,7 +83,7 @@ TEST(Prefer, TakesWhatLeavesAsLittleAndSupposesLess) {
 }
 
 TEST(Prefer, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const Rival mismatch = RivalOf("mismatch", kUnequal, 92);
   const auto beside = [&](double n) {
     return Preferred(made, {RivalOf("distributed_rs", {0.05}, 100, n), mismatch});
@@ -93,7 +93,7 @@ TEST(Prefer, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
 }
 
 TEST(Prefer, OneDimCellIsAWeakCell) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const std::vector<double> weak = {0.1, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const auto beside = [&](double cells) {
     return Preferred(made,
@@ -104,7 +104,7 @@ TEST(Prefer, OneDimCellIsAWeakCell) {
 }
 
 TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
-  const MadeBench made = OnTheBench(MadeCurve(Module(/*and_back=*/true)));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule(/*and_back=*/true)));
   EXPECT_EQ(Preferred(made, {RivalOf("transient", kDip, 100), RivalOf("capacitance", kLag, 80)}),
             1U);
   EXPECT_EQ(Preferred(made, {RivalOf("drift", {0.02}, 100), RivalOf("capacitance", kLag, 80)}), 0U);
@@ -113,7 +113,7 @@ TEST(Prefer, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
 TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
   const std::vector<double> range = {0.02, 0.6}, cloud = {0.02, 0};
   for (const bool both : {false, true}) {
-    const MadeBench made = OnTheBench(MadeCurve(Module(both)));
+    const MadeBench made = OnTheBench(MadeCurve(SweptModule(both)));
     const auto preferred = [&](double of_range, double of_cloud) {
       const Rival a = RivalOf("range_switch", range, of_range);
       const Rival b = RivalOf("irr_step", cloud, of_cloud);
@@ -132,7 +132,7 @@ TEST(Prefer, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
 // rise and fall.
 TEST(LightMoved, SaysNothingOfTwoSweeps) {
   for (const bool both : {false, true}) {
-    IvCurve curve = MadeCurve(Module(both));
+    IvCurve curve = MadeCurve(SweptModule(both));
     for (std::size_t k = 0; k < curve.size(); ++k) {
       curve.current_A[k] *= 1 + 0.004 * static_cast<double>(std::min<std::size_t>(k, 15));
     }
@@ -141,14 +141,14 @@ TEST(LightMoved, SaysNothingOfTwoSweeps) {
 }
 
 TEST(Prefer, TakesWhatSupposesLess) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   EXPECT_EQ(Preferred(made, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 99)}), 1U);
   EXPECT_EQ(Preferred(made, {RivalOf("weak_cell", weak, 100), RivalOf("shading", kShade, 70)}), 0U);
 }
 
 TEST(Prefer, KeepsTheComplexOneWhereItsCurveIsAnother) {
-  const MadeBench made = OnTheBench(MadeCurve(Module()));
+  const MadeBench made = OnTheBench(MadeCurve(SweptModule()));
   const std::vector<double> both = {0.3, 1. / 3, 0.6, 1. / 3, 0, 0, 0, 0, 0.5, 1};
   const std::vector<Rival> rivals = {RivalOf("substrings", both, 100),
                                      RivalOf("shading", kShade, 99)};
@@ -158,7 +158,7 @@ TEST(Prefer, KeepsTheComplexOneWhereItsCurveIsAnother) {
 }
 
 TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
-  IvCurve curve = MadeCurve(Module());
+  IvCurve curve = MadeCurve(SweptModule());
   EXPECT_FALSE(LightMoved(*OnTheBench(curve).bench.readings));
   for (std::size_t k = 0; k < curve.size() / 2; ++k) {
     curve.current_A[k] *= 0.9 + 0.1 * static_cast<double>(k) / (0.5 * curve.size());

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Recipe Module() {
+Recipe PlainModule() {
   Recipe recipe;
   recipe.cells = 60;
   recipe.irradiance_W_m2 = 800;
@@ -21,7 +21,7 @@ Recipe Module() {
 }
 
 TEST(FitSweep, FindsTheDeviceThatMadeTheSweep) {
-  const auto sweep = FitSweep(MadeCurve(Module()));
+  const auto sweep = FitSweep(MadeCurve(PlainModule()));
   ASSERT_TRUE(sweep) << sweep.error().message;
   const SweepState& state = sweep->state;
   EXPECT_EQ(state.cells, 60);
@@ -35,7 +35,7 @@ TEST(FitSweep, FindsTheDeviceThatMadeTheSweep) {
 }
 
 TEST(FitSweep, SeesTheShapeOfWhatTheDiodeMisses) {
-  IvCurve curve = MadeCurve(Module());
+  IvCurve curve = MadeCurve(PlainModule());
   for (std::size_t k = 0; k < curve.size(); ++k) {
     curve.current_A[k] += 0.05 * std::sin(20 * curve.voltage_V[k] / 37);
   }
@@ -46,18 +46,18 @@ TEST(FitSweep, SeesTheShapeOfWhatTheDiodeMisses) {
 
 TEST(FitSweep, RefusesWhatIsNoSweepOfAModuleInTheLight) {
   EXPECT_THAT(FitSweep(MadeDarkCurve()).error().message, HasSubstr("dark"));
-  IvCurve dead = MadeCurve(Module());
+  IvCurve dead = MadeCurve(PlainModule());
   dead.name = "dead";
   for (double& current : dead.current_A) current = 0;
   EXPECT_THAT(FitSweep(dead).error().message, HasSubstr("dead"));
-  Recipe reverse = Module();
+  Recipe reverse = PlainModule();
   reverse.from_V = -0.5;
   reverse.to_V = 0.2;
   EXPECT_FALSE(FitSweep(MadeCurve(reverse)) && FitSweep(MadeCurve(reverse))->state.voc_V < 1);
 }
 
 TEST(StateWith, FollowsWhatIsDoneToTheReadings) {
-  const auto sweep = FitSweep(MadeCurve(Module()));
+  const auto sweep = FitSweep(MadeCurve(PlainModule()));
   ASSERT_TRUE(sweep) << sweep.error().message;
   const Readings& readings = *sweep->bench.readings;
   std::vector<double> change(readings.points.size(), 0.0);

@@ -7,6 +7,7 @@
 
 #include "../repeats.h"
 #include "diagnose/made_diagnosis.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -16,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-IvCurve Module(bool and_back = false) {
+IvCurve ModuleCurve(bool and_back = false) {
   Recipe recipe;
   recipe.cells = 60;
   recipe.points = 120;
@@ -39,7 +40,7 @@ void ChangeRange(double below_A, double gain, IvCurve* curve) {
 TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
   SKIP_IF_SANITIZED();
   for (const double gain : {0.05, -0.06}) {
-    IvCurve curve = Module(true);
+    IvCurve curve = ModuleCurve(true);
     ChangeRange(6, gain, &curve);
     const std::vector<Cause> causes = CausesOf(curve);
     ASSERT_THAT(causes, SizeIs(1));
@@ -52,7 +53,7 @@ TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
 }
 
 TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
-  IvCurve curve = Module();
+  IvCurve curve = ModuleCurve();
   ChangeRange(7.3, 0.05, &curve);
   const std::vector<Cause> causes = CausesOf(curve);
   ASSERT_FALSE(causes.empty());
@@ -63,7 +64,7 @@ TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
 }
 
 TEST(TracerCauses, CoarseBinsOfTheVoltageAreNamedAndNothingBecauseOfThem) {
-  IvCurve curve = Module();
+  IvCurve curve = ModuleCurve();
   constexpr double kBin_V = 0.23;
   for (double& v : curve.voltage_V) v = kBin_V * std::round(v / kBin_V);
   const std::vector<Cause> causes = CausesOf(curve);
@@ -74,13 +75,13 @@ TEST(TracerCauses, CoarseBinsOfTheVoltageAreNamedAndNothingBecauseOfThem) {
 }
 
 TEST(TracerCauses, FineDigitsOfTheVoltageAreNone) {
-  IvCurve curve = Module();
+  IvCurve curve = ModuleCurve();
   for (double& v : curve.voltage_V) v = 0.01 * std::round(v / 0.01);
   EXPECT_THAT(CausesOf(curve), IsEmpty());
 }
 
 TEST(TracerCauses, AVoltageAtTheEndOfItsRangeIsALimit) {
-  IvCurve curve = Module();
+  IvCurve curve = ModuleCurve();
   const double end = curve.voltage_V[curve.size() - 12];
   for (double& v : curve.voltage_V) v = std::min(v, end);
   const std::vector<Cause> causes = CausesOf(curve);
@@ -94,8 +95,9 @@ TEST(TracerCauses, AVoltageAtTheEndOfItsRangeIsALimit) {
 
 // A bell only by chance: clouds come soon and go slowly, or cover for a while.
 TEST(TracerCauses, ADipOfAnyShapeIsOneCause) {
-  for (const double skew : {0.0, 0.5}) {
-    IvCurve curve = Module();
+  for (const double skew : {0.5, 0.0}) {
+    if (kSanitized && skew == 0) break;
+    IvCurve curve = ModuleCurve();
     const double count = static_cast<double>(curve.size());
     for (std::size_t k = 0; k < curve.size(); ++k) {
       const double from = k / count - 0.45, side = 0.12 * (from < 0 ? 1 - skew : 1 + skew);

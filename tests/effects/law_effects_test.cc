@@ -10,6 +10,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/law.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -58,7 +59,7 @@ class LawEffectsTest : public ::testing::TestWithParam<Place> {
   // About a dozen of the probes, spread over their list.
   std::vector<Probe> SomeProbes() const {
     const std::vector<Probe> all = effect().probes(readings_.traits);
-    const std::size_t stride = std::max<std::size_t>(1, all.size() / 12);
+    const std::size_t stride = std::max<std::size_t>(1, all.size() / (kSanitized ? 2 : 12));
     std::vector<Probe> some;
     for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
     // In half-cut modules as well: of what the substring lacks, one chain's cell lacks the double.
@@ -225,7 +226,7 @@ TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
 TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
   RandomStream random(17);
   int fine = 0;
-  constexpr int kDraws = 60;
+  constexpr int kDraws = kSanitized ? 20 : 60;
   for (int draw = 0; draw < kDraws; ++draw) {
     Settled at = WithEffect(effect(), NeutralValues(effect()));
     at.law.model = draw % 2 == 1 ? Model::kDoubleDiode : Model::kSingleDiode;

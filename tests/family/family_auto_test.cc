@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-FamilyOptions Quick() {
+FamilyOptions QuickAuto() {
   FamilyOptions options;
   options.free_fits = options.intervals = options.random_baseline = false;
   options.search.iterations = 20;
@@ -35,7 +35,7 @@ TEST(FitFamilyAuto, TellsALawThatTheCurvesDoNotFollow) {
   for (const double g : {1000.0, 700.0, 400.0, 150.0}) {
     for (const double t : {15.0, 40.0, 65.0}) places.push_back({g, t});
   }
-  const auto report = FitFamilyAuto(MadeSet(pvsyst, truth, places, 40, 1e-3), Quick());
+  const auto report = FitFamilyAuto(MadeSet(pvsyst, truth, places, 40, 1e-3), QuickAuto());
   ASSERT_TRUE(report) << report.error().ToString();
   ASSERT_EQ(report->candidates.size(), 4U);
   EXPECT_EQ(report->translation.spec.law, TranslationLaw::kPvsyst);
@@ -49,7 +49,8 @@ TEST(FitFamilyAuto, TellsALawThatTheCurvesDoNotFollow) {
 
 TEST(FitFamilyAuto, KeepsOneDiodeWhereTheSecondIsOfNoUse) {
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const auto report = FitFamilyAuto(MadeSet(law, MadeTruth(law), kSixPlaces, 40, 3e-3), Quick());
+  const auto report =
+      FitFamilyAuto(MadeSet(law, MadeTruth(law), kSixPlaces, 40, 3e-3), QuickAuto());
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_EQ(Chosen(*report).model, Model::kSingleDiode);
   EXPECT_EQ(report->translation.spec.model, Model::kSingleDiode);
@@ -58,7 +59,7 @@ TEST(FitFamilyAuto, KeepsOneDiodeWhereTheSecondIsOfNoUse) {
 
 TEST(FitFamilyAuto, TakesTheSimplestWhereNothingIsHeldOut) {
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  FamilyOptions options = Quick();
+  FamilyOptions options = QuickAuto();
   options.folds = 0;
   const auto report = FitFamilyAuto(MadeSet(law, MadeTruth(law), kSixPlaces, 30, 1e-3), options);
   ASSERT_TRUE(report) << report.error().ToString();
@@ -69,7 +70,7 @@ TEST(FitFamilyAuto, TakesTheSimplestWhereNothingIsHeldOut) {
 TEST(FitFamilyAuto, SaysWhichLawAnOptionDoesNotFit) {
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
   const CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 30, 1e-3);
-  FamilyOptions options = Quick();
+  FamilyOptions options = QuickAuto();
   options.fixed["mu_gamma"] = 0;
   const auto report = FitFamilyAuto(set, options);
   ASSERT_TRUE(report) << report.error().ToString();

@@ -9,6 +9,7 @@
 #include "family/family_fixture.h"
 #include "family/made_effects.h"
 #include "lyrefit/family/fit_free.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -109,6 +110,7 @@ TEST_F(FamilyEffectsTest, ANonOhmicShuntIsFound) {
 
 // What is reported of the strength depends on the exponent, whose uncertainty counts.
 TEST_F(FamilyEffectsTest, StandardErrorsAreThoseOfWhatIsReported) {
+  SKIP_IF_SANITIZED();
   options_.with = {UseOf("nonohmic_shunt")};
   constexpr int kSets = 16;
   double mean = 0, squares = 0, stated = 0;
@@ -147,6 +149,7 @@ TEST_F(FamilyEffectsTest, AShadedModuleIsFoundWhereOneInsists) {
 }
 
 TEST_F(FamilyEffectsTest, WholeSubstringsAreCountedAndNotMeasured) {
+  SKIP_IF_SANITIZED();
   for (IvCurve& curve : set_.curves) curve.notes.bypass_diodes = 3;
   Make({UseOf("shading", {{"d", {0.3, 0.3}}, {"w", {2.0 / 3, 2.0 / 3}}, {"Vb", {0.5, 0.5}}})});
   options_.with = {UseOf("shading")};

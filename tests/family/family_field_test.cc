@@ -11,6 +11,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/fit_family.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -107,7 +108,8 @@ std::vector<std::string> FamiliesOfThePanel() {
 TEST(FamiliesOfThePanel, AreAllReadAndFittedWithIntervals) {
   const std::vector<std::string> names = FamiliesOfThePanel();
   EXPECT_EQ(names.size(), 35U);
-  for (const std::string& name : names) {
+  for (std::size_t i = 0; i < names.size(); i += kSanitized ? 10 : 1) {
+    const std::string& name = names[i];
     SCOPED_TRACE(name);
     const CurveSet set = ReadOrFail(kRoot / ".." / "panel" / "cases" / (name + ".csv"));
     EXPECT_TRUE(set.rejected.empty());

@@ -7,6 +7,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/refine/thin.h"
+#include "repeats.h"
 #include "simulated.h"
 
 namespace lyrefit {
@@ -86,7 +87,7 @@ TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
 }
 
 TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold) {
-  constexpr int kCurves = 40;
+  constexpr int kCurves = Repeats(40);
   int held = 0;
   double plain = 0, weighed = 0;
   for (int seed = 0; seed < kCurves; ++seed) {
@@ -106,6 +107,7 @@ TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold)
       held += e.low_95 <= kSingleTruth[i] && kSingleTruth[i] <= e.high_95 ? 1 : 0;
     }
   }
+  if (kSanitized) return;  // four curves say nothing of how often
   EXPECT_LT(weighed, 0.6 * plain);
   EXPECT_GT(held, 0.9 * 5 * kCurves);
 }

@@ -138,7 +138,9 @@ TEST_F(BasinsTest, AnEndIsTriedInEveryOtherForm) {
       EXPECT_GE(value, bounds.lower) << k;
       EXPECT_LE(value, bounds.upper) << k;
       const ParameterBounds& before = job_.forms[0].bounds[k];
-      if (before.lower == before.upper) EXPECT_EQ(value, job_.forms[1].usual[k]) << k;
+      if (before.lower == before.upper) {
+        EXPECT_EQ(value, job_.forms[1].usual[k]) << k;
+      }
     }
   }
   EXPECT_EQ(others, 1);

@@ -9,6 +9,7 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/simulate.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -147,6 +148,7 @@ TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameEffectsThatCouldWin) {
 }
 
 TEST(HardBirds, ComeToTheNoiseWhereTheEffectsAreTrue) {
+  SKIP_IF_SANITIZED();
   const IvCurve curve = String();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
   options.with = Substrings(false);

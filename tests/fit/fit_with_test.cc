@@ -155,6 +155,38 @@ TEST(FitWith, TakesAnEffectOfOnesOwn) {
   EXPECT_GE(s.high_95, 0.5);
 }
 
+// The same as plain functions of numbers, without a derivative.
+Effect PlainSquareShunt() {
+  Effect e = SquareShunt();
+  e.junction = {};
+  e.plain_junction = WithDifferences(
+      [](const StageInput& in, double* value) {
+        for (int i = 0; i < in.count; ++i) value[i] = -std::fabs(in.x[i]) * in.x[i] * in.p[0];
+      },
+      {{0, 1}}, false);
+  return e;
+}
+
+TEST(FitWith, TakesPlainFunctionsForAnEffect) {
+  const Effect own = SquareShunt(), plain = PlainSquareShunt();
+  SimulateOptions options = Module();
+  options.noise_A = 0.001;
+  for (int k = 0; k < 80; ++k) options.voltage_V.push_back(-20 + 60.0 * k / 79);
+  options.with = {{&own, {{"s", {0.5, 0.5}}}}};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  fit.with = {{&own, {}}};
+  const auto expected = Fit(*curve, fit);
+  fit.with = {{&plain, {}}};
+  const auto found = Fit(*curve, fit);
+  ASSERT_TRUE(expected && found) << found.error().ToString();
+  EXPECT_NEAR(found->rmse.refined.solved_current_A, expected->rmse.refined.solved_current_A, 1e-12);
+  for (std::size_t k = 0; k < expected->refined.size(); ++k) {
+    EXPECT_NEAR(found->refined[k] / expected->refined[k], 1, 1e-8) << k;
+  }
+}
+
 TEST(FitWith, SaysWhatDoesNotGoWithEffects) {
   const auto curve = Simulate(Module());
   ASSERT_TRUE(curve);

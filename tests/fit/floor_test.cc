@@ -8,14 +8,14 @@
 namespace lyrefit {
 namespace {
 
-IvCurve Rtc() { return *ReadCurve(LYREFIT_DATA_DIR "/rtc_france"); }
+IvCurve RtcCell() { return *ReadCurve(LYREFIT_DATA_DIR "/rtc_france"); }
 
 TEST(Floor, OfOneDiodeIsWhatTwoDiodesReach) {
   FitOptions options;
   options.objective = Objective::kMeasuredCurrent;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto report = Fit(Rtc(), options);
+  const auto report = Fit(RtcCell(), options);
   ASSERT_TRUE(report.has_value());
   ASSERT_TRUE(report->floor.has_value());
   EXPECT_NEAR(report->floor->rmse_A, 9.824848761e-4, 1e-12);
@@ -30,20 +30,20 @@ TEST(Floor, FollowsTheBoundsOfTheFit) {
   options.intervals = Intervals::kNone;
   options.floor = true;
   options.bounds.overrides["n"] = {0.5, 4};
-  const auto report = Fit(Rtc(), options);
+  const auto report = Fit(RtcCell(), options);
   ASSERT_TRUE(report.has_value() && report->floor.has_value());
   EXPECT_NEAR(report->floor->rmse_A, 9.449435199e-4, 1e-12);
   EXPECT_GT(report->floor->above, 0.04) << "the solved-current fit, in measured-current RMSE";
 }
 
 TEST(Floor, IsNotLookedForUnlessAsked) {
-  const auto report = Fit(Rtc());
+  const auto report = Fit(RtcCell());
   ASSERT_TRUE(report.has_value());
   EXPECT_FALSE(report->floor.has_value());
 }
 
 TEST(Floor, OfACurveThatHasNoneIsAWarningNotAnError) {
-  IvCurve dark = Rtc();
+  IvCurve dark = RtcCell();
   for (double& i : dark.current_A) i -= 0.7605;
   for (double& i : dark.current_A) i = i > 0 ? -1e-6 : i;
   FitOptions options;

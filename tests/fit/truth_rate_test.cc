@@ -133,9 +133,9 @@ TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
   }
 }
 
-using Case = std::tuple<std::string, Model, Objective>;
+using TruthCase = std::tuple<std::string, Model, Objective>;
 
-class OneValue : public ::testing::TestWithParam<Case> {};
+class OneValue : public ::testing::TestWithParam<TruthCase> {};
 
 TEST_P(OneValue, IsReachedFromEverySeed) {
   const auto [name, model, objective] = GetParam();
@@ -153,7 +153,7 @@ TEST_P(OneValue, IsReachedFromEverySeed) {
               ToText(objective).c_str(), text, static_cast<int>(rmse.size()), kSeeds);
 }
 
-std::string CaseName(const ::testing::TestParamInfo<Case>& info) {
+std::string CaseName(const ::testing::TestParamInfo<TruthCase>& info) {
   const auto& [data_set, model, objective] = info.param;
   std::string name = data_set + "_" + ToText(model) + "_" + ToText(objective);
   std::replace(name.begin(), name.end(), '-', '_');

@@ -50,6 +50,11 @@ expect(lib/lyrefit/attic/a.cc "#include <cmath>" "is no room of the house")
 expect(lib/lyrefit/fit/a.h "struct End {\n};\nnamespace block {\nstruct End {\n};\n}  // namespace block\nstruct Start;\nstruct Start {" "")
 expect(lib/lyrefit/fit/a.h "struct End {\n};\nclass End : Start {" "lyrefit::End is the name of another type in lib/lyrefit/fit/a.h")
 
+expect(lib/lyrefit/fit/fit.h "namespace LYREFIT_PUBLIC lyrefit {" "")
+expect(lib/lyrefit/fit/fit.h "namespace lyrefit {" "is public: its namespace opens with")
+expect(lib/lyrefit/fit/closed.h "namespace lyrefit {" "")
+expect(lib/lyrefit/fit/closed.h "namespace LYREFIT_PUBLIC lyrefit {" "is closed")
+
 file(REMOVE_RECURSE "${WORK}")
 if(FAILURES)
   message(FATAL_ERROR "${FAILURES} of the trees were judged wrongly")

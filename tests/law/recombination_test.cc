@@ -17,19 +17,19 @@ namespace lyrefit {
 namespace {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
-constexpr int kMost = 9;
-using Unknowns = Dual<kMost>;
+constexpr int kMostUnknowns = 9;
+using Unknowns = Dual<kMostUnknowns>;
 
 // A device with recombination as PVsyst has it: d2mutau 0 to 2 V, NsVbi 0.9 V a cell.
-struct Draw {
+struct LossyDraw {
   Device plain;
   Device device;
   std::vector<double> p;
   double pole_V = 0;
 };
 
-Draw DrawDevice(RandomStream* random) {
-  Draw draw;
+LossyDraw DrawLossyDevice(RandomStream* random) {
+  LossyDraw draw;
   Conditions conditions;
   conditions.cells_in_series = 1 + static_cast<int>(random->Index(144));
   conditions.cell_temperature_K = 260 + 90 * random->Uniform();
@@ -51,7 +51,7 @@ Draw DrawDevice(RandomStream* random) {
 }
 
 // The right-hand side in 113 bits, from the equations alone, for vd below the pole.
-Quad ExactRightHandSide(const Draw& draw, const Quad& vd) {
+Quad ExactRightHandSide(const LossyDraw& draw, const Quad& vd) {
   const auto p = [&](int i) { return Quad(draw.p[i]); };
   const int last = draw.device.size();
   Quad f = p(kIph) - vd / p(kRsh) - p(kIph) * p(last - 2) / (p(last - 1) - vd);
@@ -64,7 +64,7 @@ Quad ExactRightHandSide(const Draw& draw, const Quad& vd) {
 
 // The current by bisection on the junction voltage, which only the root's uniqueness asks for.
 // `start` is a guess to begin around.
-Quad ExactCurrent(const Draw& draw, double voltage_V, double start) {
+Quad ExactCurrent(const LossyDraw& draw, double voltage_V, double start) {
   const auto g = [&](const Quad& vd) {
     return vd - Quad(voltage_V) - Quad(draw.p[kRs]) * ExactRightHandSide(draw, vd);
   };
@@ -84,7 +84,7 @@ TEST(Recombination, TheSolverAgreesWithBisectionIn113BitsOverRandomDevices) {
   RandomStream random(51);
   int compared = 0;
   for (int k = 0; k < Repeats(4000); ++k) {
-    const Draw draw = DrawDevice(&random);
+    const LossyDraw draw = DrawLossyDevice(&random);
     const double v = draw.pole_V * (-1 + 1.9 * random.Uniform());
     const OperatingPoint point = SolveOperatingPoint(draw.device, draw.p.data(), v);
     ASSERT_TRUE(std::isfinite(point.current_A)) << "draw " << k;
@@ -102,7 +102,7 @@ TEST(Recombination, TheSolverAgreesWithBisectionIn113BitsOverRandomDevices) {
 TEST(Recombination, KernelsAgreeToTheBitAndWithTheScalarSolver) {
   RandomStream random(52);
   for (int k = 0; k < Repeats(1000); ++k) {
-    const Draw draw = DrawDevice(&random);
+    const LossyDraw draw = DrawLossyDevice(&random);
     std::vector<double> v, i;
     for (int j = 0; j < 19; ++j) {
       v.push_back(draw.pole_V * (-0.2 + 0.06 * j));
@@ -125,7 +125,7 @@ TEST(Recombination, KernelsAgreeToTheBitAndWithTheScalarSolver) {
 TEST(Recombination, TheCurveFallsAndStaysFiniteFarBeyondThePole) {
   RandomStream random(53);
   for (int k = 0; k < 500; ++k) {
-    const Draw draw = DrawDevice(&random);
+    const LossyDraw draw = DrawLossyDevice(&random);
     double before = std::numeric_limits<double>::infinity();
     for (double x = -2; x < 4; x += 0.05) {
       const double v = x * draw.pole_V;
@@ -141,7 +141,7 @@ TEST(Recombination, TheCurveFallsAndStaysFiniteFarBeyondThePole) {
 TEST(Recombination, WithoutAStrengthGivesTheOldDeviceToTheBit) {
   RandomStream random(54);
   for (int k = 0; k < 500; ++k) {
-    Draw draw = DrawDevice(&random);
+    LossyDraw draw = DrawLossyDevice(&random);
     draw.p[draw.plain.size()] = 0;
     const double v = 0.8 * draw.pole_V * random.Uniform();
     EXPECT_EQ(SolveOperatingPoint(draw.device, draw.p.data(), v).current_A,
@@ -159,7 +159,7 @@ TEST(Recombination, DerivativesAgreeWithDifferences) {
   AddRecombination(&device);
   const std::vector<double> p = {1.2, 2e-10, 1.4, 3.1, 900, 1.1, 34.2};
   for (const double vd : {-3.0, 0.0, 20.0, 33.0, 34.19, 40.0}) {
-    Unknowns jets[kMost];
+    Unknowns jets[kMostUnknowns];
     for (int i = 0; i < device.size(); ++i) jets[i] = Unknowns(p[i], i);
     const Unknowns current = JunctionCurrent(device, jets, Unknowns(vd));
     for (int i = 0; i < device.size(); ++i) {

@@ -20,9 +20,15 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+std::ifstream Open(const std::string& name) {
+  std::ifstream file(LYREFIT_DATA_DIR "/s75_constructed/" + name);
+  EXPECT_TRUE(file) << "cannot read " LYREFIT_DATA_DIR "/s75_constructed/" << name;
+  return file;
+}
+
 // The rows below the header.
 Rows ReadRows(const std::string& name) {
-  std::ifstream file(LYREFIT_DATA_DIR "/s75_constructed/" + name);
+  std::ifstream file = Open(name);
   Rows rows;
   std::string line, field;
   std::getline(file, line);
@@ -45,7 +51,7 @@ Translation DeSoto() {
 
 // The table of about.md, in the translation's order: Iph, Is1, n1, Rs, Rsh, alpha, Eg, dEg.
 std::vector<double> Truth() {
-  std::ifstream file(LYREFIT_DATA_DIR "/s75_constructed/about.md");
+  std::ifstream file = Open("about.md");
   const Translation translation = DeSoto();
   std::vector<double> shared(translation.parameters.size(), 0);
   for (std::string line; std::getline(file, line);) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "made_readings.h"
 #include "temp_folder.h"
@@ -34,6 +35,19 @@ constexpr char kTwoStrings[] =
                     [{"bypass": true, "times": 2, "cells": [{"count": 12}]},
                      {"bypass": true, "cells": [{"count": 11},
                                                 {"count": 1, "light": 0.4, "leak_S": 0.05}]}]]})";
+
+TEST(StringLayoutTest, ReadsWhatItsHeaderShows) {
+  std::ifstream header(std::string(LYREFIT_DATA_DIR) + "/../lib/lyrefit/law/string_layout.h");
+  std::string shown;
+  for (std::string line; std::getline(header, line);) {
+    if (line.rfind("//   ", 0) == 0) shown += line.substr(5) + '\n';
+  }
+  const StringLayout layout = Layout(shown);
+  EXPECT_EQ(layout.cells_in_series, 40);
+  EXPECT_EQ(layout.reverse, ReverseLaw::kBishop);
+  EXPECT_EQ(layout.parts.size(), 2U);
+  EXPECT_EQ(layout.kinds.size(), 3U);
+}
 
 TEST(StringLayoutTest, ReadsPartsAndTakesEqualOnesTogether) {
   const StringLayout layout = Layout(kTwoStrings);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/run_app.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(PaperProgram, WritesThePageItsPicturesAndTheBlocksOfOtherPages) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const std::string other =
       folder.Write("other.md", "a\n<!-- ranked -->\n<!-- end of ranked -->\nb\n");

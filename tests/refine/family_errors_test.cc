@@ -7,13 +7,14 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kPoints = 30;  // of a curve
 
-FamilyErrorShape MadeShape(int curves) {
+FamilyErrorShape MadeFamilyShape(int curves) {
   FamilyErrorShape shape;
   shape.common.resize(curves * kPoints, 2);
   for (int c = 0; c < curves; ++c) {
@@ -59,7 +60,7 @@ Eigen::VectorXd Draw(const Eigen::MatrixXd& covariance, int seed) {
 }
 
 TEST(FamilyErrors, LikelihoodAndProductAreThoseOfTheDenseCovariance) {
-  const FamilyErrorShape shape = MadeShape(3);
+  const FamilyErrorShape shape = MadeFamilyShape(3);
   const Eigen::MatrixXd covariance = Covariance(shape, kSizes);
   const Eigen::VectorXd residual = Draw(covariance, 1);
   const double dense =
@@ -71,7 +72,8 @@ TEST(FamilyErrors, LikelihoodAndProductAreThoseOfTheDenseCovariance) {
 }
 
 TEST(FamilyErrors, SizesAreFoundAndTheKindThatIsThereIsLikeliest) {
-  const FamilyErrorShape shape = MadeShape(60);
+  SKIP_IF_SANITIZED();
+  const FamilyErrorShape shape = MadeFamilyShape(60);
   const Eigen::MatrixXd covariance = Covariance(shape, kSizes);
   const Eigen::VectorXd residual = Draw(covariance, 2), other = Draw(covariance, 3);
   double before = -HUGE_VAL;

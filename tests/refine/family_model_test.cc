@@ -28,13 +28,13 @@ JointProblem WithLocals(JointProblem problem) {
   return problem;
 }
 
-struct Law {
+struct LawCase {
   TranslationLaw law;
   Model model;
   bool recombination;
 };
 
-class EveryLaw : public testing::TestWithParam<Law> {
+class EveryLaw : public testing::TestWithParam<LawCase> {
  protected:
   Translation law_ = MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
   std::vector<double> truth_ = MadeTruth(law_);
@@ -112,14 +112,15 @@ TEST_P(EveryLaw, RefineJointlyRecoversAnExactFamilyFromAPoorStart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Joint, EveryLaw,
-                         testing::Values(Law{TranslationLaw::kDeSoto, Model::kSingleDiode, false},
-                                         Law{TranslationLaw::kDeSoto, Model::kDoubleDiode, false},
-                                         Law{TranslationLaw::kPvsyst, Model::kSingleDiode, false},
-                                         Law{TranslationLaw::kPvsyst, Model::kDoubleDiode, true}),
-                         [](const testing::TestParamInfo<Law>& test) {
-                           return ToText(test.param.law) + "_" + ToText(test.param.model);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Joint, EveryLaw,
+    testing::Values(LawCase{TranslationLaw::kDeSoto, Model::kSingleDiode, false},
+                    LawCase{TranslationLaw::kDeSoto, Model::kDoubleDiode, false},
+                    LawCase{TranslationLaw::kPvsyst, Model::kSingleDiode, false},
+                    LawCase{TranslationLaw::kPvsyst, Model::kDoubleDiode, true}),
+    [](const testing::TestParamInfo<LawCase>& test) {
+      return ToText(test.param.law) + "_" + ToText(test.param.model);
+    });
 
 class RefineJointlyTest : public testing::Test {
  protected:

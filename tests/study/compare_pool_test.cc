@@ -11,6 +11,7 @@
 #include "lyrefit/study/pool.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "pooled_study.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -78,6 +79,7 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
 }
 
 TEST(ComparePooled, RunsADefaultFitAsItIs) {
+  SKIP_IF_SANITIZED();
   const CompareCurve subject = MadeSubjects("strings_2", 1)[0];
   const Comparison comparison = Compared({subject}, PooledOptions());
   FitOptions fit;
@@ -102,6 +104,7 @@ TEST(ComparePooled, GivesTheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(ComparePooled, IsTakenUpWithTheSameBits) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   CompareOptions options = PooledOptions();
   const nlohmann::json whole = Figures(Compared(StringsAndFamilies(), options));

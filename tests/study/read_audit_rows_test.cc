@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr char kHeader[] =
+constexpr char kRowsHeader[] =
     "source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_A,Is1_uA,n1,Is2_A,n2,"
     "temperature_C,cells,constants,bounds,note\n";
 
@@ -25,7 +25,7 @@ class ReadAuditRowsTest : public ::testing::Test {
 
   // The complaint about the only row below the usual header.
   Error BadRow(const std::string& row) {
-    const auto rows = Read(kHeader + row + "\n");
+    const auto rows = Read(kRowsHeader + row + "\n");
     if (!rows) return rows.error();
     EXPECT_THAT(rows->rows, SizeIs(0)) << row;
     EXPECT_THAT(rows->bad_rows, SizeIs(1)) << row;
@@ -37,7 +37,7 @@ class ReadAuditRowsTest : public ::testing::Test {
 
 TEST_F(ReadAuditRowsTest, KeepsDigitsAndUnits) {
   const auto rows =
-      Read(std::string("# a comment\n") + kHeader +
+      Read(std::string("# a comment\n") + kRowsHeader +
            "Table 10,rtc_france,sd,LO,9.89674E-04,0.760827451,0.0363,53.96,,3.31823E-01,1.4839,,,"
            "33,1,paper,literature,\"a, note\"\n");
   ASSERT_TRUE(rows) << rows.error().ToString();
@@ -83,7 +83,8 @@ TEST_F(ReadAuditRowsTest, TakesColumnsInAnyOrderAndCase) {
 }
 
 TEST_F(ReadAuditRowsTest, TakesZerosAndWholeIdealitiesAsExact) {
-  const auto rows = Read(std::string(kHeader) + "T,cell,dd,x,1e-3,0.76,0,53,0,,2,1e-7,1.5,,,,,\n");
+  const auto rows =
+      Read(std::string(kRowsHeader) + "T,cell,dd,x,1e-3,0.76,0,53,0,,2,1e-7,1.5,,,,,\n");
   ASSERT_TRUE(rows) << rows.error().ToString();
   ASSERT_THAT(rows->rows, SizeIs(1));
   std::vector<double> half_units;
@@ -119,7 +120,7 @@ TEST_F(ReadAuditRowsTest, RefusesUnknownAndRepeatedColumns) {
 TEST_F(ReadAuditRowsTest, RefusesFilesWithoutRows) {
   EXPECT_FALSE(ReadAuditRows(folder_.Path("missing.csv")));
   EXPECT_FALSE(Read("# nothing\n"));
-  EXPECT_THAT(MessageOf(Read(kHeader)), HasSubstr("expected rows"));
+  EXPECT_THAT(MessageOf(Read(kRowsHeader)), HasSubstr("expected rows"));
 }
 
 TEST_F(ReadAuditRowsTest, SaysWhereARowIsWrong) {
@@ -158,7 +159,7 @@ TEST_F(ReadAuditRowsTest, SaysWhereARowIsWrong) {
 }
 
 TEST_F(ReadAuditRowsTest, ReadsOnBehindABadRow) {
-  const auto rows = Read(std::string(kHeader) +
+  const auto rows = Read(std::string(kRowsHeader) +
                          "T,cell,sd,a,1e-3,0.76,0.1,53,1e-7,,1.5,,,,,,,\n"
                          "T,cell,sd,b,1e-3,text,0.1,53,1e-7,,1.5,,,,,,,\n"
                          "\n"

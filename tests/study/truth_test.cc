@@ -14,19 +14,20 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr char kHeader[] =
+constexpr char kTruthHeader[] =
     "Index,photocurrent,saturation_current,resistance_series,resistance_shunt,n,cells_in_series\n";
 
 std::string ErrorOf(const std::string& rows) {
   const TempFolder folder;
-  const auto truth = ReadTruth(folder.Write("t.csv", kHeader + rows));
+  const auto truth = ReadTruth(folder.Write("t.csv", kTruthHeader + rows));
   return truth ? "" : truth.error().ToString();
 }
 
 TEST(ReadTruth, BringsTheColumnsIntoTheDevicesOrder) {
   const TempFolder folder;
   const auto truth = ReadTruth(folder.Write(
-      "t.csv", std::string(kHeader) + "1,8,5e-10,0.1,3000,1.01,72\r\n2,1,5E-10,0,300,1.3,36\r\n"));
+      "t.csv",
+      std::string(kTruthHeader) + "1,8,5e-10,0.1,3000,1.01,72\r\n2,1,5E-10,0,300,1.3,36\r\n"));
   ASSERT_TRUE(truth) << truth.error().ToString();
   ASSERT_THAT(*truth, SizeIs(2));
   EXPECT_EQ((*truth)[0].index, "1");

@@ -12,9 +12,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr Procedure kAll[] = {Procedure::kIec1,    Procedure::kIec2,   Procedure::kIec3,
-                              Procedure::kIec4,    Procedure::kDeSoto, Procedure::kPvsyst,
-                              Procedure::kExtended};
+constexpr Procedure kEveryProcedure[] = {
+    Procedure::kIec1,   Procedure::kIec2,   Procedure::kIec3,    Procedure::kIec4,
+    Procedure::kDeSoto, Procedure::kPvsyst, Procedure::kExtended};
 
 // Nothing is uncertain but the procedure.
 UncertaintyOptions Nothing() {
@@ -42,7 +42,7 @@ double ExpandedPart(const TranslationTarget& target, const UncertaintyOptions& o
 }
 
 TEST(TranslationErrorOf, HasSixSizesForEveryProcedureAndTheirSource) {
-  for (const Procedure procedure : kAll) {
+  for (const Procedure procedure : kEveryProcedure) {
     const TranslationError error = TranslationErrorOf(procedure);
     ASSERT_EQ(error.light.size(), 6U) << ToText(procedure);
     ASSERT_EQ(error.temperature.size(), 6U);

@@ -16,7 +16,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 // The text with its wrapped lines joined again.
-std::string Unwrapped(std::string text) {
+std::string WithoutWraps(std::string text) {
   for (std::size_t at; (at = text.find("\n    ")) != std::string::npos;) text.replace(at, 5, " ");
   return text;
 }
@@ -55,7 +55,7 @@ TEST(AuditText, SaysSomethingOnlyOfRowsThatFail) {
 }
 
 TEST(AuditText, NamesTheBoundsLeftAfterTheChange) {
-  const std::string text = Unwrapped(AuditText(SampleAudit()));
+  const std::string text = WithoutWraps(AuditText(SampleAudit()));
   EXPECT_THAT(text, HasSubstr("So changed it leaves bounds-paper.json: Rs 0.0363 below 0.2."));
   EXPECT_THAT(text, HasSubstr("As printed it leaves bounds-paper.json: Rsh 153 above 100."));
 }

@@ -9,7 +9,7 @@ namespace lyrefit {
 namespace {
 
 // Fifty devices with a run each, of which so many hit.
-struct Row {
+struct PooledRow {
   const char* algorithm;
   std::int64_t budget;
   int own;
@@ -17,11 +17,11 @@ struct Row {
   double search_ms;
 };
 
-Comparison Fifty(const std::vector<Row>& rows) {
+Comparison Fifty(const std::vector<PooledRow>& rows) {
   std::vector<ProblemResult> devices;
   for (int d = 0; d < 50; ++d) {
     std::vector<ContenderResult> contenders;
-    for (const Row& row : rows) {
+    for (const PooledRow& row : rows) {
       const MadeRun run = {9, d < row.own ? 1.0 : 2, d < row.hybrid ? 1.0 : 2};
       contenders.push_back(MadeContender(row.algorithm, row.budget, {run}, row.search_ms));
     }
@@ -30,7 +30,7 @@ Comparison Fifty(const std::vector<Row>& rows) {
   return MadeComparison(std::move(devices));
 }
 
-std::string Sentence(const std::vector<Row>& rows) {
+std::string Sentence(const std::vector<PooledRow>& rows) {
   const Comparison comparison = Fifty(rows);
   return VerdictText(PoolProblems(comparison)[0]);
 }

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TruthComparison Sample() {
+TruthComparison SampleTruth() {
   TruthComparison comparison;
   comparison.rows = 1;
   comparison.curves = 50;
@@ -34,7 +34,7 @@ TruthComparison Sample() {
 }
 
 TEST(TruthText, ShowsBothTablesOfOneDevice) {
-  const std::string text = TruthText(Sample());
+  const std::string text = TruthText(SampleTruth());
   EXPECT_THAT(text, HasSubstr("Truth (one device): 50 curves fitted alone"));
   EXPECT_THAT(text, HasSubstr("2.50e-01  17"));
   EXPECT_THAT(text, HasSubstr("48 of 50"));
@@ -43,7 +43,7 @@ TEST(TruthText, ShowsBothTablesOfOneDevice) {
 }
 
 TEST(TruthText, LeavesOutWhatIsNotThere) {
-  TruthComparison comparison = Sample();
+  TruthComparison comparison = SampleTruth();
   comparison.rows = 32;
   comparison.one_truth = false;
   comparison.unmatched = 2;

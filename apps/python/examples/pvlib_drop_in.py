@@ -30,7 +30,8 @@ def desoto(ee, tc, I_L_ref, I_o_ref, R_sh_ref, R_s, a_ref, EgRef=1.121, dEgdT=-0
 
 ee = np.tile(np.arange(400.0, 1001.0, 100.0), 4)
 tc = np.repeat([15.0, 25.0, 35.0, 45.0], 7)
-iph, io, rs, rsh, nNsVth = desoto(ee, tc, **TRUTH)
+devices = desoto(ee, tc, **TRUTH)
+iph, io, rs, rsh, nNsVth = devices
 points = singlediode(iph, io, rs, rsh, nNsVth, ivcurve_pnts=300)
 curves = {**points, "ee": ee, "tc": tc}
 

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Runs clang-tidy with the settings of .clang-tidy over the library and the app, in the batches they are compiled
-# in, or over the files given, each alone.
+# Runs clang-tidy with the settings of .clang-tidy over the library, the command and the Python module, in the batches
+# they are compiled in, or over the files given, each alone.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-InstallPackages build check
+InstallPackages build check python
 cd -- "$LYREFIT_ROOT"
 if (($#)); then
-  Configure build-tidy -DLYREFIT_BATCHES=OFF > /dev/null
+  Configure build-tidy -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_BATCHES=OFF > /dev/null
   files=("$@")
 else
   rm -rf build-tidy
-  Configure build-tidy -DLYREFIT_BATCHES=ON > /dev/null
+  Configure build-tidy -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_BATCHES=ON > /dev/null
   # Sources that a build makes are not there, and not ours to mend.
   mapfile -t files < <(sed -n '/_assets\.cc"/d; s/^ *"file": "\(.*\)",\{0,1\}$/\1/p' build-tidy/compile_commands.json)
 fi

@@ -57,7 +57,12 @@ std::vector<double> Beside(py::handle table, Column column, std::size_t rows) {
   if (values.is_none()) return {};
   const bool one = PyFloat_Check(values.ptr()) != 0 || PyLong_Check(values.ptr()) != 0;
   if (one) return std::vector<double>(rows, values.cast<double>());
-  return NumbersOf(NameOf(column), values);
+  std::vector<double> numbers = NumbersOf(NameOf(column), values);
+  if (numbers.size() != rows) {
+    Raise({"expected " + std::to_string(rows) + " values of " + NameOf(column) + ", found " +
+           std::to_string(numbers.size())});
+  }
+  return numbers;
 }
 
 bool IsMasked(py::handle values) {
@@ -114,9 +119,7 @@ IvCurve RowsOf(const IvCurve& all, const std::vector<std::size_t>& rows) {
   const auto pick = [&rows](const auto& from, auto* to) {
     if (from.empty()) return;
     to->reserve(rows.size());
-    for (const std::size_t row : rows) {
-      if (row < from.size()) to->push_back(from[row]);
-    }
+    for (const std::size_t row : rows) to->push_back(from[row]);
   };
   pick(all.voltage_V, &picked.voltage_V);
   pick(all.current_A, &picked.current_A);

@@ -20,6 +20,13 @@ class Taken(unittest.TestCase):
     def same(self, *curve):
         self.assertEqual(self.expected, lyrefit.fit(*curve, **QUICK).parameters)
 
+    def test_a_column_beside_is_as_long_as_the_readings(self):
+        count = len(CELL)
+        table = {"curve": np.repeat(["a", "b"], count), "v": np.tile(CELL.voltage, 2), "i": np.tile(CELL.current, 2),
+                 "irradiance": np.full(count, 900.0)}
+        with self.assertRaisesRegex(lyrefit.Error, f"expected {2 * count} values of irradiance, found {count}"):
+            lyrefit.fit_family(table, cells_in_series=1)
+
     def test_kinds(self):
         wide = np.zeros((len(V), 4))
         wide[:, 1], wide[:, 3] = V, I

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTolerance = 1e-10;
 
-ModelRanges RangesOf(const MixtureData& data, double n_lower, double n_upper) {
+ModelRanges BoundsOf(const MixtureData& data, double n_lower, double n_upper) {
   return {n_lower, n_upper, 0, data.reference_voltage_V / data.current_A.maxCoeff(),
           data.reference_voltage_V};
 }
@@ -21,10 +21,10 @@ TEST(Attain, FindsTheOptimumOfEveryModelFromAMixtureFarAway) {
   const Mixture far = SolveMixture(data, {WindowOf(curve, 1, 2)}, 0.01, {}, kTolerance, 2);
   const double optimum[] = {9.860218779e-4, 9.824848761e-4, 9.824848761e-4};
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
-    const RefineProblem problem =
-        ModelProblem(curve, MakeDevice(model, curve.conditions), RangesOf(data, 1, 2));
+    const ModelRanges ranges = BoundsOf(data, 1, 2);
+    const RefineProblem problem = ModelProblem(curve, MakeDevice(model, curve.conditions), ranges);
     Attained best;
-    Attain(problem, data, far, &best);
+    Attain(problem, ranges, data, far, &best);
     const double rmse = Rmse(problem.device, Objective::kMeasuredCurrent, best.p.data(),
                              curve.voltage_V, curve.current_A);
     EXPECT_NEAR(std::sqrt(best.mean_square) / rmse, 1, 1e-12);
@@ -38,8 +38,8 @@ TEST(Attain, KeepsWhatIsBetterAlready) {
   const Mixture mixture = SolveMixture(data, {WindowOf(curve, 1, 2)}, 0.01, {}, kTolerance, 2);
   Attained best = {{1, 2, 3, 4, 5}, 1e-20};
   Attain(
-      ModelProblem(curve, MakeDevice(Model::kSingleDiode, curve.conditions), RangesOf(data, 1, 2)),
-      data, mixture, &best);
+      ModelProblem(curve, MakeDevice(Model::kSingleDiode, curve.conditions), BoundsOf(data, 1, 2)),
+      BoundsOf(data, 1, 2), data, mixture, &best);
   EXPECT_EQ(best.p, (std::vector<double>{1, 2, 3, 4, 5}));
 }
 
@@ -52,7 +52,8 @@ TEST(Attain, ClaimsNothingThatShockleysEquationDoesNotGive) {
       SolveMixture(data, {WindowOf(curve, 0.05, 100)}, 0.35, {}, kTolerance, 20);
   const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
   Attained best;
-  Attain(ModelProblem(curve, device, RangesOf(data, 0.05, 100)), data, mixture, &best);
+  const ModelRanges ranges = BoundsOf(data, 0.05, 100);
+  Attain(ModelProblem(curve, device, ranges), ranges, data, mixture, &best);
   double squares = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double vd = curve.voltage_V[k] + best.p[kRs] * curve.current_A[k];

@@ -72,6 +72,31 @@ INSTANTIATE_TEST_SUITE_P(
                       Known{"stp6_120_36", 0.5, 4, {1.660060313e-2, 0, 0}},
                       Known{"msx60", 0.5, 4, {1.575186424e-4, 2.216617042e-5, 0}}));
 
+// The box that the literature searches for PWP201, n from 1 to 50 of the module. The floor's third
+// diode is too steep for the law (n of a thirty-sixth), so the models stay above it; two are proved
+// nevertheless. Both values also by least squares in 40 digits.
+TEST(Certify, ProvesTwoDiodesInTheLiteraturesBoxOfPwp201) {
+  CertifyOptions options;
+  options.n_lower = 1.0 / 36;
+  options.n_upper = 50.0 / 36;
+  options.rs_upper_ohm = 2;
+  const auto certificate = Certify(Shipped("pwp201"), options);
+  ASSERT_TRUE(certificate) << certificate.error().ToString();
+  EXPECT_NEAR(certificate->floor.rmse_A / 1.603618380822585e-3, 1, 1e-9);
+  ASSERT_EQ(certificate->floor.diodes.size(), 3U);
+  EXPECT_NEAR(certificate->floor.diodes[2].n, 1.0 / 36, 1e-12);
+  const ModelCertificate& two = certificate->models[1];
+  EXPECT_TRUE(two.certified);
+  EXPECT_NEAR(two.rmse_A / 1.606387144468506e-3, 1, 1e-9);
+  EXPECT_NEAR(two.parameters[2], 0.2700301, 1e-6);
+  // Three diodes reach the floor, the third in the corner at an exponent of 611 and more.
+  const ModelCertificate& three = certificate->models[2];
+  EXPECT_TRUE(three.certified);
+  EXPECT_NEAR(three.rmse_A / certificate->floor.rmse_A, 1, 1e-9);
+  EXPECT_NEAR(std::min({three.parameters[2], three.parameters[6], three.parameters[8]}), 1.0 / 36,
+              1e-12);
+}
+
 // Three diodes refined from a random point of the ranges.
 double RefinedAtRandom(const Certificate& certificate, RandomStream* random) {
   const IvCurve& curve = certificate.curve;

@@ -101,7 +101,7 @@ TEST(BoundBend, SeesWhatRisesAboveZeroBetweenTwoResistances) {
         Moved(RandomVector(ends.rows(), &random), ends, Eigen::Vector2d(-1e-9, -1e-9));
     if (column(0.5).dot(y) <= 1e-6) continue;
     ++seen;
-    const double bend = BoundBend(data, {{u, u * (1 + 1e-6)}}, rs, dr, y, y, scale);
+    const double bend = BoundBend(data, {{u, u * (1 + 1e-6)}}, rs, rs + dr, y, y, scale);
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       EXPECT_LE(column(t).dot(y), 0.5 * t * (1 - t) * bend * (1 + 1e-9));
     }
@@ -120,7 +120,7 @@ TEST(BoundBend, BoundsWhatTheCorrelationRisesBetweenTwoResistances) {
     const double dr = 0.02 * random.Uniform();
     const Eigen::VectorXd y0 = RandomVector(data.voltage_V.size(), &random);
     const Eigen::VectorXd y1 = y0 + 0.1 * RandomVector(y0.size(), &random);
-    const double bend = BoundBend(data, {window}, rs, dr, y0, y1, scale);
+    const double bend = BoundBend(data, {window}, rs, rs + dr, y0, y1, scale);
     const auto correlation = [&](double u, double t) {
       const Eigen::VectorXd vd = data.voltage_V + (rs + t * dr) * data.current_A;
       const Eigen::VectorXd y = y0 + t * (y1 - y0);

@@ -17,16 +17,7 @@ inline IvCurve Shipped(const std::string& name) {
 
 // The data of a curve as the rooms below Certify() take it.
 inline MixtureData DataOf(const IvCurve& curve) {
-  MixtureData data;
-  const auto points = static_cast<Eigen::Index>(curve.size());
-  data.voltage_V = Eigen::Map<const Eigen::VectorXd>(curve.voltage_V.data(), points);
-  data.current_A = Eigen::Map<const Eigen::VectorXd>(curve.current_A.data(), points);
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    if (curve.current_A[k] >= 0) {
-      data.reference_voltage_V = std::max(data.reference_voltage_V, curve.voltage_V[k]);
-    }
-  }
-  return data;
+  return CurveData(curve.voltage_V, curve.current_A);
 }
 
 inline Window WindowOf(const IvCurve& curve, double n_lower, double n_upper) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 
@@ -14,7 +15,7 @@ constexpr int kGridStarts = 4;
 // The steepest diode's exponent at the largest junction voltage.
 double LargestExponent(const Device& device, const MixtureData& data,
                        const std::vector<double>& p) {
-  const double voltage = (data.voltage_V + p[kRs] * data.current_A).maxCoeff();
+  const double voltage = data.JunctionVoltage(p[kRs]).maxCoeff();
   double largest = 0;
   for (int d = 0; d < DiodeCount(device); ++d) {
     if (p[SaturationCurrentIndex(d)] <= 0) continue;
@@ -23,27 +24,81 @@ double LargestExponent(const Device& device, const MixtureData& data,
   return largest;
 }
 
-// A mixture as parameters of a model: its strongest diodes.
+// The mean square of Shockley's equation, no exponent cut.
+double UncutMeanSquare(const RefineProblem& problem, const MixtureData& data,
+                       const std::vector<double>& p) {
+  const Eigen::ArrayXd vd = data.JunctionVoltage(p[kRs]).array();
+  Eigen::ArrayXd current = p[kIph] - vd / p[kRsh];
+  for (int d = 0; d < DiodeCount(problem.device); ++d) {
+    const double saturation = p[SaturationCurrentIndex(d)];
+    if (!(saturation > 0)) continue;
+    const double u = 1 / (p[IdealityIndex(d)] * problem.device.module_thermal_voltage_V);
+    current -= (vd * u + std::log(saturation)).exp() - saturation;
+  }
+  const Eigen::ArrayXd residual = data.weight.array() * (current - data.target_A.array());
+  return residual.square().mean();
+}
+
+std::vector<double> WithinBox(const RefineProblem& problem, std::vector<double> p) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
+  }
+  return p;
+}
+
+DiodeRanges RangesOf(const ModelRanges& ranges, int diode) {
+  if (ranges.diodes.empty()) return {ranges.n_lower, ranges.n_upper};
+  return ranges.diodes[static_cast<std::size_t>(diode)];
+}
+
+// A mixture that is a model within the ranges, as its parameters; otherwise empty.
+std::vector<double> AsModel(const RefineProblem& problem, const ModelRanges& ranges,
+                            const Mixture& mixture) {
+  const double vt = problem.device.module_thermal_voltage_V;
+  std::vector<Window> box;
+  for (int d = 0; d < DiodeCount(problem.device); ++d) {
+    const DiodeRanges diode = RangesOf(ranges, d);
+    box.push_back(
+        {1 / (diode.n_upper * vt), 1 / (diode.n_lower * vt), diode.is_lower_A, diode.is_upper_A});
+  }
+  const auto diodes = AsDiodes(mixture, box);
+  if (!diodes) return {};
+  std::vector<double> p(problem.device.size());
+  p[kIph] = mixture.linear[kPhotocurrentTerm];
+  p[kRs] = mixture.rs;
+  p[kRsh] = 1 / std::max(mixture.linear[kShuntTerm], 1e-300);
+  p = WithinBox(problem, p);
+  for (std::size_t d = 0; d < box.size(); ++d) {
+    const int i = static_cast<int>(d);
+    const DiodeRanges diode = RangesOf(ranges, i);
+    p[SaturationCurrentIndex(i)] =
+        std::min(std::max((*diodes)[d].saturation_A, diode.is_lower_A), diode.is_upper_A);
+    p[IdealityIndex(i)] =
+        std::min(std::max(1 / ((*diodes)[d].u * vt), diode.n_lower), diode.n_upper);
+  }
+  return p;
+}
+
+// A mixture as parameters of a model: its `most` strongest diodes, the model's others as weak and as
+// flat as they may be.
 std::vector<double> FromMixture(const RefineProblem& problem, const MixtureData& data,
-                                const Mixture& mixture) {
+                                const Mixture& mixture, int most) {
   std::vector<Atom> atoms = mixture.atoms;
   std::sort(atoms.begin(), atoms.end(),
             [](const Atom& a, const Atom& b) { return a.current_A > b.current_A; });
   const double reference = data.reference_voltage_V;
   std::vector<double> p(problem.device.size());
-  p[kIph] = mixture.photocurrent_A;
+  p[kIph] = mixture.linear[kPhotocurrentTerm];
   p[kRs] = mixture.rs;
-  p[kRsh] = std::min(reference / std::max(mixture.shunt_current_A, 1e-300), problem.upper[kRsh]);
+  p[kRsh] = 1 / std::max(mixture.linear[kShuntTerm], 1e-300);
   for (int d = 0; d < DiodeCount(problem.device); ++d) {
     const int n = IdealityIndex(d);
     p[n] = problem.upper[n];
-    if (d >= static_cast<int>(atoms.size())) continue;
+    if (d >= std::min(most, static_cast<int>(atoms.size()))) continue;
     p[SaturationCurrentIndex(d)] = atoms[d].current_A / std::expm1(atoms[d].u * reference);
-    p[n] = std::min(
-        std::max(1 / (atoms[d].u * problem.device.module_thermal_voltage_V), problem.lower[n]),
-        problem.upper[n]);
+    p[n] = 1 / (atoms[d].u * problem.device.module_thermal_voltage_V);
   }
-  return p;
+  return WithinBox(problem, p);
 }
 
 // No diode and no shunt.
@@ -55,12 +110,13 @@ std::vector<double> ConstantCurrent(const RefineProblem& problem, const MixtureD
   for (int d = 0; d < DiodeCount(problem.device); ++d) {
     p[IdealityIndex(d)] = problem.upper[IdealityIndex(d)];
   }
-  return p;
+  return WithinBox(problem, p);
 }
 
 }  // namespace
 
-RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRanges& ranges) {
+RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRanges& ranges,
+                           Objective objective) {
   double current = 0;
   for (const double i : curve.current_A) current = std::max(current, std::fabs(i));
   const double resistance = ranges.reference_voltage_V / current;
@@ -69,31 +125,52 @@ RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRange
   std::vector<double> lower(device.size(), 0), upper(device.size(), 10 * current);
   lower[kRs] = ranges.rs_lower;
   upper[kRs] = ranges.rs_upper;
-  lower[kRsh] = 1e-6 * resistance;
-  upper[kRsh] = 1e15 * resistance;
+  lower[kIph] = ranges.iph_lower_A;
+  upper[kIph] = std::min(ranges.iph_upper_A, std::max(upper[kIph], 2 * ranges.iph_lower_A));
+  upper[kRsh] = std::min(1e15 * resistance, ranges.rsh_upper_ohm);
+  upper[kRsh] = std::max(upper[kRsh], ranges.rsh_lower_ohm);
+  lower[kRsh] =
+      ranges.rsh_lower_ohm > 0 ? ranges.rsh_lower_ohm : std::min(1e-6 * resistance, upper[kRsh]);
   for (int d = 0; d < DiodeCount(device); ++d) {
-    lower[IdealityIndex(d)] = std::min(std::max(ranges.n_lower, steepest), ranges.n_upper);
-    upper[IdealityIndex(d)] = ranges.n_upper;
+    const DiodeRanges diode = RangesOf(ranges, d);
+    const int is = SaturationCurrentIndex(d), n = IdealityIndex(d);
+    lower[is] = diode.is_lower_A;
+    upper[is] = std::min(diode.is_upper_A, std::max(upper[is], 2 * diode.is_lower_A));
+    lower[n] = std::min(std::max(diode.n_lower, steepest), diode.n_upper);
+    upper[n] = diode.n_upper;
   }
-  return MakeRefineProblem(std::move(device), Objective::kMeasuredCurrent, curve.voltage_V,
-                           curve.current_A, {}, std::move(lower), std::move(upper));
+  return MakeRefineProblem(std::move(device), objective, curve.voltage_V, curve.current_A, {},
+                           std::move(lower), std::move(upper));
 }
 
-void Attain(const RefineProblem& problem, const MixtureData& data, const Mixture& mixture,
-            Attained* best) {
+void Attain(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
+            const Mixture& mixture, Attained* best) {
   const auto consider = [&](const std::vector<double>& p) {
-    if (LargestExponent(problem.device, data, p) > kLargestExponent) return;
-    const double mean_square = MeanSquare(problem, p);
+    const bool cut = LargestExponent(problem.device, data, p) > kLargestExponent;
+    if (cut && problem.objective == Objective::kSolvedCurrent) return;
+    const double mean_square = cut ? UncutMeanSquare(problem, data, p) : MeanSquare(problem, p);
     if (mean_square < best->mean_square) *best = {p, mean_square};
   };
+  // Only the measured-current residual is linear in currents and conductance.
+  const bool solved = problem.objective == Objective::kSolvedCurrent;
+  RefineProblem linear = problem;
+  linear.objective = Objective::kMeasuredCurrent;
   consider(ConstantCurrent(problem, data));
-  std::vector<std::vector<double>> starts = {FromMixture(problem, data, mixture)};
-  for (SeparableStart& start : SeparableStarts(problem, mixture.rs, kGridStarts)) {
+  const std::vector<double> model = AsModel(problem, ranges, mixture);
+  if (!model.empty()) consider(model);
+  std::vector<std::vector<double>> starts;
+  for (int most = DiodeCount(problem.device); most > 0; --most) {
+    starts.push_back(FromMixture(problem, data, mixture, most));
+    // Fewer of them only count where the others cannot vanish.
+    if (problem.lower[SaturationCurrentIndex(most - 1)] == 0) break;
+  }
+  for (SeparableStart& start : SeparableStarts(linear, mixture.rs, kGridStarts)) {
     starts.push_back(std::move(start.p));
   }
   for (const std::vector<double>& start : starts) {
     consider(start);
-    consider(Refine(problem, SeparableDescent(problem, start)).p);
+    if (solved) consider(WithinBox(problem, Refine(problem, start).p));
+    consider(WithinBox(problem, Refine(problem, SeparableDescent(linear, start)).p));
   }
 }
 

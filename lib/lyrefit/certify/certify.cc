@@ -9,9 +9,14 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/attain.h"
 #include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/box.h"
 #include "lyrefit/certify/branch.h"
+#include "lyrefit/certify/mixture_law.h"
+#include "lyrefit/certify/safe_values.h"
+#include "lyrefit/certify/solved_relaxation.h"
 #include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
@@ -34,22 +39,43 @@ struct Proof {
   double Rmse(double half_sum_of_squares) const {
     return std::sqrt(2 * half_sum_of_squares / static_cast<double>(curve.size()));
   }
+  // Of a lower bound.
+  double RmseBelow(double half_sum_of_squares) const {
+    return options.rigorous ? SafeRmse(half_sum_of_squares, curve.size())
+                            : Rmse(half_sum_of_squares);
+  }
   double Half(double rmse) const { return 0.5 * static_cast<double>(curve.size()) * rmse * rmse; }
   double Ideality(double u) const { return 1 / (u * thermal_voltage_V); }
   double SaturationCurrent(const Atom& atom) const {
     return atom.current_A / std::expm1(atom.u * data.reference_voltage_V);
   }
+  WideInterval ThermalVoltage() const {
+    return SafeThermalVoltage(curve.conditions, options.constants);
+  }
+  std::vector<Window> BoxOfModel(int diodes) const {
+    return BoxOf(options, diodes, thermal_voltage_V, ThermalVoltage());
+  }
 };
+
+bool Solved(const Proof& proof) { return proof.options.objective == Objective::kSolvedCurrent; }
+
+// A model of `diodes` diodes, or any number of them (0), of which `primal` is known to be reached.
+BranchEnd RunBranch(const Proof& proof, int diodes, double primal) {
+  const std::vector<Window> box = proof.BoxOfModel(diodes);
+  if (Solved(proof)) {
+    const SolvedRelaxation solved(proof.data);
+    return diodes == 0 ? BranchOver(solved, proof.window, 0, primal, proof.limits)
+                       : BranchOver(solved, box, primal, proof.limits);
+  }
+  if (diodes == 0) return BranchOverResistance(proof.data, proof.window, proof.limits);
+  return BranchOverDiodes(proof.data, box, primal, proof.limits);
+}
 
 Expected<void> CheckOptions(const CertifyOptions& options) {
   TRY(ValidateOptions(options, kCertifyOptionTable));
-  if (!(options.n_lower < options.n_upper)) {
-    return Fail(fmt::format("n-lower = {:g} must be below n-upper = {:g}", options.n_lower,
-                            options.n_upper));
-  }
-  if (options.rs_lower_ohm > options.rs_upper_ohm) {
-    return Fail(fmt::format("rs-lower = {:g} is above rs-upper = {:g}", options.rs_lower_ohm,
-                            options.rs_upper_ohm));
+  TRY(CheckRanges(options));
+  if (options.rigorous && options.objective == Objective::kSolvedCurrent) {
+    return Fail("rigorous bounds are of the measured-current objective only");
   }
   return {};
 }
@@ -57,7 +83,7 @@ Expected<void> CheckOptions(const CertifyOptions& options) {
 // The device takes the flattest diode there may be at face value.
 Expected<void> CheckExponents(const Proof& proof) {
   const MixtureData& data = proof.data;
-  const double voltage = (data.voltage_V + proof.limits.rs_lower * data.current_A).maxCoeff();
+  const double voltage = data.JunctionVoltage(proof.limits.rs_lower).maxCoeff();
   const double exponent = voltage * proof.window.lower;
   if (exponent <= kLargestExponent) return {};
   return Fail(
@@ -73,24 +99,16 @@ Expected<void> Prepare(Proof* proof) {
   const CertifyOptions& options = proof->options;
   TRY(Validate(curve));
   TRY(proof->doubts, JudgeReadings(curve));
-  TRY(CheckOptions(options));
-  const auto points = static_cast<Eigen::Index>(curve.size());
-  MixtureData& data = proof->data;
-  data.voltage_V = Eigen::Map<const Eigen::VectorXd>(curve.voltage_V.data(), points);
-  data.current_A = Eigen::Map<const Eigen::VectorXd>(curve.current_A.data(), points);
-  double largest_current = 0;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    if (curve.current_A[k] < 0) continue;
-    largest_current = std::max(largest_current, curve.current_A[k]);
-    data.reference_voltage_V = std::max(data.reference_voltage_V, curve.voltage_V[k]);
-  }
+  proof->data = CurveData(curve.voltage_V, curve.current_A);
+  SetRanges(options, &proof->data);
+  const MixtureData& data = proof->data;
+  const double largest_current = data.current_A.maxCoeff();
   if (!(data.reference_voltage_V > 0) || !(largest_current > 0)) {
     return Fail("no point delivers current at a forward voltage: a certificate needs a lit curve",
                 curve.source);
   }
   proof->thermal_voltage_V = curve.conditions.ModuleThermalVoltage(options.constants);
-  proof->window = {1 / (options.n_upper * proof->thermal_voltage_V),
-                   1 / (options.n_lower * proof->thermal_voltage_V)};
+  proof->window = AnyDiode(options, proof->thermal_voltage_V, proof->ThermalVoltage());
   BranchLimits& limits = proof->limits;
   limits.rs_lower = options.rs_lower_ohm;
   limits.rs_upper = std::min(options.rs_upper_ohm, data.reference_voltage_V / largest_current);
@@ -101,14 +119,20 @@ Expected<void> Prepare(Proof* proof) {
                     limits.rs_lower, limits.rs_upper));
   }
   limits.tolerance = 2 * options.tolerance;  // of the sum of squares
+  limits.rigorous = options.rigorous;
   limits.most_solved = static_cast<int>(options.effort);
-  if (limits.rs_upper < options.rs_upper_ohm) proof->beyond = BoundBeyond(data, limits.rs_upper);
+  if (limits.rs_upper < options.rs_upper_ohm) {
+    proof->beyond = Solved(*proof)     ? BoundBeyondSolved(data, limits.rs_upper)
+                    : options.rigorous ? BoundBeyond<Interval>(data, limits.rs_upper)
+                                       : BoundBeyond(data, limits.rs_upper);
+  }
   proof->rounding_A = kCertifiedRounding * data.current_A.cwiseAbs().maxCoeff();
   return CheckExponents(*proof);
 }
 
-// Relative gap; an exact fit has none.
+// Relative gap; an exact fit has none, to rounding.
 double Gap(const Proof& proof, double rmse, double lower) {
+  if (proof.options.rigorous) return SafeGap(rmse, lower);
   return rmse > proof.rounding_A ? std::max(0.0, 1 - lower / rmse) : 0;
 }
 
@@ -116,20 +140,59 @@ bool Certified(const Proof& proof, double rmse, double lower) {
   return rmse - lower <= std::max(kCertifiedGap * rmse, proof.rounding_A);
 }
 
+// The floor's RMSE, not rounded below what the numbers there give.
+double SafeFloorRmse(const Proof& proof, const Floor& floor) {
+  std::vector<SafeDiode> diodes;
+  for (const FloorDiode& diode : floor.diodes) {
+    diodes.push_back({diode.n, diode.saturation_current_A});
+  }
+  return SafeAttainedRmse(proof.curve, proof.ThermalVoltage(), floor.photocurrent_A,
+                          floor.resistance_series_ohm, WideInterval(floor.conductance_shunt_S),
+                          diodes);
+}
+
+double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<double>& p) {
+  std::vector<SafeDiode> diodes;
+  diodes.reserve(static_cast<std::size_t>(diode_count));
+  for (int d = 0; d < diode_count; ++d) {
+    diodes.push_back({p[IdealityIndex(d)], p[SaturationCurrentIndex(d)]});
+  }
+  return SafeAttainedRmse(proof.curve, proof.ThermalVoltage(), p[kIph], p[kRs],
+                          WideInterval(1) / WideInterval(p[kRsh]), diodes);
+}
+
+// The dual vector at the floor's Rs and the junction voltages of its columns: those of the measured
+// currents, or of the solved ones around which the problem is linear.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const Mixture& best) {
+  if (!Solved(proof)) return {best.y, proof.data.JunctionVoltage(best.rs)};
+  const Eigen::VectorXd solved = SolvedCurrents(proof.data, best);
+  const Eigen::VectorXd vd = proof.data.voltage_V + best.rs * solved;
+  const MixtureLaw law(proof.data, best);
+  Eigen::VectorXd dual = proof.data.target_A - solved;
+  for (Eigen::Index k = 0; k < dual.size(); ++k) dual[k] /= 1 + best.rs * law.Slope(vd[k]);
+  return {dual, vd};
+}
+
 Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   const Mixture& best = end.best;
   Floor floor;
-  floor.rmse_A = proof.Rmse(best.primal);
-  floor.lower_bound_A = std::min(proof.Rmse(end.lower), floor.rmse_A);
+  floor.photocurrent_A = best.linear[kPhotocurrentTerm];
+  floor.resistance_series_ohm = best.rs;
+  floor.conductance_shunt_S = best.linear[kShuntTerm];
+  for (const Atom& atom : best.atoms) {  // rising u is falling n
+    double n = proof.Ideality(atom.u);
+    if (proof.options.rigorous) {  // the windows of u are a little wide
+      n = std::min(std::max(n, proof.options.n_lower), proof.options.n_upper);
+    }
+    floor.diodes.push_back({n, proof.SaturationCurrent(atom), atom.current_A});
+  }
+  floor.rmse_A = proof.options.rigorous ? SafeFloorRmse(proof, floor) : proof.Rmse(best.primal);
+  floor.lower_bound_A = std::min(proof.RmseBelow(end.lower), floor.rmse_A);
   floor.gap = Gap(proof, floor.rmse_A, floor.lower_bound_A);
   floor.certified = Certified(proof, floor.rmse_A, floor.lower_bound_A);
-  floor.photocurrent_A = best.photocurrent_A;
-  floor.resistance_series_ohm = best.rs;
-  floor.conductance_shunt_S = best.shunt_current_A / proof.data.reference_voltage_V;
-  for (const Atom& atom : best.atoms) {  // rising u is falling n
-    floor.diodes.push_back({proof.Ideality(atom.u), proof.SaturationCurrent(atom), atom.current_A});
-  }
-  floor.dual_A.assign(best.y.data(), best.y.data() + best.y.size());
+  const auto [dual, junction_voltage] = FloorDual(proof, best);
+  floor.dual_A.assign(dual.begin(), dual.end());
+  floor.junction_voltage_V.assign(junction_voltage.begin(), junction_voltage.end());
   floor.duality_gap = best.relative_gap;
   floor.largest_correlation = best.y.norm() > 0 ? best.excess / best.y.norm() : 0;
   floor.solved = end.solved;
@@ -139,28 +202,32 @@ Floor FillFloor(const Proof& proof, const BranchEnd& end) {
 ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& floor) {
   const CertifyOptions& options = proof.options;
   const BranchLimits& limits = proof.limits;
+  const int diodes = static_cast<int>(model);
+  const ModelRanges ranges =
+      RangesOfModel(options, diodes, limits.rs_upper, proof.data.reference_voltage_V);
   const RefineProblem problem =
       ModelProblem(proof.curve, MakeDevice(model, proof.curve.conditions, options.constants),
-                   {options.n_lower, options.n_upper, limits.rs_lower, limits.rs_upper,
-                    proof.data.reference_voltage_V});
-  const int diodes = DiodeCount(problem.device);
+                   ranges, options.objective);
   Attained best;
-  Attain(problem, proof.data, floor.best, &best);
+  Attain(problem, ranges, proof.data, floor.best, &best);
   const auto half = [&] { return proof.Half(std::sqrt(best.mean_square)); };
   ModelCertificate certificate;
   certificate.model = model;
   double lower = floor.lower;
-  const bool floor_proves = static_cast<int>(floor.best.atoms.size()) <= diodes ||
+  const bool floor_proves = AsDiodes(floor.best, proof.BoxOfModel(diodes)) ||
                             lower >= half() * (1 - 2 * limits.tolerance);
   if (!floor_proves) {
-    const BranchEnd end = BranchOverDiodes(proof.data, proof.window, diodes, half(), limits);
+    const BranchEnd end = RunBranch(proof, diodes, half());
     certificate.solved = end.solved;
     lower = std::max(lower, std::min(end.lower, proof.beyond));
-    if (end.best.primal < half() * (1 - 1e-9)) Attain(problem, proof.data, end.best, &best);
+    if (end.best.primal < half() * (1 - 1e-9)) {
+      Attain(problem, ranges, proof.data, end.best, &best);
+    }
   }
   certificate.parameters = best.p;
-  certificate.rmse_A = std::sqrt(best.mean_square);
-  certificate.lower_bound_A = std::min(proof.Rmse(lower), certificate.rmse_A);
+  certificate.rmse_A =
+      proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p) : std::sqrt(best.mean_square);
+  certificate.lower_bound_A = std::min(proof.RmseBelow(lower), certificate.rmse_A);
   certificate.gap = Gap(proof, certificate.rmse_A, certificate.lower_bound_A);
   certificate.certified = Certified(proof, certificate.rmse_A, certificate.lower_bound_A);
   return certificate;
@@ -170,10 +237,8 @@ ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& 
 
 std::vector<double> DualCosines(const Certificate& certificate, const std::vector<double>& n) {
   const auto points = static_cast<Eigen::Index>(certificate.curve.size());
-  const Eigen::Map<const Eigen::VectorXd> voltage(certificate.curve.voltage_V.data(), points);
-  const Eigen::Map<const Eigen::VectorXd> current(certificate.curve.current_A.data(), points);
+  const Eigen::Map<const Eigen::VectorXd> vd(certificate.floor.junction_voltage_V.data(), points);
   const Eigen::Map<const Eigen::VectorXd> y(certificate.floor.dual_A.data(), points);
-  const Eigen::VectorXd vd = voltage + certificate.floor.resistance_series_ohm * current;
   std::vector<double> cosines;
   for (const double ideality : n) {
     const Eigen::VectorXd column = DiodeColumn(
@@ -183,9 +248,11 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
   return cosines;
 }
 
-Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
+Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
                               const Observer& observer) {
   const Instant begin = Now();
+  TRY(CheckOptions(asked));
+  const CertifyOptions options = WithEveryDiode(asked);
   Proof proof{curve, options, observer, {}, {}, {}};
   TRY(Prepare(&proof));
   const char* stage = "floor";
@@ -204,8 +271,8 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
   certificate.rs_upper_ohm = proof.limits.rs_upper;
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
-  AppendNonDefaults(options, kCertifyOptionTable, &certificate.non_default_options);
-  BranchEnd floor = BranchOverResistance(proof.data, proof.window, proof.limits);
+  AppendNonDefaults(asked, kCertifyOptionTable, &certificate.non_default_options);
+  BranchEnd floor = RunBranch(proof, 0, kInfinity);
   floor.lower = std::min(floor.lower, proof.beyond);
   certificate.floor = FillFloor(proof, floor);
   for (const Model model : options.models) {

@@ -20,8 +20,8 @@ struct FloorDiode {
   double current_A = 0;  // at the reference voltage
 };
 
-// No measured-current RMSE below `lower_bound_A` is possible for any number of diodes in parallel
-// with n and Rs in the ranges asked for and Iph, Is, 1/Rsh >= 0, and `rmse_A` is attained.
+// No RMSE of the objective below `lower_bound_A` is possible for any number of diodes in parallel
+// with n, Rs, Iph and Rsh in the ranges asked for and Is >= 0, and `rmse_A` is attained.
 struct Floor {
   double rmse_A = 0;
   double lower_bound_A = 0;
@@ -31,15 +31,21 @@ struct Floor {
   double resistance_series_ohm = 0;
   double conductance_shunt_S = 0;
   std::vector<FloorDiode> diodes;  // by falling n
-  // The certificate at that Rs: a vector y over the points, orthogonal to or pointing away from
-  // every admissible column, which proves b . y - |y|^2 / 2 <= half the sum of squares.
+  // The certificate at that Rs: a vector over the points, orthogonal to or pointing away from the
+  // columns of light, leak and every diode at these junction voltages, save that of a light or leak
+  // which an end of its range holds. Of the measured current both
+  // are those of the measured points, and y proves b . y - |y|^2 / 2 <= half the sum of squares; of
+  // the solved current those of the problem that is linear around the solved points.
   std::vector<double> dual_A;
+  std::vector<double> junction_voltage_V;
   double duality_gap = 0;  // relative, of the sum of squares, what is left of `excess` priced
   double largest_correlation = 0;  // proved: of y with any diode column, over |y|; 0: none
   std::int64_t solved = 0;         // convex problems
 };
 
-// The same for a model with a fixed number of diodes.
+// The same for a model with a fixed number of diodes, each with its n and Is in its ranges. Where a
+// diode is so steep that the device would cut its exponent (law/term.h), the RMSE is that of Shockley's
+// equation.
 struct ModelCertificate {
   Model model = Model::kSingleDiode;
   std::vector<double> parameters;  // the best there is, in the device's order
@@ -73,15 +79,22 @@ struct Certificate {
   bool interrupted = false;
 };
 
-// Proves how low the measured-current RMSE (unweighted) of a curve can go. At each Rs the problem
+// Proves how low the RMSE (unweighted) of a curve can go. At each Rs the measured-current problem
 // over mixtures of diodes is convex: non-negative least squares over the continuum of n, whose dual
-// vector proves its value (weak duality). Between the Rs visited the interpolated dual vectors
+// vector proves its value (weak duality). The solved-current problem is bounded by such problems,
+// linear around reference currents, less what the slopes of mixtures as good as the best one known
+// can differ from the reference's. Between the Rs visited the interpolated dual vectors
 // prove a lower bound, and a branch and bound over Rs closes the gap. A fixed number of diodes is
 // bounded by mixtures over ever smaller windows of n, one for each diode. All bounds hold up to
-// rounding of double arithmetic, some 1e-15 of the largest current. Errors: an unusable curve, no
+// rounding of double arithmetic, some 1e-15 of the largest current; with `rigorous` without that
+// reservation: the search is the same, but what it proves is evaluated in intervals. Then every
+// `lower_bound_A` is at most the RMSE of any admissible model, every `rmse_A` at least that of the
+// parameters beside it, and every `gap` at least what lies between them, for readings, temperature
+// in kelvin and ranges as the doubles they are and for the exact quotient k / q. `certified` allows
+// for rounding as without it. Errors: an unusable curve, no
 // point that delivers current at a forward voltage, so few cells that every diode's exponent is
 // absurd, options outside their ranges.
-Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options = {},
+Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked = {},
                               const Observer& observer = {});
 
 // Cosine between the floor's dual vector and the column of a diode with each of these n at the

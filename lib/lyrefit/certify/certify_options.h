@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lyrefit/base/constants.h"
@@ -11,30 +12,70 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Which models are certified, and within which bounds.
+// Where one diode may lie.
+struct DiodeRanges {
+  double n_lower = 1;  // per cell
+  double n_upper = 2;  // end of that range
+  double is_lower_A = 0;
+  double is_upper_A = kInfinity;
+};
+
+// Which models are certified, and within which bounds. A floor is that of any number of diodes, whose
+// Is add up to anything: the ranges of Is hold for the models.
 struct CertifyOptions {
   double n_lower = 1;  // per cell
   double n_upper = 2;
   double rs_lower_ohm = 0;
   double rs_upper_ohm = kInfinity;
+  double iph_lower_A = 0;
+  double iph_upper_A = kInfinity;
+  double is_lower_A = 0;  // of each diode
+  double is_upper_A = kInfinity;
+  double rsh_lower_ohm = 0;  // 0: any conductance
+  double rsh_upper_ohm = kInfinity;
+  std::string bounds;  // what these ranges are called, for reports; empty: nothing
+  // Of each diode, where they differ; empty: n and Is as above for every diode. There are as many as
+  // the largest model has, and the floor takes n from all of them together.
+  std::vector<DiodeRanges> diodes;
+  Objective objective = Objective::kMeasuredCurrent;
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
   ConstantSet constants = ConstantSet::kCodata;
   double tolerance = 1e-10;     // relative gap of the RMSE that ends the proof
+  bool rigorous = false;        // bounds and RMSEs hold in spite of rounding, see Certify()
   std::int64_t effort = 50000;  // convex problems solved for one floor or model before giving up
 };
 
 inline constexpr OptionRow<CertifyOptions> kCertifyOptionTable[] = {
     OptionRow<CertifyOptions>("Proof"),
+    {"objective", "NAME", "which residual is squared", EnumOption<&CertifyOptions::objective>(),
+     OptionTrait::kNoEcho},
     {"models", "LIST", "models to certify beside the floor",
      EnumListOption<&CertifyOptions::models>(), OptionTrait::kNoEcho},
     {"constants", "NAME", "values of k and q", EnumOption<&CertifyOptions::constants>(),
      OptionTrait::kNoEcho},
-    {"n-lower", "", "smallest ideality factor", &CertifyOptions::n_lower, 0.05, 100},
+    {"bounds", "NAME|FILE", "the box that is proved",
+     OptionText<CertifyOptions>{nullptr,
+                                [](const CertifyOptions& options) -> std::vector<std::string> {
+                                  return {options.bounds};
+                                }},
+     OptionTrait::kNoFlag},
+    {"n-lower", "", "smallest ideality factor", &CertifyOptions::n_lower, 0.01, 100},
     {"n-upper", "", "largest ideality factor", &CertifyOptions::n_upper, 0.05, 100},
     {"rs-lower", "ohm", "smallest series resistance", &CertifyOptions::rs_lower_ohm, 0, 1e12},
     {"rs-upper", "ohm", "largest series resistance", &CertifyOptions::rs_upper_ohm, 0, kInfinity},
+    {"iph-lower", "A", "smallest photocurrent", &CertifyOptions::iph_lower_A, 0, 1e12},
+    {"iph-upper", "A", "largest photocurrent", &CertifyOptions::iph_upper_A, 0, kInfinity},
+    {"is-lower", "A", "smallest saturation current of each diode", &CertifyOptions::is_lower_A, 0,
+     1e12},
+    {"is-upper", "A", "largest saturation current of each diode", &CertifyOptions::is_upper_A,
+     1e-300, kInfinity},
+    {"rsh-lower", "ohm", "smallest shunt resistance", &CertifyOptions::rsh_lower_ohm, 0, 1e15},
+    {"rsh-upper", "ohm", "largest shunt resistance", &CertifyOptions::rsh_upper_ohm, 1e-9,
+     kInfinity},
     {"tolerance", "", "relative gap of the RMSE that ends the proof", &CertifyOptions::tolerance,
      1e-12, 0.1},
+    {"rigorous", "", "bounds that hold in spite of rounding, by interval arithmetic",
+     &CertifyOptions::rigorous},
     {"effort", "", "convex problems solved for one floor or model before giving up",
      &CertifyOptions::effort, 10, 1e9},
 };

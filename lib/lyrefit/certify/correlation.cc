@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/certify/interval.h"
+#include "lyrefit/certify/real_data.h"
 
 namespace lyrefit {
 namespace {
@@ -20,12 +22,29 @@ struct Piece {
   int depth;
 };
 
+using std::exp;
+using std::max;
+using std::min;
+
+// u1 vd - u0 scale.
+ArrayOf<double> ExponentAtEnd(const ArrayOf<double>& vd, double scale, double u0, double u1) {
+  return vd * u1 - scale * u0;
+}
+// The same with less rounding where vd is close to the scale, which is where it matters.
+ArrayOf<Interval> ExponentAtEnd(const ArrayOf<Interval>& vd, const Interval& scale, double u0,
+                                double u1) {
+  return (vd - scale) * Interval(u0) + vd * (Interval(u1) - Interval(u0));
+}
+
+template <class Real>
 class Search {
  public:
-  Search(const Eigen::VectorXd& vd, double scale, const Eigen::VectorXd& y, double allowed)
-      : vd_(vd.array()), y_(y.array()), scale_(scale), allowed_(allowed) {}
+  Search(const ArrayOf<Real>& vd, double scale, const ArrayOf<Real>& y, double allowed)
+      : vd_(vd), y_(y), scale_(scale), allowed_(allowed) {}
 
-  void Look(const Piece& first) {
+  // `pull` prices the Is of the window.
+  void Look(const Piece& first, double pull) {
+    pull_ = Real(pull);
     std::vector<Piece> open = {first};
     while (!open.empty()) {
       const Piece piece = open.back();
@@ -42,43 +61,48 @@ class Search {
  private:
   // Bounds the piece; true if that ends the matter.
   bool Settled(const Piece& piece) {
-    const double h = piece.upper - piece.lower;
-    const double factor = -1 / -std::expm1(-piece.lower * scale_);
-    const double floor = std::exp(-piece.lower * scale_);
-    const Eigen::ArrayXd low = ((vd_ - scale_) * piece.lower).exp();
-    const Eigen::ArrayXd high = (vd_ * piece.upper - scale_ * piece.lower).exp();
-    const double c0 = factor * (y_ * (low - floor)).sum();
-    const double c1 = factor * (y_ * (high - floor)).sum();
-    const double slope0 = factor * (y_ * vd_ * low).sum();
-    const double slope1 = factor * (y_ * vd_ * high).sum();
+    const Real lower(piece.lower);
+    const Real h = Real(piece.upper) - lower;
+    const Real factor = Real(-1) / -ExpMinus1(-lower * scale_);
+    const Real floor = exp(-lower * scale_);
+    const ArrayOf<Real> low = ((vd_ - scale_) * lower).exp();
+    const ArrayOf<Real> high = ExponentAtEnd(vd_, scale_, piece.lower, piece.upper).exp();
+    const Real c0 = factor * ((y_ * (low - floor)).sum() + pull_ * floor);
+    const Real c1 = factor * ((y_ * (high - floor)).sum() + pull_ * floor);
+    const Real slope0 = factor * (y_ * vd_ * low).sum();
+    const Real slope1 = factor * (y_ * vd_ * high).sum();
     // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vs). It lies between the least and the
     // largest of the four control points of the cubic through its values and slopes at both ends,
     // as far as its own fourth derivative lets it.
-    const Eigen::ArrayXd weight = factor * y_ * vd_.square();
-    const double bend0 = (weight * low).sum();
-    const double bend1 = (weight * high).sum();
-    const double inner0 = bend0 + h / 3 * (weight * vd_ * low).sum();
-    const double inner1 = bend1 - h / 3 * (weight * vd_ * high).sum();
-    const double bulge =
-        h * h * h * h / 384 * (weight.abs() * vd_.square().square() * low.max(high)).sum();
-    const double bend_low = std::min({bend0, inner0, inner1, bend1}) - bulge;
-    const double bend_high = std::max({bend0, inner0, inner1, bend1}) + bulge;
-    Note(c0, piece.lower);
-    Note(c1, piece.upper);
-    const double ends = std::max(c0, c1);
-    double bound = ends + 0.125 * h * h * std::max(0.0, -bend_low);
-    if (bend_high <= 0) bound = std::min(bound, ConcaveBound(c0, c1, slope0, slope1, h));
+    const ArrayOf<Real> weight = factor * y_ * vd_.square();
+    const Real bend0 = (weight * low).sum();
+    const Real bend1 = (weight * high).sum();
+    const Real inner0 = bend0 + h / 3.0 * (weight * vd_ * low).sum();
+    const Real inner1 = bend1 - h / 3.0 * (weight * vd_ * high).sum();
+    const Real bulge =
+        h * h * h * h / 384.0 * (weight.abs() * vd_.square().square() * low.max(high)).sum();
+    const Real bend_low = min(min(bend0, inner0), min(inner1, bend1)) - bulge;
+    const Real bend_high = max(max(bend0, inner0), max(inner1, bend1)) + bulge;
+    Note(Upper(c0), piece.lower);
+    Note(Upper(c1), piece.upper);
+    const double ends = std::max(Upper(c0), Upper(c1));
+    double bound = Upper(Real(ends) + 0.125 * h * h * std::max(0.0, -Lower(bend_low)));
+    if (Upper(bend_high) <= 0) bound = std::min(bound, ConcaveBound(c0, c1, slope0, slope1, h));
     const bool known_above = ends > allowed_ && bound <= 1.01 * ends;
     if (bound > allowed_ && !known_above && piece.depth < kDeepest) return false;
     result_.bound = std::max(result_.bound, bound);
     return true;
   }
 
-  static double ConcaveBound(double c0, double c1, double slope0, double slope1, double h) {
-    if (slope0 <= 0) return c0;
-    if (slope1 >= 0) return c1;
-    const double t = (c1 - c0 - slope1 * h) / (slope0 - slope1);
-    return std::max(std::max(c0, c1), c0 + slope0 * std::min(std::max(t, 0.0), h));
+  // The larger slope at the lower end and the smaller one at the upper end bound it.
+  static double ConcaveBound(const Real& c0, const Real& c1, const Real& slope0, const Real& slope1,
+                             const Real& h) {
+    if (Upper(slope0) <= 0) return Upper(c0);
+    if (Lower(slope1) >= 0) return Upper(c1);
+    const Real s0(Upper(slope0)), s1(Lower(slope1)), e0(Upper(c0)), e1(Upper(c1));
+    const Real t = (e1 - e0 - s1 * h) / (s0 - s1);
+    return std::max(std::max(Upper(e0), Upper(e1)),
+                    Upper(e0 + s0 * std::min(std::max(Upper(t), 0.0), Upper(h))));
   }
 
   void Note(double c, double u) {
@@ -87,93 +111,141 @@ class Search {
     result_.best_u = u;
   }
 
-  const Eigen::ArrayXd vd_;
-  const Eigen::ArrayXd y_;
-  const double scale_;
+  const ArrayOf<Real> vd_;
+  const ArrayOf<Real> y_;
+  const Real scale_;
   const double allowed_;
+  Real pull_ = Real(0);
   Correlation1D result_;
 };
 
 // An upper bound of the correlation a(u) . y over u in [u0, u1], good enough to tell pieces where
 // it is far below zero.
-double RoughBound(const Eigen::ArrayXd& vd, double scale, const Eigen::ArrayXd& y, double u0,
-                  double u1) {
-  const Eigen::ArrayXd low = ((vd - scale) * u0).exp();
-  const Eigen::ArrayXd high = (vd * u1 - scale * u0).exp();
-  const double factor = 1 / std::expm1(-u0 * scale);
-  const double floor = std::exp(-u0 * scale);
-  const Eigen::ArrayXd bend = factor * y * vd.square();
-  const double below = (bend * low).min(bend * high).sum();
-  return factor * std::min((y * (low - floor)).sum(), (y * (high - floor)).sum()) +
-         0.125 * (u1 - u0) * (u1 - u0) * std::max(0.0, -below);
+template <class Real>
+double RoughBound(const ArrayOf<Real>& vd, const Real& scale, const ArrayOf<Real>& y, double pull,
+                  double u0, double u1) {
+  const ArrayOf<Real> low = ((vd - scale) * Real(u0)).exp();
+  const ArrayOf<Real> high = ExponentAtEnd(vd, scale, u0, u1).exp();
+  const Real factor = Real(1) / ExpMinus1(Real(-u0) * scale);
+  const Real floor = exp(Real(-u0) * scale);
+  const ArrayOf<Real> bend = factor * y * vd.square();
+  const Real below = (bend * low).min(bend * high).sum();
+  const Real h = Real(u1) - Real(u0);
+  const Real priced = Real(pull) * floor;
+  return Upper(factor * (min((y * (low - floor)).sum(), (y * (high - floor)).sum()) + priced) +
+               0.125 * h * h * std::max(0.0, -Lower(below)));
 }
 
-int PieceCount(const Window& window, const Eigen::VectorXd& vd) {
-  const double span = (window.upper - window.lower) * vd.cwiseAbs().maxCoeff();
+template <class Real>
+double LargestSize(const ArrayOf<Real>& vd) {
+  return Upper(vd.abs().maxCoeff());
+}
+
+int PieceCount(const Window& window, double largest_vd) {
+  const double span = (window.upper - window.lower) * largest_vd;
   return std::max(1, static_cast<int>(std::ceil(span / kWidestPiece)));
+}
+
+double PullOf(const std::vector<double>& pulls, std::size_t window) {
+  return pulls.empty() ? 0 : pulls[window];
+}
+
+// Neighbouring ends of `count` equal pieces of a window.
+std::vector<double> PieceEnds(const Window& window, int count) {
+  std::vector<double> ends;
+  for (int i = 0; i <= count; ++i) {
+    ends.push_back(window.lower + (window.upper - window.lower) * i / count);
+  }
+  return ends;
 }
 
 }  // namespace
 
-Correlation1D BoundCorrelation(const Eigen::VectorXd& vd, double scale_voltage_V,
-                               const Eigen::VectorXd& y, const std::vector<Window>& windows,
-                               const std::vector<Atom>& marks, double allowed) {
-  Search search(vd, scale_voltage_V, y, allowed);
-  for (const Window& window : windows) {
-    std::vector<double> ends;
-    const int count = PieceCount(window, vd);
-    for (int i = 0; i <= count; ++i) {
-      ends.push_back(window.lower + (window.upper - window.lower) * i / count);
-    }
+template <class Real>
+Correlation1D BoundCorrelation(const ArrayOf<Real>& vd, double scale_voltage_V,
+                               const ArrayOf<Real>& y, const std::vector<Window>& windows,
+                               const std::vector<Atom>& marks, double allowed,
+                               const std::vector<double>& pulls) {
+  Search<Real> search(vd, scale_voltage_V, y, allowed);
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const Window& window = windows[w];
+    std::vector<double> ends = PieceEnds(window, PieceCount(window, LargestSize(vd)));
+    ends.back() = window.upper;
     for (const Atom& mark : marks) {
       if (mark.u > window.lower && mark.u < window.upper) ends.push_back(mark.u);
     }
     std::sort(ends.begin(), ends.end());
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) search.Look({ends[i], ends[i + 1], 0});
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      search.Look({ends[i], ends[i + 1], 0}, PullOf(pulls, w));
+    }
   }
   return search.result();
 }
 
-double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs, double dr,
-                 const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, double scale_voltage_V) {
-  const Eigen::ArrayXd current = data.current_A.array();
-  const Eigen::ArrayXd v0 = data.voltage_V.array() + rs * current;
-  const Eigen::ArrayXd v1 = v0 + dr * current;
-  const Eigen::ArrayXd step = (y1 - y0).array();
-  const Eigen::ArrayXd y_high = y0.array().max(y1.array());
+template <class Real>
+double BoundBend(const MixtureData& data, const std::vector<Window>& windows, double rs0,
+                 double rs1, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
+                 double scale_voltage_V, const std::vector<double>& pulls0,
+                 const std::vector<double>& pulls1) {
+  const Real scale(scale_voltage_V);
+  const Real dr = Real(rs1) - Real(rs0);
+  const ArrayOf<Real> current = RealArray<Real>(data.current_A);
+  const ArrayOf<Real> v0 = JunctionVoltage<Real>(data, rs0);
+  const ArrayOf<Real> v1 = v0 + dr * current;
+  const ArrayOf<Real> z0 = WeightedArray<Real>(data, y0);
+  const ArrayOf<Real> z1 = WeightedArray<Real>(data, y1);
+  const ArrayOf<Real> step = z1 - z0;
+  const ArrayOf<Real> z_high = z0.max(z1);
+  const ArrayOf<Real> square = (dr * current).square() * z_high;
+  const ArrayOf<Real> cross = Real(2) * dr * current * step;
   double bend = 0;
   // Keeps the largest of those columns whose correlation can rise above zero between the ends.
   const auto keep = [&bend](double column_bend, double ends) {
-    if (ends + 0.125 * column_bend > 0) bend = std::max(bend, column_bend);
+    if (Upper(Real(ends) + Real(0.125) * column_bend) > 0) bend = std::max(bend, column_bend);
   };
-  keep(2 * dr * (current * step).sum() / scale_voltage_V,
-       -std::min((v0 * y0.array()).sum(), (v1 * y1.array()).sum()) / scale_voltage_V);
-  for (const Window& window : windows) {
-    const int count = std::max(PieceCount(window, v0.matrix()), PieceCount(window, v1.matrix()));
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const Window& window = windows[w];
+    const double pull0 = PullOf(pulls0, w), pull1 = PullOf(pulls1, w);
+    const int count =
+        std::max(PieceCount(window, LargestSize(v0)), PieceCount(window, LargestSize(v1)));
     const double width = (window.upper - window.lower) / count;
     for (int i = 0; i < count; ++i) {
       const double u0 = window.lower + i * width;
-      const double u1 = u0 + width;
+      // No gap is left to the next piece.
+      const double next = i + 1 < count ? window.lower + (i + 1) * width : window.upper;
+      const double u1 = std::max(u0 + width, next);
       // Each point adds exp(u v) ((u dr I)^2 y + 2 u dr I dy), bounded term by term.
-      const Eigen::ArrayXd square = (dr * current).square() * y_high;
-      const Eigen::ArrayXd cross = 2 * dr * current * step;
-      const Eigen::ArrayXd factor =
-          (square * (u0 * u0)).max(square * (u1 * u1)) + (cross * u0).max(cross * u1);
-      const Eigen::ArrayXd exponent_low =
-          (v0 * u0).min(v0 * u1).min((v1 * u0).min(v1 * u1)) - u0 * scale_voltage_V;
-      const Eigen::ArrayXd exponent_high =
-          (v0 * u0).max(v0 * u1).max((v1 * u0).max(v1 * u1)) - u0 * scale_voltage_V;
-      if (exponent_high.maxCoeff() > kHighestExponent) {
+      const Real low(u0), high(u1);
+      const ArrayOf<Real> factor =
+          (square * (low * low)).max(square * (high * high)) + (cross * low).max(cross * high);
+      const ArrayOf<Real> exponent_low =
+          (v0 * low).min(v0 * high).min((v1 * low).min(v1 * high)) - low * scale;
+      const ArrayOf<Real> exponent_high =
+          (v0 * low).max(v0 * high).max((v1 * low).max(v1 * high)) - low * scale;
+      if (Upper(exponent_high.maxCoeff()) > kHighestExponent) {
         return kInfinity;
       }
-      const double sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
-      const double column_bend = sum / -std::expm1(-u0 * scale_voltage_V);
+      const Real sum = (factor * exponent_low.exp()).max(factor * exponent_high.exp()).sum();
+      const double column_bend = Upper(sum / -ExpMinus1(-low * scale));
       if (column_bend <= bend) continue;
-      keep(column_bend, std::max(RoughBound(v0, scale_voltage_V, y0.array(), u0, u1),
-                                 RoughBound(v1, scale_voltage_V, y1.array(), u0, u1)));
+      keep(column_bend, std::max(RoughBound(v0, scale, z0, pull0, u0, u1),
+                                 RoughBound(v1, scale, z1, pull1, u0, u1)));
     }
   }
   return bend;
 }
+
+template Correlation1D BoundCorrelation(const ArrayOf<double>&, double, const ArrayOf<double>&,
+                                        const std::vector<Window>&, const std::vector<Atom>&,
+                                        double, const std::vector<double>&);
+template Correlation1D BoundCorrelation(const ArrayOf<Interval>&, double, const ArrayOf<Interval>&,
+                                        const std::vector<Window>&, const std::vector<Atom>&,
+                                        double, const std::vector<double>&);
+template double BoundBend<double>(const MixtureData&, const std::vector<Window>&, double, double,
+                                  const Eigen::VectorXd&, const Eigen::VectorXd&, double,
+                                  const std::vector<double>&, const std::vector<double>&);
+template double BoundBend<Interval>(const MixtureData&, const std::vector<Window>&, double, double,
+                                    const Eigen::VectorXd&, const Eigen::VectorXd&, double,
+                                    const std::vector<double>&, const std::vector<double>&);
 
 }  // namespace lyrefit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "lyrefit/certify/relaxation.h"
+
+namespace lyrefit {
+
+// The problem of mixture.h. Between two neighbouring Rs the dual vectors of both ends, interpolated,
+// prove a lower bound for every Rs between them: feasible up to second order in the distance, and
+// what is lacking is priced.
+class MeasuredRelaxation : public Relaxation {
+ public:
+  // The data outlive this. `rigorous`: no bound is too high by rounding.
+  explicit MeasuredRelaxation(const MixtureData& data, bool rigorous = false)
+      : data_(data), rigorous_(rigorous) {}
+  MixturePtr At(const std::vector<Window>& windows, double rs, const std::vector<Atom>& start,
+                Incumbent* incumbent) const override;
+  void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const override;
+  bool SplitsWindows(const BranchPart& part, double enough) const override {
+    return part.ends < enough || !(part.rs1 > part.rs0);
+  }
+  double Scale() const override;
+  Eigen::Index Points() const override { return data_.target_A.size(); }
+
+ private:
+  const MixtureData& data_;
+  bool rigorous_;
+};
+
+}  // namespace lyrefit

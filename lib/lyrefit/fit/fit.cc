@@ -7,7 +7,6 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/basin_starts.h"
 #include "lyrefit/fit/birds.h"
 #include "lyrefit/fit/check_birds.h"
@@ -18,6 +17,7 @@
 #include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
+#include "lyrefit/fit/prove_floor.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
@@ -113,22 +113,23 @@ void FillResults(const FitJob& job, FitReport* report) {
 // How far the answer lies above what any number of diodes could reach.
 void FindFloor(FitJob* job, FitReport* report) {
   if (!job->options.floor || job->watch.Stop()) return;
-  const CertifyOptions options = RangesOf(job->bounds, job->options.constants, {});
-  const Expected<Certificate> certificate = Certify(job->curve, options, job->observer);
-  if (!certificate) {
-    report->warnings.push_back("No floor was found: " + certificate.error().message + ".");
+  const FitOptions& options = job->options;
+  const double refined_A =
+      BothRmse(report->device, report->refined, job->curve).Of(options.objective);
+  CertifyOptions ranges = RangesOf(job->bounds, options.constants, {});
+  ranges.objective = options.objective;
+  bool interrupted = false;
+  Expected<FloorReport> floor =
+      ProveFloor(job->curve, ranges, refined_A, job->observer, &interrupted);
+  if (interrupted) job->watch.MarkStopped();
+  if (!floor) {
+    report->warnings.push_back("No floor was found: " + floor.error().message + ".");
     return;
   }
-  FloorReport floor;
-  floor.rmse_A = certificate->floor.rmse_A;
-  floor.lower_bound_A = certificate->floor.lower_bound_A;
-  floor.n_lower = options.n_lower;
-  floor.n_upper = options.n_upper;
-  floor.above = BothRmse(report->device, report->refined, job->curve).measured_current_A /
-                    certificate->floor.rmse_A -
-                1;
-  report->floor = floor;
-  if (certificate->interrupted) job->watch.MarkStopped();
+  const bool weighed = report->errors && report->errors->weighed;
+  floor->minimised =
+      job->curve.sigma_A.empty() && options.loss == Loss::kSquared && !weighed && options.polish;
+  report->floor = *floor;
 }
 
 // What one bounded solve makes of the best bird, and what its own polish does.

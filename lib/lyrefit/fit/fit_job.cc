@@ -13,6 +13,7 @@
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
+#include "lyrefit/law/term.h"
 #include "lyrefit/refine/thin.h"
 
 namespace lyrefit {
@@ -74,6 +75,36 @@ Expected<void> CheckErrorSpec(const FitOptions& options) {
   return {};
 }
 
+// Smallest n at which no exponent is cut (law/term.h), at any reading and any Rs of the range.
+double SteepestIdeality(const IvCurve& curve, const Device& device, const ParameterBounds& rs) {
+  double voltage = 0, current = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    voltage = std::max(voltage, curve.voltage_V[k]);
+    current = std::max(current, std::fabs(curve.current_A[k]));
+  }
+  const double most = current > 0 ? std::min(rs.upper, voltage / current) : rs.upper;
+  double junction_V = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    for (const double r : {rs.lower, most}) {
+      junction_V = std::max(junction_V, curve.voltage_V[k] + r * curve.current_A[k]);
+    }
+  }
+  return junction_V / (kLargestExponent * device.module_thermal_voltage_V);
+}
+
+// A diode whose exponent is cut is a step in the current: it would fit anything, and be no diode.
+void LeaveOutSteps(FitJob* job, FitReport* report) {
+  const double steepest = SteepestIdeality(job->curve, report->device, job->bounds[kRs]);
+  for (int d = 0; d < DiodeCount(report->device); ++d) {
+    ParameterBounds& n = job->bounds[IdealityIndex(d)];
+    if (!(n.lower < steepest && steepest < n.upper)) continue;
+    if (!std::isnan(job->fixed[IdealityIndex(d)])) continue;
+    report->steepest_n = n.lower = steepest;
+    n.search_lower = std::max(n.search_lower, steepest);
+    n.search_upper = std::max(n.search_upper, steepest);
+  }
+}
+
 }  // namespace
 
 Expected<void> PrepareFit(FitJob* job, FitReport* report) {
@@ -90,6 +121,7 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   TRY(auto fixed, FixedValues(options.fixed, report->device));
   job->bounds = std::move(bounds);
   job->fixed = std::move(fixed);
+  LeaveOutSteps(job, report);
   TRY(AddEffects(job, report));
   std::vector<double> lower, upper;
   for (int i = 0; i < report->device.size(); ++i) {

@@ -93,7 +93,7 @@ struct FitOptions {
   bool plain_polish = false;  // also try one bounded least-squares solve from the best bird, and
                               // nothing more, and polish that bird by itself to its end
   StartsFrom starts = StartsFrom::kAll;
-  bool floor = false;  // also prove how low the measured-current RMSE can go within the bounds
+  bool floor = false;  // also prove how low the RMSE of the objective can go within the bounds
   // What the polish and the intervals take the errors of the readings for. kWhite: the estimates
   // are those of least squares, and where the residuals ask for it intervals under the error model
   // stand beside theirs. The others need the solved current and squared residuals.
@@ -161,7 +161,7 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
      EnumOption<&FitOptions::starts>(), OptionTrait::kNoFlag | OptionTrait::kNoEcho},
     OptionRow<FitOptions>("Polish"),
     {"polish", "", "answer with the search's best bird", &FitOptions::polish},
-    {"floor", "", "also prove how low the measured-current RMSE can go within the bounds",
+    {"floor", "", "also prove how low the RMSE of the objective can go within the bounds",
      &FitOptions::floor},
     {"noise", "NAME|FILE",
      "errors of the readings that the polish weighs by: white, field (found from the residuals), "

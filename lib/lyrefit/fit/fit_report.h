@@ -83,14 +83,18 @@ struct RmseTable {
   RmsePair refined;  // the best end of all starts
 };
 
-// The lowest measured-current RMSE that any number of diodes in parallel can reach, n and Rs within
-// the bounds of the fit (see certify/certify.h).
+// The lowest RMSE (unweighted) that any number of diodes in parallel can reach, n, Rs, Iph and Rsh
+// within the bounds of the fit (see certify/certify.h).
 struct FloorReport {
-  double rmse_A = kUnknown;         // attained by a mixture of diodes
-  double lower_bound_A = kUnknown;  // proved
-  double n_lower = kUnknown;        // range of the ideality
-  double n_upper = kUnknown;        // that was allowed
-  double above = kUnknown;          // refined measured-current RMSE / rmse_A - 1
+  Objective objective = Objective::kSolvedCurrent;  // that of the fit
+  double rmse_A = kUnknown;                         // attained by diodes
+  double lower_bound_A = kUnknown;                  // proved; 0: nothing is
+  double gap = kUnknown;                            // (rmse - lower bound) / rmse
+  double n_lower = kUnknown;                        // range of the ideality
+  double n_upper = kUnknown;                        // that was allowed
+  double above = kUnknown;  // refined RMSE of the same objective / rmse_A - 1; 0: only rounding
+  // Whether the fit minimises this RMSE: false where it weighs its residuals, or bends their squares.
+  bool minimised = true;
 };
 
 // One start of the polish and where it ended. Starts whose descents come to the same curve, to a
@@ -211,6 +215,9 @@ struct FitReport {
   Objective objective = Objective::kSolvedCurrent;
   ConstantSet constants = ConstantSet::kCodata;
   std::string bounds_name;  // "physical", "paper", "literature", "wide" or the file's name
+  // Where the range of n begins if its bounds begin lower: below, a diode's exponent is cut at a
+  // reading. NaN: it begins where they do.
+  double steepest_n = kUnknown;
   Device device;
   std::vector<double> searched;            // parameter vectors in the device's order
   std::vector<double> best_bird_polished;  // after its own polish; empty: not asked for

@@ -2,15 +2,23 @@
 
 #include <vector>
 
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
+#include "lyrefit/fit/bounds.h"
 #include "lyrefit/law/parameter.h"
 
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
-// What Certify() is to prove about fits within these bounds of a device: the ranges of n (of all
-// diodes together) and Rs. Every model within the bounds lies within the ranges, so a lower bound
-// for the ranges holds for the fits.
+// What Certify() is to prove about fits within these bounds of a device: the range of every
+// parameter. Every model within the bounds lies within the ranges, so a lower bound for the ranges
+// holds for the fits.
 CertifyOptions RangesOf(const std::vector<ParameterBounds>& bounds, ConstantSet constants,
                         std::vector<Model> models);
+
+// The same options with the ranges of these bounds, for the largest of their models. Errors: bounds
+// that MakeBounds() refuses; options with ranges of their own.
+Expected<CertifyOptions> CertifyWithin(const BoundsSpec& spec, const IvCurve& curve,
+                                       const CertifyOptions& options);
 
 }  // namespace lyrefit

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/fit/statistics.h"
+#include "lyrefit/law/term.h"
 
 namespace lyrefit {
 namespace {
@@ -27,6 +28,12 @@ void WarnOfStops(const FitReport& report, Sentences* out) {
 }
 
 void WarnOfBounds(const FitReport& report, Sentences* out) {
+  if (report.steepest_n > 0) {
+    out->push_back(
+        fmt::format("n begins at {:.4g}, not where its bounds begin: below, a diode's exponent "
+                    "passes {:.0f} at a reading, where it is cut, and the diode is a step",
+                    report.steepest_n, kLargestExponent));
+  }
   for (const Estimate& e : report.estimates) {
     const bool absent_diode = !e.identifiable && e.at_bound == BoundSide::kLower &&
                               e.info.name.rfind("saturation_current", 0) == 0;

@@ -45,6 +45,7 @@ class ActiveSet {
     if (!Ended()) {
       Solve(/*bounded=*/true, std::max(options_.function_tolerance, options_.first_tolerance),
             options_.first_iterations);
+      StepBackInside();
     }
     Remember();
     bool settled = options_.small && now_.converged && IsInside() && !LetDiodeIn();
@@ -82,6 +83,28 @@ class ActiveSet {
       const ParameterRange range = BoundsAt(shape_, i, p);
       p[i] = std::min(std::max(p[i], range.low), range.high);
     }
+  }
+
+  // The bounded solve knows no bounds of a saturation current whose n moves. At its bound the diode
+  // keeps its current at V0 as far as its n can make up for it.
+  void StepBackInside() {
+    std::vector<double>& p = now_.at.p;
+    const double pivot = shape_.voltage_scale_V / shape_.thermal_voltage_V;
+    bool outside = false;
+    for (int i = 0; i < size(); ++i) {
+      const ParameterRange range = BoundsAt(shape_, i, p);
+      if (p[i] >= range.low && p[i] <= range.high) continue;
+      outside = true;
+      if (shape_.parameters[i].kind != ParameterKind::kSaturation || !(p[i] > 0)) continue;
+      const double bound = p[i] < range.low ? range.low : range.high;
+      double& n = p[shape_.parameters[i].with[0]];
+      const double steepness = 1 / n + std::log(p[i] / bound) / pivot;
+      if (steepness > 0) n = 1 / steepness;
+      p[i] = bound;
+    }
+    if (!outside) return;
+    Clamp();
+    Measure();
   }
 
   // Holding and letting go may lead uphill on a curve that the model does not describe.

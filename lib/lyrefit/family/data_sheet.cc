@@ -10,6 +10,8 @@
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/family/data_sheet_values.h"
+#include "lyrefit/family/family_of_sheet.h"
+#include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/family/key_point_solver.h"
 #include "lyrefit/law/model_points.h"
 
@@ -17,21 +19,9 @@ namespace lyrefit {
 namespace {
 
 constexpr int kSolvedValues = 5;  // alpha_sc is taken over as it is
+constexpr std::size_t kRangeOfIdeality = 2;
 constexpr double kLowestUsualIdeality = 0.5;
 constexpr double kHighestUsualIdeality = 2.5;
-
-std::vector<double> ToShared(const Translation& at, const ReferenceDevice& device, double alpha) {
-  std::vector<double> shared(at.size());
-  shared[at.photocurrent] = device.photocurrent_A;
-  shared[at.saturation_current] = device.saturation_current_A;
-  shared[at.n] = device.n;
-  shared[at.resistance_series] = device.resistance_series_ohm;
-  shared[at.resistance_shunt] = 1 / device.shunt_conductance_S;  // infinite for none
-  shared[at.alpha_sc] = alpha;
-  shared[at.bandgap] = kSiliconBandGap_eV;
-  shared[at.bandgap_slope] = kSiliconBandGapSlope_1_K;
-  return shared;
-}
 
 // What the found device gives, beside what was asked for.
 void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
@@ -87,7 +77,7 @@ bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit)
     const auto solution =
         possible ? SolveKeyPoints(corner, sheet.cells_in_series, constants) : std::nullopt;
     all = all && solution && solution->border == Border::kNone;
-    if (solution) solutions.push_back(ToShared(at, solution->device, corner.alpha_sc_A_K));
+    if (solution) solutions.push_back(SharedOf(at, solution->device, corner.alpha_sc_A_K));
   }
   for (const int k :
        {at.photocurrent, at.saturation_current, at.n, at.resistance_series, at.resistance_shunt}) {
@@ -163,6 +153,10 @@ Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole) {
   return PrintedValue{*value * unit, HalfUnit(number) * std::fabs(unit)};
 }
 
+std::vector<double> SharedOf(const DataSheetFit& fit, const DataSheetMember& member) {
+  return SharedOf(fit.translation, DeviceOf(member), fit.shared[fit.translation.alpha_sc]);
+}
+
 Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constants) {
   TRY(CheckDataSheet(sheet));
   TranslationSpec spec;
@@ -171,17 +165,22 @@ Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constant
   TRY(Translation translation, MakeTranslation(spec));
   const auto solution = SolveKeyPoints(sheet.values, sheet.cells_in_series, constants);
   if (!solution) {
-    return Fail(fmt::format(
-        "no single diode in {} cells has a curve through these points: is the number of cells "
-        "right?",
-        sheet.cells_in_series));
+    const auto family = FindDataSheetFamily(sheet, constants);
+    return family ? Fail(fmt::format("no single diode in {} cells has a curve through these points",
+                                     sheet.cells_in_series))
+                  : tl::unexpected<Error>(family.error());
   }
   DataSheetFit fit;
   fit.translation = std::move(translation);
-  fit.shared = ToShared(fit.translation, solution->device, sheet.values.alpha_sc_A_K);
+  fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K);
   AddChecks(sheet, &fit);
   WarnOfTheSolution(*solution, &fit);
-  WarnOfTheRounding(AddRanges(sheet, constants, &fit), &fit);
+  const bool all_corners = AddRanges(sheet, constants, &fit);
+  WarnOfTheRounding(all_corners, &fit);
+  const double n = solution->device.n;
+  const double low = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].low;
+  const double high = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].high;
+  TRY(fit.family, FamilyOfSheet(sheet, constants, solution->device, low, high));
   return fit;
 }
 

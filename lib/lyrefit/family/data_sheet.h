@@ -7,6 +7,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/family/data_sheet_family.h"
 #include "lyrefit/law/translation.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -63,11 +64,16 @@ struct DataSheetFit {
   std::vector<DataSheetCheck> checks;  // the rest is compared, not solved for
   std::vector<DataSheetRange> ranges;  // of I_L_ref, I_o_ref, n, R_s, R_sh_ref; empty if no
                                        // rounding is stated
+  DataSheetFamily family;              // all devices through the sheet's three points, of which
+                                       // beta_oc picks this one
   std::vector<std::string> warnings;
 
   // Whether the five equations are solved, beyond the digits of any sheet.
   bool Solved() const { return largest_relative_error < 1e-6; }
 };
+
+// A member of its family as shared parameters of its translation.
+std::vector<double> SharedOf(const DataSheetFit& fit, const DataSheetMember& member);
 
 // The five parameters of the single-diode model from a data sheet alone, as pvlib's fit_desoto and
 // SAM find them: the curve passes through Isc, Voc and (Vmp, Imp), its power is largest there, and

@@ -13,13 +13,16 @@ constexpr double kHighestFillFactor = 0.9;
 constexpr double kLargestRelativeAlpha_1_K = 0.005;
 constexpr double kLargestRelativeBeta_1_K = 0.01;
 
-Expected<void> CheckCoefficients(const DataSheet& sheet) {
-  const DataSheetValues& v = sheet.values;
+Expected<void> CheckAlpha(const DataSheetValues& v) {
   if (std::fabs(v.alpha_sc_A_K) > kLargestRelativeAlpha_1_K * v.short_circuit_current_A) {
     return Fail(
         fmt::format("expected alpha_sc in A/K, found {} beside an Isc of {} A: is it in percent?",
                     v.alpha_sc_A_K, v.short_circuit_current_A));
   }
+  return {};
+}
+
+Expected<void> CheckBeta(const DataSheetValues& v) {
   const double relative = v.beta_oc_V_K / v.open_circuit_voltage_V;
   if (!(relative < 0) || relative < -kLargestRelativeBeta_1_K) {
     return Fail(fmt::format(
@@ -27,6 +30,11 @@ Expected<void> CheckCoefficients(const DataSheet& sheet) {
         v.beta_oc_V_K, v.open_circuit_voltage_V));
   }
   return {};
+}
+
+Expected<void> CheckNumber(const DataSheet& sheet, const DataSheetRow& row) {
+  if (std::isfinite(sheet.values.*row.value)) return {};
+  return Fail(fmt::format("no number for {}", row.name));
 }
 
 }  // namespace
@@ -52,21 +60,28 @@ Expected<void> CheckDataSheetPoints(const DataSheetValues& v) {
   return {};
 }
 
-Expected<void> CheckDataSheet(const DataSheet& sheet) {
-  const DataSheetValues& v = sheet.values;
+Expected<void> CheckDataSheetForFamily(const DataSheet& sheet) {
   for (const DataSheetRow& row : kDataSheetRows) {
-    if (!std::isfinite(v.*row.value)) return Fail(fmt::format("no number for {}", row.name));
+    if (row.value != &DataSheetValues::beta_oc_V_K) TRY(CheckNumber(sheet, row));
+  }
+  if (sheet.cells_in_series < 1) {
+    return Fail(fmt::format("expected at least 1 cell in series, found {}", sheet.cells_in_series));
+  }
+  TRY(CheckDataSheetPoints(sheet.values));
+  return CheckAlpha(sheet.values);
+}
+
+Expected<void> CheckDataSheet(const DataSheet& sheet) {
+  for (const DataSheetRow& row : kDataSheetRows) {
+    TRY(CheckNumber(sheet, row));
     const double half = sheet.half_unit.*row.value;
     if (!(half >= 0) || !std::isfinite(half)) {
       return Fail(fmt::format("expected a rounding of {} of at least 0 {}, found {}", row.name,
                               row.unit, half));
     }
   }
-  if (sheet.cells_in_series < 1) {
-    return Fail(fmt::format("expected at least 1 cell in series, found {}", sheet.cells_in_series));
-  }
-  TRY(CheckDataSheetPoints(v));
-  return CheckCoefficients(sheet);
+  TRY(CheckDataSheetForFamily(sheet));
+  return CheckBeta(sheet.values);
 }
 
 }  // namespace lyrefit

@@ -24,7 +24,11 @@ constexpr DataSheetRow kDataSheetRows[] = {
 // names the value.
 Expected<void> CheckDataSheetPoints(const DataSheetValues& v);
 
-// The same, and the number of cells, the roundings, and the coefficients' size and sign.
+// The same, and alpha_sc and the number of cells: what the family of a sheet takes.
+Expected<void> CheckDataSheetForFamily(const DataSheet& sheet);
+
+// The same, and beta_oc and the roundings: whether they are what they are said to be, in size and
+// sign.
 Expected<void> CheckDataSheet(const DataSheet& sheet);
 
 }  // namespace lyrefit

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "../temp_folder.h"
+#include "audit_rows_text.h"
 #include "error_of.h"
 #include "lyrefit/law/current.h"
 #include "repeats.h"
@@ -20,48 +20,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-constexpr char kHeader[] =
-    "source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_uA,n1,Is2_uA,n2,temperature_C,"
-    "cells,constants,bounds\n";
-
-// Optima of measured-current RMSE with CODATA constants, rounded.
-// Photowatt-PWP201, 36 cells at 45 C: 2.425075e-3
-constexpr char kPwp[] = "1.0305143,1.20127101,981.98228,3.48226294,1.35119128,,";
-// STM6-40/36, 36 cells at 51 C: 1.729814e-3
-constexpr char kStm[] = "1.66390478,0.15385577,573.41859,1.73865690,1.52030452,,";
-
-class AuditTest : public ::testing::Test {
- protected:
-  AuditReport AuditRowsText(const std::string& rows, AuditOptions options = {}) {
-    options.curve_folders.push_back(LYREFIT_DATA_DIR);
-    const auto report = Audit(folder_.Write("deep/rows.csv", kHeader + rows), options);
-    EXPECT_TRUE(report) << report.error().ToString();
-    return report.value_or(AuditReport{});
-  }
-
-  // The finding of one row without further conditions.
-  AuditFinding Find(const std::string& device, const std::string& claim,
-                    const std::string& parameters, const std::string& conditions = ",,,",
-                    const AuditOptions& options = {}, const char* model = "sd") {
-    const AuditReport report = AuditRowsText(
-        "T," + device + "," + model + ",x," + claim + "," + parameters + "," + conditions + "\n",
-        options);
-    EXPECT_THAT(report.bad_rows, IsEmpty()) << report.bad_rows[0].ToString();
-    EXPECT_THAT(report.findings, SizeIs(1));
-    return report.findings.empty() ? AuditFinding{} : report.findings[0];
-  }
-
-  TempFolder folder_;
-};
-
-// The changes of the only explanation.
-std::vector<std::string> ChangesOf(const AuditFinding& finding) {
-  EXPECT_EQ(finding.verdict, AuditVerdict::kReproducesChanged) << finding.sentence;
-  EXPECT_THAT(finding.explanations, SizeIs(1)) << finding.sentence;
-  return finding.explanations.empty() ? std::vector<std::string>{}
-                                      : finding.explanations[0].reading.changes;
-}
 
 TEST_F(AuditTest, ReproducesATrueClaim) {
   const AuditFinding finding = Find("pwp201", "2.425075e-3", kPwp);
@@ -172,15 +130,6 @@ TEST_F(AuditTest, SaysWhenARowIsBetterThanItsClaim) {
   EXPECT_THAT(better.sentence, Not(HasSubstr("that is the optimum")));
 }
 
-TEST_F(AuditTest, SaysWhenNoParametersGiveTheClaim) {
-  const AuditFinding finding = Find("pwp201", "1.8431e-3", kPwp);
-  EXPECT_EQ(finding.verdict, AuditVerdict::kFails) << finding.sentence;
-  EXPECT_THAT(finding.sentence, HasSubstr("No parameters with n from 1 to 2 give the claim"));
-  ASSERT_TRUE(finding.temperatures);
-  EXPECT_THAT(finding.temperatures->at_claim_C, IsEmpty());
-  EXPECT_NEAR(finding.temperatures->best_C, 45, 0.1);
-}
-
 TEST_F(AuditTest, SaysWhenDigitsAreTooFew) {
   const AuditFinding finding = Find("pwp201", "5e-2", "1.0,1.2,980,3.5,1.4,,");
   EXPECT_EQ(finding.verdict, AuditVerdict::kTooCoarse) << finding.sentence;
@@ -248,7 +197,7 @@ TEST_F(AuditTest, LooksForCurvesBesideTheRowsAndAbove) {
       "voltage_V,current_A\n0,1\n0.3,0.98\n0.5,0.7\n0.55,0.4\n0.6,0\n0.61,-0.2\n";
   folder_.Write("deep/beside/curve.csv", curve);
   folder_.Write("above.csv", curve);
-  const std::string rows = std::string(kHeader) +
+  const std::string rows = std::string(kAuditHeader) +
                            "T,beside,sd,x,1e-2,1,0.01,50,1e-3,1.1,,,25,1,,\n" +
                            "T,above,sd,x,1e-2,1,0.01,50,1e-3,1.1,,,25,1,,\n";
   const auto report = Audit(folder_.Write("deep/rows.csv", rows));
@@ -264,8 +213,9 @@ TEST_F(AuditTest, LooksForCurvesBesideTheRowsAndAbove) {
 TEST_F(AuditTest, RefusesAFolderThatIsNotThere) {
   AuditOptions options;
   options.curve_folders = {folder_.Path("none")};
-  EXPECT_THAT(MessageOf(Audit(folder_.Write("rows.csv", std::string(kHeader) + "T\n"), options)),
-              HasSubstr("expected a folder"));
+  EXPECT_THAT(
+      MessageOf(Audit(folder_.Write("rows.csv", std::string(kAuditHeader) + "T\n"), options)),
+      HasSubstr("expected a folder"));
 }
 
 TEST_F(AuditTest, SurvivesAbsurdNumbers) {

@@ -117,6 +117,37 @@ TEST_F(ReadAuditRowsTest, RefusesUnknownAndRepeatedColumns) {
   EXPECT_THAT(MessageOf(Read("note,note\n")), HasSubstr("'note' stands twice"));
 }
 
+TEST_F(ReadAuditRowsTest, TakesAClaimWithoutParameters) {
+  const auto rows = Read(std::string(kRowsHeader) + "T,cell,dd,x,1e-3,,,,,,,,,,,,,\n");
+  ASSERT_TRUE(rows) << rows.error().ToString();
+  ASSERT_THAT(rows->rows, SizeIs(1)) << rows->bad_rows[0].ToString();
+  EXPECT_THAT(rows->rows[0].parameters, SizeIs(0));
+  EXPECT_FALSE(rows->rows[0].sum_of_squares);
+  EXPECT_THAT(BadRow("T,cell,dd,x,1e-3,,,,,,,1e-7,,,,,,").message, HasSubstr("expected Iph"));
+  EXPECT_THAT(BadRow("T,cell,sd,x,1e-3,,,,,,,1e-7,,,,,,").message, HasSubstr("has no Is2"));
+}
+
+TEST_F(ReadAuditRowsTest, TakesSumsOfSquares) {
+  const std::string header =
+      "source,device,model,algorithm,rmse_A,sse_A2,Iph_A,Rs_ohm,Rsh_100ohm,Is1_A,n1,objective\n";
+  const auto rows = Read(header + "T,cell,sd,x,,2.5278e-05,0.76,0.036,0.537,3e-7,1.48,\n" +
+                         "T,cell,sd,x,1e-3,2.5278e-05,0.76,0.036,0.537,3e-7,1.48,\n" +
+                         "T,cell,sd,x,,,0.76,0.036,0.537,3e-7,1.48,solved-current\n" +
+                         "T,cell,sd,x,1e-3,,0.76,0.036,0.537,3e-7,1.48,Solved-Current\n");
+  ASSERT_TRUE(rows) << rows.error().ToString();
+  ASSERT_THAT(rows->rows, SizeIs(2));
+  EXPECT_TRUE(rows->rows[0].sum_of_squares);
+  EXPECT_DOUBLE_EQ(rows->rows[0].rmse.value, 2.5278e-5);
+  EXPECT_DOUBLE_EQ(rows->rows[0].parameters[kRsh].value, 53.7);
+  EXPECT_DOUBLE_EQ(rows->rows[0].parameters[kRsh].half_unit, 0.05);
+  EXPECT_FALSE(rows->rows[0].objective);
+  EXPECT_EQ(rows->rows[1].objective, Objective::kSolvedCurrent);
+  ASSERT_THAT(rows->bad_rows, SizeIs(2));
+  EXPECT_THAT(rows->bad_rows[0].message, HasSubstr("found both"));
+  EXPECT_EQ(rows->bad_rows[0].column, 18);
+  EXPECT_THAT(rows->bad_rows[1].message, HasSubstr("expected RMSE"));
+}
+
 TEST_F(ReadAuditRowsTest, RefusesFilesWithoutRows) {
   EXPECT_FALSE(ReadAuditRows(folder_.Path("missing.csv")));
   EXPECT_FALSE(Read("# nothing\n"));

@@ -32,23 +32,28 @@ TEST(Reference, IsWhatTheProofFoundWhereNoRunCameNear) {
   EXPECT_TRUE(reference.certified);
 }
 
-TEST(Reference, SaysHowFarTheBoundIsWhereABoxCutsTheOptimumOff) {
+TEST(Reference, IsThatOfTheBoxWhereItCutsTheOptimumOff) {
+  constexpr double kLeaky_A = 4.023779e-3;  // what a fit with --bound Rsh=0:20 comes to
   CompareCurve subject = Rtc(2);
   subject.bounds.table["Rsh"] = {0, 20};
-  const Reference reference = FindReference(subject, Model::kSingleDiode, {}, {1.5e-3, {}});
-  EXPECT_FALSE(reference.certified);
-  EXPECT_EQ(reference.rmse_A, 1.5e-3);
-  EXPECT_NEAR(reference.lower_bound_A / kSingle_A, 1, 1e-9);
-  EXPECT_THAT(reference.origin, testing::HasSubstr("proved lower bound 34.3 % below"));
+  const Reference reference = FindReference(subject, Model::kSingleDiode, {}, {5e-3, {}});
+  EXPECT_TRUE(reference.certified);
+  EXPECT_NEAR(reference.rmse_A / kLeaky_A, 1, 1e-6);
+  EXPECT_NEAR(reference.lower_bound_A / reference.rmse_A, 1, 1e-9);
+  EXPECT_EQ(reference.origin, "certified optimum");
+  EXPECT_LE(reference.parameters[kRsh], 20);
 }
 
-TEST(Reference, OfTheSolvedCurrentIsTheBestOfAllRuns) {
+TEST(Reference, IsOfTheObjectiveOfTheRuns) {
   CompareOptions options;
   options.objective = Objective::kSolvedCurrent;
-  const Reference reference = FindReference(Rtc(2), Model::kSingleDiode, options, {8e-4, {}});
-  EXPECT_FALSE(reference.certified);
-  EXPECT_EQ(reference.rmse_A, 8e-4);
-  EXPECT_NE(reference.lower_bound_A, reference.lower_bound_A);
+  for (const double best_A : {8e-4, 7.730062689941e-4}) {
+    const Reference reference = FindReference(Rtc(2), Model::kSingleDiode, options, {best_A, {}});
+    EXPECT_TRUE(reference.certified) << best_A;
+    EXPECT_NEAR(reference.rmse_A / 7.730062690e-4, 1, 1e-9);
+    EXPECT_EQ(reference.origin, "certified optimum");
+    EXPECT_NEAR(reference.floor_A / 7.326480809e-4, 1, 1e-9);
+  }
 }
 
 }  // namespace

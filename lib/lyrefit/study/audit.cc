@@ -13,6 +13,7 @@
 #include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_explain.h"
+#include "lyrefit/study/audit_lowest.h"
 #include "lyrefit/study/audit_reading.h"
 #include "lyrefit/study/audit_sentence.h"
 
@@ -45,12 +46,13 @@ struct AuditDesk {
   const std::string& path;
   const AuditOptions& options;
   AuditShelf shelf;
-  OptimumFinder optima;
+  LowestFinder lowest;
 };
 
 AuditVerdict VerdictAsStated(const AuditFinding& finding) {
   const double claim = finding.row.rmse.value;
-  const double rmse = finding.stated.rmse.Of(finding.stated.objective);
+  const double rmse = finding.stated.figure_A;
+  if (finding.stated.parameters.empty()) return AuditVerdict::kNoParameters;
   if (finding.stated.constants.empty()) {
     return rmse < claim ? AuditVerdict::kBetter : AuditVerdict::kFails;
   }
@@ -59,7 +61,19 @@ AuditVerdict VerdictAsStated(const AuditFinding& finding) {
   return coarse ? AuditVerdict::kTooCoarse : AuditVerdict::kReproduces;
 }
 
-void LookFurther(const AuditSubject& subject, OptimumFinder* optima, AuditFinding* finding) {
+// What no fit there is can give.
+void LookBelow(const AuditSubject& subject, LowestFinder* finder, AuditFinding* finding) {
+  finding->lowest = finder->Find(subject, finding->stated.shown);
+  if (!finding->lowest) return;
+  const PrintedNumber& claim = finding->row.rmse;
+  if (IsBelow(claim, finding->lowest->lower_bound_A)) {
+    finding->verdict = AuditVerdict::kBelowProved;
+  } else if (IsBelow(claim, LowestFound(*finding->lowest))) {
+    finding->verdict = AuditVerdict::kBelowKnown;
+  }
+}
+
+void LookFurther(const AuditSubject& subject, LowestFinder* finder, AuditFinding* finding) {
   AuditSearch search = Explain(subject);
   finding->explanations = std::move(search.explanations);
   if (!finding->explanations.empty()) {
@@ -73,8 +87,9 @@ void LookFurther(const AuditSubject& subject, OptimumFinder* optima, AuditFindin
     return;
   }
   finding->nearest = std::move(search.nearest);
-  finding->optimum_A = optima->Find(subject, subject.stated, finding->stated.shown);
+  finding->optimum_A = finder->Optimum(subject, subject.stated, finding->stated.shown);
   finding->temperatures = ScanTemperatures(subject);
+  if (finding->verdict == AuditVerdict::kFails) LookBelow(subject, finder, finding);
 }
 
 // Of the row as stated, and of explanations on the same curve.
@@ -93,7 +108,16 @@ Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
   return {};
 }
 
-Expected<AuditFinding> AuditOne(const AuditRow& row, AuditDesk* desk) {
+// A claim that is a sum of squares as the RMSE it stands for.
+void TakeRoot(std::size_t points, AuditRow* row) {
+  if (!row->sum_of_squares) return;
+  PrintedNumber& claim = row->rmse;
+  const double rmse = std::sqrt(claim.value / static_cast<double>(points));
+  claim.half_unit *= 0.5 * rmse / claim.value;
+  claim.value = rmse;
+}
+
+Expected<AuditFinding> AuditOne(AuditRow row, AuditDesk* desk) {
   const auto refuse = [&](int column, const Error& error) {
     return Fail(error.ToString(), desk->path, row.line, column);
   };
@@ -102,15 +126,17 @@ Expected<AuditFinding> AuditOne(const AuditRow& row, AuditDesk* desk) {
   const auto bounds = PublishedBounds(row.bounds, desk->shelf.curves[*curve]);
   if (!bounds) return refuse(row.bounds_column, bounds.error());
 
+  TakeRoot(desk->shelf.curves[*curve].curve.voltage_V.size(), &row);
   const AuditSubject subject = MakeSubject(row, *curve, desk->shelf, desk->options);
   AuditFinding finding;
   finding.row = row;
   finding.stated = ReadingEvaluator(subject).Read(subject.stated);
   finding.verdict = VerdictAsStated(finding);
   if (finding.verdict == AuditVerdict::kBetter || finding.verdict == AuditVerdict::kFails) {
-    LookFurther(subject, &desk->optima, &finding);
+    LookFurther(subject, &desk->lowest, &finding);
   }
-  if (*bounds) {
+  if (finding.verdict == AuditVerdict::kNoParameters) LookBelow(subject, &desk->lowest, &finding);
+  if (*bounds && !finding.stated.parameters.empty()) {
     finding.bounds_name = (*bounds)->name;
     if (auto checked = CheckBounds(**bounds, subject, &finding); !checked) {
       return refuse(row.bounds_column, checked.error());

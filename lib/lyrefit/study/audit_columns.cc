@@ -17,12 +17,13 @@ struct Unit {
 };
 constexpr Unit kAmpere[] = {{"a", 1},     {"ma", 1e-3},      {"ua", 1e-6},
                             {"na", 1e-9}, {"\u00b5a", 1e-6}, {"\u03bca", 1e-6}};
-constexpr Unit kOhm[] = {{"ohm", 1}, {"mohm", 1e-3}};
+constexpr Unit kOhm[] = {{"ohm", 1}, {"mohm", 1e-3}, {"100ohm", 100}};
+constexpr Unit kSquares[] = {{"a2", 1}};
 
 constexpr const char* kWords[] = {"source", "device",    "model",  "algorithm", "temperature_c",
-                                  "cells",  "constants", "bounds", "note"};
+                                  "cells",  "constants", "bounds", "note",      "objective"};
 constexpr const char* kNeededWords[] = {"source", "device", "model", "algorithm"};
-constexpr const char* kNeededQuantities[] = {"rmse", "iph", "rs", "rsh", "is1", "n1"};
+constexpr const char* kNeededQuantities[] = {"iph", "rs", "rsh", "is1", "n1"};
 
 // A column's name without its unit, and the unit.
 struct Quantity {
@@ -47,6 +48,7 @@ std::optional<Quantity> AsQuantity(const std::string& name) {
   const std::string quantity = name.substr(0, at);
   const std::string unit = name.substr(at + 1);
   if (quantity == "rs" || quantity == "rsh") return WithUnit(quantity, unit, kOhm);
+  if (quantity == "sse") return WithUnit(quantity, unit, kSquares);
   for (const char* current : {"rmse", "iph", "is1", "is2", "is3"}) {
     if (quantity == current) return WithUnit(quantity, unit, kAmpere);
   }
@@ -82,6 +84,7 @@ std::string MissingColumns(const AuditColumns& columns) {
     if (!there) missing += std::string(missing.empty() ? "" : ", ") + name;
   };
   for (const char* name : kNeededWords) note(name, columns.words.count(name) > 0);
+  note("rmse", columns.quantities.count("rmse") + columns.quantities.count("sse") > 0);
   for (const char* name : kNeededQuantities) note(name, columns.quantities.count(name) > 0);
   return missing;
 }
@@ -89,8 +92,8 @@ std::string MissingColumns(const AuditColumns& columns) {
 }  // namespace
 
 const char* const kAuditColumnNames =
-    "source, device, model, algorithm, rmse_A, Iph_A, Rs_ohm, Rsh_ohm, Is1_A (or Is1_uA), n1, "
-    "Is2_A, n2, Is3_A, n3, temperature_C, cells, constants, bounds, note";
+    "source, device, model, algorithm, rmse_A (or sse_A2), Iph_A, Rs_ohm, Rsh_ohm, Is1_A (or "
+    "Is1_uA), n1, Is2_A, n2, Is3_A, n3, objective, temperature_C, cells, constants, bounds, note";
 
 std::string AsciiLower(std::string_view text) {
   std::string lower(text);

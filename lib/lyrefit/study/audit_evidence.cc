@@ -1,12 +1,9 @@
 #include "lyrefit/study/audit_evidence.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/fit/fit.h"
 
 namespace lyrefit {
 namespace {
@@ -31,7 +28,7 @@ AuditTemperatures ScanTemperatures(const AuditSubject& subject) {
   const auto rmse = [&](double celsius) {
     ReadingPlan plan = subject.stated;
     plan.conditions.cell_temperature_K = celsius + kZeroCelsius_K;
-    return evaluator.Rmse(plan, plan.objective, set);
+    return evaluator.Figure(plan, set);
   };
   AuditTemperatures found;
   double previous_C = kColdest_C;
@@ -72,7 +69,7 @@ std::optional<AuditReading> FindOtherDevice(const AuditSubject& subject) {
   double best_A = kInfinity;
   const auto attempt = [&](const ReadingPlan& plan) {
     const ConstantSet set = ReadingEvaluator::SetsOf(plan).front();
-    const double rmse = evaluator.Rmse(plan, plan.objective, set);
+    const double rmse = evaluator.Figure(plan, set);
     if (rmse >= best_A) return;
     best = plan;
     best_A = rmse;
@@ -113,28 +110,6 @@ std::vector<LeftBound> FindLeftBounds(const Device& device,
     left.push_back({device.parameters[i], value, bounds[i].lower, bounds[i].upper});
   }
   return left;
-}
-
-double OptimumFinder::Find(const AuditSubject& subject, const ReadingPlan& plan,
-                           ConstantSet constants) {
-  const std::string key =
-      fmt::format("{} {} {} {} {} {}", plan.curve, plan.conditions.cell_temperature_K,
-                  plan.conditions.cells_in_series, ToText(subject.row->model),
-                  ToText(plan.objective), ToText(constants));
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  IvCurve curve = subject.shelf->curves[plan.curve].curve;
-  curve.conditions = plan.conditions;
-  curve.as_is = true;  // the publication may have counted other cells
-  FitOptions options;
-  options.model = subject.row->model;
-  options.objective = plan.objective;
-  options.constants = constants;
-  options.intervals = Intervals::kNone;
-  options.random_baseline = false;
-  const Expected<FitReport> fit = Fit(curve, options);
-  const double optimum = fit ? fit->rmse.refined.Of(plan.objective) : kUnknown;
-  known_[key] = optimum;
-  return optimum;
 }
 
 }  // namespace lyrefit

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "lyrefit/study/audit_reading.h"
@@ -26,15 +24,5 @@ std::optional<AuditReading> FindOtherDevice(const AuditSubject& subject);
 std::vector<LeftBound> FindLeftBounds(const Device& device,
                                       const std::vector<ParameterBounds>& bounds,
                                       const AuditReading& reading);
-
-// Best fits to curves as stated, each found once.
-class OptimumFinder {
- public:
-  // The lowest RMSE of the plan's objective within physical bounds; NaN if there is no fit.
-  double Find(const AuditSubject& subject, const ReadingPlan& plan, ConstantSet constants);
-
- private:
-  std::map<std::string, double> known_;
-};
 
 }  // namespace lyrefit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lyrefit/base/numbers.h"
 
@@ -30,12 +31,22 @@ struct Sought {
   int neighbours = 0;  // of those tried, within the window
 };
 
+// Whether two plans read a row in the same way.
+bool IsSame(const ReadingPlan& a, const ReadingPlan& b) {
+  return a.curve == b.curve && a.objective == b.objective && a.newton_step == b.newton_step &&
+         a.cut_off == b.cut_off && a.constants == b.constants &&
+         a.resistances_per_cell == b.resistances_per_cell &&
+         a.ideality_of_module == b.ideality_of_module && a.diode == b.diode && a.unit == b.unit &&
+         a.conditions.cell_temperature_K == b.conditions.cell_temperature_K &&
+         a.conditions.cells_in_series == b.conditions.cells_in_series;
+}
+
 Candidate Try(const ReadingPlan& plan, Sought* sought) {
   Candidate candidate;
   candidate.plan = &plan;
   candidate.distance = kInfinity;
   for (const ConstantSet set : ReadingEvaluator::SetsOf(plan)) {
-    const double rmse = sought->evaluator.Rmse(plan, plan.objective, set);
+    const double rmse = sought->evaluator.Figure(plan, set);
     const double distance = std::fabs(std::log(std::max(rmse, 1e-300) / sought->claim));
     candidate.distance = std::min(candidate.distance, distance);
     if (std::fabs(rmse - sought->claim) > kFar * sought->claim) continue;
@@ -55,8 +66,7 @@ double EndOfRange(const ReadingPlan& plan, ConstantSet set, int direction, Sough
   const auto reproduces = [&](double step) {
     ReadingPlan moved = plan;
     moved.conditions.cell_temperature_K += direction * step;
-    return std::fabs(sought->evaluator.Rmse(moved, moved.objective, set) - sought->claim) <=
-           tolerance;
+    return std::fabs(sought->evaluator.Figure(moved, set) - sought->claim) <= tolerance;
   };
   double inside = 0;
   double outside = kFirstStep_K;
@@ -91,8 +101,25 @@ AuditExplanation Explanation(const ReadingPlan& plan, Sought* sought) {
   return explanation;
 }
 
+// Where the solved current matches, one step towards it is no other explanation.
+void DropSteps(std::vector<Candidate>* matching) {
+  const auto only_further = [&](const Candidate& candidate) {
+    if (!candidate.plan->newton_step) return false;
+    return std::any_of(matching->begin(), matching->end(), [&](const Candidate& other) {
+      ReadingPlan step = *other.plan;
+      step.newton_step = true;
+      return !other.plan->newton_step && IsSame(step, *candidate.plan);
+    });
+  };
+  std::vector<Candidate> kept;
+  std::copy_if(matching->begin(), matching->end(), std::back_inserter(kept),
+               [&](const Candidate& candidate) { return !only_further(candidate); });
+  *matching = std::move(kept);
+}
+
 // Tells the matches of one level that mean something from those that may be accidents.
 void Sort(std::vector<Candidate>* matching, Sought* sought, AuditSearch* result) {
+  DropSteps(matching);
   std::stable_sort(matching->begin(), matching->end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   for (const Candidate& candidate : *matching) {

@@ -105,6 +105,9 @@ void OtherObjective(const AuditSubject&, const ReadingPlan& plan, Alternatives* 
   out->back().objective = plan.objective == Objective::kMeasuredCurrent
                               ? Objective::kSolvedCurrent
                               : Objective::kMeasuredCurrent;
+  out->push_back(plan);
+  out->back().objective = Objective::kSolvedCurrent;
+  out->back().newton_step = true;
 }
 
 void OtherConstants(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
@@ -114,6 +117,13 @@ void OtherConstants(const AuditSubject&, const ReadingPlan& plan, Alternatives* 
     out->push_back(plan);
     out->back().constants = row.value;
   }
+}
+
+// Not beside another change: any claim has a chance twice as good by it.
+void CutOffDigits(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
+  if (plan.changes > 0) return;
+  out->push_back(plan);
+  out->back().cut_off = true;
 }
 
 std::string TemperatureWords(double said_K, double kelvin) {
@@ -144,7 +154,7 @@ std::vector<ReadingPlan> ReadingPlans(const AuditSubject& subject, int most_chan
   std::vector<ReadingPlan> plans = {subject.stated};
   // A curve brings its own conditions, so it comes first.
   for (const auto append : {OtherCurves, Resistances, Ideality, SaturationCurrents, Temperatures,
-                            OtherObjective, OtherConstants}) {
+                            OtherObjective, OtherConstants, CutOffDigits}) {
     const std::size_t count = plans.size();
     for (std::size_t i = 0; i < count; ++i) {
       if (plans[i].changes >= most_changes) continue;
@@ -184,9 +194,12 @@ std::vector<std::string> ChangesOf(const AuditSubject& subject, const ReadingPla
   if (plan.conditions.cell_temperature_K != said_K) {
     changes.push_back(TemperatureWords(said_K, plan.conditions.cell_temperature_K));
   }
-  if (plan.objective != stated.objective) {
+  if (plan.newton_step) {
+    changes.emplace_back("as the RMSE of one Newton step from the measured currents");
+  } else if (plan.objective != stated.objective) {
     changes.push_back(fmt::format("as the {} RMSE", ToText(plan.objective)));
   }
+  if (plan.cut_off) changes.emplace_back("with its printed digits cut off instead of rounded");
   if (plan.constants != stated.constants) {
     changes.push_back(fmt::format("with the constants {} in place of {}", ToText(*plan.constants),
                                   ToText(*stated.constants)));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/law/kernel.h"
+#include "lyrefit/study/audit_newton.h"
 
 namespace lyrefit {
 namespace {
@@ -13,6 +14,7 @@ std::vector<double> Convert(const AuditRow& row, const ReadingPlan& plan,
                             double PrintedNumber::*member) {
   std::vector<double> values;
   for (const PrintedNumber& number : row.parameters) values.push_back(number.*member);
+  if (values.empty()) return values;
   const int diodes = static_cast<int>(row.model);
   const double cells = plan.conditions.cells_in_series;
   if (plan.resistances_per_cell) {
@@ -41,7 +43,7 @@ AuditSubject MakeSubject(const AuditRow& row, int curve, const AuditShelf& shelf
   stated.conditions = shelf.curves[curve].curve.conditions;
   if (row.temperature_C) stated.conditions.cell_temperature_K = *row.temperature_C + kZeroCelsius_K;
   if (row.cells) stated.conditions.cells_in_series = *row.cells;
-  stated.objective = options.objective;
+  stated.objective = row.objective.value_or(options.objective);
   stated.constants = row.constants ? row.constants : options.constants;
   return subject;
 }
@@ -75,18 +77,30 @@ double ReadingEvaluator::Rmse(const ReadingPlan& plan, Objective objective, Cons
   return RmseOf(Parameters(plan), plan, objective, constants);
 }
 
+double ReadingEvaluator::FigureOf(const std::vector<double>& parameters, const ReadingPlan& plan,
+                                  ConstantSet constants) {
+  if (!plan.newton_step) return RmseOf(parameters, plan, plan.objective, constants);
+  device_.module_thermal_voltage_V = plan.conditions.ModuleThermalVoltage(constants);
+  return NewtonStepRmse(device_, parameters, subject_.shelf->curves[plan.curve].curve);
+}
+
+double ReadingEvaluator::Figure(const ReadingPlan& plan, ConstantSet constants) {
+  return FigureOf(Parameters(plan), plan, constants);
+}
+
 double ReadingEvaluator::Tolerance(const ReadingPlan& plan, ConstantSet constants) {
   std::vector<double> parameters = Parameters(plan);
   const std::vector<double> half_units = HalfUnits(plan);
-  const double centre = RmseOf(parameters, plan, plan.objective, constants);
-  double tolerance = subject_.row->rmse.half_unit;
+  const double centre = FigureOf(parameters, plan, constants);
+  const double part = plan.cut_off ? 2 : 1;  // of half a unit
+  double tolerance = part * subject_.row->rmse.half_unit;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (half_units[i] == 0) continue;
     const double value = parameters[i];
     double largest = 0;
-    for (const double step : {-half_units[i], half_units[i]}) {
+    for (const double step : {-part * half_units[i], part * half_units[i]}) {
       parameters[i] = std::max(value + step, 0.0);
-      const double moved = RmseOf(parameters, plan, plan.objective, constants);
+      const double moved = FigureOf(parameters, plan, constants);
       largest = std::max(largest, std::fabs(moved - centre));
     }
     parameters[i] = value;
@@ -103,22 +117,24 @@ AuditReading ReadingEvaluator::Read(const ReadingPlan& plan) {
   reading.temperature_C = plan.conditions.cell_temperature_K - kZeroCelsius_K;
   reading.cells = plan.conditions.cells_in_series;
   reading.objective = plan.objective;
+  reading.newton_step = plan.newton_step;
   reading.parameters = Parameters(plan);
   reading.half_units = HalfUnits(plan);
   const std::vector<ConstantSet> sets = SetsOf(plan);
   reading.any_constants = !plan.constants;
-  const auto miss = [&](ConstantSet set) {
-    return std::fabs(Rmse(plan, plan.objective, set) - claim);
-  };
+  reading.shown = sets.front();
+  if (reading.parameters.empty()) return reading;
+  const auto miss = [&](ConstantSet set) { return std::fabs(Figure(plan, set) - claim); };
   for (const ConstantSet set : sets) {
     if (miss(set) <= Tolerance(plan, set)) reading.constants.push_back(set);
   }
   std::stable_sort(reading.constants.begin(), reading.constants.end(),
                    [&](ConstantSet a, ConstantSet b) { return miss(a) < miss(b); });
-  reading.shown = reading.constants.empty() ? sets.front() : reading.constants.front();
+  if (!reading.constants.empty()) reading.shown = reading.constants.front();
   reading.tolerance_A = Tolerance(plan, reading.shown);
   reading.rmse = {Rmse(plan, Objective::kMeasuredCurrent, reading.shown),
                   Rmse(plan, Objective::kSolvedCurrent, reading.shown)};
+  reading.figure_A = Figure(plan, reading.shown);
   return reading;
 }
 

@@ -14,6 +14,8 @@ struct ReadingPlan {
   int curve = 0;  // on the shelf
   Conditions conditions;
   Objective objective = Objective::kMeasuredCurrent;
+  bool newton_step = false;  // not the solved current: one step towards it, see audit_newton.h
+  bool cut_off = false;      // printed digits are cut off there, not rounded
   std::optional<ConstantSet> constants;  // unset: any of the sets
   bool resistances_per_cell = false;     // Rs and Rsh times the cells in series
   bool ideality_of_module = false;       // n divided by them
@@ -40,7 +42,8 @@ AuditSubject MakeSubject(const AuditRow& row, int curve, const AuditShelf& shelf
 // curve of the shelf at its own conditions, if its short-circuit current is about the photocurrent
 // of the row; resistances per cell; n of the module; saturation currents in another unit, of one
 // diode or of all; another temperature (every whole degree from -20 to 120 C and a few in kelvin);
-// the other objective; constants other than stated.
+// the other objective, or one Newton step in the place of the solved current; constants other than
+// stated; and, alone, digits that are cut off instead of rounded.
 std::vector<ReadingPlan> ReadingPlans(const AuditSubject& subject, int most_changes);
 
 // The changes of a plan in plain words.
@@ -58,6 +61,8 @@ class ReadingEvaluator {
   // Half a unit of the last printed digit of each, in the same units.
   std::vector<double> HalfUnits(const ReadingPlan& plan) const;
   double Rmse(const ReadingPlan& plan, Objective objective, ConstantSet constants);
+  // What the plan holds against the claim: the RMSE of its objective, or of one Newton step.
+  double Figure(const ReadingPlan& plan, ConstantSet constants);
   // See AuditReading; of the plan's objective.
   double Tolerance(const ReadingPlan& plan, ConstantSet constants);
   // Everything there is to say about a plan but its bounds.
@@ -66,6 +71,8 @@ class ReadingEvaluator {
  private:
   double RmseOf(const std::vector<double>& parameters, const ReadingPlan& plan, Objective objective,
                 ConstantSet constants);
+  double FigureOf(const std::vector<double>& parameters, const ReadingPlan& plan,
+                  ConstantSet constants);
 
   const AuditSubject& subject_;
   Device device_;

@@ -23,7 +23,10 @@ enum class AuditVerdict {
   kBetter,             // it does not; the row is better than its claim
   kOtherDevice,        // it does not; the row describes another device
   kTooCoarse,          // the printed digits leave room for almost any claim
+  kBelowProved,        // no parameters whatever give the claim: it is proved
+  kBelowKnown,         // nothing that was found gives it; that nothing can is not proved
   kFails,              // nothing that was tried explains the claim
+  kNoParameters,       // the row has none; there may be some that give the claim
 };
 
 template <>
@@ -34,7 +37,10 @@ struct EnumTable<AuditVerdict> {
       {AuditVerdict::kBetter, "better than claimed"},
       {AuditVerdict::kOtherDevice, "another device"},
       {AuditVerdict::kTooCoarse, "too coarse to tell"},
+      {AuditVerdict::kBelowProved, "below the proved optimum"},
+      {AuditVerdict::kBelowKnown, "below the best known"},
       {AuditVerdict::kFails, "does not reproduce"},
+      {AuditVerdict::kNoParameters, "no parameters"},
   };
 };
 
@@ -53,14 +59,19 @@ struct AuditReading {
   double temperature_C = kUnknown;
   int cells = 1;                                      // in series
   Objective objective = Objective::kMeasuredCurrent;  // of the claim
-  bool any_constants = true;                          // none were stated, so all sets were tried
+  bool newton_step =
+      false;  // of one Newton step from the measured currents, not of the solved ones
+  bool any_constants = true;                 // none were stated, so all sets were tried
   std::vector<ConstantSet> constants;        // sets under which the claim reproduces, nearest first
   ConstantSet shown = ConstantSet::kCodata;  // the set of the figures below
-  std::vector<double> parameters;            // ampere, ohm of the module, n per cell
-  std::vector<double> half_units;            // of the last printed digit of each
+  // Ampere, ohm of the module, n per cell; empty where the row has none, and no figures then.
+  std::vector<double> parameters;
+  std::vector<double> half_units;  // of the last printed digit of each
   RmsePair rmse;
-  // How far the claim may lie from the RMSE of its objective: half a unit of the claim's last
-  // digit, and for every parameter what half a unit of its last digit does to the RMSE.
+  double figure_A = kUnknown;  // what is held against the claim: one of these, or of the step
+  // How far the claim may lie from this figure: half a unit of the claim's last digit, and for
+  // every parameter what half a unit of its last digit does to the figure. Twice that where digits
+  // are taken for cut off.
   double tolerance_A = kUnknown;
   std::vector<LeftBound> left_bounds;
 };
@@ -84,6 +95,20 @@ struct AuditTemperatures {
   double best_A = kUnknown;
 };
 
+// How low a claim can go on the curve as it is.
+struct AuditLowest {
+  Objective objective = Objective::kMeasuredCurrent;  // of the claim
+  double rmse_A = kUnknown;                           // of the best fit, n from 1 to 2
+  // Nothing lies below, whatever the parameters: proved for n in the range below. Unknown for a curve
+  // that nothing can be proved about.
+  double lower_bound_A = kUnknown;
+  double reached_A = kUnknown;          // by parameters within that range
+  double n_lower = kUnknown;            // per cell; the range of the bound, or of the best fit
+  double n_upper = kUnknown;            // end of that range
+  double other_objective_A = kUnknown;  // the best fit of the other objective
+  double newton_step_A = kUnknown;      // the least of one Newton step from the measured currents
+};
+
 // What was found out about one row.
 struct AuditFinding {
   AuditRow row;
@@ -99,6 +124,7 @@ struct AuditFinding {
   double short_circuit_A = kUnknown;         // Isc of the curve as stated
   std::optional<AuditReading> other_device;  // the curve whose Isc the row has, read to fit best
   double optimum_A = kUnknown;               // best fit to the curve as stated, n from 1 to 2
+  std::optional<AuditLowest> lowest;         // also where the row has no parameters
 };
 
 // What was found out about a table of published parameters.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/study/audit_lowest.h"
+
 namespace lyrefit {
 namespace {
 
@@ -26,13 +28,13 @@ std::string ConstantsText(const AuditReading& reading) {
 
 std::string AsStated(const AuditFinding& finding) {
   const AuditReading& stated = finding.stated;
-  return "As stated the row gives " + Ampere(stated.rmse.Of(stated.objective));
+  return "As stated the row gives " + Ampere(stated.figure_A);
 }
 
 std::string ExplanationText(const AuditExplanation& explanation) {
   const AuditReading& reading = explanation.reading;
   std::string text = fmt::format("{}{}: {}", JoinedChanges(reading), ConstantsText(reading),
-                                 Ampere(reading.rmse.Of(reading.objective)));
+                                 Ampere(reading.figure_A));
   if (!std::isnan(explanation.low_temperature_C)) {
     const double reach = std::max(reading.temperature_C - explanation.low_temperature_C,
                                   explanation.high_temperature_C - reading.temperature_C);
@@ -78,7 +80,7 @@ std::string NearestText(const AuditFinding& finding) {
 }
 
 bool IsOptimum(const AuditFinding& finding) {
-  const double rmse = finding.stated.rmse.Of(finding.stated.objective);
+  const double rmse = finding.stated.figure_A;
   return std::fabs(rmse - finding.optimum_A) <= kOptimumWithin * finding.optimum_A;
 }
 
@@ -99,7 +101,7 @@ std::string OtherDevice(const AuditFinding& finding) {
   if (finding.other_device) {
     const AuditReading& other = *finding.other_device;
     text += fmt::format("; it looks like a row of {}: {} the RMSE is {:.3g} A", other.curve,
-                        JoinedChanges(other), other.rmse.Of(other.objective));
+                        JoinedChanges(other), other.figure_A);
   } else {
     text += fmt::format("; it belongs to another device, Isc about {:.3g} A, none of those at hand",
                         photocurrent_A);
@@ -113,14 +115,65 @@ std::string OtherDevice(const AuditFinding& finding) {
   return text + ".";
 }
 
-std::string Fails(const AuditFinding& finding) {
-  std::string text = AsStated(finding) + ".";
-  const double claim = finding.row.rmse.value + finding.row.rmse.half_unit;
-  if (finding.optimum_A > claim) {
-    text += fmt::format(" No parameters with n from 1 to 2 give the claim there: the best have {}.",
-                        Ampere(finding.optimum_A));
+// What the claim is the least of, if it is not of its own objective.
+std::string LeastOfText(const AuditFinding& finding) {
+  const AuditLowest& lowest = *finding.lowest;
+  const PrintedNumber& claim = finding.row.rmse;
+  if (IsPrintOf(claim, lowest.newton_step_A)) {
+    return fmt::format(
+        " The claim is the least that one Newton step from the measured currents comes to, {}; "
+        "that is not the root of the equation.",
+        Ampere(lowest.newton_step_A));
   }
-  return text + TemperatureText(finding) + NearestText(finding);
+  if (!IsPrintOf(claim, lowest.other_objective_A)) return "";
+  const bool measured = lowest.objective == Objective::kMeasuredCurrent;
+  return fmt::format(" The claim is the least {} RMSE, {}.",
+                     ToText(measured ? Objective::kSolvedCurrent : Objective::kMeasuredCurrent),
+                     Ampere(lowest.other_objective_A));
+}
+
+// A claim that no fit gives, with parameters or without.
+std::string Below(const AuditFinding& finding) {
+  const AuditLowest& lowest = *finding.lowest;
+  const std::string start =
+      finding.stated.parameters.empty() ? "The row has no parameters" : AsStated(finding);
+  const std::string range = fmt::format("n from {:g} to {:g}", lowest.n_lower, lowest.n_upper);
+  const std::string least =
+      finding.verdict == AuditVerdict::kBelowProved
+          ? fmt::format(
+                "and none give the claim: it is proved that with {} no {} RMSE lies below {}",
+                range, ToText(lowest.objective), Ampere(lowest.lower_bound_A))
+          : fmt::format("and none known give the claim: the least {} RMSE found with {} is {}",
+                        ToText(lowest.objective), range, Ampere(LowestFound(lowest)));
+  return start + ", " + least + "." + LeastOfText(finding);
+}
+
+// A claim below the best fit, which n beyond the fit's range meet.
+std::string WiderText(const AuditFinding& finding) {
+  if (!finding.lowest || !IsBelow(finding.row.rmse, finding.lowest->rmse_A)) return "";
+  return fmt::format(" With n from {:g} to {:g} the claim can be met, down to {}.",
+                     finding.lowest->n_lower, finding.lowest->n_upper,
+                     Ampere(finding.lowest->reached_A));
+}
+
+std::string Fails(const AuditFinding& finding) {
+  return AsStated(finding) + "." + TemperatureText(finding) + NearestText(finding) +
+         WiderText(finding);
+}
+
+std::string NoParameters(const AuditFinding& finding) {
+  const std::string text = "The row has no parameters";
+  if (!finding.lowest) return text + ".";
+  const double least = finding.lowest->rmse_A;
+  if (IsPrintOf(finding.row.rmse, least)) {
+    return fmt::format("{}; the claim is the least there is, {}.", text, Ampere(least));
+  }
+  if (finding.row.rmse.value < least) {
+    return fmt::format("{}; the best fit with n from {:g} to {:g} has {}.{}{}", text, kLowestFitted,
+                       kHighestFitted, Ampere(least), LeastOfText(finding), WiderText(finding));
+  }
+  return fmt::format("{}; the claim can be met, for the best fit has {}.{}", text, Ampere(least),
+                     LeastOfText(finding));
 }
 
 }  // namespace
@@ -148,7 +201,7 @@ std::string AuditSentence(const AuditFinding& finding) {
   switch (finding.verdict) {
     case AuditVerdict::kReproduces:
       return fmt::format("The claim comes out of the row{}: {}.", ConstantsText(finding.stated),
-                         Ampere(finding.stated.rmse.Of(finding.stated.objective)));
+                         Ampere(finding.stated.figure_A));
     case AuditVerdict::kReproducesChanged:
       return Explained(finding);
     case AuditVerdict::kBetter:
@@ -158,8 +211,13 @@ std::string AuditSentence(const AuditFinding& finding) {
     case AuditVerdict::kTooCoarse:
       return fmt::format("{}, and its printed digits leave room for {} more or less.",
                          AsStated(finding), Ampere(finding.stated.tolerance_A));
+    case AuditVerdict::kBelowProved:
+    case AuditVerdict::kBelowKnown:
+      return Below(finding);
     case AuditVerdict::kFails:
       return Fails(finding);
+    case AuditVerdict::kNoParameters:
+      return NoParameters(finding);
   }
   return "";
 }

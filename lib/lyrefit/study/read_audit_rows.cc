@@ -107,6 +107,14 @@ class RowReader {
                                   kMostCells, Quoted(text)));
       }
     }
+    const int objective = FieldOf("objective");
+    if (const std::string text = Text(objective); !text.empty()) {
+      row_.objective = FromText<Objective>(AsciiLower(text));
+      if (!row_.objective) {
+        Refuse(objective, fmt::format("expected an objective ({}), found {}", AllTexts<Objective>(),
+                                      Quoted(text)));
+      }
+    }
     const int constants = FieldOf("constants");
     if (const std::string text = Text(constants); !text.empty()) {
       row_.constants = FromText<ConstantSet>(AsciiLower(text));
@@ -118,9 +126,21 @@ class RowReader {
   }
 
   void ReadNumbers() {
-    row_.rmse = Number("RMSE", "rmse", Sign::kPositive);
+    row_.sum_of_squares = Fills("sse");
+    if (row_.sum_of_squares && Fills("rmse")) {
+      Refuse(columns_.quantities.find("sse")->second.front().field,
+             "expected an RMSE or a sum of squares, found both");
+    }
+    const bool only_squares = columns_.quantities.count("rmse") == 0;
+    row_.rmse = row_.sum_of_squares || only_squares
+                    ? Number("the sum of squares", "sse", Sign::kPositive)
+                    : Number("RMSE", "rmse", Sign::kPositive);
     const Device device = MakeDevice(row_.model, {});
+    const bool published =
+        std::any_of(device.parameters.begin(), device.parameters.end(),
+                    [&](const ParameterInfo& info) { return Fills(AsciiLower(info.symbol)); });
     for (const ParameterInfo& info : device.parameters) {
+      if (!published) break;
       const std::string name = AsciiLower(info.symbol);
       const bool positive = name == "rsh" || name[0] == 'n';
       row_.parameters.push_back(
@@ -137,6 +157,14 @@ class RowReader {
                                          ToText(row_.model), symbol, Quoted(Text(column.field))));
       }
     }
+  }
+
+  // Whether any column of a quantity holds something.
+  bool Fills(const std::string& name) const {
+    const auto found = columns_.quantities.find(name);
+    return found != columns_.quantities.end() &&
+           std::any_of(found->second.begin(), found->second.end(),
+                       [&](const QuantityColumn& column) { return !Text(column.field).empty(); });
   }
 
   PrintedNumber Number(const std::string& symbol, const std::string& name, Sign sign) {

@@ -25,8 +25,10 @@ struct AuditRow {
   std::string device;     // a curve's folder or file
   std::string algorithm;  // as the table calls it
   Model model = Model::kSingleDiode;
-  PrintedNumber rmse;                     // the claim
-  std::vector<PrintedNumber> parameters;  // in the device's order
+  PrintedNumber rmse;           // the claim
+  bool sum_of_squares = false;  // `rmse` is one, in A^2, as long as the points are not known
+  std::vector<PrintedNumber> parameters;  // in the device's order; empty: none are given
+  std::optional<Objective> objective;     // of the claim; unset: that of the audit
   // What the row says about its conditions; unset: those of the curve.
   std::optional<double> temperature_C;
   std::optional<int> cells;  // in series
@@ -47,10 +49,11 @@ struct AuditRows {
 
 // Reads a table with a header that names its columns, in any order and case: source, device, model
 // (sd, dd, td), algorithm, rmse_A, Iph_A, Rs_ohm, Rsh_ohm, Is1_A, n1, and Is2_A, n2, Is3_A, n3
-// where a model has them; if there are any, also temperature_C, cells, constants, bounds and note.
-// A current may be in A, mA, uA or nA and a resistance in ohm or mohm; columns of several units may
-// stand side by side, and a row fills one of them. Comma, semicolon or tab between the fields;
-// lines that start with '#' are comments.
+// where a model has them; if there are any, also objective, temperature_C, cells, constants, bounds
+// and note. A claim may be a sum of squares instead, in sse_A2. A current may be in A, mA, uA or nA
+// and a resistance in ohm, mohm or 100ohm; columns of several units may stand side by side, and a
+// row fills one of them; a row without any parameters has its claim alone. Comma, semicolon or tab
+// between the fields; lines that start with '#' are comments.
 //
 // A printed zero, and an n without decimals (it stands at a bound), are exact. An unknown, repeated
 // or missing column is an error of the whole file; a row that cannot be read is one of `bad_rows`.

@@ -10,6 +10,7 @@ namespace {
 
 // Convex problems to spend on one proof before the best of all runs has to do.
 constexpr std::int64_t kEffort = 20000;
+constexpr std::int64_t kSolvedEffort = 4000;  // of the solved current, each takes more time
 
 bool Within(const std::vector<double>& parameters, const std::vector<ParameterBounds>& bounds) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -26,12 +27,12 @@ Reference FindReference(const CompareCurve& subject, Model model, const CompareO
   reference.rmse_A = best.rmse_A;
   reference.origin = "best of all runs";
   reference.parameters = best.parameters;
-  if (options.objective != Objective::kMeasuredCurrent) return reference;
   const Device device = MakeDevice(model, subject.curve.conditions, options.constants);
   const auto bounds = MakeBounds(subject.bounds, device, subject.curve);
   if (!bounds) return reference;
   CertifyOptions certify = RangesOf(*bounds, options.constants, {model});
-  certify.effort = kEffort;
+  certify.objective = options.objective;
+  certify.effort = options.objective == Objective::kSolvedCurrent ? kSolvedEffort : kEffort;
   const auto certificate = Certify(subject.curve, certify, observer);
   if (!certificate) return reference;
   reference.interrupted = certificate->interrupted;
@@ -41,7 +42,7 @@ Reference FindReference(const CompareCurve& subject, Model model, const CompareO
   }
   const ModelCertificate& proof = certificate->models.at(0);
   reference.lower_bound_A = proof.lower_bound_A;
-  reference.floor_A = certificate->floor.rmse_A;
+  if (certificate->floor.certified) reference.floor_A = certificate->floor.rmse_A;
   if (proof.rmse_A < reference.rmse_A && Within(proof.parameters, *bounds)) {
     reference.rmse_A = proof.rmse_A;
     reference.parameters = proof.parameters;

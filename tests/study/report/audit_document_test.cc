@@ -47,6 +47,30 @@ TEST(AuditText, MarksTheKindOfRmseThatIsClaimed) {
   EXPECT_THAT(AuditText(report), HasSubstr("measured-current  solved-current *"));
 }
 
+TEST(AuditText, MarksTheFigureWhereRowsSayWhatTheyClaim) {
+  AuditReport report = SampleAudit();
+  report.findings[0].row.objective = Objective::kSolvedCurrent;
+  report.findings[0].stated.objective = Objective::kSolvedCurrent;
+  const std::string text = AuditText(report);
+  EXPECT_THAT(text, Not(HasSubstr("measured-current *")));
+  EXPECT_THAT(text, HasSubstr("9.860219e-04    7.754000e-04 *  reproduces\n"));
+  EXPECT_THAT(text, HasSubstr("9.860219e-04 *  7.754000e-04    does not reproduce\n"));
+}
+
+TEST(AuditText, ShowsNoFiguresOfAClaimWithoutParameters) {
+  AuditReport report = SampleAudit();
+  AuditFinding& finding = report.findings[0];
+  finding.verdict = AuditVerdict::kNoParameters;
+  finding.row.sum_of_squares = true;
+  finding.stated.parameters.clear();
+  finding.stated.constants.clear();
+  finding.stated.rmse = {};
+  const std::string text = AuditText(report);
+  EXPECT_THAT(text, HasSubstr("9.8602E-04 A^2"));
+  EXPECT_THAT(text, HasSubstr("-               -  no parameters\n"));
+  EXPECT_THAT(text, HasSubstr("0 with codata, 1 with literature, 0 with paper."));
+}
+
 TEST(AuditText, SaysSomethingOnlyOfRowsThatFail) {
   const std::string text = AuditText(SampleAudit());
   EXPECT_THAT(text, Not(HasSubstr("What is to be said about good")));

@@ -51,6 +51,23 @@ TEST(AuditJson, HoldsExplanationsAndEvidence) {
   EXPECT_EQ(fails["nearest"]["cell_temperature_C"], 75);
 }
 
+TEST(AuditJson, SaysHowLowAClaimCanGo) {
+  AuditReport report = SampleAudit();
+  report.findings[0].lowest = AuditLowest{};
+  report.findings[0].lowest->rmse_A = 7.73e-4;
+  report.findings[0].lowest->newton_step_A = 7.72e-4;
+  report.findings[0].stated.parameters.clear();
+  const json j = json::parse(AuditJson(report));
+  const json& lowest = j["findings"][0]["lowest"];
+  EXPECT_EQ(lowest["rmse_A"], 7.73e-4);
+  EXPECT_EQ(lowest["newton_step_rmse_A"], 7.72e-4);
+  EXPECT_TRUE(lowest["lower_bound_A"].is_null());
+  EXPECT_TRUE(lowest["reached_A"].is_null());
+  EXPECT_TRUE(j["findings"][0]["stated"]["parameters"].empty());
+  EXPECT_TRUE(j["findings"][1]["lowest"].is_null());
+  EXPECT_EQ(j["findings"][1]["stated"]["newton_step"], false);
+}
+
 TEST(AuditJson, ListsBadRowsAndCountsVerdicts) {
   const json j = json::parse(AuditJson(SampleAudit()));
   ASSERT_EQ(j["bad_rows"].size(), 1U);

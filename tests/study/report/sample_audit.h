@@ -16,6 +16,7 @@ inline AuditReading SampleReading(double measured_A) {
   reading.parameters = {0.76, 3.2e-7, 1.48, 0.0363, 53.7};
   reading.half_units = {0.005, 0.5e-8, 0.005, 0.00005, 0.05};
   reading.rmse = {measured_A, 7.754e-4};
+  reading.figure_A = measured_A;
   reading.tolerance_A = 1e-7;
   return reading;
 }

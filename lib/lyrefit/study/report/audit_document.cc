@@ -24,14 +24,34 @@ std::string AuditTitle(const AuditFinding& finding) {
                      Plural(static_cast<std::size_t>(stated.cells), "cell"));
 }
 
+// Whether rows say for themselves what their claims are of.
+bool ObjectivesVary(const AuditReport& report) {
+  return std::any_of(report.findings.begin(), report.findings.end(),
+                     [](const AuditFinding& finding) { return finding.row.objective.has_value(); });
+}
+
 // The head of the column that the claims are of has a star.
 std::string Head(const AuditReport& report, Objective objective) {
-  return ToText(objective) + (report.options.objective == objective ? " *" : "");
+  const bool all = !ObjectivesVary(report) && report.options.objective == objective;
+  return ToText(objective) + (all ? " *" : "");
+}
+
+// Where rows say for themselves, the figure has it.
+std::string FigureCell(const AuditReport& report, const AuditFinding& finding,
+                       Objective objective) {
+  std::string text = Scientific(finding.stated.rmse.Of(objective), kAuditDigits);
+  if (!ObjectivesVary(report)) return text;
+  return text + (finding.stated.objective == objective ? " *" : "  ");
 }
 
 std::string Name(const AuditFinding& finding) {
   return finding.row.algorithm.empty() ? fmt::format("line {}", finding.row.line)
                                        : finding.row.algorithm;
+}
+
+// As it is printed.
+std::string Claim(const AuditRow& row) {
+  return row.rmse.text + (row.sum_of_squares ? " A^2" : "");
 }
 
 std::string ShortName(const AuditFinding& finding) {
@@ -69,9 +89,9 @@ Section CurveSection(const AuditReport& report, std::size_t begin, std::size_t e
   std::vector<std::string> remarks;
   for (std::size_t i = begin; i < end; ++i) {
     const AuditFinding& finding = report.findings[i];
-    table.rows.push_back({ShortName(finding), ToText(finding.row.model), finding.row.rmse.text,
-                          Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
-                          Scientific(finding.stated.rmse.solved_current_A, kAuditDigits),
+    table.rows.push_back({ShortName(finding), ToText(finding.row.model), Claim(finding.row),
+                          FigureCell(report, finding, Objective::kMeasuredCurrent),
+                          FigureCell(report, finding, Objective::kSolvedCurrent),
                           ToText(finding.verdict)});
     const std::string remark = Remark(finding);
     if (!remark.empty()) remarks.push_back(remark);
@@ -99,8 +119,9 @@ Section BadRows(const AuditReport& report) {
 // How many claims that reproduce do so with each set of constants, where none was stated.
 std::string ConstantsSummary(const AuditReport& report) {
   const bool open =
-      std::any_of(report.findings.begin(), report.findings.end(),
-                  [](const AuditFinding& finding) { return finding.stated.any_constants; });
+      std::any_of(report.findings.begin(), report.findings.end(), [](const AuditFinding& finding) {
+        return finding.stated.any_constants && !finding.stated.parameters.empty();
+      });
   if (!open) return "";
   std::string text;
   for (const auto& row : EnumTable<ConstantSet>::kRows) {
@@ -159,10 +180,11 @@ std::string BriefAudit(const AuditReport& report) {
   std::string text;
   for (const AuditFinding& finding : report.findings) {
     text += fmt::format(
-        "{}{}{}, {} of {}: claimed {} A, {} A measured-current, {} A "
+        "{}{}{}, {} of {}: claimed {}, {} A measured-current, {} A "
         "solved-current: {}\n",
         finding.row.source, finding.row.source.empty() ? "" : ", ", Name(finding),
-        ToText(finding.row.model), finding.stated.curve, finding.row.rmse.text,
+        ToText(finding.row.model), finding.stated.curve,
+        Claim(finding.row) + (finding.row.sum_of_squares ? "" : " A"),
         Scientific(finding.stated.rmse.measured_current_A, kAuditDigits),
         Scientific(finding.stated.rmse.solved_current_A, kAuditDigits), ToText(finding.verdict));
   }

@@ -25,10 +25,25 @@ void to_json(Json& j, const AuditRow& row) {
        {"algorithm", row.algorithm},
        {"note", row.note},
        {"claimed",
-        {{"text", row.rmse.text}, {"rmse_A", row.rmse.value}, {"half_unit_A", row.rmse.half_unit}}},
+        {{"text", row.rmse.text},
+         {"sum_of_squares", row.sum_of_squares},
+         {"rmse_A", row.rmse.value},
+         {"half_unit_A", row.rmse.half_unit}}},
+       {"objective", row.objective},
        {"temperature_C", row.temperature_C},
        {"cells_in_series", row.cells},
        {"constants", row.constants}};
+}
+
+void to_json(Json& j, const AuditLowest& lowest) {
+  j = {{"objective", lowest.objective},
+       {"rmse_A", lowest.rmse_A},
+       {"lower_bound_A", lowest.lower_bound_A},
+       {"reached_A", lowest.reached_A},
+       {"n_lower", lowest.n_lower},
+       {"n_upper", lowest.n_upper},
+       {"other_objective_rmse_A", lowest.other_objective_A},
+       {"newton_step_rmse_A", lowest.newton_step_A}};
 }
 
 // A bad row.
@@ -43,7 +58,7 @@ namespace {
 
 Json ReadingJson(const AuditReading& reading, const Device& device) {
   Json parameters = Json::object();
-  for (int i = 0; i < device.size(); ++i) {
+  for (std::size_t i = 0; i < reading.parameters.size(); ++i) {
     parameters[device.parameters[i].name] = reading.parameters[i];
   }
   return {{"changes", reading.changes},
@@ -51,10 +66,12 @@ Json ReadingJson(const AuditReading& reading, const Device& device) {
           {"cell_temperature_C", RoundCelsius(reading.temperature_C)},
           {"cells_in_series", reading.cells},
           {"objective", reading.objective},
+          {"newton_step", reading.newton_step},
           {"constants", reading.constants},
           {"constants_shown", reading.shown},
           {"parameters", std::move(parameters)},
           {"rmse", reading.rmse},
+          {"figure_A", reading.figure_A},
           {"tolerance_A", reading.tolerance_A},
           {"left_bounds", reading.left_bounds}};
 }
@@ -86,7 +103,8 @@ void to_json(Json& j, const AuditFinding& finding) {
        {"temperatures", finding.temperatures},
        {"short_circuit_current_A", finding.short_circuit_A},
        {"other_device", finding.other_device ? ReadingJson(*finding.other_device, device) : Json()},
-       {"optimum_rmse_A", finding.optimum_A}};
+       {"optimum_rmse_A", finding.optimum_A},
+       {"lowest", finding.lowest}};
 }
 
 void to_json(Json& j, const AuditReport& report) {

@@ -1,0 +1,115 @@
+#include "lyrefit/study/audit_lowest.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/certify/certify.h"
+#include "lyrefit/fit/fit.h"
+#include "lyrefit/study/audit_newton.h"
+
+namespace lyrefit {
+namespace {
+
+// Where lower bounds are proved: wider than anything a diode has.
+constexpr double kLowestProved = 0.5;
+constexpr double kHighestProved = 4;
+
+// Of the solved current: closer than any claim is printed, and an end to what does not close.
+constexpr double kSolvedProofTolerance = 1e-9;
+constexpr std::int64_t kSolvedProofEffort = 5000;
+
+// Says nothing where the curve is none that can be proved anything about.
+void Prove(const IvCurve& curve, Model model, ConstantSet constants, AuditLowest* lowest) {
+  CertifyOptions options;
+  options.n_lower = kLowestProved;
+  options.n_upper = kHighestProved;
+  options.models = {model};
+  options.objective = lowest->objective;
+  options.constants = constants;
+  if (lowest->objective == Objective::kSolvedCurrent) {
+    options.tolerance = kSolvedProofTolerance;
+    options.effort = kSolvedProofEffort;
+  }
+  const Expected<Certificate> certificate = Certify(curve, options);
+  if (!certificate || certificate->models.empty()) return;
+  lowest->lower_bound_A = certificate->models[0].lower_bound_A;
+  lowest->reached_A = certificate->models[0].rmse_A;
+  lowest->n_lower = kLowestProved;
+  lowest->n_upper = kHighestProved;
+}
+
+}  // namespace
+
+const LowestFinder::Fitted& LowestFinder::Fit(const AuditSubject& subject, const ReadingPlan& plan,
+                                              ConstantSet constants) {
+  const std::string key =
+      fmt::format("{} {} {} {} {} {}", plan.curve, plan.conditions.cell_temperature_K,
+                  plan.conditions.cells_in_series, ToText(subject.row->model),
+                  ToText(plan.objective), ToText(constants));
+  if (const auto known = fitted_.find(key); known != fitted_.end()) return known->second;
+  IvCurve curve = subject.shelf->curves[plan.curve].curve;
+  curve.conditions = plan.conditions;
+  curve.as_is = true;  // the publication may have counted other cells
+  FitOptions options;
+  options.model = subject.row->model;
+  options.objective = plan.objective;
+  options.constants = constants;
+  options.intervals = Intervals::kNone;
+  options.random_baseline = false;
+  const Expected<FitReport> fit = lyrefit::Fit(curve, options);
+  Fitted& fitted = fitted_[key];
+  fitted.rmse_A = fit ? fit->rmse.refined.Of(plan.objective) : kUnknown;
+  if (fit) fitted.parameters = fit->refined;
+  return fitted;
+}
+
+double LowestFinder::Optimum(const AuditSubject& subject, const ReadingPlan& plan,
+                             ConstantSet constants) {
+  return Fit(subject, plan, constants).rmse_A;
+}
+
+std::optional<AuditLowest> LowestFinder::Find(const AuditSubject& subject, ConstantSet constants) {
+  const AuditCurve& curve = subject.shelf->curves[subject.stated.curve];
+  ReadingPlan plan;
+  plan.curve = subject.stated.curve;
+  plan.conditions = curve.curve.conditions;
+  plan.objective = subject.stated.objective;
+  const Model model = subject.row->model;
+  const std::string key = fmt::format("{} {} {} {}", plan.curve, ToText(model),
+                                      ToText(plan.objective), ToText(constants));
+  if (const auto known = lowest_.find(key); known != lowest_.end()) return known->second;
+  AuditLowest lowest;
+  lowest.objective = plan.objective;
+  lowest.rmse_A = Optimum(subject, plan, constants);
+  if (std::isnan(lowest.rmse_A)) return std::nullopt;
+  lowest.n_lower = kLowestFitted;
+  lowest.n_upper = kHighestFitted;
+  Prove(curve.curve, model, constants, &lowest);
+  ReadingPlan solved = plan;
+  solved.objective = Objective::kSolvedCurrent;
+  ReadingPlan other = plan.objective == Objective::kMeasuredCurrent ? solved : plan;
+  if (plan.objective == Objective::kSolvedCurrent) other.objective = Objective::kMeasuredCurrent;
+  lowest.other_objective_A = Optimum(subject, other, constants);
+  const Fitted& root = Fit(subject, solved, constants);
+  if (!root.parameters.empty()) {
+    const Device device = MakeDevice(model, plan.conditions, constants);
+    lowest.newton_step_A =
+        LeastNewtonStepRmse(device, root.parameters, kLowestFitted, kHighestFitted, curve.curve);
+  }
+  return lowest_[key] = lowest;
+}
+
+double LowestFound(const AuditLowest& lowest) { return std::fmin(lowest.rmse_A, lowest.reached_A); }
+
+bool IsBelow(const PrintedNumber& claim, double rmse_A) {
+  return claim.value + 2 * claim.half_unit <= rmse_A;
+}
+
+bool IsPrintOf(const PrintedNumber& claim, double value) {
+  const double above = value - claim.value;
+  return above >= -claim.half_unit && above < 2 * claim.half_unit;
+}
+
+}  // namespace lyrefit

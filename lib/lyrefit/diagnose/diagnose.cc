@@ -20,6 +20,7 @@
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/make_plan.h"
 #include "lyrefit/diagnose/measurement.h"
+#include "lyrefit/diagnose/prove_causes.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
@@ -301,6 +302,9 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   DescribeGain(shown, measurement.has_path(), &diagnosis.gain);
   if (options.plan && !watch.Stopped()) {
     diagnosis.plan = MakePlan(outcome.found, options.seed, options.threads);
+  }
+  if (options.proofs && !watch.Stopped()) {
+    diagnosis.proofs = FindProofs(set, shown, diagnosis, &watch);
   }
   DescribePoints(set, measurement, shown, &diagnosis);
   AddWarnings(outcome.found, measurement, &diagnosis);

@@ -11,10 +11,12 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/plan.h"
 #include "lyrefit/fit/fit_report.h"
+#include "lyrefit/law/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Everything in a diagnosis is of the solved-current objective: r = I_model(V) - I_measured.
+// Everything in a diagnosis is of the solved-current objective, r = I_model(V) - I_measured, but the
+// proofs that say otherwise.
 
 // One reading as measured, as the base model has it and as the extended one has it, in the order
 // taken.
@@ -164,6 +166,27 @@ struct Gain {
   std::vector<ParameterShift> shifts;
 };
 
+// How much of what the base model misses a cause can explain, proved. All its figures are of one
+// objective and of the readings that the diagnosis fitted, unweighted.
+struct CauseProof {
+  std::string effect;  // its id
+  std::string title;
+  bool named = false;  // it is the verdict's, or part of it
+  Objective objective = Objective::kMeasuredCurrent;
+  double base_A = kUnknown;  // RMSE that the base model attains
+  double lower_bound_A =
+      kUnknown;                  // proved: none with the cause, whatever its parameters, is lower
+  double attained_A = kUnknown;  // with the cause, by a fit
+  double explains_at_most = kUnknown;  // part of the base model's sum of squares
+  std::string holds_for;               // which models the bound holds for, in words
+};
+
+// Of several causes, or why there are none.
+struct Proofs {
+  std::vector<CauseProof> causes;  // within one objective those that can explain most first
+  std::string sentence;
+};
+
 // What a diagnosis found, with all that it rests on.
 struct Diagnosis {
   std::string version;        // of lyrefit
@@ -178,11 +201,12 @@ struct Diagnosis {
   int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;  // in the set's order
   std::vector<DiagnosedPoint> points;
-  Evidence evidence;          // before any cause was tried
-  std::vector<Trial> trials;  // in the order of the catalogue
-  Verdict verdict;            // what it comes to
-  Gain gain;                  // what the causes are worth
-  std::optional<Plan> plan;   // where it was asked for
+  Evidence evidence;             // before any cause was tried
+  std::vector<Trial> trials;     // in the order of the catalogue
+  Verdict verdict;               // what it comes to
+  Gain gain;                     // what the causes are worth
+  std::optional<Plan> plan;      // where it was asked for
+  std::optional<Proofs> proofs;  // the same
   // The extended model (the base model where nothing was found) as a fit like any other. With
   // DiagnoseOptions::extend it is searched and polished; without, only `model`,
   // `estimates`, `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled. `device` is empty: the law is the catalogue's.

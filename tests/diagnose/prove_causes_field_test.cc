@@ -1,0 +1,60 @@
+// Real sweeps: no fit of a cause undercuts what was proved of it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/diagnose/diagnose.h"
+
+namespace lyrefit {
+namespace {
+
+std::vector<std::string> SingleSweeps() {
+  std::vector<std::string> files;
+  const std::string folder = std::string(LYREFIT_FIELD_DATA_DIR) + "/field/single";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".csv" || entry.path().stem() == "labels") continue;
+    files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(ProofsOfRealSweeps, AreUndercutByNoFit) {
+  DiagnoseOptions options;
+  options.held_out = false;
+  options.proofs = true;
+  options.draws = 400;
+  options.threads = 1;
+  int proved = 0, close = 0;
+  for (const std::string& file : SingleSweeps()) {
+    const auto curve = ReadCurve(file);
+    if (!curve) continue;
+    const auto diagnosis = Diagnose(*curve, options);
+    if (!diagnosis) continue;
+    ASSERT_TRUE(diagnosis->proofs) << file;
+    for (const CauseProof& proof : diagnosis->proofs->causes) {
+      EXPECT_FALSE(proof.attained_A < proof.lower_bound_A) << file << " " << proof.effect;
+      EXPECT_FALSE(proof.base_A < proof.lower_bound_A &&
+                   proof.objective == Objective::kMeasuredCurrent)
+          << file << " " << proof.effect;
+      if (proof.objective != Objective::kMeasuredCurrent) continue;
+      ++proved;
+      const auto square = [](double x) { return x * x; };
+      const double gap = square(proof.attained_A) - square(proof.lower_bound_A);
+      const double allowed =
+          std::max(0.02 * square(proof.attained_A), 0.005 * square(proof.base_A));
+      close += gap <= allowed * (1 + 1e-6) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(proved, 150);
+  EXPECT_GE(close, proved - 2);
+}
+
+}  // namespace
+}  // namespace lyrefit

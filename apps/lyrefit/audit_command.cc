@@ -12,14 +12,18 @@ namespace {
 
 constexpr char kAuditFooter[] =
     "ROWS is a table with the columns source, device, model (sd, dd, td), algorithm, rmse_A (the\n"
-    "claim), Iph_A, Rs_ohm, Rsh_ohm, Is1_A (or Is1_uA), n1, Is2_A, n2, Is3_A, n3, and if you like\n"
-    "temperature_C, cells, constants, bounds, note. Copy the numbers as they are printed: their\n"
-    "last digits say how nearly a claim must come out. Resistances are those of the module, n is\n"
-    "per cell. A device is a curve's folder or file beside ROWS, in the folder above it, or in a\n"
-    "folder given with --curves.\n"
+    "claim; a sum of squares in sse_A2), Iph_A, Rs_ohm, Rsh_ohm, Is1_A (or Is1_uA), n1, Is2_A, "
+    "n2,\n"
+    "Is3_A, n3, and if you like objective, temperature_C, cells, constants, bounds, note. Copy "
+    "the\n"
+    "numbers as they are printed: their last digits say how nearly a claim must come out.\n"
+    "Resistances are those of the module, n is per cell. Without any parameters a claim is held\n"
+    "against the lowest RMSE there is. A device is a curve's folder or file beside ROWS, in the\n"
+    "folder above it, or in a folder given with --curves.\n"
     "\n"
     "Examples:\n"
     "  lyrefit audit data/paper/rows.csv\n"
+    "  lyrefit audit data/published/rows.csv\n"
     "  lyrefit audit rows.csv --curves my_curves --json audit.json\n"
     "\n"
     "Exit codes: 0 all rows were read, whatever the verdicts; 1 some row could not be.";

@@ -9,10 +9,16 @@ Expected<BoundsSpec> FlaggedBounds(const std::string& name, const std::string& c
 }
 
 void AddBoundsFlag(VerbLine* verb, const std::string& group, std::string* name) {
+  AddBoundsFlag(verb, group, "physical", name);
+}
+
+void AddBoundsFlag(VerbLine* verb, const std::string& group, const std::string& by_default,
+                   std::string* name) {
   verb->AddOption(
           "--bounds", name,
           "physical (derived from the curve), wide, paper or literature (published with the "
-          "curve), or a JSON file (default physical)")
+          "curve), or a JSON file (default " +
+              by_default + ")")
       .Type("NAME|FILE")
       .Group(group)
       .Reads();

@@ -1,7 +1,9 @@
+#include "bounds_flag.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/fit/floor.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr char kCertifyFooter[] =
     "Examples:\n"
     "  lyrefit certify data/rtc_france\n"
+    "  lyrefit certify data/pwp201 --bounds literature\n"
     "  lyrefit certify module.csv --cells 60 --temperature-C 47 --n-lower 0.5 --n-upper 4\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 something could not be certified.";
@@ -22,12 +25,14 @@ constexpr char kCertifyFooter[] =
 struct CertifyRequest {
   CurveFlags curve;
   CertifyOptions options;
+  std::string bounds;  // the name or file of --bounds; empty: the single ranges hold
   ReportFlags output;
 };
 
 void DeclareCertify(VerbLine* verb, CertifyRequest* request) {
   AddCurveFlags(verb, &request->curve);
   AddTableFlags(verb, kCertifyOptionTable, &request->options);
+  AddBoundsFlag(verb, "Proof", "the single ranges", &request->bounds);
   AddReportFlags(verb, "certificate", "the floor and the models as a table, a row each",
                  "dual certificate", &request->output);
 }
@@ -45,8 +50,13 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
   }
   TRY(verb.CheckFiles());
   TRY(const IvCurve curve, ReadFlaggedCurve(request.curve));
+  CertifyOptions options = request.options;
+  if (!request.bounds.empty()) {
+    TRY(const BoundsSpec spec, FlaggedBounds(request.bounds, request.curve.file));
+    TRY(options, CertifyWithin(spec, curve, request.options));
+  }
   const InterruptGuard guard;
-  TRY(const Certificate certificate, Certify(curve, request.options, TerminalObserver()));
+  TRY(const Certificate certificate, Certify(curve, options, TerminalObserver()));
   TRY(WriteWanted(output.json_file, [&] { return CertificateJson(certificate); }));
   TRY(WriteWanted(output.csv_file, [&] { return CertificateCsv(certificate); }));
   TRY(DrawWanted(output.plot_file,
@@ -63,8 +73,7 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
 
 }  // namespace
 
-const Verb kCertifyVerb = {"certify", "Prove how low the measured-current RMSE of a curve can go",
-                           kCertifyFooter,
+const Verb kCertifyVerb = {"certify", "Prove how low the RMSE of a curve can go", kCertifyFooter,
                            "the certificate as text, --json, --csv, --plot and --html",
                            Declare<CertifyRequest, DeclareCertify, RunCertify>};
 

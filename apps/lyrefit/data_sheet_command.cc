@@ -8,6 +8,8 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/report/page.h"
+#include "lyrefit/report/plots.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -83,6 +85,10 @@ void DeclareDataSheet(VerbLine* verb, DataSheetRequest* request) {
                   "the parameters as pvlib takes them, JSON; - for standard output, alone")
       .Writes();
   AddCsvFlag(verb, "the parameters as a table, a row each", &output);
+  verb->AddOption("--plot", &output.plot_file,
+                  "all devices through the sheet's points as a picture, .svg or .png")
+      .Draws();
+  AddHtmlFlag(verb, "answer", &output);
   verb->AddQuietSwitch();
 }
 
@@ -133,6 +139,10 @@ Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
     TRY(const std::string json, PvlibText(request, fit));
     TRY(WriteOutput(request.pvlib_file, json));
   }
+  TRY(DrawWanted(request.output.plot_file,
+                 [&](const std::string& file) { return PlotDataSheet(fit, file); }));
+  TRY(WriteWanted(request.output.html_file,
+                  [&] { return DrawPage(DataSheetDocument(fit), DataSheetJson(fit)); }));
   TRY(WriteText(verb, [&] { return DataSheetText(fit); }));
   return fit.Solved() ? kExitFine : kExitNotUsable;
 }
@@ -141,7 +151,7 @@ Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
 
 const Verb kDataSheetVerb = {
     "datasheet", "Find a module's parameters from what its data sheet prints, without any curve",
-    kDataSheetFooter, "the parameters as text, --json, --csv and --pvlib",
+    kDataSheetFooter, "the parameters as text, --json, --csv, --pvlib, --plot and --html",
     Declare<DataSheetRequest, DeclareDataSheet, RunDataSheet>};
 
 }  // namespace lyrefit

@@ -128,8 +128,8 @@ const Chapter kDiagnosis = {
 const Chapter kStudy = {
     "Proofs and studies",
     {{"floor",
-      "the lowest RMSE (measured-current) that any number of diodes can reach within the "
-      "bounds of n and Rs; no fit of sd, dd or td lies below it"},
+      "the lowest RMSE (of the objective named beside it) that any number of diodes can reach "
+      "within the bounds of n and Rs; no fit of sd, dd or td lies below it"},
      {"gap",
       "relative distance of what was reached from what was proved: 0 means that nothing "
       "better exists"},

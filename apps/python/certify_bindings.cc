@@ -6,6 +6,8 @@
 #include "docs.h"
 #include "frames.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/curve/setting_text.h"
+#include "lyrefit/fit/floor.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
@@ -44,26 +46,47 @@ bool AllCertified(const CertifyResult& result) {
                      [](const ModelCertificate& model) { return model.certified; });
 }
 
+// A name, a file, or {"Iph": (0, 2), ...}.
+BoundsSpec BoxAsked(py::handle asked, const std::string& curve_file) {
+  if (!py::isinstance<py::dict>(asked)) {
+    return Must(NamedBounds(TextOf("bounds", asked), curve_file));
+  }
+  BoundsSpec spec;
+  spec.name = "given";
+  for (const std::string& text : TextsOf("bounds", asked)) {
+    const auto range = ReadRange(text);
+    if (!range) Raise({"bounds: " + range.error().ToString(), {}});
+    spec.table[range->first] = range->second;
+  }
+  return spec;
+}
+
 CertifyResult CertifyOne(py::handle curve, py::handle current, const py::kwargs& given) {
   Keywords keywords("certify", given);
   const py::object progress = keywords.Take("progress").value_or(py::none());
   const CurveKeywords said = ReadCurveKeywords(&keywords);
   CertifyOptions options;
+  const std::optional<py::object> bounds = keywords.Take("bounds");
   keywords.Read(kCertifyOptionTable, &options);
   keywords.Finish();
   const IvCurve taken = CurveOf(curve, current, said);
+  if (bounds && !bounds->is_none()) {
+    options = Must(CertifyWithin(BoxAsked(*bounds, taken.source), taken, options));
+  }
   Certificate proof = Must(
       Work(progress, [&](const Observer& observer) { return Certify(taken, options, observer); }));
   return CertifyResult(std::make_shared<const Certificate>(std::move(proof)));
 }
 
 constexpr char kCertifyDoc[] =
-    "Prove how low the measured-current RMSE of a curve can go.\n\n"
+    "Prove how low the RMSE of a curve can go, of either objective.\n\n"
     "The floor is that of any number of diodes in parallel with n and Rs in these ranges; beside\n"
     "it stands the best each model can do.\n\n"
     "Parameters\n----------\n"
     "curve, current\n"
     "    As fit() takes them: arrays of shape (n,) in V and A, a Curve, a path, a frame.\n"
+    "bounds : str, path or mapping, optional\n"
+    "    A box for every parameter, as fit() takes it, in the place of the single ranges.\n"
     "progress : callable, optional\n"
     "    Called at most ten times a second with a :class:`Progress`; False ends the work.\n";
 
@@ -78,6 +101,8 @@ constexpr char kCertifyEnd[] =
 
 std::vector<KeywordNote> CertifyNotes() {
   std::vector<KeywordNote> notes;
+  notes.push_back({"bounds", "str | PathLike[str] | Mapping[str, tuple[float, float]] | None",
+                   "None", "Proof", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kCertifyOptionTable, CertifyOptions(), &notes);
   AppendCurveNotes(&notes);

@@ -8,6 +8,7 @@
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/plots.h"
 #include "pvlib_dict.h"
 #include "result.h"
 
@@ -32,6 +33,7 @@ Record RecordOf(const SolvedSheet& found) {
   record.brief = [found] { return BriefSheet(*found); };
   record.document = [found] { return DataSheetDocument(*found); };
   record.csv = [found] { return DataSheetCsv(*found); };
+  record.plot = [found](const std::string& file) { return PlotDataSheet(*found, file); };
   return record;
 }
 

@@ -43,6 +43,23 @@ TEST(CertifyVerb, TakesRangesAndDrawsPictures) {
   EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
 }
 
+TEST(CertifyVerb, TakesTheBoxesThatFitTakes) {
+  const AppResult result =
+      RunApp("certify " + DataFolder("msx60") + " --bounds paper --models dd --json -");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json j = json::parse(result.out, nullptr, false);
+  ASSERT_FALSE(j.is_discarded());
+  EXPECT_EQ(j["bounds"], "paper");
+  EXPECT_EQ(j["ranges"]["Rsh"], json({150, 3000}));
+  EXPECT_EQ(j["ranges"]["diodes"][1]["Is"], json({1e-8, 1e-6}));
+  EXPECT_NEAR(j["models"][0]["rmse_A"].get<double>(), 9.013852839e-4, 1e-12);
+  EXPECT_GE(j["models"][0]["parameters"]["saturation_current_2"]["value"], 1e-8);
+  const AppResult text = RunApp("certify " + kRtc + " --bounds literature --models sd");
+  EXPECT_THAT(text.out, HasSubstr("each diode of a model has Is in [0, 1e-06] A"));
+  const AppResult single = RunApp("certify " + kRtc + " --models sd --rsh-upper 30");
+  EXPECT_THAT(single.out, HasSubstr("Rsh in [0, 30] ohm"));
+}
+
 TEST(CertifyVerb, EndsWith2WhereSomethingIsNotCertified) {
   const AppResult result = RunApp("certify " + DataFolder("msx60") + " --models dd --effort 20");
   EXPECT_EQ(result.exit_code, 2);
@@ -55,6 +72,9 @@ TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
                      {"no_such_file", "no_such_file"},
                      {kRtc + " --n-lower 3", "n-lower = 3 must be below n-upper = 2"},
                      {kRtc + " --rs-lower 5", "rs-lower = 5"},
+                     {kRtc + " --is-lower 1e-6 --is-upper 1e-7", "is-lower = 1e-06 is above"},
+                     {kRtc + " --bounds literature --n-upper 3", "leave out those of n"},
+                     {kRtc + " --bounds no_such", "no file 'no_such'"},
                      {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
                      {kRtc + " --plot x.pdf", ".svg or .png"},
                      {kRtc + " --tolerance 0", "--tolerance"},
@@ -64,7 +84,8 @@ TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
 TEST(FitVerb, PrintsTheFloorWhenAsked) {
   const AppResult result = RunApp("fit " + kRtc + " --floor --intervals none");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, HasSubstr("Floor: no number of diodes with n in [1, 2]"));
+  EXPECT_THAT(result.out, HasSubstr("Floor: no number of diodes with n in [1, 2] brings the "
+                                    "solved-current RMSE below"));
 }
 
 TEST(CertifyVerb, WritesTheFloorAndTheModelsAsATable) {

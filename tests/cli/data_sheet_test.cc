@@ -62,6 +62,25 @@ TEST(DataSheetVerb, WritesWhatPvlibTakes) {
   EXPECT_EQ(j["cec"]["Technology"], "Multi-c-Si");
 }
 
+// One device for every n: the one that beta_oc picks is the answer.
+TEST(DataSheetVerb, ShowsAndDrawsTheFamily) {
+  const TempFolder folder;
+  const std::string picture = folder.Path("family.svg"), page = folder.Path("family.html");
+  const AppResult text = RunApp(kSheet + " --plot '" + picture + "' --html '" + page + "'");
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("0  picked"));
+  EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
+  EXPECT_THAT(FileText(page), HasSubstr("All devices through the sheet"));
+  const AppResult result = RunApp(kSheet + " --json -");
+  const json j = json::parse(result.out, nullptr, false);
+  EXPECT_EQ(j["family"]["picked"]["n"], j["parameters"]["n"]["value"]);
+  EXPECT_EQ(j["family"]["rounding"]["low"]["n"], j["parameters"]["n"]["low"]);
+  ExpectRefusals("", {{kSheet + " --plot x.pdf", ".svg or .png"},
+                      {"datasheet --isc 1 --voc 1 --imp 0.9972 --vmp 0.6764 --alpha 0.0004 --beta "
+                       "-0.003 --cells 1",
+                       "n would have to be below"}});
+}
+
 TEST(DataSheetVerb, WritesTheParametersAsATable) {
   const AppResult result = RunApp(
       "datasheet --isc 4.75 --voc 21.6 --imp 4.26 --vmp 17.6 --alpha 0.002 --beta -0.076 "

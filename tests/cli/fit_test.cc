@@ -115,11 +115,12 @@ TEST(Fit, NamesTheParametersOfThreeDiodes) {
 }
 
 TEST(Fit, GoesByTheFlags) {
-  const json j = FitJson(kRtc +
-                         " --model dd --objective measured-current --fix n2=2 --seed 5 "
-                         "--bound Rs=0:0.1 --bound Rsh=1:500 --population 20 --iterations 30 "
-                         "--algorithm lo+mblss --constants literature --bounds literature "
-                         "--temperature-C 30 --cells 2 --irradiance-Wm2 800 --elites 2");
+  const json j = FitJson(
+      kRtc +
+      " --model dd --objective measured-current --fix n2=2 --seed 5 "
+      "--bound Rs=0:0.1 --bound Rsh=1:500 --bound Is=0:1e-4 --population 20 --iterations 30 "
+      "--algorithm lo+mblss --constants literature --bounds literature "
+      "--temperature-C 30 --cells 2 --irradiance-Wm2 800 --elites 2");
   EXPECT_EQ(j["model"], "dd");
   EXPECT_EQ(j["objective"], "measured-current");
   EXPECT_EQ(j["parameters"]["n_2"]["fixed"], true);

@@ -130,6 +130,7 @@ constexpr const char* kPages[] = {"README.md",
                                   "data/field/README.md",
                                   "data/formats/README.md",
                                   "data/landscapes/README.md",
+                                  "data/published/README.md",
                                   "lib/lyrefit/effects/README.md",
                                   "lib/lyrefit/family/README.md",
                                   "lib/lyrefit/fit/README.md"};
@@ -216,7 +217,10 @@ TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
   const struct {
     const char* page;
     const char* block;
-  } kBlocks[] = {{"data/README.md", "certified"},
+  } kBlocks[] = {{"README.md", "proofs-short"},
+                 {"data/README.md", "certified"},
+                 {"data/README.md", "proofs"},
+                 {"data/field/README.md", "proofs-measured"},
                  {"data/landscapes/README.md", "ranked"},
                  {"data/landscapes/README.md", "budget"},
                  {"data/landscapes/README.md", "landscapes"}};

@@ -76,7 +76,7 @@ std::vector<SchemaCase> SchemaCases() {
            "--draws 200 --quiet",
        "translation"},
       {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
-      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},
+      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan --proofs" + kCauses, "diagnosis"},
       {"DiagnosisOfSeveral", "diagnose " + rtc + kData + "pwp201 --json FILE" + kCauses,
        "diagnosis"},
       {"ExtendedModel", "diagnose " + shaded + "--extend FILE" + kCauses, "fit"},
@@ -101,6 +101,7 @@ std::vector<SchemaCase> SchemaCases() {
       {"Sensitivity", "sensitivity " + rtc + "--models sd --runs 2 --json FILE" + kSearch,
        "comparison"},
       {"Audit", "audit " + kData + "paper/rows.csv --json FILE", "audit"},
+      {"AuditOfClaims", "audit " + kData + "published/rows.csv --json FILE", "audit"},
       {"Coverage", "coverage --sets 2 --curves 5 --json FILE --quiet", "coverage"},
   };
 }

@@ -1,6 +1,7 @@
 """Families, diagnoses, translations, certificates and comparisons: what the command writes, byte for byte."""
 
 import json
+import pathlib
 import tempfile
 import threading
 import time
@@ -46,6 +47,10 @@ class Verbs(unittest.TestCase):
         self.assertEqual(found.text, command("datasheet", *flags, "--gamma=-0.41"))
         self.assertEqual(found.pvlib, json.loads(command("datasheet", *flags, "--name", "M", "--pvlib", "-")))
         self.assertTrue(found.usable)
+        self.assertEqual(found["family"]["picked"]["n"], found.parameters["n"])
+        with tempfile.TemporaryDirectory() as folder:
+            found.save_plot(folder + "/family.svg")
+            self.assertIn("picked", pathlib.Path(folder, "family.svg").read_text())
         numbers = [30.3, 8.58, 37.8, 9.05, 9.05 * 0.0006, -37.8 * 0.0031, 60]
         exact = lyrefit.fit_datasheet(*numbers)
         self.assertIsNone(exact["parameters"]["R_s"]["low"])

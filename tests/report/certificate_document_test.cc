@@ -28,8 +28,18 @@ TEST(CertificateText, TellsFloorProofAndModels) {
   EXPECT_THAT(text, Not(HasSubstr("INTERRUPTED")));
 }
 
+TEST(CertificateText, SaysWhichBoundsHoldInSpiteOfRounding) {
+  Certificate certificate = RtcCertificate();
+  EXPECT_THAT(CertificateText(certificate), Not(HasSubstr("Rigorous")));
+  certificate.options.rigorous = true;
+  EXPECT_THAT(CertificateText(certificate),
+              HasSubstr("Rigorous: every bound of the measured-current RMSE"));
+}
+
 TEST(CertificateText, FitsATerminalOf100Columns) {
-  std::istringstream lines(CertificateText(RtcCertificate()));
+  Certificate certificate = RtcCertificate();
+  certificate.options.rigorous = true;
+  std::istringstream lines(CertificateText(certificate));
   for (std::string line; std::getline(lines, line);) {
     EXPECT_LE(line.size(), static_cast<std::size_t>(kTextWidth)) << line;
   }

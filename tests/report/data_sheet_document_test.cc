@@ -36,5 +36,20 @@ TEST(DataSheetText, LeavesOutRangesOfExactValues) {
   EXPECT_THAT(DataSheetText(fit), Not(HasSubstr("Warnings")));
 }
 
+TEST(DataSheetText, ShowsTheFamily) {
+  const std::string text = DataSheetText(*FitDataSheet(SampleSheet()));
+  EXPECT_THAT(text, HasSubstr("All devices through the sheet's three points"));
+  EXPECT_THAT(text, HasSubstr("where 1/Rsh = 0. beta_oc, by De Soto's law, picks one"));
+  for (const char* row : {"0  picked", "rounding, low", "rounding, high", "  last"}) {
+    EXPECT_THAT(text, HasSubstr(row));
+  }
+  EXPECT_THAT(text, HasSubstr("those whose n the rounding"));
+  EXPECT_THAT(text, HasSubstr("200 W/m2   50 C   75 C"));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(Columns(line), static_cast<std::size_t>(kTextWidth)) << line;
+  }
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -25,6 +25,14 @@ std::string LineWith(const std::string& report, const std::string& text) {
   return "";
 }
 
+// With single spaces in the place of breaks and margins.
+std::string OneLine(const std::string& report) {
+  std::istringstream words(report);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 TEST(FullReport, FitsATerminalOf100Columns) {
   FitReport report = SampleReport();
   report.warnings = {
@@ -64,12 +72,38 @@ TEST(FullReport, LabelsBothRmsesAndMarksTheFittedOne) {
 TEST(FullReport, SaysHowMuchRoomIsLeftBelowWhereThatWasAskedFor) {
   FitReport report = SampleReport();
   EXPECT_THAT(FullReport(report), Not(HasSubstr("Floor:")));
-  report.floor = {9.824848761e-4, 9.824848761e-4, 1, 2, 0.0036};
-  EXPECT_THAT(FullReport(report), HasSubstr("Floor: no number of diodes with n in [1, 2]"));
-  EXPECT_THAT(FullReport(report), HasSubstr("9.824848761e-04"));
-  EXPECT_THAT(FullReport(report), HasSubstr("0.360 %"));
+  report.floor =
+      FloorReport{Objective::kMeasuredCurrent, 9.824848761e-4, 9.824848761e-4, 0, 1, 2, 0.0036};
+  const std::string text = FullReport(report);
+  EXPECT_THAT(OneLine(text), HasSubstr("Floor: no number of diodes with n in [1, 2] brings the "
+                                       "measured-current RMSE below 9.824848761e-04 A, and the "
+                                       "refined answer is 0.360 % above it."));
+  report.floor->objective = Objective::kSolvedCurrent;
   report.floor->above = 1e-12;
-  EXPECT_THAT(FullReport(report), HasSubstr("attains"));
+  EXPECT_THAT(OneLine(FullReport(report)),
+              HasSubstr("the solved-current RMSE below 9.824848761e-04 A, and the refined answer "
+                        "attains it."));
+  report.floor->gap = 7e-7;
+  EXPECT_THAT(OneLine(FullReport(report)), HasSubstr("attains it to within 7e-07 of itself."));
+  report.floor->above = 0.02;
+  report.floor->minimised = false;
+  EXPECT_THAT(OneLine(FullReport(report)),
+              HasSubstr("is 2.00 % above it, but it was not fitted for the least RMSE."));
+}
+
+TEST(FullReport, SaysWhereTheFloorIsNotSettled) {
+  FitReport report = SampleReport();
+  report.floor = FloorReport{Objective::kSolvedCurrent, 1e-3, 9e-4, 0.1, 1, 2, 0.05};
+  EXPECT_THAT(
+      OneLine(FullReport(report)),
+      HasSubstr("Floor, not settled: diodes with n in [1, 2] reach a solved-current RMSE of "
+                "1.000000000e-03 A, and the refined answer is 5.00 % above it; only that "
+                "nothing lies below 9.000000000e-04 A is proved."));
+  report.floor->above = 0;
+  report.floor->lower_bound_A = 0;
+  report.floor->gap = 1;
+  EXPECT_THAT(OneLine(FullReport(report)),
+              HasSubstr("and the refined answer is as low; no lower bound is proved."));
 }
 
 TEST(FullReport, SaysWhereThereWasNoPolish) {

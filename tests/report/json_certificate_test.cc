@@ -17,14 +17,30 @@ using Set = std::set<std::string>;
 
 TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(CertificateJson(RtcCertificate()));
-  EXPECT_EQ(Keys(j),
-            (Set{"lyrefit_version", "curve", "objective", "constants", "n_lower", "n_upper",
-                 "rs_lower_ohm", "rs_upper_ohm", "reference_voltage_V", "module_thermal_voltage_V",
-                 "floor", "models", "options", "interrupted", "warnings", "seconds", "data"}));
+  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
+                          "curve",
+                          "objective",
+                          "constants",
+                          "rigorous",
+                          "n_lower",
+                          "n_upper",
+                          "rs_lower_ohm",
+                          "rs_upper_ohm",
+                          "bounds",
+                          "ranges",
+                          "reference_voltage_V",
+                          "module_thermal_voltage_V",
+                          "floor",
+                          "models",
+                          "options",
+                          "interrupted",
+                          "warnings",
+                          "seconds",
+                          "data"}));
   EXPECT_EQ(Keys(j["floor"]),
             (Set{"rmse_A", "lower_bound_A", "gap", "certified", "photocurrent", "resistance_series",
                  "conductance_shunt", "diodes", "duality_gap", "largest_correlation", "dual_A",
-                 "problems_solved"}));
+                 "junction_voltage_V", "problems_solved"}));
   EXPECT_EQ(Keys(j["models"][0]), (Set{"model", "rmse_A", "lower_bound_A", "gap", "above_floor",
                                        "certified", "problems_solved", "parameters"}));
   EXPECT_EQ(Keys(j["models"][0]["parameters"]["n"]), (Set{"symbol", "name", "unit", "value"}));

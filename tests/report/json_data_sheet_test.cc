@@ -18,12 +18,32 @@ using Set = std::set<std::string>;
 TEST(DataSheetJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DataSheetJson(SampleDataSheetFit()));
   EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "law", "model", "cells_in_series", "constants",
-                          "parameters", "checks", "largest_relative_error", "warnings"}));
+                          "parameters", "checks", "largest_relative_error", "warnings", "family"}));
   EXPECT_EQ(Keys(j["parameters"]["R_s"]), (Set{"symbol", "name", "unit", "value", "low", "high"}));
   EXPECT_EQ(j["parameters"]["R_s"]["high"], 0.41);
   EXPECT_TRUE(j["parameters"]["R_sh_ref"]["value"].is_null());
   EXPECT_TRUE(j["parameters"]["EgRef"]["low"].is_null());
   EXPECT_EQ(j["checks"]["beta_oc"]["printed"], -0.076);
+}
+
+TEST(DataSheetJson, HoldsTheFamily) {
+  const DataSheetFit fit = *FitDataSheet(SampleSheet());
+  const json family = json::parse(DataSheetJson(fit))["family"];
+  EXPECT_EQ(Keys(family),
+            (Set{"bound", "sharp_knee", "conditions", "spread", "picked", "rounding", "members"}));
+  EXPECT_EQ(family["bound"], "shunt_conductance");
+  EXPECT_EQ(family["members"].size(), fit.family.members.size());
+  EXPECT_TRUE(family["members"].back()["R_sh_ref"].is_null());
+  EXPECT_EQ(Keys(family["picked"]),
+            (Set{"n", "I_L_ref", "I_o_ref", "R_s", "R_sh_ref", "beta_oc_V_K", "gamma_pmp_percent_K",
+                 "max_power_W", "difference_A"}));
+  EXPECT_EQ(family["picked"]["max_power_W"].size(), family["conditions"].size());
+  EXPECT_LT(family["rounding"]["low"]["n"], family["picked"]["n"]);
+  EXPECT_LT(family["rounding"]["spread"]["difference_A"], family["spread"]["difference_A"]);
+  DataSheet exact = SampleSheet();
+  exact.half_unit = {};
+  const json alone = json::parse(DataSheetJson(*FitDataSheet(exact)))["family"]["rounding"];
+  for (const char* key : {"low", "high", "spread"}) EXPECT_TRUE(alone[key].is_null()) << key;
 }
 
 const std::vector<NamedValue> kKeywords = {{"alpha_sc", 0.0025},

@@ -39,10 +39,15 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
 TEST(JsonReport, TellsTheFloorWhereItWasAskedFor) {
   FitReport report = SampleReport();
   EXPECT_TRUE(Parsed(report)["floor"].is_null());
-  report.floor = {9.8e-4, 9.7e-4, 1, 2, 0.01};
+  report.floor = {Objective::kSolvedCurrent, 9.8e-4, 9.7e-4, 1e-2, 1, 2, 0.01, false};
   const json floor = Parsed(report)["floor"];
-  EXPECT_EQ(Keys(floor), (std::set<std::string>{"measured_current_rmse_A", "lower_bound_A",
-                                                "n_lower", "n_upper", "refined_above"}));
+  EXPECT_EQ(Keys(floor),
+            (std::set<std::string>{"objective", "rmse_A", "lower_bound_A", "gap", "n_lower",
+                                   "n_upper", "refined_above", "minimised"}));
+  EXPECT_EQ(floor["objective"], "solved-current");
+  EXPECT_EQ(floor["rmse_A"], 9.8e-4);
+  EXPECT_EQ(floor["gap"], 1e-2);
+  EXPECT_EQ(floor["minimised"], false);
   EXPECT_EQ(floor["lower_bound_A"], 9.7e-4);
   EXPECT_EQ(floor["refined_above"], 0.01);
 }

@@ -22,4 +22,13 @@ inline DataSheetFit SampleDataSheetFit() {
   return fit;
 }
 
+// A sheet as it is printed, whose family ends at a perfect shunt.
+inline DataSheet SampleSheet() {
+  DataSheet sheet;
+  sheet.values = {8.21, 32.9, 7.61, 26.3, 0.00318, -0.123};
+  sheet.half_unit = {0.005, 0.05, 0.005, 0.05, 0.000005, 0.0005};
+  sheet.cells_in_series = 54;
+  return sheet;
+}
+
 }  // namespace lyrefit

@@ -133,7 +133,7 @@ TEST(Engine, FormsAreTheOptionTables) {
     EXPECT_THAT(fit, Contains(name));
   }
   const std::set<std::string> diagnose = names(forms["diagnose"]);
-  for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan"}) {
+  for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan", "proofs"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
   // Every text that a form offers is understood.

@@ -29,6 +29,45 @@ std::string Ranges(const Certificate& certificate) {
   return fmt::format("n in [{:g}, {:g}] and {}", options.n_lower, options.n_upper, rs);
 }
 
+// "from 1 A up" or "in [1, 2] A".
+std::string Within(double lower, double upper, const std::string& unit) {
+  if (upper == kInfinity) return fmt::format("from {:g}{} up", lower, unit);
+  return fmt::format("in [{:g}, {:g}]{}", lower, upper, unit);
+}
+
+bool Alike(const DiodeRanges& a, const DiodeRanges& b) {
+  return a.n_lower == b.n_lower && a.n_upper == b.n_upper && a.is_lower_A == b.is_lower_A &&
+         a.is_upper_A == b.is_upper_A;
+}
+
+// What holds for Iph and Rsh, and of each diode of a model.
+std::string OtherRanges(const CertifyOptions& options) {
+  const bool linear = options.iph_lower_A > 0 || options.iph_upper_A < kInfinity ||
+                      options.rsh_lower_ohm > 0 || options.rsh_upper_ohm < kInfinity;
+  std::string text = linear ? "Iph " + Within(options.iph_lower_A, options.iph_upper_A, " A") +
+                                  " and Rsh " +
+                                  Within(options.rsh_lower_ohm, options.rsh_upper_ohm, " ohm")
+                            : "Iph and 1/Rsh from 0 up";
+  if (options.diodes.empty()) return text;
+  const DiodeRanges& first = options.diodes.front();
+  bool alike = true;
+  for (const DiodeRanges& diode : options.diodes) alike = alike && Alike(diode, first);
+  if (alike) {
+    const bool open = first.is_lower_A == 0 && first.is_upper_A == kInfinity;
+    if (open) return linear ? text + ", Is from 0 up" : "Iph, Is and 1/Rsh from 0 up";
+    return text + "; each diode of a model has Is " +
+           Within(first.is_lower_A, first.is_upper_A, " A") + ", the floor's add up to anything";
+  }
+  text += "; the floor's Is from 0 up, of the models";
+  for (std::size_t d = 0; d < options.diodes.size(); ++d) {
+    const DiodeRanges& diode = options.diodes[d];
+    text += fmt::format("{} n{} {}, Is{} {}", d == 0 ? "" : ",", d + 1,
+                        Within(diode.n_lower, diode.n_upper, ""), d + 1,
+                        Within(diode.is_lower_A, diode.is_upper_A, " A"));
+  }
+  return text;
+}
+
 std::vector<std::string> CertificateBanners(const Certificate& certificate) {
   std::vector<std::string> banners = Banners(false, true, {}, certificate.doubts);
   if (certificate.interrupted) {
@@ -41,11 +80,13 @@ Section CertificateHead(const Certificate& certificate) {
   Section head = {fmt::format("lyrefit {}: how low the RMSE of {} can go", certificate.version,
                               certificate.curve.name)};
   AddCurve(certificate.curve, &head);
-  AddField("objective", "measured-current, unweighted", &head);
+  AddField("objective", std::string(ToText(certificate.options.objective)) + ", unweighted", &head);
   AddField("range",
-           "diodes in parallel with " + Ranges(certificate) +
-               "; Iph, Is and 1/Rsh from 0 up; constants " + ToText(certificate.options.constants),
+           "diodes in parallel with " + Ranges(certificate) + "; " +
+               OtherRanges(certificate.options) + "; constants " +
+               ToText(certificate.options.constants),
            &head);
+  if (!certificate.options.bounds.empty()) AddField("bounds", certificate.options.bounds, &head);
   return head;
 }
 
@@ -94,19 +135,38 @@ Section ProofSection(const Certificate& certificate) {
       floor.largest_correlation > 0 ? fmt::format("exceeds {:.0e} of its length, which is rounding",
                                                   floor.largest_correlation)
                                     : std::string("is positive");
-  AddSentence(fmt::format("At that Rs the residuals are a dual vector: of all diodes with n in the "
-                          "range, none has a column whose product with it {}, so none can lower "
-                          "the sum of squares. Duality gap {} (relative).",
-                          correlation, GapText(floor.duality_gap)),
-              &section);
-  AddSentence(fmt::format("Between the Rs visited the dual vectors of both neighbours, "
-                          "interpolated, bound the RMSE from below: {} convex problems settled Rs "
-                          "up to {:.4g} ohm.{}",
-                          floor.solved, certificate.rs_upper_ohm,
-                          OpenRange(certificate) ? " Beyond that the points come in the wrong "
-                                                   "order of junction voltage for any model."
-                                                 : ""),
-              &section);
+  const bool solved = certificate.options.objective == Objective::kSolvedCurrent;
+  AddSentence(
+      fmt::format("At that Rs the residuals{} are a dual vector: of all diodes with n in the "
+                  "range, none has a column whose product with it {}, so none can lower "
+                  "the sum of squares{}. Duality gap {} (relative).",
+                  solved ? ", each over 1 + Rs x slope," : "", correlation,
+                  solved ? " to first order" : "", GapText(floor.duality_gap)),
+      &section);
+  if (solved) {
+    AddSentence(
+        "A model as good as this one has known currents, hence known slopes: what these can differ "
+        "from the slopes around which the problem is linear is taken off every bound.",
+        &section);
+  }
+  AddSentence(
+      fmt::format("{} the dual vectors of both {}, interpolated, bound the RMSE from below: "
+                  "{} convex problems settled Rs up to {:.4g} ohm.{}",
+                  solved ? "Over each range of Rs" : "Between the Rs visited",
+                  solved ? "ends" : "neighbours", floor.solved, certificate.rs_upper_ohm,
+                  !OpenRange(certificate) ? ""
+                  : solved                ? " Beyond that any model's current falls too "
+                                            "slowly with the voltage."
+                                          : " Beyond that the points come in the wrong "
+                                            "order of junction voltage for any model."),
+      &section);
+  if (certificate.options.rigorous) {
+    AddSentence(
+        "Rigorous: every bound of the measured-current RMSE was evaluated in intervals and "
+        "no rounding can have raised it, nor lowered an RMSE that is reached (JSON has all "
+        "digits); for the readings as read into doubles and the exact quotient k / q.",
+        &section);
+  }
   return section;
 }
 

@@ -60,16 +60,31 @@ std::string Difference(double measured, double simulated) {
   return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
 }
 
-// How much room is left below.
+// How much room is left below. A gap that three digits do not show closes the floor.
 std::string FloorText(const FloorReport& floor) {
+  constexpr double kClosed = 1e-5;
   const std::string range = fmt::format("n in [{:g}, {:g}]", floor.n_lower, floor.n_upper);
-  const std::string above = floor.above <= kCertifiedGap
-                                ? "and the refined answer attains it"
-                                : fmt::format("and the refined answer is {} % above it",
-                                              Significant(100 * floor.above, 3));
-  return fmt::format(
-      "Floor: no number of diodes with {} brings the measured-current RMSE below {} A, {}.", range,
-      BoundText(floor.lower_bound_A), above);
+  const std::string rmse = ToText(floor.objective) + " RMSE";
+  const bool closed = floor.gap <= kClosed;
+  const double within = floor.above + floor.gap;
+  std::string above =
+      fmt::format("the refined answer is {} % above it", Significant(100 * floor.above, 3));
+  if (floor.above <= kCertifiedGap) above = "the refined answer is as low";
+  if (closed && within <= kClosed) {
+    above = "the refined answer attains it";
+    if (within > kCertifiedGap) above += fmt::format(" to within {:.1g} of itself", within);
+  }
+  if (!floor.minimised) above += ", but it was not fitted for the least RMSE";
+  if (closed) {
+    return fmt::format("Floor: no number of diodes with {} brings the {} below {} A, and {}.",
+                       range, rmse, BoundText(floor.lower_bound_A), above);
+  }
+  const std::string proved = floor.lower_bound_A > 0
+                                 ? fmt::format("only that nothing lies below {} A is proved",
+                                               BoundText(floor.lower_bound_A))
+                                 : std::string("no lower bound is proved");
+  return fmt::format("Floor, not settled: diodes with {} reach a {} of {} A, and {}; {}.", range,
+                     rmse, Scientific(floor.rmse_A, kRmseDigits), above, proved);
 }
 
 std::string Decimals(double value) {

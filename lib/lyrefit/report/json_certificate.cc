@@ -8,6 +8,10 @@ void to_json(Json& j, const FloorDiode& diode) {
        {"current_at_reference_A", diode.current_A}};
 }
 
+void to_json(Json& j, const DiodeRanges& diode) {
+  j = {{"n", {diode.n_lower, diode.n_upper}}, {"Is", {diode.is_lower_A, diode.is_upper_A}}};
+}
+
 void to_json(Json& j, const Floor& floor) {
   j = {{"rmse_A", floor.rmse_A},
        {"lower_bound_A", floor.lower_bound_A},
@@ -20,6 +24,7 @@ void to_json(Json& j, const Floor& floor) {
        {"duality_gap", floor.duality_gap},
        {"largest_correlation", floor.largest_correlation},
        {"dual_A", floor.dual_A},
+       {"junction_voltage_V", floor.junction_voltage_V},
        {"problems_solved", floor.solved}};
 }
 
@@ -44,12 +49,19 @@ void to_json(Json& j, const Certificate& certificate) {
   const IvCurve& curve = certificate.curve;
   j = {{"lyrefit_version", certificate.version},
        {"curve", curve},
-       {"objective", Objective::kMeasuredCurrent},
+       {"objective", options.objective},
        {"constants", options.constants},
+       {"rigorous", options.rigorous},
        {"n_lower", options.n_lower},
        {"n_upper", options.n_upper},
        {"rs_lower_ohm", options.rs_lower_ohm},
        {"rs_upper_ohm", certificate.rs_upper_ohm},
+       {"bounds", options.bounds},
+       {"ranges",
+        {{"Iph", {options.iph_lower_A, options.iph_upper_A}},
+         {"Rs", {options.rs_lower_ohm, options.rs_upper_ohm}},
+         {"Rsh", {options.rsh_lower_ohm, options.rsh_upper_ohm}},
+         {"diodes", options.diodes}}},
        {"reference_voltage_V", certificate.reference_voltage_V},
        {"module_thermal_voltage_V", certificate.module_thermal_voltage_V},
        {"floor", certificate.floor},

@@ -18,6 +18,55 @@ Json DataSheetParametersJson(const DataSheetFit& fit) {
   return parameters;
 }
 
+// An infinite shunt is null, as everywhere.
+Json SheetMemberJson(const DataSheetMember& member) {
+  return {{"n", member.n},
+          {"I_L_ref", member.photocurrent_A},
+          {"I_o_ref", member.saturation_current_A},
+          {"R_s", member.resistance_series_ohm},
+          {"R_sh_ref", member.resistance_shunt_ohm},
+          {"beta_oc_V_K", member.beta_oc_V_K},
+          {"gamma_pmp_percent_K", member.gamma_pmp_percent_K},
+          {"max_power_W", member.max_power_W},
+          {"difference_A", member.difference_A}};
+}
+
+Json SpreadJson(const MemberSpread& spread) {
+  return {{"difference_A", spread.difference_A},
+          {"difference_percent", spread.difference_percent},
+          {"at_V", spread.at_V},
+          {"lowest_power_W", spread.lowest_power_W},
+          {"highest_power_W", spread.highest_power_W}};
+}
+
+template <class T, class F>
+Json WhereKnown(const std::optional<T>& value, const F& write) {
+  return value ? write(*value) : Json();
+}
+
+Json SheetFamilyJson(const DataSheetFamily& family) {
+  const SharpKnee& knee = family.sharp_knee;
+  Json conditions = Json::array(), members = Json::array();
+  for (const MemberConditions& at : family.conditions) {
+    conditions.push_back(
+        {{"irradiance_Wm2", at.irradiance_W_m2}, {"temperature_C", at.temperature_C}});
+  }
+  for (const DataSheetMember& member : family.members) members.push_back(SheetMemberJson(member));
+  return {{"bound", family.bound},
+          {"sharp_knee",
+           {{"I_L_ref", knee.photocurrent_A},
+            {"R_s", knee.resistance_series_ohm},
+            {"R_sh_ref", knee.resistance_shunt_ohm}}},
+          {"conditions", std::move(conditions)},
+          {"spread", SpreadJson(family.spread)},
+          {"picked", WhereKnown(family.picked, SheetMemberJson)},
+          {"rounding",
+           {{"low", WhereKnown(family.rounding_low, SheetMemberJson)},
+            {"high", WhereKnown(family.rounding_high, SheetMemberJson)},
+            {"spread", WhereKnown(family.rounding_spread, SpreadJson)}}},
+          {"members", std::move(members)}};
+}
+
 }  // namespace
 
 void to_json(Json& j, const DataSheetFit& fit) {
@@ -26,7 +75,7 @@ void to_json(Json& j, const DataSheetFit& fit) {
        {"model", spec.model},          {"cells_in_series", spec.cells_in_series},
        {"constants", spec.constants},  {"parameters", DataSheetParametersJson(fit)},
        {"checks", Json::object()},     {"largest_relative_error", fit.largest_relative_error},
-       {"warnings", fit.warnings}};
+       {"warnings", fit.warnings},     {"family", SheetFamilyJson(fit.family)}};
   for (const DataSheetCheck& check : fit.checks) {
     j["checks"][check.name] = {
         {"unit", check.unit}, {"printed", check.asked}, {"given", check.given}};

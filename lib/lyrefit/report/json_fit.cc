@@ -10,11 +10,14 @@ LYREFIT_JSON_FIELDS(ModelChoice, chosen, sentence, candidates)
 LYREFIT_JSON_FIELDS(InformationCriteria, points, parameters, aicc, bic)
 
 void to_json(Json& j, const FloorReport& floor) {
-  j = {{"measured_current_rmse_A", floor.rmse_A},
+  j = {{"objective", ToText(floor.objective)},
+       {"rmse_A", floor.rmse_A},
        {"lower_bound_A", floor.lower_bound_A},
+       {"gap", floor.gap},
        {"n_lower", floor.n_lower},
        {"n_upper", floor.n_upper},
-       {"refined_above", floor.above}};
+       {"refined_above", floor.above},
+       {"minimised", floor.minimised}};
 }
 
 void to_json(Json& j, const RefineReport& refine) {

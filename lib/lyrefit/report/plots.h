@@ -12,6 +12,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 struct Certificate;
 struct CurveSet;
+struct DataSheetFit;
 struct Diagnosis;
 struct FamilyReport;
 struct FitReport;
@@ -40,6 +41,12 @@ Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path
 // zero at the diodes of the floor and above zero nowhere.
 Figure CertificateFigure(const Certificate& certificate);
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path);
+
+// The family of a data sheet: above, over voltage, curves of members and how far they are from that
+// of the member that beta_oc picks, and over n what becomes of the power; below, over n, beta_oc and
+// the parameters. A band holds the n that the rounding of the sheet allows.
+Figure DataSheetFigure(const DataSheetFit& fit);
+Expected<void> PlotDataSheet(const DataSheetFit& fit, const std::string& path);
 
 // A curve at other conditions: the readings and what each procedure makes of them, the recommended
 // one drawn thick; the maximum power points are marked.

@@ -16,6 +16,8 @@ namespace lyrefit {
 
 struct Certificate;
 struct CurveSet;
+struct DataSheetFit;
+struct MemberConditions;
 struct TranslationReport;
 
 // fits_document.cc: the parameters of the largest model: those of a smaller one are its first.
@@ -51,11 +53,20 @@ block::Figure FigureBlock(const Diagnosis& diagnosis);
 block::Figure FigureBlock(const Certificate& certificate);
 block::Figure FigureBlock(const FamilyReport& report, const CurveSet& set);
 
+// data_sheet_plot.cc: likewise. data_sheet_document.cc: some members, by rising n.
+block::Figure FigureBlock(const DataSheetFit& fit);
+block::Table MemberTable(const DataSheetFit& fit);
+// "200 W/m2", "50 C": what is not at the reference.
+std::string ConditionsText(const MemberConditions& at);
+
 // family_curve_document.cc: curve by curve, whole curves as a test, and those that were left out.
 std::vector<Section> FamilyCurveSections(const FamilyReport& report);
 
 // diagnosis_document.cc: each cause with its size and what else it could be.
 std::vector<Section> CauseSections(const Diagnosis& diagnosis);
+
+// diagnosis_proof_document.cc: how much of the misfit causes can explain, where that was asked for.
+Section ProofSection(const Diagnosis& diagnosis);
 
 // diagnosis_plot.cc: bands where causes act and their titles, in a panel over voltage whose ends are
 // known.

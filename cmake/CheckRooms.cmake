@@ -15,7 +15,7 @@ set(ALLOWED_certify base curve law refine)
 set(ALLOWED_fit base curve law search refine certify effects)
 set(ALLOWED_family base curve law search refine fit effects)
 set(ALLOWED_effects base curve law)  # knows no fitting
-set(ALLOWED_diagnose base curve law search refine fit family effects)
+set(ALLOWED_diagnose base curve law search refine certify fit family effects)
 set(ALLOWED_translate base curve law fit family effects diagnose)
 set(ALLOWED_report base curve law search certify fit family diagnose translate)  # computes nothing
 # A library of its own with its writers in study/report; what the core writes knows nothing of it.

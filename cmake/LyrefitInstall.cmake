@@ -9,16 +9,20 @@ set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 set(LYREFIT_PUBLIC_HEADERS
   # doors
   lyrefit.h
+  certify/cause_floor.h
   certify/certify.h
+  certify/concave_floor.h
   diagnose/diagnose.h
   diagnose/healthy.h
   effects/catalogue.h
   family/coefficients.h
   family/data_sheet.h
+  family/data_sheet_family.h
   family/fit_family.h
   family/fit_free.h
   family/pvlib_parameters.h
   fit/fit.h
+  fit/floor.h
   fit/fit_files.h
   fit/simulate.h
   law/kernel.h

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Writes the page of results anew: data/paper/README.md, its pictures and the tables of other pages that
-# come from the same runs (between <!-- NAME --> and <!-- end of NAME -->). Takes some minutes.
+# Writes the pages of results anew: README.md, pwp201.md and sound.md in data/paper, their pictures and the tables of
+# other pages that come from the same runs (between <!-- NAME --> and <!-- end of NAME -->). Takes half an hour on four
+# cores, most of it for sound.md. With LYREFIT_FIELD_DATA=FOLDER also the proofs of measured curves.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -9,5 +10,12 @@ cd -- "$LYREFIT_ROOT"
 Configure build -DLYREFIT_BUILD_TESTS=ON
 Build build --target lyrefit_paper
 
-Say "build/tests/paper/lyrefit_paper data/paper --update data/README.md --update data/landscapes/README.md"
-build/tests/paper/lyrefit_paper data/paper --update data/README.md --update data/landscapes/README.md
+command=(build/tests/paper/lyrefit_paper data/paper)
+for page in README.md data/README.md data/landscapes/README.md data/field/README.md; do
+  command+=(--update "$page")
+done
+if [[ -n ${LYREFIT_FIELD_DATA:-} ]]; then
+  command+=(--measured "$LYREFIT_FIELD_DATA/field/single")
+fi
+Say "${command[*]}"
+"${command[@]}"

@@ -2,137 +2,42 @@
 //
 //   lyrefit_paper data/paper --update README.md
 //   lyrefit_paper data/paper --out page --batches 2 --peers ""
+//   lyrefit_paper data/paper --only pwp201
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/study/contenders.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
+#include "paper/corner_page.h"
+#include "paper/corner_study.h"
+#include "paper/held_tables.h"
 #include "paper/page_blocks.h"
+#include "paper/paper_flags.h"
 #include "paper/paper_page.h"
 #include "paper/paper_study.h"
+#include "paper/proof_blocks.h"
+#include "paper/sound_page.h"
 
 namespace lyrefit {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char kUsage[] =
-    "Usage: lyrefit_paper FOLDER [flags]\n"
-    "\n"
-    "FOLDER holds published.csv, rows.csv and remarks.csv; "
-    "the curves lie in the folders beside it.\n"
-    "Takes minutes. Writes README.md and its pictures.\n"
-    "\n"
-    "  --out DIR        folder to write into (default FOLDER)\n"
-    "  --update FILE    a page whose blocks <!-- certified -->, <!-- ranked --> and "
-    "<!-- budget -->\n"
-    "                   are written anew; once for each\n"
-    "  --resume FILE    a journal: every finished run is added to it, and none "
-    "that stands in it is\n"
-    "                   done again; begun where there is none\n"
-    "  --peers LIST     pagmo2 algorithms to rank as well\n"
-    "                   (default de1220,sade,cmaes,pso,gwo,bee_colony)\n"
-    "  --seed N         seed of every run\n";
-
-struct NumberFlag {
-  const char* name;
-  const char* doc;
-  int PaperStudyOptions::*field;
-  int lower;
-  int upper;
-};
-
-constexpr NumberFlag kNumberFlags[] = {
-    {"--population", "birds of every search; the paper's 100", &PaperStudyOptions::population, 10,
-     10000},
-    {"--iterations", "iterations of every search; the paper's 1000", &PaperStudyOptions::iterations,
-     1, 1000000},
-    {"--batch", "runs behind each figure of the paper", &PaperStudyOptions::batch, 2, 1000000},
-    {"--batches", "batches that say how far chance carries", &PaperStudyOptions::batches, 2, 10000},
-    {"--sensitivity-batches", "the same for the grid of Pm and gamma and for the S75",
-     &PaperStudyOptions::sensitivity_batches, 2, 10000},
-    {"--ranked-runs", "runs of each algorithm that is ranked", &PaperStudyOptions::ranked_runs, 2,
-     1000000},
-    {"--budget-runs", "runs of each algorithm at each budget", &PaperStudyOptions::budget_runs, 1,
-     1000000},
-    {"--threads", "0: all cores; never changes a result but the seconds",
-     &PaperStudyOptions::threads, 0, 1024},
-};
-
-struct Arguments {
-  std::string folder;
-  std::string output;  // empty: the folder
-  std::vector<std::string> pages;
-  std::string peers = "de1220,sade,cmaes,pso,gwo,bee_colony";
-  PaperStudyOptions options;
-};
-
-Expected<double> WholeNumber(const std::string& flag, const std::string& text, double lower,
-                             double upper) {
-  const auto value = ParseNumber(text);
-  if (!value || *value != std::floor(*value) || *value < lower || *value > upper) {
-    return Fail(fmt::format("{}: expected a whole number from {:.0f} to {:.0f}, found '{}'", flag,
-                            lower, upper, text));
-  }
-  return *value;
-}
-
-Expected<void> TakeFlag(const std::string& flag, const std::string& text, Arguments* arguments) {
-  constexpr double kLargestSeed = 9007199254740992;  // beyond it doubles skip whole numbers
-  if (flag == "--out") {
-    arguments->output = text;
-  } else if (flag == "--update") {
-    arguments->pages.push_back(text);
-  } else if (flag == "--resume") {
-    arguments->options.journal = text;
-  } else if (flag == "--peers") {
-    arguments->peers = text;
-  } else if (flag == "--seed") {
-    TRY(const double seed, WholeNumber(flag, text, 0, kLargestSeed));
-    arguments->options.seed = static_cast<std::uint64_t>(seed);
-  } else {
-    const auto* known = std::find_if(std::begin(kNumberFlags), std::end(kNumberFlags),
-                                     [&](const NumberFlag& one) { return flag == one.name; });
-    if (known == std::end(kNumberFlags)) return Fail("unknown flag " + flag);
-    TRY(const double value, WholeNumber(flag, text, known->lower, known->upper));
-    arguments->options.*known->field = static_cast<int>(value);
-  }
-  return {};
-}
-
-Expected<Arguments> ReadArguments(const std::vector<std::string>& words) {
-  Arguments arguments;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].rfind("--", 0) == 0) {
-      if (i + 1 == words.size()) return Fail(words[i] + ": expected a value behind it");
-      TRY(TakeFlag(words[i], words[i + 1], &arguments));
-      ++i;
-    } else if (arguments.folder.empty()) {
-      arguments.folder = words[i];
-    } else {
-      return Fail("expected one folder, found '" + words[i] + "' as well");
-    }
-  }
-  if (arguments.folder.empty()) return Fail("expected the paper's folder");
-  if (arguments.output.empty()) arguments.output = arguments.folder;
-  return arguments;
-}
 
 // pagmo2's algorithms of a list; none in a build without them.
 Expected<void> AddPeers(const std::string& list, PaperStudyOptions* options) {
@@ -164,21 +69,46 @@ constexpr Picture kPictures[] = {
     {"budget.svg", PlotBudget, &PaperStudy::budget},
 };
 
-// The tables of the study that other pages show between marks.
-Expected<void> Update(const PaperStudy& study, const std::string& page) {
+// What other pages show between marks: `with` puts the blocks of a study into a page.
+template <class Study>
+Expected<void> Update(const Study& study, std::string (*with)(std::string, const Study&),
+                      const std::vector<std::string>& pages) {
   constexpr std::uintmax_t kLargestPage = 1U << 22;
-  TRY(const std::string text, ReadTextFile(page, kLargestPage));
-  return WriteTextFile(page, WithTables(text, study));
+  for (const std::string& page : pages) {
+    TRY(const std::string text, ReadTextFile(page, kLargestPage));
+    TRY(WriteTextFile(page, with(text, study)));
+  }
+  return {};
 }
 
 Expected<void> Write(const PaperStudy& study, const std::map<std::string, std::string>& remarks,
-                     const Arguments& arguments) {
+                     const PaperArguments& arguments) {
   const fs::path output(arguments.output);
   for (const Picture& picture : kPictures) {
     TRY(picture.draw(study.*picture.comparison, (output / picture.file).string()));
   }
-  for (const std::string& page : arguments.pages) TRY(Update(study, page));
+  TRY(Update(study, WithTables, arguments.pages));
   return WriteTextFile((output / "README.md").string(), PaperPage(study, remarks));
+}
+
+// CMA-ES of pagmo2 beside our searches, at every budget; none in a build without it.
+Expected<CornerOptions> CornerOptionsOf(const PaperStudyOptions& options) {
+  CornerOptions corner;
+  corner.seed = options.seed;
+  corner.runs = options.corner_runs;
+  corner.threads = options.threads;
+  corner.journal = options.journal;
+  corner.budgets.clear();
+  std::int64_t budget = 100;
+  for (int i = 0; i < options.corner_budgets; ++i) corner.budgets.push_back(budget *= 10);
+  if (PagmoNames().empty()) return corner;
+  for (const std::int64_t evaluations : corner.budgets) {
+    TRY(Contender peer, PagmoContender("cmaes", BudgetSearch(evaluations)));
+    peer.algorithm = peer.name;
+    peer.name += fmt::format("@{}", evaluations);
+    corner.peers.push_back(std::move(peer));
+  }
+  return corner;
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -198,27 +128,90 @@ ObserverAction Watch(const Progress& progress) {
   return interrupted != 0 ? ObserverAction::kStop : ObserverAction::kContinue;
 }
 
+constexpr int kExitViolated = 2;  // a bound above what is attained
 constexpr int kExitInterrupted = 130;
 
-Expected<int> Run(const std::vector<std::string>& words) {
-  TRY(Arguments arguments, ReadArguments(words));
-  TRY(AddPeers(arguments.peers, &arguments.options));
+int SayInterrupted(const PaperArguments& arguments) {
+  fmt::print(stderr, "interrupted; nothing is written, {}\n",
+             arguments.options.journal.empty() ? "and nothing kept without --resume FILE"
+                                               : "the same command goes on where it stopped");
+  return kExitInterrupted;
+}
+
+Expected<int> RunPaper(const PaperArguments& arguments) {
   TRY(const auto remarks, ReadRemarks((fs::path(arguments.folder) / "remarks.csv").string()));
   for (const Picture& picture : kPictures) {
     TRY(CheckPlot((fs::path(arguments.output) / picture.file).string()));
   }
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, OnInterrupt);
   TRY(const PaperStudy study, ReproducePaper(arguments.folder, arguments.options, Watch));
   for (const std::string& remark : study.remarks) fmt::print(stderr, "{}\n", remark);
-  if (study.interrupted) {
-    fmt::print(stderr, "interrupted; nothing is written, {}\n",
-               arguments.options.journal.empty() ? "and nothing kept without --resume FILE"
-                                                 : "the same command goes on where it stopped");
-    return kExitInterrupted;
-  }
+  if (study.interrupted) return SayInterrupted(arguments);
   TRY(Write(study, remarks, arguments));
   fmt::print("written: {} ({:.0f} s)\n", (fs::path(arguments.output) / "README.md").string(),
              study.seconds);
+  return 0;
+}
+
+Expected<int> RunCorner(const PaperArguments& arguments) {
+  const fs::path output(arguments.output);
+  const std::string picture = (output / "pwp201.svg").string();
+  const std::string page = (output / "pwp201.md").string();
+  TRY(CheckPlot(picture));
+  const fs::path curve = (fs::path(arguments.folder) / ".." / "pwp201").lexically_normal();
+  TRY(const CornerOptions options, CornerOptionsOf(arguments.options));
+  TRY(const CornerStudy study, StudyCorner(curve.string(), "literature", options, Watch));
+  for (const std::string& remark : study.comparison.remarks) fmt::print(stderr, "{}\n", remark);
+  if (study.interrupted) return SayInterrupted(arguments);
+  TRY(DrawFigure(CornerFigure(study), picture));
+  TRY(WriteTextFile(page, CornerPage(study)));
+  fmt::print("written: {} ({:.0f} s)\n", page, study.comparison.seconds);
+  return 0;
+}
+
+Expected<int> RunProofs(const PaperArguments& arguments) {
+  const Instant begin = Now();
+  const std::string curves = (fs::path(arguments.folder) / "..").lexically_normal().string();
+  const PaperStudyOptions& asked = arguments.options;
+  TRY(const ProofTable proofs, ProveShipped(curves, asked.proof_effort, asked.threads, Watch));
+  if (proofs.interrupted) return SayInterrupted(arguments);
+  TRY(Update(proofs, WithProofs, arguments.pages));
+  fmt::print("proved: {} bounds ({:.0f} s)\n", proofs.rows.size(), SecondsSince(begin));
+  return 0;
+}
+
+Expected<int> RunSound(const PaperArguments& arguments) {
+  SoundOptions options;
+  options.problems = arguments.options.sound_problems;
+  options.seed = arguments.options.seed;
+  options.effort = arguments.options.sound_effort;
+  options.threads = arguments.options.threads;
+  TRY(const SoundStudy made, StudyMade(options, Watch));
+  if (made.interrupted) return SayInterrupted(arguments);
+  if (!arguments.measured.empty()) {
+    TRY(const SoundStudy measured, StudyMeasured(arguments.measured, options, Watch));
+    if (measured.interrupted) return SayInterrupted(arguments);
+    TRY(Update(measured, WithMeasured, arguments.pages));
+  }
+  const std::string page = (fs::path(arguments.output) / "sound.md").string();
+  TRY(WriteTextFile(page, SoundPage(made)));
+  fmt::print("written: {} ({:.0f} s)\n", page, made.seconds);
+  return Violations(made) == 0 ? 0 : kExitViolated;
+}
+
+Expected<int> Run(const std::vector<std::string>& words) {
+  TRY(PaperArguments arguments, ReadArguments(words));
+  TRY(AddPeers(arguments.peers, &arguments.options));
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, OnInterrupt);
+  const struct {
+    const char* name;
+    Expected<int> (*run)(const PaperArguments&);
+  } pages[] = {
+      {"readme", RunPaper}, {"pwp201", RunCorner}, {"proofs", RunProofs}, {"sound", RunSound}};
+  for (const auto& page : pages) {
+    if (!arguments.only.empty() && arguments.only != page.name) continue;
+    TRY(const int code, page.run(arguments));
+    if (code != 0) return code;
+  }
   return 0;
 }
 
@@ -228,10 +221,7 @@ Expected<int> Run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty() || words[0] == "--help") {
-    fmt::print("{}", lyrefit::kUsage);
-    for (const auto& flag : lyrefit::kNumberFlags) {
-      fmt::print("  {:<22} {} ({} to {})\n", flag.name, flag.doc, flag.lower, flag.upper);
-    }
+    fmt::print("{}", lyrefit::PaperUsage());
     return words.empty() ? 1 : 0;
   }
   const auto code = lyrefit::Run(words);

@@ -23,6 +23,13 @@ struct PaperStudyOptions {
   int sensitivity_batches = 5;
   int ranked_runs = 30;  // of each algorithm where algorithms are ranked, as in the paper
   int budget_runs = 50;
+  // Of the page about PWP201, which is a study of its own (corner_study.h).
+  int corner_runs = 30;
+  int corner_budgets = 4;  // 1000, 10000, ... evaluations
+  // Of what is proved (proof_table.h, sound_study.h).
+  int sound_problems = 1000;
+  int sound_effort = 1000;
+  int proof_effort = 10000;
   std::vector<Contender> peers;  // further algorithms to rank, of another library
   int threads = 0;
   // A file that every finished run is written to, and that the study is taken up from; empty: none.

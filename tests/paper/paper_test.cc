@@ -17,7 +17,8 @@ TEST(PaperProgram, WritesThePageItsPicturesAndTheBlocksOfOtherPages) {
   const AppResult result =
       RunApp("'" + DataFolder("paper") + "' --out '" + folder.Path("") + "' --update '" + other +
              "' --batch 2 --batches 2 --sensitivity-batches 2 --ranked-runs 2 --budget-runs 1 "
-             "--iterations 30 --peers gwo");
+             "--iterations 30 --peers gwo --pwp201-runs 1 --pwp201-budgets 1 --proof-effort 10 "
+             "--sound-problems 2 --sound-effort 10");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string page = FileText(folder.Path("README.md"));
   EXPECT_THAT(page, HasSubstr("## Table 12"));
@@ -26,6 +27,8 @@ TEST(PaperProgram, WritesThePageItsPicturesAndTheBlocksOfOtherPages) {
   EXPECT_THAT(page, HasSubstr("40 rows"));
   EXPECT_THAT(page, HasSubstr("| s75_constructed/200x25, sd | lo | mean | 0.034721 |"));
   EXPECT_THAT(page, HasSubstr("| s75_constructed/1000x60 | mlo |"));
+  EXPECT_THAT(FileText(folder.Path("pwp201.md")), HasSubstr("# Photowatt-PWP201 with two diodes"));
+  EXPECT_THAT(FileText(folder.Path("sound.md")), HasSubstr("2 made problems"));
   EXPECT_THAT(FileText(other), HasSubstr("| algorithm | mean rank, search alone |"));
   for (const char* picture : {"msx60.svg", "msx60-convergence.svg", "rtc_france-convergence.svg",
                               "ranked.svg", "ranked-convergence.svg", "budget.svg"}) {

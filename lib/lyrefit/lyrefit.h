@@ -18,13 +18,14 @@
 // sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
 // chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
 // FitFamily fits one device to curves under different irradiance and temperature. Certify proves
-// how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone. Diagnose says
-// what the model gets wrong in a measurement and why. TranslateCurve carries a curve to standard or
-// any conditions, with its uncertainty. FitDocument, FamilyDocument and their kin are
-// the reports as data, for DrawText, DrawMarkdown and DrawHtml.
+// how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone, and the family
+// that it is one of. Diagnose says what the model gets wrong in a measurement and why.
+// TranslateCurve carries a curve to standard or any conditions, with its uncertainty. FitDocument,
+// FamilyDocument and their kin are the reports as data, for DrawText, DrawMarkdown and DrawHtml.
 //
 // Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_free.h fits every curve
-// of a set on its own, diagnose/healthy.h holds a sweep against healthy ones of the same module,
+// of a set on its own, certify/cause_floor.h and certify/concave_floor.h prove how low a cause can
+// bring it, diagnose/healthy.h holds a sweep against healthy ones of the same module,
 // and study.h (another library, lyrefit::study) compares searches and checks publications.
 
 #include "lyrefit/certify/certify.h"

@@ -1,4 +1,5 @@
 #include "about.h"
+#include "verbs.h"
 
 namespace lyrefit {
 namespace {
@@ -73,7 +74,8 @@ std::string FirstPage() {
   return text +
          "\nlyrefit --help lists the verbs, lyrefit VERB --help every flag of one.\n"
          "lyrefit help terms says what the words in reports mean.\n"
-         "lyrefit completion bash|zsh|fish and lyrefit man write what their names say.\n";
+         "lyrefit completion bash|zsh|fish and lyrefit man write what their names say.\n" +
+         kLeftOut;
 }
 
 }  // namespace lyrefit

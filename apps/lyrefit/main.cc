@@ -1,6 +1,7 @@
 #include <glog/logging.h>
 
 #include <exception>
+#include <iostream>
 #include <string>
 #include <string_view>
 
@@ -43,14 +44,13 @@ int Main(int argc, char** argv) {
   char topic_follows[] = "help";  // lyrefit --help terms
   if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
   CommandLine line(kFooter);
-  for (const Verb* verb :
-       {&kFitVerb, &kSimulateVerb, &kCertifyVerb, &kCompareVerb, &kBudgetVerb, &kSensitivityVerb,
-        &kDataSheetVerb, &kAuditVerb, &kCoverageVerb, &kDiagnoseVerb, &kTranslateVerb, &kPackVerb,
-        &kBatchVerb, &kMergeVerb, &kHelpVerb, &kCompletionVerb, &kManVerb}) {
-    line.Add(*verb);
-  }
+  for (const Verb* verb : ProgramVerbs()) line.Add(*verb);
   const Expected<std::string> asked = line.Parse(argc, argv);
-  if (!asked) return Refuse(asked.error());
+  if (!asked) {
+    const int code = Refuse(asked.error());
+    std::cerr << kLeftOut;
+    return code;
+  }
   if (!asked->empty()) return Print(*asked);
   StartLogging(argv[0], line.verbosity());
   if (line.quiet()) SilenceProgress();

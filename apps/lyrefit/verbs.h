@@ -26,4 +26,10 @@ extern const Verb kHelpVerb;
 extern const Verb kCompletionVerb;
 extern const Verb kManVerb;
 
+// The verbs of this program, in the order of --help: all of them (verbs.cc), or those of the program
+// that cmake/quickstart.sh builds (first_verbs.cc).
+std::vector<const Verb*> ProgramVerbs();
+// What this program leaves out and how to get it; empty where it has every verb.
+extern const char kLeftOut[];
+
 }  // namespace lyrefit

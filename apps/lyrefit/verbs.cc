@@ -1,0 +1,14 @@
+#include "verbs.h"
+
+namespace lyrefit {
+
+std::vector<const Verb*> ProgramVerbs() {
+  return {&kFitVerb,         &kSimulateVerb,  &kCertifyVerb,   &kCompareVerb,  &kBudgetVerb,
+          &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb,     &kCoverageVerb, &kDiagnoseVerb,
+          &kTranslateVerb,   &kPackVerb,      &kBatchVerb,     &kMergeVerb,    &kHelpVerb,
+          &kCompletionVerb,  &kManVerb};
+}
+
+const char kLeftOut[] = "";
+
+}  // namespace lyrefit

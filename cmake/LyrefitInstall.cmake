@@ -111,6 +111,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/public.h
   base/random.h
   base/seconds.h
+  base/stoppable_reads.h
   base/version.h)
 set(LYREFIT_STUDY_PUBLIC_HEADERS
   study.h

@@ -1,5 +1,4 @@
 #include "flags.h"
-#include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/report/audit_csv.h"
@@ -50,7 +49,6 @@ void DeclareAudit(VerbLine* verb, AuditRequest* request) {
 
 Expected<int> RunAudit(VerbLine& verb, AuditRequest& request) {
   const ReportFlags& output = request.output;
-  EndOnSignals();
   TRY(verb.CheckFiles());
   TRY(const AuditReport report, Audit(request.rows_file, request.options));
   TRY(WriteWanted(output.json_file, [&] { return AuditJson(report); }));

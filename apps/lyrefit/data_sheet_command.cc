@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "flags.h"
-#include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/pvlib_parameters.h"
@@ -129,7 +128,6 @@ Expected<std::string> PvlibText(const DataSheetRequest& request, const DataSheet
 }
 
 Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
-  EndOnSignals();
   TRY(verb.CheckFiles());
   TRY(const DataSheet sheet, Sheet(request));
   TRY(const DataSheetFit fit, FitDataSheet(sheet, request.constants));

@@ -43,6 +43,7 @@ struct Diagnoses {
   std::vector<std::string> names;
   std::vector<Diagnosis> found;
   int exit_code = kExitFine;
+  bool interrupted = false;
 };
 
 void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
@@ -129,6 +130,8 @@ Diagnoses DiagnoseAll(const DiagnoseRequest& request) {
     Expected<Diagnosis> diagnosis = DiagnoseFiles(request, files);
     if (!diagnosis) {
       all.exit_code = Refuse(diagnosis.error());
+      all.interrupted = Interrupted();
+      if (all.interrupted) break;
       continue;
     }
     if (!diagnosis->extended.usable && all.exit_code == kExitFine) {
@@ -136,7 +139,8 @@ Diagnoses DiagnoseAll(const DiagnoseRequest& request) {
     }
     all.names.push_back(Stem(files.front()));
     all.found.push_back(std::move(*diagnosis));
-    if (all.found.back().interrupted) break;
+    all.interrupted = all.found.back().interrupted;
+    if (all.interrupted) break;
   }
   return all;
 }
@@ -177,13 +181,12 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
   request.options.extend = !request.extend_file.empty();
   request.healthy.threads = request.options.threads;
   TRY(CheckRequest(verb, request));
-  const InterruptGuard guard;
   if (request.module) return RunModule(verb, request);
   if (!request.healthy_files.empty()) return RunHealthy(verb, request);
+  const InterruptGuard guard;
   const Diagnoses all = DiagnoseAll(request);
   TRY(Write(verb, request, all));
-  if (!all.found.empty() && all.found.back().interrupted) return kExitInterrupted;
-  return all.exit_code;
+  return all.interrupted ? kExitInterrupted : all.exit_code;
 }
 
 }  // namespace

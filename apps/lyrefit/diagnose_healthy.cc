@@ -17,7 +17,7 @@ Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
                                           const ConditionOptions& conditions) {
   std::vector<IvCurve> sweeps;
   for (const std::string& file : files) {
-    TRY(CurveSet set, ReadMeasurement(file, request.reading));
+    TRY(CurveSet set, ReadMeasurementOrInput(file, request.reading));
     TRY(ApplyConditionFlags(conditions, &set));
     for (IvCurve& curve : set.curves) sweeps.push_back(std::move(curve));
   }
@@ -98,6 +98,7 @@ Expected<int> RunHealthy(const VerbLine& verb, const DiagnoseRequest& request) {
   module.temperature_C.reset();
   TRY(const auto healthy, ReadSweeps(request, request.healthy_files, module));
   TRY(const auto comparison, CompareWithHealthy(sweep.front(), healthy, request.healthy));
+  const InterruptGuard guard;
   TRY(const Diagnosis diagnosis,
       Diagnose(comparison.without_common, request.options, TerminalObserver()));
   TRY(Write(verb, request, comparison, diagnosis));

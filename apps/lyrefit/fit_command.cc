@@ -81,19 +81,28 @@ Expected<void> Settle(const VerbLine& verb, FitRequest* fit) {
   return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
 }
 
-Expected<FitReport> FitFile(const FitRequest& fit, const std::string& file, int threads,
-                            const Observer& observer) {
+// A curve and how it is to be fitted.
+struct FitJob {
+  IvCurve curve;
+  FitOptions options;
+};
+
+Expected<FitJob> ReadJob(const FitRequest& fit, const std::string& file) {
   FitOptions options = fit.options;
-  options.threads = threads;
   TRY(options.bounds, FlaggedBounds(fit.bounds, file));
   for (const auto& [name, range] : fit.options.bounds.overrides) {
     options.bounds.overrides[name] = range;
   }
   CurveFlags flags = fit.curve;
   flags.file = file;
-  const Expected<IvCurve> curve = ReadFlaggedCurve(flags);
+  Expected<IvCurve> curve = ReadFlaggedCurve(flags);
   if (!curve) return tl::unexpected(WhyNotOneCurve(flags, curve.error()));
-  return fit.auto_model ? FitAuto(*curve, options, observer) : Fit(*curve, options, observer);
+  return FitJob{std::move(*curve), std::move(options)};
+}
+
+Expected<FitReport> Run(const FitRequest& fit, const FitJob& job, const Observer& observer) {
+  return fit.auto_model ? FitAuto(job.curve, job.options, observer)
+                        : Fit(job.curve, job.options, observer);
 }
 
 Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
@@ -137,8 +146,9 @@ Expected<int> RunFamilyFit(const VerbLine& verb, FitRequest* fit) {
 }
 
 Expected<int> RunOne(const VerbLine& verb, const FitRequest& fit) {
+  TRY(const FitJob job, ReadJob(fit, fit.files.front()));
   const InterruptGuard guard;
-  TRY(FitReport report, FitFile(fit, fit.files.front(), fit.options.threads, TerminalObserver()));
+  TRY(FitReport report, Run(fit, job, TerminalObserver()));
   const int exit_code = report.interrupted ? kExitInterrupted
                         : report.usable    ? kExitFine
                                            : kExitNotUsable;
@@ -152,9 +162,13 @@ Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
   }
   const InterruptGuard guard;
-  const std::vector<FittedFile> fits = FitFiles(
-      fit.files, fit.options.threads, TerminalObserver({"fit"}),
-      [&fit](int i, const Observer& observer) { return FitFile(fit, fit.files[i], 1, observer); });
+  const std::vector<FittedFile> fits =
+      FitFiles(fit.files, fit.options.threads, TerminalObserver({"fit"}),
+               [&fit](int i, const Observer& observer) -> Expected<FitReport> {
+                 TRY(FitJob job, ReadJob(fit, fit.files[i]));
+                 job.options.threads = 1;
+                 return Run(fit, job, observer);
+               });
   int exit_code = kExitFine;
   bool interrupted = fits.size() < fit.files.size();
   for (const FittedFile& file : fits) {

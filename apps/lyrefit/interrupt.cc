@@ -112,7 +112,7 @@ class ProgressDisplay {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard() : reads_(Interrupted) {
   interrupted = 0;
   Catch(OnInterrupt);
 }
@@ -121,10 +121,12 @@ InterruptGuard::~InterruptGuard() { EndOnSignals(); }
 
 void EndOnSignals() { Catch(EndNow); }
 
+bool Interrupted() { return interrupted != 0; }
+
 Observer TerminalObserver(ProgressStyle style) {
   return [display = std::make_shared<ProgressDisplay>(std::move(style))](const Progress& progress) {
     display->Hear(progress);
-    return interrupted != 0 ? ObserverAction::kStop : ObserverAction::kContinue;
+    return Interrupted() ? ObserverAction::kStop : ObserverAction::kContinue;
   };
 }
 

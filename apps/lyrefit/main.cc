@@ -53,9 +53,12 @@ int Main(int argc, char** argv) {
   }
   if (!asked->empty()) return Print(*asked);
   StartLogging(argv[0], line.verbosity());
+  EndOnSignals();
   if (line.quiet()) SilenceProgress();
   const Expected<int> exit_code = line.Run();
-  return exit_code ? *exit_code : Refuse(exit_code.error());
+  if (exit_code) return *exit_code;
+  const int refused = Refuse(exit_code.error());
+  return Interrupted() ? kExitInterrupted : refused;
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include "flags.h"
-#include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fleet.h"
 #include "verbs.h"
@@ -37,7 +36,6 @@ Expected<int> RunMerge(VerbLine& verb, MergeRequest& request) {
   if (request.options.folder.empty()) return Fail("--out is required: a folder for the results");
   request.options.replace = verb.Forced();
   TRY(verb.CheckFiles());
-  EndOnSignals();
   TRY(const BatchSummary summary, MergeShards(request.folders, request.options));
   if (!request.html_file.empty()) {
     TRY(WritePlantPageOf(request.options.folder, request.html_file,

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "flags.h"
-#include "interrupt.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/read_curve.h"
@@ -143,7 +142,6 @@ Expected<SimulateOptions> WholeOptions(const VerbLine& verb, const SimulateReque
 }
 
 Expected<int> RunSimulate(VerbLine& verb, SimulateRequest& request) {
-  EndOnSignals();
   TRY(const SimulateOptions options, WholeOptions(verb, request));
   TRY(CheckTargets(&verb, request.out_file));
   TRY(const IvCurve curve, Simulate(options));

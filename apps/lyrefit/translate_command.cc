@@ -76,7 +76,6 @@ Expected<void> ReadFurther(const TranslateRequest& request, TranslateOptions* op
 Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
   if (request.curve.list_columns) return PrintColumns({request.curve.file}, request.curve.reading);
   TRY(verb.CheckFiles());
-  const InterruptGuard guard;
   TranslateOptions& options = request.options;
   options.uncertainty.seed = options.diagnosis.seed;
   options.uncertainty.threads = options.diagnosis.threads;
@@ -86,6 +85,7 @@ Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
   if (!request.module_file.empty()) TRY(ReadModule(request.module_file, &options));
   TRY(const IvCurve curve, ReadFlaggedCurve(request.curve));
   TRY(ReadFurther(request, &options));
+  const InterruptGuard guard;
   TRY(const TranslationReport report, TranslateCurve(curve, options, TerminalObserver()));
   const ReportFlags& output = request.output;
   TRY(WriteWanted(output.json_file, [&] { return TranslationJson(report); }));

@@ -3,27 +3,18 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <string_view>
 #include <system_error>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-std::string ErrnoText(int number) { return std::generic_category().message(number); }
 
 bool StartsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -47,25 +38,23 @@ Expected<std::string> ReadFileBytes(const std::string& path, std::uintmax_t larg
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return Fail("the file does not exist", path);
   if (fs::is_directory(status)) return Fail("expected a file, found a folder", path);
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return Fail("cannot open the file: " + ErrnoText(errno), path);
-
   // In blocks, since pipes and devices do not tell their size.
   std::string text;
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
     if (!error && size <= largest_bytes) text.reserve(size);
   }
+  ByteInput file(path == "-" ? "./-" : path);  // not standard input
   std::array<char, 1 << 16> block;
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get())) {
+  for (;;) {
+    TRY(const std::size_t got, file.Read(block.data(), block.size()));
+    if (got == 0) return text;
     text.append(block.data(), got);
     if (text.size() > largest_bytes) {
       return Fail(fmt::format("the file is larger than the limit of {} bytes", largest_bytes),
                   path);
     }
   }
-  if (std::ferror(file.get()) != 0) return Fail("cannot read the file: " + ErrnoText(errno), path);
-  return text;
 }
 
 Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes) {

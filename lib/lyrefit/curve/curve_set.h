@@ -41,7 +41,8 @@ struct CurveSet {
 // a folder or a curve of a table that is broken goes to `rejected`, unless nothing is left.
 Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options = {});
 
-// Whether `path` holds several curves, as ReadCurveSet understands it.
+// Whether `path` holds several curves, as ReadCurveSet understands it. A pipe is not looked into:
+// false.
 bool HoldsCurveSet(const std::string& path, const ReadOptions& options = {});
 
 // A curve as a set of its own.

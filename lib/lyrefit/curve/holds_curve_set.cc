@@ -3,7 +3,9 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/curve_text.h"
 #include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/read_ivcurves_json.h"
@@ -52,10 +54,17 @@ bool TableHoldsSet(const std::string& text, const fs::path& path, const ReadOpti
 
 bool HoldsCurveSet(const std::string& path, const ReadOptions& options) {
   if (IsFolder(path)) return FolderHoldsSet(path);
+  if (IsStream(path)) return false;  // what is read to be looked at is gone
   const auto text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return false;
   return IsJson(path) ? JsonHoldsSet(text->text, path, options)
                       : TableHoldsSet(text->text, path, options);
+}
+
+bool TextHoldsCurveSet(const DecodedText& text, const std::string& path,
+                       const ReadOptions& options) {
+  return ParseJson(text.text, path) ? JsonHoldsSet(text.text, path, options)
+                                    : TableHoldsSet(text.text, path, options);
 }
 
 CurveSet SetOfOne(IvCurve curve) {

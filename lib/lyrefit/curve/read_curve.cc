@@ -4,9 +4,12 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/curve_text.h"
 #include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
@@ -86,14 +89,32 @@ Expected<IvCurve> ReadFromJson(const std::string& path, const ReadOptions& optio
               path);
 }
 
-Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& options) {
-  TRY(RawCurve raw, ReadTableCurve(path, options));
+Expected<IvCurve> FromTable(RawCurve raw, const ReadOptions& options) {
   Expected<IvCurve> curve = FinishCurve(std::move(raw), options);
   if (curve && options.curve) curve->name += "_" + std::to_string(*options.curve);
   return curve;
 }
 
+Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& options) {
+  TRY(RawCurve raw, ReadTableCurve(path, options));
+  return FromTable(std::move(raw), options);
+}
+
+// The document that a text is; none where it is no JSON.
+std::optional<json> DocumentIn(const DecodedText& text, const std::string& path) {
+  Expected<json> document = ParseJson(text.text, path);
+  const bool is_json = document && (document->is_object() || document->is_array());
+  return is_json ? std::optional<json>(std::move(*document)) : std::nullopt;
+}
+
 }  // namespace
+
+Expected<IvCurve> CurveOfFile(const DecodedText& text, const std::string& path,
+                              const ReadOptions& options) {
+  if (const auto document = DocumentIn(text, path)) return FromDocument(*document, path, options);
+  TRY(RawCurve raw, TableCurveOfFile(text, path, options));
+  return FromTable(std::move(raw), options);
+}
 
 Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options) {
   if (IsFolder(path)) {
@@ -106,15 +127,19 @@ Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options)
     }
     return ReadFromTable(inside.string(), options);
   }
+  if (IsStream(path)) {
+    TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+    return CurveOfFile(text, path, options);
+  }
   return IsJson(path) ? ReadFromJson(path, options) : ReadFromTable(path, options);
 }
 
 Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
                                 const ReadOptions& options) {
   TRY(const DecodedText decoded, DecodeText(std::move(text), name));
-  const Expected<json> document = ParseJson(decoded.text, name);
-  const bool is_json = document && (document->is_object() || document->is_array());
-  if (is_json) return FromDocument(*document, name, options);
+  if (const auto document = DocumentIn(decoded, name)) {
+    return FromDocument(*document, name, options);
+  }
   TRY(RawCurve raw, TableCurveFromText(decoded, name, options));
   raw.curve.name = name;
   raw.curve.source = name;

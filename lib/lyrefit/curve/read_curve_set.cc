@@ -6,11 +6,14 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/curve_set_builder.h"
+#include "lyrefit/curve/curve_text.h"
 #include "lyrefit/curve/json_curves.h"
+#include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/curve/read_table.h"
@@ -115,29 +118,34 @@ Expected<void> AddSweeps(std::string_view text, const std::string& path, const f
 }
 
 // `path` is the table, `source` what the caller named: the table or its folder.
-Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,
-                                    const ReadOptions& options) {
+Expected<CurveSet> SetFromTable(const DecodedText& text, const std::string& path,
+                                const std::string& source, const ReadOptions& options) {
   const fs::path file(path);
   const bool in_folder = file.filename() == kCurvesName;
   const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
-  const Expected<DecodedText> text = ReadDecodedFile(path, options.largest_file_bytes);
-  if (!text) return tl::unexpected(text.error());
   CurveSetBuilder builder(name, source, options);
-  if (!text->remark.empty()) builder.Assume({text->remark});
+  if (!text.remark.empty()) builder.Assume({text.remark});
   const fs::path common =
       in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
   const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
-  TRY(const std::size_t channels, CountChannels(text->text, path, options));
+  TRY(const std::size_t channels, CountChannels(text.text, path, options));
   TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
   auto added = channels > 1 && options.column.empty()
-                   ? AddChannels(text->text, path, channels, options, &builder)
-                   : AddSweeps(text->text, path, index, options, &builder);
+                   ? AddChannels(text.text, path, channels, options, &builder)
+                   : AddSweeps(text.text, path, index, options, &builder);
   if (!added) return tl::unexpected(added.error());
   return builder.Finish();
 }
 
+Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,
+                                    const ReadOptions& options) {
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  return SetFromTable(text, path, source, options);
+}
+
 Expected<void> AddFromFile(const fs::path& table, const std::string& id, const ReadOptions& options,
                            CurveSetBuilder* builder) {
+  TRY(CheckIsNoStream(table));
   TRY(RawCurve raw, ReadTableCurve(table.string(), options));
   raw.curve.name = id;
   builder->Add(std::move(raw), 0);
@@ -180,8 +188,8 @@ Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& 
   return builder.Finish();
 }
 
-Expected<CurveSet> ReadSetFromJson(const std::string& path, const ReadOptions& options) {
-  TRY(const nlohmann::json document, ReadJsonFile(path, options));
+Expected<CurveSet> SetFromJson(const nlohmann::json& document, const std::string& path,
+                               const ReadOptions& options) {
   CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
   if (!IsIvCurves(document)) {
     TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
@@ -200,12 +208,35 @@ Expected<CurveSet> ReadSetFromJson(const std::string& path, const ReadOptions& o
   return builder.Finish();
 }
 
+Expected<CurveSet> ReadSetFromJson(const std::string& path, const ReadOptions& options) {
+  TRY(const nlohmann::json document, ReadJsonFile(path, options));
+  return SetFromJson(document, path, options);
+}
+
 }  // namespace
+
+Expected<CurveSet> CurveSetOfFile(const DecodedText& text, const std::string& path,
+                                  const ReadOptions& options) {
+  const auto document = ParseJson(text.text, path);
+  const bool is_json = document && (document->is_object() || document->is_array());
+  return is_json ? SetFromJson(*document, path, options) : SetFromTable(text, path, path, options);
+}
+
+Expected<CurveSet> ReadCurvesOfStream(const std::string& path, const ReadOptions& options) {
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  if (TextHoldsCurveSet(text, path, options)) return CurveSetOfFile(text, path, options);
+  TRY(IvCurve curve, CurveOfFile(text, path, options));
+  return SetOfOne(std::move(curve));
+}
 
 Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options) {
   if (options.curve) {
     return Fail(
         fmt::format("a set is read whole, but curve {} alone was asked for", *options.curve), path);
+  }
+  if (IsStream(path)) {
+    TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+    return CurveSetOfFile(text, path, options);
   }
   if (!IsFolder(path)) {
     return IsJson(path) ? ReadSetFromJson(path, options) : ReadSetFromTable(path, path, options);

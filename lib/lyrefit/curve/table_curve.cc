@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/number_text.h"
@@ -23,6 +24,11 @@ std::string ExtensionOf(const fs::path& path) { return LowerCase(path.extension(
 bool IsFile(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_directory(path, error);
+}
+
+Expected<void> CheckIsNoStream(const fs::path& path) {
+  if (!IsStream(path.string())) return {};
+  return Fail("expected a file, found a pipe, a socket or a device", path.string());
 }
 
 bool IsFolder(const fs::path& path) {
@@ -88,6 +94,11 @@ Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string
 
 Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options) {
   TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  return TableCurveOfFile(text, path, options);
+}
+
+Expected<RawCurve> TableCurveOfFile(const DecodedText& text, const std::string& path,
+                                    const ReadOptions& options) {
   Expected<RawCurve> raw = TableCurveFromText(text, path, options);
   if (!raw) return raw;
   raw->curve.source = path;
@@ -116,6 +127,7 @@ Expected<IvCurve> FinishCurve(RawCurve raw, const ReadOptions& options) {
 Expected<Sidecar> ReadSidecarBeside(const std::string& path, const ReadOptions& options) {
   const fs::path sidecar = fs::path(path).replace_extension(".json");
   if (!IsFile(sidecar)) return Sidecar{};
+  TRY(CheckIsNoStream(sidecar));
   return ReadSidecar(sidecar.string(), options.largest_file_bytes);
 }
 

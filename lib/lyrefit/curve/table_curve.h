@@ -18,6 +18,8 @@ constexpr char kIndexName[] = "index.csv";
 constexpr char kDatasetName[] = "dataset.json";
 
 bool IsFile(const std::filesystem::path& path);
+// Of what nobody named: a pipe among the files of a folder would be waited for.
+Expected<void> CheckIsNoStream(const std::filesystem::path& path);
 bool IsFolder(const std::filesystem::path& path);
 bool IsJson(const std::filesystem::path& path);
 bool IsTable(const std::filesystem::path& path);  // by its ending: .csv, .txt, .dat, ...
@@ -41,6 +43,10 @@ struct RawCurve {
 
 // The one curve of a table.
 Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options);
+
+// The same from what the file holds, which is not read again.
+Expected<RawCurve> TableCurveOfFile(const DecodedText& text, const std::string& path,
+                                    const ReadOptions& options);
 
 // The same from its text, of which nothing stands beside it.
 Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/curve/curve_text.h"
 #include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit {
@@ -59,6 +60,7 @@ IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
 }  // namespace
 
 Expected<CurveSet> ReadMeasurement(const std::string& path, const ReadOptions& options) {
+  if (IsStream(path)) return ReadCurvesOfStream(path, options);
   if (HoldsCurveSet(path, options)) return ReadCurveSet(path, options);
   TRY(IvCurve curve, ReadCurve(path, options));
   return SetOfOne(std::move(curve));

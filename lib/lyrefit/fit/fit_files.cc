@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/base/stoppable_reads.h"
 
 namespace lyrefit {
 namespace {
@@ -21,12 +22,13 @@ class Watch {
     return stopped_;
   }
 
+  bool Stop() { return Report(0); }
   void FileDone() { Report(1); }
 
   // For the fit of one file: its own progress is not shown, the files' is.
   Observer ForOneFile() {
     return [this](const Progress&) {
-      return Report(0) ? ObserverAction::kStop : ObserverAction::kContinue;
+      return Stop() ? ObserverAction::kStop : ObserverAction::kContinue;
     };
   }
 
@@ -60,7 +62,9 @@ std::vector<FittedFile> FitFiles(
   std::vector<std::optional<Expected<FitReport>>> reports(files.size());
   ParallelFor(static_cast<int>(files.size()), threads, [&](int i) {
     if (watch.stopped()) return;
+    const StoppableReads reads([&watch] { return watch.Stop(); });
     reports[i] = fit(i, watch.ForOneFile());
+    if (watch.stopped() && !*reports[i]) reports[i].reset();  // it may have been at reading
     watch.FileDone();
   });
   std::vector<FittedFile> fits;

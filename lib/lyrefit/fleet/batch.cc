@@ -51,7 +51,7 @@ Expected<PartHead> HeadOf(const FleetSource& source, const FleetTask& task,
                           const BatchOptions& options) {
   TRY(const std::string digest, source.Digest());
   if (digest.empty() && (options.start == BatchStart::kResume || options.shard.of > 1)) {
-    return Fail("standard input can neither be resumed nor done in shards: name a file");
+    return Fail("standard input and pipes can neither be resumed nor done in shards: name a file");
   }
   return PartHead{{"lyrefit_batch", kFormat},
                   {"version", Version()},
@@ -230,9 +230,13 @@ Expected<BatchSummary> RunBatch(FleetSource* source, const FleetTask& task,
   summary.rows_before = part->rows();
   summary.was_complete = shard && part->complete();
   if (!part->complete()) {
-    TRY(const PipelineEnd end, WriteRows(source, task, options, observer, part.get()));
-    summary.interrupted = !end.complete;
-    if (end.complete) TRY(part->Finish({part->rows(), Pair(end.first), Pair(end.last)}));
+    const auto end = WriteRows(source, task, options, observer, part.get());
+    if (!end) {
+      if (part->rows() == 0) TRY(part->Remove());
+      return tl::unexpected(end.error());
+    }
+    summary.interrupted = !end->complete;
+    if (end->complete) TRY(part->Finish({part->rows(), Pair(end->first), Pair(end->last)}));
   }
   summary.rows = part->rows();
   summary.seconds = SecondsSince(begin);

@@ -154,8 +154,10 @@ std::string IdOfPath(const std::string& path) {
   return id;
 }
 
+bool IsReadOnce(const std::string& path) { return path == "-" || IsStream(path); }
+
 std::string StemOf(const std::string& path) {
-  return path == "-" ? "input" : fs::path(path).stem().string();
+  return IsReadOnce(path) ? "input" : fs::path(path).stem().string();
 }
 
 std::int64_t SizeOfFile(const std::string& path) {

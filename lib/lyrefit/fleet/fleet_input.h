@@ -71,6 +71,9 @@ Expected<std::unique_ptr<FleetInput>> FolderTreeInput(const std::string& folder,
                                                       const std::string& prefix,
                                                       const ReadOptions& options);
 
+// Whether it cannot be read again: "-", which is standard input, or a pipe.
+bool IsReadOnce(const std::string& path);
+
 // Looks at what it is. "-" is standard input.
 Expected<std::unique_ptr<FleetInput>> OpenInput(const std::string& path, const std::string& prefix,
                                                 const ReadOptions& options);
@@ -79,7 +82,7 @@ Expected<std::unique_ptr<FleetInput>> OpenInput(const std::string& path, const s
 // of or to the top of the file system.
 std::string IdOfPath(const std::string& path);
 
-// The file's name without folder and ending; "input" for standard input.
+// The file's name without folder and ending; "input" for standard input and pipes.
 std::string StemOf(const std::string& path);
 
 // The size of a file, 0 if it cannot be told.

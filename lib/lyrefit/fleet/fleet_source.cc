@@ -47,9 +47,8 @@ class Fleet : public FleetSource {
     const auto part = [&](int k) { return all / shard.of * k + all % shard.of * k / shard.of; };
     begin_ = part(shard.k - 1);
     end_ = part(shard.k);
-    const bool streams = std::find(paths_.begin(), paths_.end(), "-") != paths_.end();
-    known_ = !streams;
-    if (streams) end_ = std::numeric_limits<std::int64_t>::max();
+    known_ = std::none_of(paths_.begin(), paths_.end(), IsReadOnce);
+    if (!known_) end_ = std::numeric_limits<std::int64_t>::max();
   }
 
   Expected<std::optional<FleetItem>> Next() override {
@@ -59,11 +58,15 @@ class Fleet : public FleetSource {
         base_ += inputs_[input_++]->size();
         continue;
       }
+      any_ = true;
       const std::int64_t at = base_ + found->begin;
       if (at >= end_) break;
       NameIt(&*found);
       if (at < begin_) continue;
       return std::optional<FleetItem>(ItemOf(std::move(*found)));
+    }
+    if (input_ == inputs_.size() && !any_) {
+      return Fail("expected at least one curve, found none", paths_.empty() ? "" : paths_.front());
     }
     input_ = inputs_.size();
     return std::optional<FleetItem>();
@@ -144,7 +147,8 @@ class Fleet : public FleetSource {
   SeenIds ids_;
   std::int64_t begin_ = 0;  // of the shard, of the bytes of all inputs
   std::int64_t end_ = 0;
-  bool known_ = true;
+  bool known_ = true;  // how much there is, and all of it can be read again
+  bool any_ = false;   // curve was found
   std::size_t input_ = 0;
   std::int64_t base_ = 0;  // where the input begins
   std::int64_t place_ = 0;
@@ -169,10 +173,11 @@ Expected<std::unique_ptr<FleetSource>> OpenFleet(const std::vector<std::string>&
     return Fail(
         fmt::format("expected a shard k/N with 1 <= k <= N, found {}/{}", shard.k, shard.of));
   }
-  const auto streams = std::count(inputs.begin(), inputs.end(), "-");
-  if (streams > 0 && (streams > 1 || shard.of > 1)) {
-    return Fail(shard.of > 1 ? "standard input cannot be split into shards: pack it into a file"
-                             : "standard input can be named once");
+  if (std::count(inputs.begin(), inputs.end(), "-") > 1) {
+    return Fail("standard input can be named once");
+  }
+  if (shard.of > 1 && std::any_of(inputs.begin(), inputs.end(), IsReadOnce)) {
+    return Fail("standard input and pipes cannot be split into shards: pack them into a file");
   }
   const auto folders = std::count_if(inputs.begin(), inputs.end(),
                                      [](const std::string& path) { return IsFolder(path); });

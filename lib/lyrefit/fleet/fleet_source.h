@@ -81,20 +81,21 @@ class FleetSource {
   virtual Expected<std::optional<FleetItem>> Next() = 0;
   // From any thread.
   virtual FleetCurve Read(const FleetItem& item) const = 0;
-  // What `end` of the last item comes to, in bytes; 0: not known (standard input). For progress.
+  // What `end` of the last item comes to, in bytes; 0: not known (standard input, a pipe). For progress.
   virtual std::int64_t size() const = 0;
   // Differs where the input of this shard does: the names of the files, their sizes, and their bytes
   // (CRC-32) up to where the shard ends, since ids and lines count from the beginning. Of a folder
   // tree: the names, sizes and bytes of its tables and of the files beside them. Reads all that, at
   // one to two gigabytes a second. Up to its first '-' it says names and sizes, which all shards of one
-  // input have alike. Standard input has none: empty.
+  // input have alike. Standard input and pipes have none: empty.
   virtual Expected<std::string> Digest() const = 0;
   // What was left aside, and why, in plain sentences: files of a folder that are no tables.
   virtual std::vector<std::string> Remarks() const = 0;
 };
 
-// `inputs` are files and folders, read one after the other; "-" is standard input, for rows and
-// long tables. Errors: no such file, a shape that is not known, rows in UTF-16.
+// `inputs` are files and folders, read one after the other; "-" is standard input. It
+// and pipes are for rows and long tables. Errors: no such file, a shape that is not known, rows in
+// UTF-16; of Next, an input without any curve.
 //
 // Memory: a block of the file, the longest row, and 34 MB for the ids from some thousand up to 1.9
 // million of them (16 to 36 bytes for each one beyond). They are told apart by hashes of 64 bits:

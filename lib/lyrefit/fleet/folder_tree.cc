@@ -65,6 +65,9 @@ void FolderTree::TakeEntries(Level* level, std::string* refusal) {
     const fs::file_status status = at->status(other);
     entry.folder = fs::is_directory(status);
     if (!entry.folder && !fs::exists(status)) entry.refusal = "the link leads nowhere";
+    if (fs::is_other(status)) {
+      entry.refusal = "expected a file, found a pipe, a socket or a device";
+    }
     if (fs::is_regular_file(status)) {
       entry.size = static_cast<std::int64_t>(at->file_size(other));
     }

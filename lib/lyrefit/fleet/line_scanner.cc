@@ -1,12 +1,7 @@
 #include "lyrefit/fleet/line_scanner.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include "lyrefit/base/try.h"
@@ -20,25 +15,6 @@ constexpr std::size_t kKeptOfLongLine = 4096;  // its id stands in front, if any
 constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 
 }  // namespace
-
-ByteInput::~ByteInput() {
-  if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
-}
-
-Expected<std::size_t> ByteInput::Read(char* to, std::size_t size) {
-  if (descriptor_ < 0) {
-    descriptor_ = path_ == "-" ? STDIN_FILENO : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor_ < 0) {
-      return Fail("cannot open the file: " + std::generic_category().message(errno), path_);
-    }
-  }
-  for (;;) {
-    const ssize_t got = ::read(descriptor_, to, size);
-    if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno == EINTR) continue;
-    return Fail("cannot read the file: " + std::generic_category().message(errno), path_);
-  }
-}
 
 LineScanner::LineScanner(std::string path, std::size_t longest)
     : file_(std::move(path)), longest_(std::max(longest, kKeptOfLongLine)) {}

@@ -5,27 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/error.h"
 
 namespace lyrefit {
-
-// A file that is read once from its beginning, "-" for standard input. Closed at the end of its
-// life.
-class ByteInput {
- public:
-  explicit ByteInput(std::string path) : path_(std::move(path)) {}
-  ~ByteInput();
-  ByteInput(const ByteInput&) = delete;
-  ByteInput& operator=(const ByteInput&) = delete;
-
-  // Up to `size` bytes into `to`; 0 at the end. Opens the file when first called.
-  Expected<std::size_t> Read(char* to, std::size_t size);
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  int descriptor_ = -1;
-};
 
 // A line without its end, LF or CRLF.
 struct ScannedLine {

@@ -106,29 +106,36 @@ struct LookedAt {
   const std::string& path;
   const ReadOptions& options;
   std::unique_ptr<LineScanner>* scanner;
+  bool stream = IsReadOnce(path);
 
-  // Standard input cannot be opened again; a file is, when its turn comes: there may be many, and
-  // each that is open holds a block of memory.
+  // A stream cannot be opened again; a file is, when its turn comes: there may be many, and each
+  // that is open holds a block of memory.
   std::unique_ptr<LineScanner> Scanner() const {
-    if (path == "-") return std::move(*scanner);
+    if (stream) return std::move(*scanner);
     return std::make_unique<LineScanner>(path, options.largest_file_bytes);
   }
 };
 
+// Of what can be read once.
+const char* Within(const std::string& path) {
+  return path == "-" ? "on standard input" : "in a pipe";
+}
+
 Expected<std::unique_ptr<FleetInput>> OpenJson(const LookedAt& file, std::string_view head,
                                                std::size_t at) {
-  const auto& [path, options, scanner] = file;
+  const auto& [path, options, scanner, stream] = file;
   const JsonHead json = IsRowsFile(path) ? JsonHead{JsonShape::kRows, {}} : LookAtJson(head, at);
   if (json.shape == JsonShape::kRows) return JsonRowsInput(path, file.Scanner(), options);
-  if (path == "-") {
-    return Fail("expected rows on standard input, found a JSON document: name its file", path);
+  if (stream) {
+    return Fail(fmt::format("expected rows {}, found a JSON document: name its file", Within(path)),
+                path);
   }
   if (json.shape == JsonShape::kList) return JsonListInput(path, json.key, options);
   return JsonWholeInput(path, options);
 }
 
 Expected<std::unique_ptr<FleetInput>> OpenText(const LookedAt& file, std::string_view head) {
-  const auto& [path, options, scanner] = file;
+  const auto& [path, options, scanner, stream] = file;
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (head.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     head.remove_prefix(kByteOrderMark.size());
@@ -150,8 +157,9 @@ Expected<std::unique_ptr<FleetInput>> OpenText(const LookedAt& file, std::string
     case CsvShape::kNone:
       break;
   }
-  if (path == "-") {
-    return Fail("expected one curve a row or a long table on standard input, found another shape",
+  if (stream) {
+    return Fail(fmt::format("expected one curve a row or a long table {}, found another shape",
+                            Within(path)),
                 path);
   }
   return OneCurveInput(path, options);
@@ -168,7 +176,8 @@ Expected<std::unique_ptr<FleetInput>> OpenInput(const std::string& path, const s
   if (IsUtf16(head)) {
     // A single curve is decoded; of rows the bytes are needed.
     const std::size_t lines = std::count(head.begin(), head.end(), '\n');
-    const bool one = path != "-" && SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&
+    const bool one = !IsReadOnce(path) &&
+                     SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&
                      !IsRowsFile(path) && lines > 0;
     if (one) return OneCurveInput(path, options);
     return Fail("expected rows in UTF-8, found UTF-16: save the file as UTF-8", path);

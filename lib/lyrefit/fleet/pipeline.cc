@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/stoppable_reads.h"
+
 namespace lyrefit {
 namespace {
 
@@ -71,6 +73,7 @@ class Crew {
 };
 
 void Crew::Read() {
+  const StoppableReads reads([this] { return stopped_.load(); });
   for (std::int64_t place = 0;; ++place) {
     Expected<std::optional<FleetItem>> item = source_->Next();
     std::unique_lock<std::mutex> lock(mutex_);
@@ -92,6 +95,7 @@ void Crew::Read() {
 
 void Crew::Work() {
   const std::function<bool()> stopped = [this] { return stopped_.load(); };
+  const StoppableReads reads(stopped);
   while (true) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return stopped_ || !waiting_.empty() || all_read_; });

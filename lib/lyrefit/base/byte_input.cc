@@ -1,0 +1,79 @@
+#include "lyrefit/base/byte_input.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/try.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kLook_ms = 100;  // between two looks at whether to stop
+
+thread_local StoppableReads* innermost = nullptr;
+
+std::string ErrnoText() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+bool IsStream(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_other(path, error);
+}
+
+StoppableReads::StoppableReads(std::function<bool()> stopped)
+    : stopped_(std::move(stopped)), outer_(std::exchange(innermost, this)) {}
+
+StoppableReads::~StoppableReads() { innermost = outer_; }
+
+bool StoppableReads::Stopped() {
+  for (const StoppableReads* one = innermost; one != nullptr; one = one->outer_) {
+    if (one->stopped_ && one->stopped_()) return true;
+  }
+  return false;
+}
+
+ByteInput::~ByteInput() {
+  if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
+}
+
+// A pipe is opened without waiting for whoever writes into it, which AwaitBytes does.
+Expected<void> ByteInput::Open() {
+  stream_ = path_ == "-" || IsStream(path_);
+  const int without_waiting = stream_ ? O_NONBLOCK | O_NOCTTY : 0;
+  descriptor_ =
+      path_ == "-" ? STDIN_FILENO : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | without_waiting);
+  if (descriptor_ < 0) return Fail("cannot open the file: " + ErrnoText(), path_);
+  return {};
+}
+
+// Until there is something to read, or the end. What cannot be waited for is read as it is.
+Expected<void> ByteInput::AwaitBytes() const {
+  for (;;) {
+    if (StoppableReads::Stopped()) return Fail("stopped before the end of it was read", path_);
+    if (!stream_) return {};
+    pollfd waiting = {descriptor_, POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, kLook_ms);
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return {};
+  }
+}
+
+Expected<std::size_t> ByteInput::Read(char* to, std::size_t size) {
+  if (descriptor_ < 0) TRY(Open());
+  for (;;) {
+    TRY(AwaitBytes());
+    const ssize_t got = ::read(descriptor_, to, size);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno == EINTR || errno == EAGAIN) continue;
+    return Fail("cannot read the file: " + ErrnoText(), path_);
+  }
+}
+
+}  // namespace lyrefit

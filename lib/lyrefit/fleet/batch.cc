@@ -27,6 +27,7 @@ PartHead OptionsJson(const FleetTask& task, const BatchOptions& options) {
                    {"like-light", options.like_light}};
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
+  if (options.raw_csv) json["raw-csv"] = true;
   // Of one that is given several times all values.
   for (const auto* echoes : {&options.reading, &task.options}) {
     for (const OptionEcho& echo : *echoes) {

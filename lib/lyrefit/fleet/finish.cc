@@ -204,6 +204,7 @@ struct ResultsPlan {
   std::vector<ResultColumn> results;  // with those of neighbours
   double level = 0;
   double like_light = 0;
+  CsvTexts texts = CsvTexts::kSafe;
 };
 
 Expected<ResultsPlan> ResultsPlanOf(const PartHead& head, const std::string& path) {
@@ -215,6 +216,7 @@ Expected<ResultsPlan> ResultsPlanOf(const PartHead& head, const std::string& pat
   const PartHead& options = head.at("options");
   plan.level = options.value("group-level", 0.0);
   plan.like_light = options.value("like-light", 0.0);
+  if (options.value("raw-csv", false)) plan.texts = CsvTexts::kRaw;
   return plan;
 }
 
@@ -291,7 +293,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
       for (ResultCell& cell : NeighbourCells(deviations.empty() ? none : deviations[i], limits)) {
         row.cells.push_back(std::move(cell));
       }
-      TRY(csv.Add(RowCsv(row)));
+      TRY(csv.Add(RowCsv(row, plan.texts)));
       TRY(lines.Add(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
       if (row_observer) row_observer(plan.results, row);

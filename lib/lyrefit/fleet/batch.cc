@@ -19,8 +19,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFormat = 1;  // of part files
-
 PartHead OptionsJson(const FleetTask& task, const BatchOptions& options) {
   PartHead json = {{"seed", options.seed},
                    {"group-level", options.group_level},
@@ -54,14 +52,15 @@ Expected<PartHead> HeadOf(const FleetSource& source, const FleetTask& task,
   if (digest.empty() && (options.start == BatchStart::kResume || options.shard.of > 1)) {
     return Fail("standard input can neither be resumed nor done in shards: name a file");
   }
-  return PartHead{{"lyrefit_batch", kFormat},
-                  {"version", Version()},
-                  {"task", task.name},
-                  {"shard", options.shard.k},
-                  {"of", options.shard.of},
-                  {"input", digest},
-                  {"options", OptionsJson(task, options)},
-                  {"columns", FieldsJson(RowColumns(task, options))}};
+  PartHead head = NewPartHead();
+  head["version"] = Version();
+  head["task"] = task.name;
+  head["shard"] = options.shard.k;
+  head["of"] = options.shard.of;
+  head["input"] = digest;
+  head["options"] = OptionsJson(task, options);
+  head["columns"] = FieldsJson(RowColumns(task, options));
+  return head;
 }
 
 // Why a curve is broken, without the file, which is in a column of its own.

@@ -77,6 +77,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/json.h
   report/page.h
   report/plots.h
+  report/readable.h
   report/text_layout.h
   # laws, and what an effect of one's own is written with
   law/curve_shape.h

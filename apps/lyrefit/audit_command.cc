@@ -51,6 +51,7 @@ Expected<int> RunAudit(VerbLine& verb, AuditRequest& request) {
   const ReportFlags& output = request.output;
   TRY(verb.CheckFiles());
   TRY(const AuditReport report, Audit(request.rows_file, request.options));
+  if (!report.remark.empty()) PrintRemarks({report.path + ": " + report.remark});
   TRY(WriteWanted(output.json_file, [&] { return AuditJson(report); }));
   TRY(WriteWanted(output.csv_file, [&] { return AuditCsv(report); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefAudit(report) : AuditText(report); }));

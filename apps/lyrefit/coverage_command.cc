@@ -51,6 +51,7 @@ Expected<int> RunCoverage(VerbLine& verb, CoverageRequest& request) {
   TRY(WriteWanted(output.csv_file, [&] { return CoverageCsv(report); }));
   TRY(WriteText(verb, [&] { return CoverageText(report); }));
   if (report.interrupted) return kExitInterrupted;
+  if (report.journal_lacks_sets) return kExitBadInput;
   return report.failed < static_cast<int>(report.sets.size()) ? kExitFine : kExitNotUsable;
 }
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
-#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -46,10 +45,7 @@ void OnInterrupt(int /*signal*/) {
 
 bool OnTerminal() { return isatty(STDERR_FILENO) != 0; }
 
-void WipeLine() {
-  fmt::print(stderr, "\r{:<79}\r", "");
-  std::fflush(stderr);
-}
+void WipeLine() { TellError(fmt::format("\r{:<79}\r", "")); }
 
 // Draws the line from a thread of its own, so that stages which tell nothing are seen to live.
 class ProgressDisplay {
@@ -86,18 +82,17 @@ class ProgressDisplay {
       const std::string notice = interrupted != 0 ? "" : text_.LongRun(Seconds());
       if (!notice.empty()) {
         if (drawn_) WipeLine();
-        fmt::print(stderr, "lyrefit: {}; {}\n", notice, style_.on_interrupt);
+        TellError(fmt::format("lyrefit: {}; {}\n", notice, style_.on_interrupt));
       }
       if (terminal) {
         const std::string line = interrupted != 0 ? "stopping" : text_.Line(Seconds());
         if (line.empty()) continue;
-        fmt::print(stderr, "\r{:<79.79}", line);
+        TellError(fmt::format("\r{:<79.79}", line));
         drawn_ = true;
       }
-      std::fflush(stderr);
     }
     // Where a run ends at once it is said all the same.
-    if (terminal && drawn_ && interrupted != 0) fmt::print(stderr, "\r{:<79.79}", "stopping");
+    if (terminal && drawn_ && interrupted != 0) TellError(fmt::format("\r{:<79.79}", "stopping"));
   }
 
   const ProgressStyle style_;

@@ -1,5 +1,6 @@
 #include <glog/logging.h>
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -65,6 +66,7 @@ int Main(int argc, char** argv) {
 }  // namespace lyrefit
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is an error of the write
   try {
     return lyrefit::Main(argc, argv);
   } catch (const std::exception& error) {  // out of memory, and the like

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/report/readable.h"
 
 namespace lyrefit {
 namespace {
@@ -22,13 +23,19 @@ tl::unexpected<Error> CannotWrite(const std::string& path, int reason) {
 
 }  // namespace
 
+void TellError(const std::string& text) {
+  const std::string readable = Readable(text);
+  std::fwrite(readable.data(), 1, readable.size(), stderr);
+  std::fflush(stderr);
+}
+
 int Refuse(const Error& error) {
-  fmt::print(stderr, "lyrefit: {}\n", error.ToString());
+  TellError("lyrefit: " + error.ToString() + "\n");
   return kExitBadInput;
 }
 
 void PrintRemarks(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) fmt::print(stderr, "lyrefit: {}\n", remark);
+  for (const std::string& remark : remarks) TellError("lyrefit: " + remark + "\n");
 }
 
 Expected<void> CheckWritable(const std::string& path) {
@@ -60,8 +67,10 @@ Expected<void> CheckWritable(const std::string& path) {
 
 Expected<void> WriteOutput(const std::string& path, const std::string& text) {
   if (path != "-") return WriteTextFile(path, text);
+  const std::string readable = Readable(text);
   const bool written =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+      std::fwrite(readable.data(), 1, readable.size(), stdout) == readable.size() &&
+      std::fflush(stdout) == 0;
   if (!written) return CannotWrite("standard output", errno);
   return {};
 }

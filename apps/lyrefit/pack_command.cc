@@ -1,11 +1,7 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
-#include <system_error>
+#include <string_view>
 #include <utility>
 
 #include "flags.h"
@@ -56,51 +52,6 @@ void DeclarePack(VerbLine* verb, PackRequest* request) {
   verb->AddQuietSwitch();
 }
 
-// A file that stands under its name when it is complete, and is gone otherwise.
-class WholeFile {
- public:
-  explicit WholeFile(std::string path) : path_(std::move(path)) {
-    if (path_ == "-") return;
-    part_ = path_ + ".part";
-    descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) part_.clear();
-  }
-  ~WholeFile() {
-    if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
-    if (!part_.empty()) ::unlink(part_.c_str());
-  }
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
-
-  Expected<void> Write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t taken = ::write(descriptor_, text.data(), text.size());
-      if (taken < 0 && errno == EINTR) continue;
-      if (taken < 0) return CannotWrite();
-      text.remove_prefix(static_cast<std::size_t>(taken));
-    }
-    return {};
-  }
-
-  Expected<void> Finish() {
-    if (part_.empty()) return {};
-    const int closed = ::close(std::exchange(descriptor_, -1));
-    if (closed != 0 || std::rename(part_.c_str(), path_.c_str()) != 0) return CannotWrite();
-    part_.clear();
-    return {};
-  }
-
- private:
-  tl::unexpected<Error> CannotWrite() const {
-    return Fail("cannot write the file: " + std::generic_category().message(errno),
-                path_ == "-" ? "standard output" : path_);
-  }
-
-  std::string path_;
-  std::string part_;
-  int descriptor_ = STDOUT_FILENO;
-};
-
 Expected<PackFormat> FormatOf(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (file == "-" || ending == ".jsonl" || ending == ".ndjson") return PackFormat::kJsonLines;
@@ -123,14 +74,16 @@ Expected<int> RunPack(VerbLine& verb, PackRequest& request) {
   const InterruptGuard guard;
   TRY(const auto source, OpenFleet(request.inputs, request.options));
   PrintRemarks(source->Remarks());
-  WholeFile file(request.out_file);
   const Observer observer = TerminalObserver({"pack", "Ctrl-C ends it, and nothing is written"});
-  TRY(const PackReport report,
-      PackFleet(
-          source.get(), format, request.threads,
-          [&file](std::string_view text) { return file.Write(text); }, observer));
+  const PackSink to_output = [](std::string_view text) {
+    return WriteOutput("-", std::string(text));
+  };
+  auto packed =
+      request.out_file == "-"
+          ? PackFleet(source.get(), format, request.threads, to_output, observer)
+          : PackFleetInto(request.out_file, source.get(), format, request.threads, observer);
+  TRY(const PackReport report, std::move(packed));
   if (report.interrupted) return kExitInterrupted;
-  TRY(file.Finish());
   if (verb.TextWanted()) TRY(WriteOutput("-", Summary(report, request.out_file)));
   return report.broken == 0 ? kExitFine : kExitNotUsable;
 }

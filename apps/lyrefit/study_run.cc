@@ -31,7 +31,8 @@ Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
   TRY(WriteWanted(flags.output.html_file,
                   [&] { return DrawPage(document(comparison), CompareJson(comparison)); }));
   TRY(WriteText(verb, [&] { return DrawText(document(comparison)); }));
-  return comparison.interrupted ? kExitInterrupted : kExitFine;
+  if (comparison.interrupted) return kExitInterrupted;
+  return comparison.journal_lacks_runs ? kExitBadInput : kExitFine;
 }
 
 }  // namespace lyrefit

@@ -4,22 +4,24 @@
     dask_example.py INPUT... --out OUT --shards N [--scheduler ADDRESS] [-- OPTION OF lyrefit batch...]
 
 Without --scheduler it starts a cluster of --workers processes on this machine. INPUT and OUT must be seen by
-every worker. What a worker had begun when it was killed is given to another one, which goes on where it
+every worker; relative paths begin in the folder that this is started in, where a worker sees it. What a worker had begun when it was killed is given to another one, which goes on where it
 stopped; a shard that fails is tried once more, and then the run ends with what it said.
 """
 
 import argparse
+import os
 import subprocess
 import sys
 
 from distributed import Client, LocalCluster, as_completed
 
 
-def run_shard(lyrefit, inputs, out, k, shards, options):
+def run_shard(folder, lyrefit, inputs, out, k, shards, options):
     """Runs one shard. It ends with the worker, so that another worker finds the shard free."""
     command = ["setpriv", "--pdeathsig", "KILL", lyrefit, "batch", *inputs, "--shard", f"{k}/{shards}",
                "--out", f"{out}/shards", "--resume", *options]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          cwd=folder if os.path.isdir(folder) else None)
     if done.returncode != 0:
         raise RuntimeError(f"shard {k} of {shards}: exit code {done.returncode}: {done.stderr.strip()[-500:]}")
     return k
@@ -41,8 +43,8 @@ def main():
     cluster = flags.scheduler or LocalCluster(
         n_workers=flags.workers, threads_per_worker=1, processes=True, dashboard_address=None)
     with Client(cluster) as client:
-        tasks = [client.submit(run_shard, flags.lyrefit, flags.inputs, flags.out, k, flags.shards, options,
-                               retries=1, pure=False) for k in range(1, flags.shards + 1)]
+        tasks = [client.submit(run_shard, os.getcwd(), flags.lyrefit, flags.inputs, flags.out, k, flags.shards,
+                               options, retries=1, pure=False) for k in range(1, flags.shards + 1)]
         for count, task in enumerate(as_completed(tasks), start=1):
             print(f"shard {task.result()} done, {count} of {flags.shards}", flush=True)
     if not flags.scheduler:

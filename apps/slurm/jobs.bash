@@ -2,9 +2,10 @@
 # The scripts of a run, their submission, and what became of its shards.
 
 # One shard is the whole, and makes the results itself.
-ShardFolder() { if ((shards > 1)); then echo shards; else echo .; fi; }
+ShardFolder() { if ((shards > 1)); then echo /shards; fi; }
 
-# The script of a task. Its working folder is OUT.
+# The script of a task. It starts in OUT and goes to the folder of the submission, as relative paths among the
+# options of lyrefit batch begin there.
 TaskScript() {
   local command=("$lyrefit" batch "${inputs[@]}" "${batch_options[@]}" --threads "$cpus" --resume)
   cat << END
@@ -18,7 +19,9 @@ TaskScript() {
 #SBATCH --signal=B:USR1@120
 $(SbatchLines ${time_limit:+"--time=$time_limit"} "${sbatch_options[@]}")
 k=\$SLURM_ARRAY_TASK_ID
-command=($(Quoted "${command[@]}") --shard "\$k/$shards" --out $(ShardFolder))
+out=\$PWD
+cd -- $(Quoted "$PWD") || echo "relative paths behind -- begin in \$out, as the folder of the submission is not seen here"
+command=($(Quoted "${command[@]}") --shard "\$k/$shards" --out "\$out$(ShardFolder)")
 END
   cat -- "$here/shard_task.bash"
 }

@@ -44,6 +44,30 @@ TEST(AuditVerb, ReportsBadRowsByLineAndAuditsTheRest) {
   EXPECT_THAT(result.out, HasSubstr("2 rows: reproduces 2; 2 more could not be audited"));
 }
 
+TEST(AuditVerb, PrintsNothingThatIsNoUtf8) {
+  const TempFolder folder;
+  // "Müller" as Windows writes it; the second row is a bad one.
+  const std::string rows = folder.Write(
+      "rows.csv", kHead +
+                      "M\xfcller,rtc_france,sd,\xb5LO,9.8602E-04,0.760776,0.036377,53.7185,"
+                      "3.23021E-07,1.48118\nT,rtc_france,sd,c,m\xfc"
+                      "ch,0.76,0.036,53,3e-7,1.48\n");
+  const std::string audit = "audit '" + rows + "' --curves '" + DataFolder("") + "'";
+  const AppResult text = RunApp(audit);
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_THAT(text.err,
+              HasSubstr("rows.csv: the file is not UTF-8 (line 2): read as Windows-1252"));
+  EXPECT_THAT(text.out, HasSubstr("\xc2\xb5LO"));
+  EXPECT_THAT(text.out + text.err, HasSubstr("found 'm\xc3\xbc"
+                                             "ch'"));
+  EXPECT_THAT(RunApp(audit + " --quiet --json -").out, HasSubstr("\"source\": \"M\xc3\xbcller\""));
+  EXPECT_THAT(RunApp(audit + " --quiet --csv -").out, HasSubstr("M\xc3\xbcller,"));
+  // Bytes that are no text in any encoding are shown as such.
+  const AppResult refused = RunApp("audit '" + folder.Path("no\xff") + "'");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("no\xef\xbf\xbd"));
+}
+
 TEST(AuditVerb, RefusesATableWithoutAColumnItNeeds) {
   const TempFolder folder;
   const std::string rows = folder.Write("rows.csv", "source,device,model,algorithm,Iph_A\n");

@@ -19,7 +19,7 @@ Fail() {
 
 Logs() { grep -qs -- "$2" "$out/slurm/logs/$1.log"; }
 PartOf() { echo "$out/shards/shard-$1-of-4.part"; }
-ProcessOf() { pgrep -f -- "--shard $1/4 --out shards\$"; }
+ProcessOf() { pgrep -f -- "--shard $1/4 --out $out/shards\$"; }
 Queued() { squeue --noheader; }
 NothingQueued() { [[ -z $(squeue --noheader) ]]; }
 

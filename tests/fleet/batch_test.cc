@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../error_of.h"
+#include "../file_limit.h"
 #include "strings.h"
 
 namespace lyrefit {
@@ -174,16 +174,18 @@ TEST_F(Unfinished, IsNotGoneOnWithUnderOtherOptions) {
 }
 
 TEST_F(Unfinished, IsNotGoneOnWithByAnotherVersion) {
+  const std::string head = part_.substr(0, part_.rfind(",\"crc\"", part_.find('\n'))) + "}";
   const std::string version = "\"version\":\"";
-  std::string other = part_;
+  std::string other = head;
   other.insert(other.find(version) + version.size(), "9.");
-  part_ = other;
+  part_ = LineSums().Seal(other) + "\n";
   std::ofstream(options_.folder + "/results.part", std::ios::binary) << part_;
   ExpectRefusal(CountTask(), "these rows were begun by lyrefit 9.");
 }
 
 TEST_F(Unfinished, IsNotWrittenByTwo) {
-  const auto head = nlohmann::ordered_json::parse(part_.substr(0, part_.find('\n')));
+  auto head = nlohmann::ordered_json::parse(part_.substr(0, part_.find('\n')));
+  head.erase("crc");
   const auto held = PartFile::Open(options_.folder + "/results.part", head, PartStart::kResume);
   ASSERT_TRUE(held) << held.error().ToString();
   ExpectRefusal(CountTask(), "another process is writing these rows");
@@ -195,18 +197,20 @@ TEST_F(Unfinished, IsLeftAloneIfDamaged) {
   ExpectRefusal(CountTask(), "this line is no row, the file is damaged");
 }
 
-// All that this process writes ends at `bytes` a file.
-class FileLimit {
+// Root may open every file: while this lives the process is nobody, where it was root.
+class AsNobody {
  public:
-  explicit FileLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
+  AsNobody() {
+    if (root_) Become(65534);
   }
-  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  ~AsNobody() {
+    if (root_) Become(0);
+  }
 
  private:
-  rlimit before_{};
+  static void Become(uid_t user) { EXPECT_EQ(seteuid(user), 0); }
+
+  const bool root_ = geteuid() == 0;
 };
 
 TEST(Batch, LosesNothingToAFullDisk) {
@@ -233,6 +237,74 @@ TEST(Batch, LosesNothingToAFullDisk) {
   ASSERT_TRUE(done) << done.error().ToString();
   EXPECT_GT(done->rows_before, 0);
   EXPECT_EQ(ResultsIn(options.folder), ResultsIn(folder.Path("whole")));
+}
+
+TEST(Batch, MakesABrokenRowOfAFileThatCannotBeOpened) {
+  const TempFolder folder;
+  const std::string row = "V,A\n0,8\n10,7.9\n20,7.5\n30,0\n";
+  for (const char* name : {"t/a.csv", "t/b.csv", "t/c.csv"}) folder.Write(name, row);
+  using std::filesystem::perms;
+  std::filesystem::permissions(folder.Path("t/b.csv"), perms::none);
+  std::filesystem::permissions(folder.Path(""), perms::all);
+  Expected<BatchSummary> done;
+  {
+    const AsNobody nobody;
+    done = RunOn(folder.Path("t"), CountTask(), Into(folder.Path("out")));
+  }
+  ASSERT_TRUE(done) << done.error().ToString();
+  EXPECT_EQ(done->rows, 3);
+  EXPECT_EQ(done->statuses.at("broken"), 1);
+  EXPECT_THAT(FileText(folder.Path("out") + "/results.csv"),
+              HasSubstr("b,broken,cannot open the file: Permission denied,"));
+}
+
+TEST(Batch, WritesNoFormulasIntoItsTable) {
+  const TempFolder folder;
+  std::string rows;
+  for (const char* id : {"=cmd|' /C calc'!A0", "\\t=1+1", "+1+1", "-0.5", "@SUM(1)", "str 1"}) {
+    rows += RowOf({id});
+  }
+  const std::string file = folder.Write("s.jsonl", rows);
+  ASSERT_TRUE(RunOn(file, CountTask(), Into(folder.Path("out"))));
+  const auto ids_in = [&](const std::string& out) {
+    std::ifstream csv(folder.Path(out) + "/results.csv");
+    std::string ids, line;
+    std::getline(csv, line);
+    while (std::getline(csv, line)) ids += line.substr(0, line.find(',')) + "\n";
+    return ids;
+  };
+  EXPECT_EQ(ids_in("out"), "'=cmd|' /C calc'!A0\n'=1+1\n'+1+1\n-0.5\n'@SUM(1)\nstr 1\n");
+  EXPECT_THAT(FileText(folder.Path("out") + "/results.jsonl"),
+              HasSubstr("{\"id\":\"=cmd|' /C calc'!A0\","));
+  // As they are, of one run and of shards.
+  BatchOptions raw = Into(folder.Path("raw"));
+  raw.raw_csv = true;
+  ASSERT_TRUE(RunOn(file, CountTask(), raw));
+  EXPECT_EQ(ids_in("raw"), "=cmd|' /C calc'!A0\n=1+1\n+1+1\n-0.5\n@SUM(1)\nstr 1\n");
+  raw.folder = folder.Path("shards");
+  for (raw.shard = {1, 2}; raw.shard.k <= 2; ++raw.shard.k) {
+    ASSERT_TRUE(RunOn(file, CountTask(), raw));
+  }
+  ASSERT_TRUE(MergeShards({raw.folder}, {folder.Path("merged"), false}));
+  EXPECT_EQ(ResultsIn(folder.Path("merged")), ResultsIn(folder.Path("raw")));
+}
+
+TEST(Batch, TellsFilesApartWhoseNamesAreNoUtf8) {
+  const TempFolder folder;
+  const std::string row = "V,A\n0,8\n10,7.9\n20,7.5\n30,0\n";
+  for (const char* name : {"t/bad\xfe.csv", "t/bad\xff.csv", "t/good\xc3\xa9.csv"}) {
+    folder.Write(name, row);
+  }
+  const auto done = RunOn(folder.Path("t"), CountTask(), Into(folder.Path("out")));
+  ASSERT_TRUE(done) << done.error().ToString();
+  EXPECT_EQ(done->statuses.at("fine"), 3);
+  for (const char* file : {"/results.csv", "/results.jsonl"}) {
+    const std::string text = FileText(folder.Path("out") + file);
+    for (const char* id : {"bad%FE", "bad%FF", "good\xc3\xa9", "t/bad%FE.csv", "t/bad%FF.csv"}) {
+      EXPECT_THAT(text, HasSubstr(id)) << file;
+    }
+    EXPECT_THAT(text, Not(HasSubstr("\xef\xbf\xbd"))) << file;
+  }
 }
 
 TEST(Batch, RefusesAFolderThatCannotBeMadeOrHoldsResults) {

@@ -60,6 +60,10 @@ std::vector<std::string> Inputs(const TempFolder& folder) {
       "\n"
       R"({"id":"units","v":[0,10,20],"i":[8,7,0]})"
       "\n"
+      R"({"id":"=1+1","remark":"@SUM","v":[0,10,20],"i":[8,7,0]})"
+      "\n"
+      R"({"id":"'=1+1","v":[0,10,20],"i":[8,7,0]})"
+      "\n"
       R"({"id":"bad","date":"2026","voltage_V":[0],"current_A":[8,7,0]})"
       "\n");
   return {rows, formats};

@@ -18,6 +18,31 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+TEST(CsvField, PutsAnApostropheBeforeWhatASpreadsheetWouldRun) {
+  for (const char* text :
+       {"=1+1", "+1+1", "-1-1", "@SUM(1)", "=cmd|' /C calc'!A0", "\t=1", " =1", "\tx", "\r1", "--1",
+        "-x", "'=1", "''=1", "-1e", "-.", "-1.2.3", "-inf", "+nan",
+        "\xef\xbc\x9d"
+        "1"}) {
+    const std::string field = CsvField(std::string(text));
+    const std::string bare = field.front() == '"' ? field.substr(1, field.size() - 2) : field;
+    EXPECT_EQ(bare, std::string("'") + text);
+    EXPECT_EQ(WithoutApostrophe(bare), text);
+  }
+  EXPECT_EQ(CsvField(std::string("=a,b")), "\"'=a,b\"");
+  EXPECT_EQ(CsvField(std::string("=1"), CsvTexts::kRaw), "=1");
+}
+
+TEST(CsvField, LeavesEverythingElse) {
+  for (const char* text : {"", "str 1", "-0.5", "+49", "-1e-5", "-.5", "-5.", " -3 ", "1-1", "a=b",
+                           "-", "+", "it's", "'quoted'", "'-0.5", "5 %"}) {
+    EXPECT_EQ(CsvField(std::string(text)), text);
+    EXPECT_EQ(WithoutApostrophe(text), text);
+  }
+  EXPECT_EQ(CsvField(-0.5), "-0.5");
+  EXPECT_EQ(CsvField(std::string("a\xff")), "a\xef\xbf\xbd");
+}
+
 TEST(FitsCsv, HasARowAFileInTheirOrder) {
   const auto lines = LinesOf(FitsCsv(SampleFits()));
   ASSERT_EQ(lines.size(), 4U);

@@ -22,9 +22,11 @@ class LimitIsAnError {
     pthread_sigmask(SIG_BLOCK, &limit_, &before_);
   }
   ~LimitIsAnError() {
+    const int reason = errno;
     const timespec at_once{};
     while (sigtimedwait(&limit_, nullptr, &at_once) == SIGXFSZ) continue;
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    errno = reason;
   }
   LimitIsAnError(const LimitIsAnError&) = delete;
   LimitIsAnError& operator=(const LimitIsAnError&) = delete;
@@ -42,11 +44,18 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
+  // Closes what it held.
+  void Reset(int number) {
+    Close();
+    number_ = number;
+  }
+
   bool open() const { return number_ >= 0; }
   int number() const { return number_; }
 
-  // Whether all of `text` was taken; else errno says why not.
+  // Whether all of `text` was taken; else errno says why not, also at a limit of the file size.
   bool Write(std::string_view text) const {
+    const LimitIsAnError guard;
     while (!text.empty()) {
       const ssize_t taken = ::write(number_, text.data(), text.size());
       if (taken < 0 && errno == EINTR) continue;

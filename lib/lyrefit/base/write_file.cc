@@ -11,9 +11,11 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -25,31 +27,7 @@ constexpr char kTemporaryEnd[] = ".tmp";
 // A temporary file of a process that lives nowhere on this machine may be another machine's; not so
 // if nobody has written into it for that long.
 constexpr std::chrono::minutes kStale(1);
-
-tl::unexpected<Error> CannotWrite(int reason, const std::string& path) {
-  return Fail("cannot write the file: " + std::generic_category().message(reason), path);
-}
-
-// Pipes and terminals cannot be replaced by a rename, and /dev/stdout may stand for a regular file
-// that the shell still holds open.
-bool MustWriteInPlace(const fs::path& path) {
-  const std::string text = path.string();
-  const bool device = text.rfind("/dev/", 0) == 0 && text.rfind("/dev/shm/", 0) != 0;
-  if (device || text.rfind("/proc/", 0) == 0) return true;
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
-}
-
-Expected<void> WriteInPlace(const std::string& path, const std::string& text) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-  if (!file.open()) {
-    return Fail("cannot open the file for writing: " + std::generic_category().message(errno),
-                path);
-  }
-  if (!file.Write(text) || !file.Close()) return CannotWrite(errno, path);
-  return {};
-}
+constexpr std::size_t kWriteAt = std::size_t{1} << 18;  // bytes
 
 // "curve.json.4711-0.tmp" for process 4711.
 std::string TemporaryName(const fs::path& target) {
@@ -91,76 +69,133 @@ void TakePermissions(const fs::path& target, int file) {
   if (::stat(target.c_str(), &old) == 0) ::fchmod(file, old.st_mode & 07777);
 }
 
-Expected<void> Replace(const std::string& temporary, const fs::path& target,
-                       const std::string& path) {
-  std::error_code error;
-  fs::rename(temporary, target, error);
-  if (!error) return {};
-  const std::string reason = error.message();
-  fs::remove(temporary, error);
-  return Fail("cannot replace the file: " + reason, path);
-}
-
-// Gives a name to a file that has none: nothing of it is left if the process is killed before.
-// False where the file system cannot.
-Expected<bool> Name(const Descriptor& file, const fs::path& target, const std::string& path) {
-  const std::string nameless = fmt::format("/proc/self/fd/{}", file.number());
-  const auto link = [&](const std::string& name) {
-    return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-  };
-  if (link(target.string())) return true;
-  const std::string temporary = TemporaryName(target);
-  if (errno != EEXIST || !link(temporary)) return false;
-  TRY(Replace(temporary, target, path));
-  return true;
-}
-
-// Where the file system knows no files without names.
-Expected<void> WriteNamed(const fs::path& target, const std::string& path,
-                          const std::string& text) {
-  const std::string temporary = TemporaryName(target);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file.open()) {
-    return Fail(
-        "cannot write into the folder of the file: " + std::generic_category().message(errno),
-        path);
-  }
-  TakePermissions(target, file.number());
-  if (file.Write(text) && file.Close()) return Replace(temporary, target, path);
-  const int reason = errno;
-  ::unlink(temporary.c_str());
-  return CannotWrite(reason, path);
-}
-
 // A file without a name in `folder`; not open where there is no such thing.
 int OpenNameless(const fs::path& folder) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) == 0) {
-    return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   }
 #endif
   return -1;
 }
 
+bool GiveName(const Descriptor& nameless, const std::string& name) {
+  const std::string file = fmt::format("/proc/self/fd/{}", nameless.number());
+  return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
 }  // namespace
 
-Expected<void> WriteTextFile(const std::string& path, const std::string& text) {
+bool IsWrittenInPlace(const std::string& path) {
+  const bool device = path.rfind("/dev/", 0) == 0 && path.rfind("/dev/shm/", 0) != 0;
+  if (device || path.rfind("/proc/", 0) == 0) return true;
   std::error_code error;
-  if (fs::is_directory(path, error)) return Fail("expected a file, found a folder", path);
-  const LimitIsAnError guard;
-  if (MustWriteInPlace(path)) return WriteInPlace(path, text);
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+NewFile::NewFile(std::string path) : path_(std::move(path)), file_(-1) {}
+
+NewFile::~NewFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+tl::unexpected<Error> NewFile::CannotWrite(int reason) const {
+  return Fail("cannot write the file: " + std::generic_category().message(reason), path_);
+}
+
+Expected<void> NewFile::Begin() {
+  std::error_code error;
+  if (fs::is_directory(path_, error)) return Fail("expected a file, found a folder", path_);
+  in_place_ = IsWrittenInPlace(path_);
+  if (in_place_) {
+    file_.Reset(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+    if (file_.open()) return {};
+    return Fail("cannot open the file for writing: " + std::generic_category().message(errno),
+                path_);
+  }
   // Through a symbolic link, so that the link survives.
-  fs::path target = fs::weakly_canonical(path, error);
-  if (error) target = path;
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  RemoveStale(folder, target.filename().string());
-  const Descriptor nameless(OpenNameless(folder));
-  if (!nameless.open()) return WriteNamed(target, path, text);
-  TakePermissions(target, nameless.number());
-  if (!nameless.Write(text)) return CannotWrite(errno, path);
-  const Expected<bool> named = Name(nameless, target, path);
-  if (!named) return tl::unexpected(named.error());
-  return *named ? Expected<void>() : WriteNamed(target, path, text);
+  target_ = fs::weakly_canonical(path_, error);
+  if (error) target_ = path_;
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  RemoveStale(folder, target_.filename().string());
+  file_.Reset(OpenNameless(folder));
+  if (!file_.open()) TRY(OpenTemporary());
+  TakePermissions(target_, file_.number());
+  return {};
+}
+
+// Where the file system knows no files without names.
+Expected<void> NewFile::OpenTemporary() {
+  const std::string name = TemporaryName(target_);
+  file_.Reset(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file_.open()) {
+    return Fail(
+        "cannot write into the folder of the file: " + std::generic_category().message(errno),
+        path_);
+  }
+  temporary_ = name;
+  return {};
+}
+
+Expected<void> NewFile::Add(std::string_view text) {
+  waiting_ += text;
+  if (waiting_.size() < kWriteAt) return {};
+  if (!file_.Write(waiting_)) return CannotWrite(errno);
+  waiting_.clear();
+  return {};
+}
+
+Expected<void> NewFile::Complete(bool on_disk) {
+  if (!file_.Write(waiting_)) return CannotWrite(errno);
+  waiting_.clear();
+  if (on_disk && fdatasync(file_.number()) != 0 && errno != EINVAL) return CannotWrite(errno);
+  const bool nameless = temporary_.empty() && !in_place_;  // it would be gone
+  return nameless || file_.Close() ? Expected<void>() : CannotWrite(errno);
+}
+
+// A file that cannot be given a name becomes one that has one.
+Expected<void> NewFile::CopyToTemporary() {
+  const int from = ::dup(file_.number());
+  const Descriptor nameless(from);
+  TRY(OpenTemporary());
+  TakePermissions(target_, file_.number());
+  std::string block(kWriteAt, '\0');
+  ::lseek(from, 0, SEEK_SET);
+  for (ssize_t got = 0; (got = ::read(from, block.data(), block.size())) != 0;) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return CannotWrite(errno);
+    if (!file_.Write(std::string_view(block).substr(0, static_cast<std::size_t>(got)))) {
+      return CannotWrite(errno);
+    }
+  }
+  return file_.Close() ? Expected<void>() : CannotWrite(errno);
+}
+
+Expected<void> NewFile::Name() {
+  if (in_place_) return {};
+  if (temporary_.empty()) {
+    if (GiveName(file_, target_.string())) return {};
+    const std::string name = TemporaryName(target_);
+    if (errno == EEXIST && GiveName(file_, name)) {
+      temporary_ = name;
+    } else {
+      TRY(CopyToTemporary());
+    }
+  }
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) return Fail("cannot replace the file: " + error.message(), path_);
+  temporary_.clear();
+  return {};
+}
+
+Expected<void> WriteTextFile(const std::string& path, const std::string& text) {
+  NewFile file(path);
+  TRY(file.Begin());
+  TRY(file.Add(text));
+  TRY(file.Complete());
+  return file.Name();
 }
 
 }  // namespace lyrefit

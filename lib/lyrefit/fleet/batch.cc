@@ -19,14 +19,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFormat = 1;  // of part files
-
 PartHead OptionsJson(const FleetTask& task, const BatchOptions& options) {
   PartHead json = {{"seed", options.seed},
                    {"group-level", options.group_level},
                    {"like-light", options.like_light}};
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
+  if (options.raw_csv) json["raw-csv"] = true;
   // Of one that is given several times all values.
   for (const auto* echoes : {&options.reading, &task.options}) {
     for (const OptionEcho& echo : *echoes) {
@@ -53,14 +52,15 @@ Expected<PartHead> HeadOf(const FleetSource& source, const FleetTask& task,
   if (digest.empty() && (options.start == BatchStart::kResume || options.shard.of > 1)) {
     return Fail("standard input and pipes can neither be resumed nor done in shards: name a file");
   }
-  return PartHead{{"lyrefit_batch", kFormat},
-                  {"version", Version()},
-                  {"task", task.name},
-                  {"shard", options.shard.k},
-                  {"of", options.shard.of},
-                  {"input", digest},
-                  {"options", OptionsJson(task, options)},
-                  {"columns", FieldsJson(RowColumns(task, options))}};
+  PartHead head = NewPartHead();
+  head["version"] = Version();
+  head["task"] = task.name;
+  head["shard"] = options.shard.k;
+  head["of"] = options.shard.of;
+  head["input"] = digest;
+  head["options"] = OptionsJson(task, options);
+  head["columns"] = FieldsJson(RowColumns(task, options));
+  return head;
 }
 
 // Why a curve is broken, without the file, which is in a column of its own.
@@ -77,11 +77,21 @@ void AddDoubt(const FleetCurve& curve, TaskResult* result) {
   result->reason += (result->reason.empty() ? "" : "; ") + *doubt;
 }
 
+std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& columns) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const ResultColumn& c) { return c.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
 // What makes a row of a curve. From any thread.
 class RowMaker {
  public:
   RowMaker(const FleetSource& source, const FleetTask& task, const BatchOptions& options)
-      : source_(source), task_(task), options_(options), columns_(RowColumns(task, options)) {}
+      : source_(source),
+        task_(task),
+        options_(options),
+        columns_(RowColumns(task, options)),
+        remark_(ColumnNamed("remark", columns_)) {}
 
   PipelineStep Make(const FleetItem& item, const std::function<bool()>& stopped) const {
     FleetCurve curve = source_.Read(item);
@@ -102,22 +112,29 @@ class RowMaker {
     PipelineStep step;
     step.broken = result.status == RowStatus::kBroken;
     step.interrupted = result.interrupted;
-    if (!result.interrupted && options_.pages != PagesOf::kNone) {
-      const Expected<ResultCell> page = PageOf(curve.id, result);
-      if (!page) step.failure = page.error();
-      row.cells.push_back(page.value_or(ResultCell()));
+    if (options_.pages != PagesOf::kNone) {
+      row.cells.emplace_back();
+      if (!result.interrupted) AddPage(curve.id, result, &row);
     }
     step.text = RowJson(columns_, row) + "\n";
     return step;
   }
 
  private:
-  // Where the curve's page stands, which is written before the row that names it.
-  Expected<ResultCell> PageOf(const std::string& id, const TaskResult& result) const {
-    if (!result.page || (options_.pages == PagesOf::kFailed && !result.failed)) return ResultCell();
+  // The curve's page, which is written before the row that names it in its last cell. One that
+  // cannot be written is a remark on the row.
+  void AddPage(const std::string& id, const TaskResult& result, ResultRow* row) const {
+    if (!result.page || (options_.pages == PagesOf::kFailed && !result.failed)) return;
     const std::string path = StringPagePath(id);
-    TRY(WriteStringPage(options_.folder, path, result.page({options_.interactive_pages})));
-    return ResultCell(path);
+    const auto written =
+        WriteStringPage(options_.folder, path, result.page({options_.interactive_pages}));
+    if (written) {
+      row->cells.back() = path;
+      return;
+    }
+    ResultCell& remark = row->cells[remark_];
+    const auto* const before = std::get_if<std::string>(&remark);
+    remark = (before == nullptr ? "" : *before + "; ") + "no page: " + written.error().message;
   }
 
   // What is known besides, and whether the readings can be worked with at all.
@@ -132,6 +149,7 @@ class RowMaker {
   const FleetTask& task_;
   const BatchOptions& options_;
   const std::vector<ResultColumn> columns_;
+  const std::size_t remark_;  // the column of remarks
 };
 
 Expected<PipelineEnd> WriteRows(FleetSource* source, const FleetTask& task,

@@ -23,7 +23,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                         CommonColumns, the task and NeighbourColumns name
 //   results.jsonl         the same as one JSON object a line, null for what is not known
 //   pages/ID.html         a page each, where they were asked for (string_pages.h). It stands there
-//                         before its row does; one that is removed later is made again by --force
+//                         before its row does; one that is removed later is made again by --force;
+//                         one that cannot be written is a remark on its row
 //   results.schema.json   a Table Schema of both (specs.frictionlessdata.io/table-schema): names,
 //                         types, units and a line on each column, and what the run was
 // with the same bytes on any number of threads and machines, in however many shards or goes it was

@@ -35,6 +35,8 @@ struct BatchOptions {
   // Pages of single curves, in the folder of the results: see string_pages.h.
   PagesOf pages = PagesOf::kNone;
   bool interactive_pages = false;
+  // Texts of results.csv as they are, also those that a spreadsheet would run as formulas.
+  bool raw_csv = false;
   // What is known of every curve besides, put into each as it is read.
   std::function<Expected<void>(IvCurve* curve)> prepare;
   // How the curves were read and prepared, for the digest of the run.
@@ -56,6 +58,10 @@ inline constexpr OptionRow<BatchOptions> kBatchOptionTable[] = {
      EnumOption<&BatchOptions::pages>()},
     {"interactive-pages", "", "with charts to hover over, half a megabyte more each",
      &BatchOptions::interactive_pages},
+    {"raw-csv", "",
+     "texts in results.csv as they are; else an apostrophe stands before those that a spreadsheet "
+     "would run as formulas",
+     &BatchOptions::raw_csv},
 };
 
 }  // namespace lyrefit

@@ -15,6 +15,7 @@
 #include "lyrefit/fleet/json_row.h"
 #include "lyrefit/fleet/list_text.h"
 #include "lyrefit/fleet/row_names.h"
+#include "lyrefit/report/csv.h"
 
 namespace lyrefit {
 namespace {
@@ -128,13 +129,15 @@ std::string_view TakeField(std::string_view row, char delimiter, std::size_t* at
 }
 
 std::string Unquoted(std::string_view field) {
-  if (field.size() < 2 || field.front() != '"' || field.back() != '"') return AsUtf8(field);
+  if (field.size() < 2 || field.front() != '"' || field.back() != '"') {
+    return WithoutApostrophe(AsUtf8(field));
+  }
   std::string text;
   for (std::size_t i = 1; i + 1 < field.size(); ++i) {
     text += field[i];
     if (field[i] == '"' && field[i + 1] == '"') ++i;
   }
-  return AsUtf8(TrimBlanks(text));
+  return WithoutApostrophe(AsUtf8(TrimBlanks(text)));
 }
 
 // A field of readings, or of something else.
@@ -169,7 +172,7 @@ Expected<void> TakeCsvField(const std::string& name, std::string_view text, int 
 }  // namespace
 
 std::string ScalarText(std::string_view text, char delimiter) {
-  std::string scalar = AsUtf8(text);
+  std::string scalar = WithoutApostrophe(AsUtf8(text));
   if (delimiter == ',' || ParseNumber(scalar)) return scalar;
   const std::size_t comma = scalar.find(',');
   if (comma != std::string::npos && ParseNumber(scalar, true)) scalar[comma] = '.';

@@ -1,19 +1,16 @@
 #include "lyrefit/fleet/finish.h"
 
 #include <fmt/format.h>
-#include <sys/file.h>
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fleet/count_rows.h"
@@ -29,65 +26,6 @@ constexpr char kCsv[] = "results.csv";
 constexpr char kLines[] = "results.jsonl";
 constexpr char kSchema[] = "results.schema.json";
 constexpr std::uintmax_t kLargestSchema = 16U << 20;
-constexpr std::size_t kWriteAt = 1U << 18;  // bytes
-
-// A file that gets its name when all of it is there.
-class NewFile {
- public:
-  explicit NewFile(std::string path)
-      : path_(std::move(path)),
-        temporary_(path_ + ".tmp"),
-        file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {}
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-  ~NewFile() {
-    if (own_ && !named_) unlink(temporary_.c_str());
-  }
-
-  // What a killed process left under that name is written over.
-  Expected<void> Begin() {
-    if (!file_.open()) return CannotWrite();
-    if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
-      return Fail("another process is writing this file", path_);
-    }
-    own_ = true;
-    return ftruncate(file_.number(), 0) == 0 ? Expected<void>() : CannotWrite();
-  }
-
-  Expected<void> Add(const std::string& text) {
-    waiting_ += text;
-    return waiting_.size() < kWriteAt ? Expected<void>() : Flush();
-  }
-  // All is on the disk, under the temporary name.
-  Expected<void> Close() {
-    TRY(Flush());
-    if (fdatasync(file_.number()) != 0 && errno != EINVAL) return CannotWrite();
-    return file_.Close() ? Expected<void>() : CannotWrite();
-  }
-  Expected<void> Name() {
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) return CannotWrite();
-    named_ = true;
-    return {};
-  }
-
- private:
-  Expected<void> CannotWrite() const {
-    return Fail("cannot write the file: " + std::generic_category().message(errno), path_);
-  }
-  Expected<void> Flush() {
-    const LimitIsAnError guard;
-    if (!file_.Write(waiting_)) return CannotWrite();
-    waiting_.clear();
-    return {};
-  }
-
-  const std::string path_;
-  const std::string temporary_;
-  Descriptor file_;
-  std::string waiting_;
-  bool own_ = false;
-  bool named_ = false;
-};
 
 // Rows that stand one behind the other and have one parent.
 struct Group {
@@ -204,6 +142,7 @@ struct ResultsPlan {
   std::vector<ResultColumn> results;  // with those of neighbours
   double level = 0;
   double like_light = 0;
+  CsvTexts texts = CsvTexts::kSafe;
 };
 
 Expected<ResultsPlan> ResultsPlanOf(const PartHead& head, const std::string& path) {
@@ -215,6 +154,7 @@ Expected<ResultsPlan> ResultsPlanOf(const PartHead& head, const std::string& pat
   const PartHead& options = head.at("options");
   plan.level = options.value("group-level", 0.0);
   plan.like_light = options.value("like-light", 0.0);
+  if (options.value("raw-csv", false)) plan.texts = CsvTexts::kRaw;
   return plan;
 }
 
@@ -291,7 +231,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
       for (ResultCell& cell : NeighbourCells(deviations.empty() ? none : deviations[i], limits)) {
         row.cells.push_back(std::move(cell));
       }
-      TRY(csv.Add(RowCsv(row)));
+      TRY(csv.Add(RowCsv(row, plan.texts)));
       TRY(lines.Add(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
       if (row_observer) row_observer(plan.results, row);
@@ -300,7 +240,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   };
   TRY(ForGroups(parts, plan.rows, write));
   TRY(schema.Add(SchemaJson(last.head(), plan.results)));
-  for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Close());
+  for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Complete(true));
   for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Name());
   return {};
 }

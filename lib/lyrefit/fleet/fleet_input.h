@@ -78,6 +78,10 @@ bool IsReadOnce(const std::string& path);
 Expected<std::unique_ptr<FleetInput>> OpenInput(const std::string& path, const std::string& prefix,
                                                 const ReadOptions& options);
 
+// A text in which bytes that are no UTF-8, as names of files may hold, are %FF: two such texts that
+// differ stay different.
+std::string PercentCoded(std::string_view text);
+
 // What ids begin with that come from a file: its path without its ending and without what leads out
 // of or to the top of the file system.
 std::string IdOfPath(const std::string& path);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_curve.h"
 #include "lyrefit/fleet/fleet_input.h"
 #include "lyrefit/fleet/seen_ids.h"
@@ -29,11 +30,26 @@ std::string WhereOf(const IdPlace& place, const std::vector<std::string>& paths)
 }
 
 // What ends a line or a page has no place in an id.
-void CleanId(std::string* id) {
-  for (char& c : *id) {
+std::string CleanId(std::string id) {
+  id = PercentCoded(id);
+  for (char& c : id) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
+  return id;
 }
+
+}  // namespace
+
+std::string PercentCoded(std::string_view text) {
+  std::string coded;
+  while (const auto bad = FirstInvalidUtf8(text)) {
+    coded += fmt::format("{}%{:02X}", text.substr(0, *bad), static_cast<unsigned char>(text[*bad]));
+    text.remove_prefix(*bad + 1);
+  }
+  return coded.append(text);
+}
+
+namespace {
 
 // The inputs one after the other, of which one shard is given.
 class Fleet : public FleetSource {
@@ -117,7 +133,7 @@ class Fleet : public FleetSource {
       found->id = found->line == 0 ? IdOfPath(found->file.empty() ? path : found->file)
                                    : fmt::format("{}:{}", StemOf(path), found->line);
     }
-    CleanId(&found->id);
+    found->id = CleanId(std::move(found->id));
     const auto before = ids_.Insert(found->id, {static_cast<int>(input_), found->line});
     if (!before || found->error) return;
     const std::string& file = found->file.empty() ? path : found->file;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
@@ -234,6 +235,20 @@ Expected<PackReport> PackFleet(FleetSource* source, PackFormat format, int threa
     report.interrupted = StopRequested(observer, progress);
     if (report.interrupted) return report;
   }
+}
+
+Expected<PackReport> PackFleetInto(const std::string& file, FleetSource* source, PackFormat format,
+                                   int threads, const Observer& observer) {
+  NewFile packed(file);
+  TRY(packed.Begin());
+  TRY(const PackReport report,
+      PackFleet(
+          source, format, threads, [&packed](std::string_view text) { return packed.Add(text); },
+          observer));
+  if (report.interrupted) return report;
+  TRY(packed.Complete());
+  TRY(packed.Name());
+  return report;
 }
 
 }  // namespace lyrefit

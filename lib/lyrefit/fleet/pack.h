@@ -36,6 +36,11 @@ using PackSink = std::function<Expected<void>(std::string_view text)>;
 Expected<PackReport> PackFleet(FleetSource* source, PackFormat format, int threads,
                                const PackSink& sink, const Observer& observer = {});
 
+// The same into a file, which gets its name when all rows are in it: an error or an interrupted run
+// leaves what was there before.
+Expected<PackReport> PackFleetInto(const std::string& file, FleetSource* source, PackFormat format,
+                                   int threads, const Observer& observer = {});
+
 // One row with its end.
 std::string PackedRow(const FleetCurve& curve, PackFormat format);
 

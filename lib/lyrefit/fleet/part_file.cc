@@ -1,8 +1,7 @@
 #include "lyrefit/fleet/part_file.h"
 
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -17,13 +16,19 @@ namespace {
 constexpr char kHeadBegin[] = "{\"lyrefit_batch\"";
 constexpr char kEndBegin[] = "{\"end\"";
 constexpr char kNoPart[] = "expected the rows of a batch, found another file";
+constexpr char kNoSums[] =
+    "these rows have no checksums, as an older lyrefit wrote them: finish and merge them with that "
+    "one, or begin anew with batch --force";
+constexpr AppendLog::Kind kKind = {"rows", "these rows", "rows of a batch", kHeadBegin, kNoPart};
+
+// {"lyrefit_batch":2, ...}. Files of format 1 have no checksums.
+constexpr int kFormat = 2;
+
+// ,"crc":"0123abcd"}
+constexpr char kSumBegin[] = ",\"crc\":\"";
+constexpr std::size_t kSumSize = sizeof kSumBegin - 1 + 8 + 2;
 
 std::string Because() { return std::generic_category().message(errno); }
-
-tl::unexpected<Error> CannotWriteRows(const std::string& path) {
-  const std::string reason = Because();
-  return Fail("cannot write the rows: " + reason, path);
-}
 
 bool Begins(const std::string& line, const std::string& with) {
   return line.compare(0, with.size(), with) == 0;
@@ -53,7 +58,40 @@ std::optional<std::pair<int, std::int64_t>> PlaceOf(const nlohmann::json& json) 
   return std::make_pair(json[0].get<int>(), json[1].get<std::int64_t>());
 }
 
+// What a head says, whose checksum is the first.
+Expected<PartHead> HeadOf(const std::string& line, LineSums* sums, const std::string& path) {
+  const PartHead as_it_is = PartHead::parse(line, nullptr, false);
+  if (!as_it_is.is_object()) return Fail(kNoPart, path, 1);
+  if (as_it_is.value("lyrefit_batch", PartHead()) == 1) return Fail(kNoSums, path, 1);
+  const auto checked = sums->Check(line);
+  if (!checked) return Fail(checked.error().message, path, 1);
+  return PartHead::parse(*checked, nullptr, false);
+}
+
 }  // namespace
+
+unsigned long LineSums::Add(std::string_view line) {
+  for (const std::string_view part : {line, std::string_view("\n")}) {
+    crc_ = ::crc32_z(crc_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+  }
+  return crc_;
+}
+
+std::string LineSums::Seal(std::string_view line) {
+  return fmt::format("{}{}{:08x}\"}}", line.substr(0, line.size() - 1), kSumBegin, Add(line));
+}
+
+Expected<std::string> LineSums::Check(std::string_view line) {
+  const std::size_t begin = line.size() < kSumSize ? line.size() : line.size() - kSumSize;
+  std::string plain = std::string(line.substr(0, begin)) + "}";
+  const std::string sum = fmt::format("{}{:08x}\"}}", kSumBegin, Add(plain));
+  if (line.substr(begin) == sum) return plain;
+  return Fail(
+      "the checksum of this line is not that of what stands up to here: a line was changed, moved "
+      "or lost; begin anew with batch --force");
+}
+
+PartHead NewPartHead() { return {{"lyrefit_batch", kFormat}}; }
 
 std::string PartPath(const std::string& folder, const Shard& shard) {
   if (shard.of == 1) return folder + "/results.part";
@@ -88,81 +126,51 @@ Expected<void> CheckSameHead(const PartHead& before, const PartHead& now, const 
 
 Expected<std::unique_ptr<PartFile>> PartFile::Open(const std::string& path, const PartHead& head,
                                                    PartStart start) {
-  const int number = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (number < 0) return CannotWriteRows(path);
-  std::unique_ptr<PartFile> part(new PartFile(path, number));
-  TRY(part->Lock());
-  struct stat status = {};
-  if (fstat(number, &status) != 0) return CannotWriteRows(path);
-  if (status.st_size > 0 && start == PartStart::kNew) {
+  TRY(auto log, AppendLog::Open(path, kKind));
+  std::unique_ptr<PartFile> part(new PartFile(std::move(log)));
+  if (!part->log_->empty() && start == PartStart::kNew) {
     return Fail("a run was not finished here: say --resume to go on, or --force to begin anew",
                 path);
   }
   if (start == PartStart::kResume) {
-    TRY(part->Take(head));
+    TRY(part->log_->TakeUp(
+        [&](const std::string& line, int number) { return part->Take(line, number, head); }));
   } else {
-    TRY(part->Cut(0));
+    TRY(part->log_->Clear());
   }
-  if (part->size_ == 0) {
+  if (part->log_->empty()) {
     TRY(part->Append(head.dump(-1, ' ', false, PartHead::error_handler_t::replace) + "\n", 0));
   }
   return part;
 }
 
-Expected<void> PartFile::Lock() const {
-  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
-    return Fail("another process is writing these rows", path_);
+Expected<void> PartFile::Take(const std::string& line, int number, const PartHead& head) {
+  if (number == 1) {
+    TRY(const PartHead before, HeadOf(line, &sums_, path()));
+    return CheckSameHead(before, head, path());
   }
-  // It may have finished, and removed the file, between our opening and our lock.
-  struct stat held = {};
-  if (fstat(file_.number(), &held) != 0 || held.st_nlink == 0) {
-    return Fail("another process has just finished these rows", path_);
+  if (complete_ || line.empty() || line.front() != '{' || line.back() != '}') {
+    return Fail("this line is no row, the file is damaged: say --force to begin anew", path(),
+                number);
   }
-  return {};
-}
-
-Expected<void> PartFile::Take(const PartHead& head) {
-  std::ifstream in(path_, std::ios::binary);
-  int number = 0;
-  bool torn = false;
-  for (std::string line; !torn && std::getline(in, line);) {
-    torn = in.eof();  // without an end
-    if (++number == 1) {
-      const std::string begin = kHeadBegin;
-      const std::size_t length = torn ? std::min(begin.size(), line.size()) : begin.size();
-      if (line.compare(0, length, begin, 0, length) != 0) return Fail(kNoPart, path_, 1);
-    }
-    if (torn) break;
-    if (number == 1) {
-      const PartHead before = PartHead::parse(line, nullptr, false);
-      if (!before.is_object()) return Fail(kNoPart, path_, 1);
-      TRY(CheckSameHead(before, head, path_));
-    } else if (complete_ || line.empty() || line.front() != '{' || line.back() != '}') {
-      return Fail("this line is no row, the file is damaged: say --force to begin anew", path_,
-                  number);
-    } else if (Begins(line, kEndBegin)) {
-      complete_ = true;
-    } else {
-      ++rows_;
-    }
-    size_ += static_cast<std::int64_t>(line.size()) + 1;
+  if (const auto checked = sums_.Check(line); !checked) {
+    return Fail(checked.error().message, path(), number);
   }
-  return torn ? Cut(size_) : Expected<void>();
-}
-
-Expected<void> PartFile::Cut(std::int64_t size) const {
-  if (ftruncate(file_.number(), size) != 0) return CannotWriteRows(path_);
+  complete_ = Begins(line, kEndBegin);
+  if (!complete_) ++rows_;
   return {};
 }
 
 Expected<void> PartFile::Append(const std::string& lines, std::int64_t rows) {
-  const LimitIsAnError guard;
-  if (!file_.Write(lines)) {
-    const auto failed = CannotWriteRows(path_);
-    (void)Cut(size_);  // the next one to resume would do it too
-    return failed;
+  LineSums sums = sums_;
+  std::string sealed;
+  sealed.reserve(lines.size() + static_cast<std::size_t>(rows + 1) * kSumSize);
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end + 1) {
+    end = lines.find('\n', begin);
+    sealed += sums.Seal(std::string_view(lines).substr(begin, end - begin)) + "\n";
   }
-  size_ += static_cast<std::int64_t>(lines.size());
+  TRY(log_->Append(sealed));
+  sums_ = sums;
   rows_ += rows;
   return {};
 }
@@ -172,14 +180,10 @@ Expected<void> PartFile::Finish(const PartEnd& end) {
       {"end", rows_}, {"first", PlaceJson(end.first)}, {"last", PlaceJson(end.last)}};
   if (!complete_) TRY(Append(line.dump() + "\n", 0));
   complete_ = true;
-  if (fdatasync(file_.number()) != 0 && errno != EINVAL) return CannotWriteRows(path_);
-  return {};
+  return log_->Sync();
 }
 
-Expected<void> PartFile::Remove() {
-  if (unlink(path_.c_str()) != 0) return CannotWriteRows(path_);
-  return {};
-}
+Expected<void> PartFile::Remove() { return log_->Remove(); }
 
 Expected<std::optional<PartEnd>> ReadPartEnd(const std::string& path) {
   constexpr std::streamoff kEnough = 4096;  // the last line of a part that is complete is short
@@ -205,9 +209,8 @@ Expected<PartReader> PartReader::Open(const std::string& path) {
   PartReader reader(path, std::move(in));
   std::string line;
   if (!std::getline(reader.in_, line) || !Begins(line, kHeadBegin)) return Fail(kNoPart, path, 1);
-  reader.head_ = PartHead::parse(line, nullptr, false);
+  TRY(reader.head_, HeadOf(line, &reader.sums_, path));
   reader.line_ = 1;
-  if (!reader.head_.is_object()) return Fail(kNoPart, path, 1);
   return reader;
 }
 
@@ -218,7 +221,9 @@ Expected<std::optional<nlohmann::json>> PartReader::Next() {
   if (!std::getline(in_, line) || in_.eof()) {
     return Fail("the run that wrote these rows has not finished", path_);
   }
-  nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
+  const auto checked = sums_.Check(line);
+  if (!checked) return Fail(checked.error().message, path_, line_);
+  nlohmann::json row = nlohmann::json::parse(*checked, nullptr, false);
   if (!row.is_object()) return Fail("expected a row, found something else", path_, line_);
   if (!Begins(line, kEndBegin)) {
     ++rows_;

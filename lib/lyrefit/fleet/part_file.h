@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
-#include "lyrefit/base/descriptor.h"
+#include "lyrefit/base/append_log.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/fleet/fleet_source.h"
 
@@ -16,9 +17,14 @@ namespace lyrefit {
 
 // The file that a run over many curves writes row by row, so that it can be taken up again. Lines
 // of JSON: a head with all that a row depends on (version, task, options, shard, digest of the
-// input), the rows in the order of the input, and once all are there {"end": how many}.
+// input), the rows in the order of the input, and once all are there {"end": how many}. The last
+// member of every line, "crc", is the CRC-32 of it and all lines before it: a line that was changed,
+// moved, or lost is found by whoever reads the file.
 
 using PartHead = nlohmann::ordered_json;
+
+// A head that holds the format of part files alone.
+PartHead NewPartHead();
 
 // DIR/results.part; of a shard of several DIR/shard-3-of-8.part.
 std::string PartPath(const std::string& folder, const Shard& shard);
@@ -37,6 +43,20 @@ struct PartEnd {
 // What the last line of a part file says; nothing where the run has not finished.
 Expected<std::optional<PartEnd>> ReadPartEnd(const std::string& path);
 
+// The checksums of the lines of a part file, one after the other.
+class LineSums {
+ public:
+  // A line, without its end, with its checksum as the last member.
+  std::string Seal(std::string_view line);
+  // The line without its checksum. Errors, a sentence: it has none, or another one than it should.
+  Expected<std::string> Check(std::string_view line);
+
+ private:
+  unsigned long Add(std::string_view line);
+
+  unsigned long crc_ = 0;  // of the lines so far
+};
+
 enum class PartStart {
   kNew,      // nothing may be there
   kResume,   // goes on with what is there, if it is of the same run
@@ -46,17 +66,16 @@ enum class PartStart {
 class PartFile {
  public:
   // Errors, and nothing is changed: what cannot be opened or is written by another process; what is
-  // there without kResume, or is of another run, or no part file. A last line without an end was
-  // never finished: it is cut off.
+  // there without kResume, or is of another run, no part file, or not as it was written. A last line
+  // without an end was never finished: it is cut off.
   static Expected<std::unique_ptr<PartFile>> Open(const std::string& path, const PartHead& head,
                                                   PartStart start);
 
   std::int64_t rows() const { return rows_; }  // that are there
   bool complete() const { return complete_; }
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return log_->path(); }
 
-  // Whole lines, each with its end, `rows` of them. They are with the operating system when it
-  // returns, so a killed process loses none. What could not be written whole is taken back.
+  // Whole lines, each with its end, `rows` of them; see AppendLog.
   Expected<void> Append(const std::string& lines, std::int64_t rows);
   // Says that all rows are there, which curves of the input they are of, and waits until they are on
   // the disk.
@@ -64,14 +83,11 @@ class PartFile {
   Expected<void> Remove();
 
  private:
-  PartFile(std::string path, int file) : path_(std::move(path)), file_(file) {}
-  Expected<void> Lock() const;
-  Expected<void> Take(const PartHead& head);
-  Expected<void> Cut(std::int64_t size) const;
+  explicit PartFile(std::unique_ptr<AppendLog> log) : log_(std::move(log)) {}
+  Expected<void> Take(const std::string& line, int number, const PartHead& head);
 
-  std::string path_;
-  Descriptor file_;
-  std::int64_t size_ = 0;  // of whole lines
+  const std::unique_ptr<AppendLog> log_;
+  LineSums sums_;
   std::int64_t rows_ = 0;
   bool complete_ = false;
 };
@@ -83,8 +99,8 @@ class PartReader {
 
   const PartHead& head() const { return head_; }
   const std::string& path() const { return path_; }
-  // None after the last. Errors: a line that is no row; an end that is missing, or counts other
-  // rows than there were.
+  // None after the last. Errors: a line that is no row or not as it was written; an end that is
+  // missing, or counts other rows than there were.
   Expected<std::optional<nlohmann::json>> Next();
 
  private:
@@ -92,6 +108,7 @@ class PartReader {
 
   std::string path_;
   std::ifstream in_;
+  LineSums sums_;
   PartHead head_;
   int line_ = 0;
   std::int64_t rows_ = 0;

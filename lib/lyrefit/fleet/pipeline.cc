@@ -65,7 +65,7 @@ class Crew {
   std::int64_t read_;     // curves that the reader has handed on, those skipped included
   std::int64_t written_;  // and the writer has taken
   bool all_read_ = false;
-  std::optional<Error> failure_;  // of the source, or of a step
+  std::optional<Error> failure_;  // of the source
   PipelineEnd end_;
   std::deque<std::pair<std::int64_t, FleetItem>> waiting_;
   std::map<std::int64_t, Done> done_;
@@ -115,8 +115,7 @@ void Crew::Work() {
 bool Crew::TakeReady(std::string* texts, std::int64_t* rows, PipelineProgress* progress) {
   while (!done_.empty() && done_.begin()->first == written_) {
     Done& next = done_.begin()->second;
-    if (next.step.failure) failure_ = next.step.failure;
-    if (next.step.interrupted || next.step.failure) return false;
+    if (next.step.interrupted) return false;
     *texts += next.step.text;
     ++*rows;
     progress->broken += next.step.broken ? 1 : 0;
@@ -151,7 +150,6 @@ Expected<PipelineEnd> Crew::Write() {
       progress.rows += rows;
     }
     if (over) break;
-    if (!whole && failure_) break;
     if (!whole || (pipeline_.stop && pipeline_.stop(progress))) return PipelineEnd();
   }
   const std::lock_guard<std::mutex> lock(mutex_);

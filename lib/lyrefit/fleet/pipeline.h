@@ -15,10 +15,9 @@ namespace lyrefit {
 // dozen curves a worker, however many there are and however long one takes.
 
 struct PipelineStep {
-  std::string text;                   // what is to be written of a curve
-  bool broken = false;                // for progress
-  std::optional<Error> failure = {};  // ends the run, after what comes before is written
-  bool interrupted = false;           // to be thrown away, with all that come after it
+  std::string text;          // what is to be written of a curve
+  bool broken = false;       // for progress
+  bool interrupted = false;  // to be thrown away, with all that come after it
 };
 
 struct PipelineProgress {

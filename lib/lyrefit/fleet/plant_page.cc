@@ -1,14 +1,17 @@
 #include "lyrefit/fleet/plant_page.h"
 
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
+#include "lyrefit/base/descriptor.h"
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/fleet/plant_assets.h"
 #include "lyrefit/fleet/plant_document.h"
@@ -19,39 +22,36 @@
 namespace lyrefit {
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
 tl::unexpected<Error> CannotWrite(const std::string& path) {
   return Fail("cannot write the page: " + std::generic_category().message(errno), path);
 }
 
-// A file that nobody else sees and that is gone when it is closed.
-Expected<File> OpenNameless(const std::string& beside) {
+// A file that nobody else sees and that is gone when it is closed; beside the page, where there is
+// room for it.
+int OpenNameless(const std::string& page) {
+  std::error_code error;
+  const std::string beside =
+      IsWrittenInPlace(page) ? (std::filesystem::temp_directory_path(error) / "lyrefit").string()
+                             : page;
   std::string name = beside + ".rows-XXXXXX";
-  const int number = ::mkstemp(name.data());
-  if (number < 0) return CannotWrite(beside);
-  ::unlink(name.c_str());
-  return File(::fdopen(number, "w+b"));
-}
-
-bool Put(const std::string& text, std::FILE* file) {
-  return std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const int number = ::mkostemp(name.data(), O_CLOEXEC);
+  if (number >= 0) ::unlink(name.c_str());
+  return number;
 }
 
 constexpr char kRowsHere[] = "<!--rows-->";  // no text of a row can hold it: it would be escaped
 
 class StreamedPage : public PlantPage {
  public:
-  StreamedPage(std::string path, File rows, std::vector<ResultColumn> columns,
-               PlantPageOptions options)
-      : path_(std::move(path)),
-        rows_(std::move(rows)),
+  StreamedPage(const std::string& path, std::vector<ResultColumn> columns, PlantPageOptions options)
+      : path_(path),
+        page_(path),
+        rows_(OpenNameless(path)),
         options_(std::move(options)),
         counter_(columns),
         table_(std::move(columns), options_.digits) {}
+
+  Expected<void> Begin() { return rows_.open() ? page_.Begin() : CannotWrite(path_); }
 
   Expected<void> Add(const ResultRow& row) override {
     counter_.Add(row);
@@ -60,19 +60,13 @@ class StreamedPage : public PlantPage {
 
   Expected<void> Finish() override {
     TRY(WriteGroup());
-    const std::string temporary = fmt::format("{}.{}.tmp", path_, ::getpid());
-    File page(std::fopen(temporary.c_str(), "wb"));
-    if (!page) return CannotWrite(path_);
     const std::string shell = Shell();
     const std::size_t rows = shell.find(kRowsHere);
-    bool written = Put(shell.substr(0, rows), page.get()) && CopyRows(page.get()) &&
-                   Put(shell.substr(rows), page.get()) && std::fflush(page.get()) == 0;
-    written = std::fclose(page.release()) == 0 && written;
-    if (written && std::rename(temporary.c_str(), path_.c_str()) == 0) return {};
-    const int reason = errno;
-    std::remove(temporary.c_str());
-    errno = reason;
-    return CannotWrite(path_);
+    TRY(page_.Add(shell.substr(0, rows)));
+    TRY(CopyRows());
+    TRY(page_.Add(shell.substr(rows)));
+    TRY(page_.Complete());
+    return page_.Name();
   }
 
  private:
@@ -91,24 +85,26 @@ class StreamedPage : public PlantPage {
   Expected<void> WriteGroup() {
     const std::string group = table_.TakeGroup();
     if (group.empty()) return {};
-    if (!Put("<script type=\"text/plain\" class=\"rows\">" + group + "</script>\n", rows_.get())) {
-      return CannotWrite(path_);
-    }
-    return {};
+    const bool written =
+        rows_.Write("<script type=\"text/plain\" class=\"rows\">" + group + "</script>\n");
+    return written ? Expected<void>() : CannotWrite(path_);
   }
 
-  bool CopyRows(std::FILE* page) {
-    if (std::fflush(rows_.get()) != 0) return false;
-    std::rewind(rows_.get());
+  Expected<void> CopyRows() {
     std::string block(std::size_t{1} << 20, '\0');
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), rows_.get())) {
-      if (std::fwrite(block.data(), 1, got, page) != got) return false;
+    ::lseek(rows_.number(), 0, SEEK_SET);
+    while (true) {
+      const ssize_t got = ::read(rows_.number(), block.data(), block.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) return CannotWrite(path_);
+      if (got == 0) return {};
+      TRY(page_.Add(std::string_view(block).substr(0, static_cast<std::size_t>(got))));
     }
-    return std::ferror(rows_.get()) == 0;
   }
 
-  std::string path_;
-  File rows_;
+  const std::string path_;
+  NewFile page_;
+  const Descriptor rows_;
   PlantPageOptions options_;
   PlantCounter counter_;
   PlantTable table_;
@@ -124,9 +120,9 @@ Expected<std::unique_ptr<PlantPage>> PlantPage::Open(const std::string& file,
   if (std::filesystem::is_directory(file, error)) {
     return Fail("expected a file for the page, found a folder", file);
   }
-  TRY(File rows, OpenNameless(file));
-  return std::make_unique<StreamedPage>(file, std::move(rows), std::move(columns),
-                                        std::move(options));
+  auto page = std::make_unique<StreamedPage>(file, std::move(columns), std::move(options));
+  TRY(page->Begin());
+  return page;
 }
 
 }  // namespace lyrefit

@@ -10,6 +10,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/fleet/fleet_input.h"
 #include "lyrefit/fleet/sketch.h"
 
 namespace lyrefit {
@@ -103,11 +104,14 @@ std::vector<ResultColumn> CommonColumns() {
 
 std::vector<ResultCell> CommonCells(const FleetCurve& curve, const FleetItem& item,
                                     RowStatus status, const std::string& reason) {
-  std::vector<ResultCell> cells = {
-      TextCell(curve.id),   std::string(ToText(status)),
-      TextCell(reason),     item.unnamed ? TextCell(kUnnamed) : ResultCell(),
-      TextCell(item.where), Date(curve),
-      RatedPower(curve),    Rest(curve)};
+  std::vector<ResultCell> cells = {TextCell(curve.id),
+                                   std::string(ToText(status)),
+                                   TextCell(reason),
+                                   item.unnamed ? TextCell(kUnnamed) : ResultCell(),
+                                   TextCell(PercentCoded(item.where)),
+                                   Date(curve),
+                                   RatedPower(curve),
+                                   Rest(curve)};
   std::vector<ResultCell> readings(kReadingCells);
   if (curve.curve) readings = ReadingCells(*curve.curve);
   for (ResultCell& cell : readings) cells.push_back(std::move(cell));

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/report/csv.h"
 
 namespace lyrefit {
 
@@ -38,8 +37,9 @@ struct CellJson {
 };
 
 struct CellCsv {
+  CsvTexts texts;
   std::string operator()(std::monostate) const { return ""; }
-  std::string operator()(const std::string& text) const { return CsvField(text); }
+  std::string operator()(const std::string& text) const { return CsvField(text, texts); }
   std::string operator()(double value) const { return CsvField(value); }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
@@ -84,9 +84,9 @@ ResultRow RowOf(const std::vector<ResultColumn>& columns, const nlohmann::json& 
   return row;
 }
 
-std::string RowCsv(const ResultRow& row) {
+std::string RowCsv(const ResultRow& row, CsvTexts texts) {
   std::string line;
-  for (const ResultCell& cell : row.cells) line += std::visit(CellCsv(), cell) + ',';
+  for (const ResultCell& cell : row.cells) line += std::visit(CellCsv{texts}, cell) + ',';
   line.back() = '\n';
   return line;
 }

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/fleet/result_row.h"
+#include "lyrefit/report/csv.h"
 
 namespace lyrefit {
 
@@ -18,7 +19,7 @@ std::string RowJson(const std::vector<ResultColumn>& columns, const ResultRow& r
 ResultRow RowOf(const std::vector<ResultColumn>& columns, const nlohmann::json& json);
 
 // A line of fields, empty where not known.
-std::string RowCsv(const ResultRow& row);
+std::string RowCsv(const ResultRow& row, CsvTexts texts = CsvTexts::kSafe);
 std::string HeadCsv(const std::vector<ResultColumn>& columns);
 
 // [{"name", "type", "unit", "description"}]: the fields of a Table Schema

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
 #include <filesystem>
 #include <system_error>
 
@@ -15,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongest = 100;  // bytes of a name; what is longer goes on in a folder more
+constexpr std::size_t kLongestName = 120;   // bytes of a level; file systems take some more
+constexpr std::size_t kLongestPath = 1000;  // bytes of all levels
 
 bool IsCapital(char c) { return c >= 'A' && c <= 'Z'; }
 
@@ -53,26 +56,30 @@ std::string SafeName(const std::string& piece) {
   return capitals.empty() ? name : name + "~." + capitals;
 }
 
-// A long level is folders whose names end with "~-": no piece of another does.
-std::string SafeLevel(std::string level) {
-  std::string path;
-  while (level.size() > kLongest) {
-    path += SafeName(level.substr(0, kLongest)) + "~-/";
-    level.erase(0, kLongest);
-  }
-  return path + (level.empty() ? "~" : SafeName(level));
+// A name for what would have one that is too long: a UUID of its bytes (RFC 9562, version 5). No
+// other name begins with "~_".
+std::string DigestName(const std::string& text) {
+  static const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
+  return "~_" + boost::uuids::to_string(generate(text));
+}
+
+std::string SafeLevel(const std::string& level) {
+  if (level.empty()) return "~";
+  const std::string name = SafeName(level);
+  return name.size() <= kLongestName ? name : DigestName(level);
 }
 
 }  // namespace
 
 std::string StringPagePath(const std::string& id) {
-  std::string path = "pages";
+  std::string path;
   for (std::size_t from = 0; from <= id.size();) {
     const std::size_t slash = std::min(id.find('/', from), id.size());
     path += "/" + SafeLevel(id.substr(from, slash - from));
     from = slash + 1;
   }
-  return path + ".html";
+  if (path.size() > kLongestPath) path = "/" + DigestName(id);
+  return "pages" + path + ".html";
 }
 
 Expected<void> WriteStringPage(const std::string& folder, const std::string& path,

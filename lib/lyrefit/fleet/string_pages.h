@@ -25,7 +25,9 @@ struct EnumTable<PagesOf> {
 // levels of the id are folders. No two ids have one path, not even where file systems do not tell
 // A from a: beside a-z, 0-9, '.', '_' and '-' a byte is "~" and its two hexadecimal digits, and a
 // level with capital letters ends with "~" and the letters' places as a hexadecimal number ("INV01"
-// is "INV01~.7"). Nothing in a path has to be escaped in a link.
+// is "INV01~.7"). A level whose name would have more than 120 bytes is "~_" and a digest of it, 122
+// bits of SHA-1; so is the whole id where the path would have more than 1000. Nothing in a path has
+// to be escaped in a link.
 std::string StringPagePath(const std::string& id);
 
 // Writes the page, whole or not at all, and makes its folders. From any thread.

@@ -59,11 +59,11 @@ class TreeInput : public FleetInput {
       at += WeightOf(*file);
       sum->Add(fmt::format("{} {} {}\n", file->id, file->size, file->refusal));
       if (!file->refusal.empty()) continue;
-      TRY(sum->AddFile(file->path, file->size));
+      AddBytes(file->path, file->size, sum);
       const std::string sidecar = fs::path(file->path).replace_extension(".json").string();
       if (sidecar != file->path && IsFile(sidecar)) {
         sum->Add("sidecar\n");
-        TRY(sum->AddFile(sidecar, SizeOfFile(sidecar)));
+        AddBytes(sidecar, SizeOfFile(sidecar), sum);
       }
     }
     return {};
@@ -83,6 +83,11 @@ class TreeInput : public FleetInput {
   }
 
  private:
+  // A file that cannot be read is a broken row; that it cannot is part of the sum.
+  static void AddBytes(const std::string& path, std::int64_t size, ByteSum* sum) {
+    if (const auto added = sum->AddFile(path, size); !added) sum->Add(added.error().message + "\n");
+  }
+
   const std::string folder_;
   const std::string prefix_;
   const ReadOptions options_;

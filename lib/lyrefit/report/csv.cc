@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/healthy.h"
 #include "lyrefit/family/data_sheet.h"
+#include "lyrefit/report/readable.h"
 #include "lyrefit/report/record_parts.h"
 
 namespace lyrefit {
@@ -93,16 +98,50 @@ std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
                   CsvField(JoinWith(cause.equivalents, " ")), CsvField(cause.sentence)});
 }
 
+// Digits with or without a sign, point and exponent.
+bool IsPlainNumber(std::string_view text) {
+  if (text.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return false;
+  if (text.front() == '+' || text.front() == '-') text.remove_prefix(1);
+  if (text.empty() || text.front() == '+' || text.front() == '-') return false;
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  return read.ec != std::errc::invalid_argument && read.ptr == end;
+}
+
+// Whether a spreadsheet takes it for a formula; apostrophes before it do not count.
+bool RunsInSpreadsheets(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view kSigns[] = {
+      "=", "+", "-", "@", "\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d", "\xef\xbc\xa0"};
+  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+  if (text.empty()) return false;
+  const bool breaks = text.front() == '\t' || text.front() == '\r' || text.front() == '\n';
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  if (breaks || text.empty()) return breaks;
+  text = text.substr(0, text.find_last_not_of(kBlanks) + 1);
+  return std::any_of(std::begin(kSigns), std::end(kSigns), [text](std::string_view sign) {
+    return text.size() > sign.size() && text.substr(0, sign.size()) == sign && !IsPlainNumber(text);
+  });
+}
+
 }  // namespace
 
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+std::string CsvField(const std::string& text, CsvTexts texts) {
+  std::string field = Readable(text);
+  if (texts == CsvTexts::kSafe && RunsInSpreadsheets(field)) field.insert(0, 1, '\'');
+  if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : field) {
     if (c == '"') quoted += '"';
     quoted += c;
   }
   return quoted + "\"";
+}
+
+std::string WithoutApostrophe(std::string text) {
+  if (!text.empty() && text.front() == '\'' && RunsInSpreadsheets(text)) text.erase(0, 1);
+  return text;
 }
 
 std::string CsvField(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }

@@ -47,11 +47,23 @@ std::string DataSheetCsv(const DataSheetFit& fit);
 // uncertainty (..._U), why_not.
 std::string TranslationCsv(const TranslationReport& report);
 
+// How texts are written that a spreadsheet would take for a formula.
+enum class CsvTexts {
+  kSafe,  // with an apostrophe before them
+  kRaw,   // as they are
+};
+
 // What tables are made of. A field as RFC 4180 wants it, in quotes where it holds a comma, a quote
-// or an end of line; the shortest text that reads back to the same number, empty for NaN and
-// infinity; a line of fields.
-std::string CsvField(const std::string& text);
+// or an end of line. A spreadsheet runs a text that begins with =, +, - or @ (or one of these behind
+// blanks or as a full-width character), or with a tab or an end of line: an apostrophe stands before
+// it, and before a text that looks like one that got it. What is a number stays. Bytes that are no
+// UTF-8 are replaced.
+std::string CsvField(const std::string& text, CsvTexts texts = CsvTexts::kSafe);
+// A text as it was before CsvField put an apostrophe before it.
+std::string WithoutApostrophe(std::string text);
+// The shortest text that reads back to the same number, empty for NaN and infinity.
 std::string CsvField(double value);
+// A line of fields.
 std::string CsvLine(const std::vector<std::string>& fields);
 
 }  // namespace lyrefit

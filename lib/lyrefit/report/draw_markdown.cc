@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/readable.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
@@ -158,7 +159,7 @@ std::string DrawMarkdown(const Document& document, Texts texts) {
     text += draw(section, section.depth == 0 ? "##" : "###");
   }
   if (!text.empty()) text.pop_back();  // one newline at the end
-  return text;
+  return Readable(text);
 }
 
 }  // namespace lyrefit

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/readable.h"
 #include "lyrefit/report/text_layout.h"
 
 // The customs of the terminal: headings, titles, legends and conclusions stand at the left edge,
@@ -100,7 +101,7 @@ std::string DrawText(const Document& document) {
     if (!section.heading.empty()) text += Heading(section.heading);
     text += TerminalText(section.blocks);
   }
-  return text;
+  return Readable(text);
 }
 
 }  // namespace lyrefit

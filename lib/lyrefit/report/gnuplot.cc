@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
+#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/figure_parts.h"
@@ -24,6 +26,12 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+bool PutAtStart(const std::string& text, std::FILE* file) {
+  const LimitIsAnError guard;
+  return std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0 &&
+         std::fseek(file, 0, SEEK_SET) == 0;
+}
 
 std::string ReadFromStart(std::FILE* file) {
   std::rewind(file);
@@ -53,14 +61,23 @@ int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
   char no_startup_files[] = "-d";
   char* const arguments[] = {program, no_startup_files, nullptr};
   pid_t child = 0;
-  const int failure = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
+  // A limit of the file size ends it, whatever is ignored here: half a picture is none.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t limit;
+  sigemptyset(&limit);
+  sigaddset(&limit, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &limit);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int failure = posix_spawnp(&child, program, &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) return -failure;
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return -errno;
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 // "svg" or "png", from the extension.
@@ -83,15 +100,19 @@ Expected<std::string> RunGnuplot(const std::string& script) {
   const File output(std::tmpfile());
   const File messages(std::tmpfile());
   if (!input || !output || !messages) return Fail("cannot create a temporary file for gnuplot");
-  const bool written = std::fwrite(script.data(), 1, script.size(), input.get()) == script.size() &&
-                       std::fflush(input.get()) == 0 && std::fseek(input.get(), 0, SEEK_SET) == 0;
-  if (!written) return Fail("cannot write the temporary file for gnuplot");
+  if (!PutAtStart(script, input.get())) {
+    return Fail("cannot write the temporary file for gnuplot: " +
+                std::generic_category().message(errno));
+  }
   const int status = RunWith(input.get(), output.get(), messages.get());
   if (status == -ENOENT || status == 127) {
     return Fail("plots need gnuplot, which was not found: install it (Debian: gnuplot-nox)");
   }
   if (status < 0) {
     return Fail("cannot start gnuplot: " + std::generic_category().message(-status));
+  }
+  if (status == 128 + SIGXFSZ) {
+    return Fail("cannot write the picture: " + std::generic_category().message(EFBIG));
   }
   std::string picture = ReadFromStart(output.get());
   if (status != 0 || picture.empty()) {

@@ -5,12 +5,10 @@
 #include <string_view>
 
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/readable.h"
 
 // How a document becomes elements of a page, for who draws pages of it.
 namespace lyrefit {
-
-// Names come from files, and files hold anything: what is no UTF-8 becomes U+FFFD.
-std::string Readable(std::string_view text);
 
 // What HTML reads as its own is spelled out; what no page may hold becomes U+FFFD.
 std::string HtmlEscaped(const std::string& text);

@@ -156,6 +156,7 @@ Expected<AuditReport> Audit(const std::string& path, const AuditOptions& options
   report.path = path;
   report.options = options;
   report.bad_rows = std::move(rows.bad_rows);
+  report.remark = std::move(rows.remark);
   AuditDesk desk{path, report.options, std::move(shelf), {}};
   for (const AuditRow& row : rows.rows) {
     Expected<AuditFinding> finding = AuditOne(row, &desk);

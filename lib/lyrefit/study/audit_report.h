@@ -134,6 +134,7 @@ struct AuditReport {
   AuditOptions options;                // what was asked for
   std::vector<AuditFinding> findings;  // in the order of the rows
   std::vector<Error> bad_rows;         // rows that could not be read or whose curve is missing
+  std::string remark;                  // how the table was read, where it is no UTF-8
 };
 
 // Findings with this verdict.

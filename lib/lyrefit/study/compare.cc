@@ -145,6 +145,7 @@ class Study {
       const bool any = taken_up_ > 0;
       comparison.remarks = JournalRemarks(
           *journal_, any ? fmt::format("{} of {} runs were done before", taken_up_, jobs()) : "");
+      comparison.journal_lacks_runs = !journal_->failure().empty();
     }
     comparison.seconds = SecondsSince(begin_);
     return comparison;

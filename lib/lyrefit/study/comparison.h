@@ -141,6 +141,7 @@ struct Comparison {
   double seconds = 0;
   bool interrupted = false;          // some problem is not complete
   std::vector<std::string> remarks;  // on the journal, in plain sentences
+  bool journal_lacks_runs = false;   // it could not be written; a remark says why
 };
 
 }  // namespace lyrefit

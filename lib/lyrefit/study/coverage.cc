@@ -146,6 +146,7 @@ class CoverageRun {
     return done;
   }
 
+  bool JournalFailed() const { return journal_ && !journal_->failure().empty(); }
   std::vector<std::string> Remarks() const {
     if (!journal_) return {};
     const bool any = taken_up_ > 0;
@@ -214,6 +215,7 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   }
   report.sets = run.Run();
   report.remarks = run.Remarks();
+  report.journal_lacks_sets = run.JournalFailed();
   report.interrupted = static_cast<int>(report.sets.size()) < options.sets;
   for (const CoverageSet& set : report.sets) report.failed += set.rows.empty() ? 1 : 0;
   const std::vector<ParameterInfo> infos = CoveredParameters(*translation, options);

@@ -57,6 +57,7 @@ struct CoverageReport {
   double seconds = 0;
   bool interrupted = false;          // only the sets that were done are there
   std::vector<std::string> remarks;  // on the journal, in plain sentences
+  bool journal_lacks_sets = false;   // it could not be written; a remark says why
 };
 
 // FitFamily, or what stands in its place in a test.

@@ -1,36 +1,20 @@
 #include "lyrefit/study/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {
 
-std::string Because() { return std::strerror(errno); }
-
-// All of `text`, or false.
-bool WriteAll(int file, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    done += static_cast<std::size_t>(written);
-  }
-  return true;
-}
+constexpr char kNoJournal[] = "expected a journal that --resume wrote, found another file";
+constexpr AppendLog::Kind kKind = {"journal", "this journal", "a journal", "{\"journal\"",
+                                   kNoJournal};
 
 std::string Dump(const JournalLine& line) {
   // Names may hold bytes that are not UTF-8.
@@ -39,66 +23,19 @@ std::string Dump(const JournalLine& line) {
 
 }  // namespace
 
-Journal::Journal(std::string path, std::string section)
-    : path_(std::move(path)), section_(std::move(section)) {}
-
-Journal::~Journal() {
-  if (file_ >= 0) close(file_);
-}
-
 Expected<std::unique_ptr<Journal>> Journal::Open(const std::string& path,
                                                  const std::string& section,
                                                  const JournalLine& options) {
-  std::unique_ptr<Journal> journal(new Journal(path, section));
-  if (auto locked = journal->Lock(); !locked) return tl::unexpected(locked.error());
-  if (auto read = journal->Read(options); !read) return tl::unexpected(read.error());
+  if (path == "-") return Fail("expected a file for the journal, found standard output");
+  TRY(auto log, AppendLog::Open(path, kKind));
+  std::unique_ptr<Journal> journal(new Journal(std::move(log), section));
+  TRY(journal->log_->TakeUp(
+      [&](const std::string& line, int number) { return journal->Take(line, number, options); }));
   if (!journal->has_head_) {
     const JournalLine head = {{"journal", section}, {"options", options}};
-    if (!WriteAll(journal->file_, Dump(head))) {
-      return Fail("cannot write the journal: " + Because(), path);
-    }
+    TRY(journal->log_->Append(Dump(head)));
   }
   return journal;
-}
-
-Expected<void> Journal::Lock() {
-  std::error_code ignored;
-  if (path_ == "-") return Fail("expected a file for the journal, found standard output");
-  if (std::filesystem::exists(path_, ignored) &&
-      !std::filesystem::is_regular_file(path_, ignored)) {
-    return Fail("expected a journal, or a file that does not exist yet", path_);
-  }
-  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_ < 0) return Fail("cannot write the journal: " + Because(), path_);
-  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    return Fail("another process is writing this journal", path_);
-  }
-  return {};
-}
-
-Expected<void> Journal::Read(const JournalLine& options) {
-  std::ifstream in(path_, std::ios::binary);
-  std::streamoff complete = 0;
-  int number = 0;
-  for (std::string text; std::getline(in, text);) {
-    ++number;
-    if (in.eof()) {
-      torn_ = true;
-      // A first line that was never finished is a journal's only if it begins like one.
-      const std::string begin = "{\"journal\"";
-      const std::size_t length = std::min(begin.size(), text.size());
-      if (number == 1 && text.compare(0, length, begin, 0, length) != 0) {
-        return Fail("expected a journal that --resume wrote, found another file", path_, 1);
-      }
-      break;
-    }
-    if (auto taken = Take(text, number, options); !taken) return taken;
-    complete = in.tellg();
-  }
-  if (torn_ && ftruncate(file_, complete) != 0) {
-    return Fail("cannot write the journal: " + Because(), path_);
-  }
-  return {};
 }
 
 Expected<void> Journal::Take(const std::string& text, int number, const JournalLine& options) {
@@ -106,14 +43,14 @@ Expected<void> Journal::Take(const std::string& text, int number, const JournalL
   const bool head = line.is_object() && line.contains("journal") && line["journal"].is_string();
   const bool record = line.is_object() && line.contains("of") && line["of"].is_string();
   if (!head && (!record || number == 1)) {
-    return Fail("expected a journal that --resume wrote, found another file", path_, number);
+    return Fail(kNoJournal, path(), number);
   }
   if (head && line["journal"] == section_) {
     has_head_ = true;
     return CheckHead(line, number, options);
   }
   if (record && line["of"] == section_) {
-    if (!has_head_) return Fail("a record stands before the options it belongs to", path_, number);
+    if (!has_head_) return Fail("a record stands before the options it belongs to", path(), number);
     records_.push_back({std::move(line), number});
   }
   return {};
@@ -131,7 +68,7 @@ Expected<void> Journal::CheckHead(const JournalLine& found, int number,
     return Fail(fmt::format("this study was begun with {}: {}; now it is {}. Take the same "
                             "options, or another file",
                             key, text(before, key), text(options, key)),
-                path_, number);
+                path(), number);
   };
   for (const auto& [key, value] : options.items()) {
     if (!before.contains(key) || before[key] != value) return differs(key);
@@ -147,7 +84,8 @@ void Journal::Append(const JournalLine& record) {
   line.update(record);
   const std::string text = Dump(line);
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (failure_.empty() && !WriteAll(file_, text)) failure_ = Because();
+  if (!failure_.empty()) return;
+  if (const auto written = log_->Append(text); !written) failure_ = written.error().message;
 }
 
 std::string Journal::failure() const {
@@ -253,9 +191,8 @@ std::vector<std::string> JournalRemarks(const Journal& journal, const std::strin
         ": the last line was never finished and is left out; what it was of is done again");
   }
   if (const std::string failure = journal.failure(); !failure.empty()) {
-    remarks.push_back(
-        fmt::format("{}: cannot be written ({}); the runs since then are in the report alone",
-                    journal.path(), failure));
+    remarks.push_back(fmt::format("{}: {}; the runs since then are in the report alone",
+                                  journal.path(), failure));
   }
   return remarks;
 }

@@ -5,8 +5,10 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lyrefit/base/append_log.h"
 #include "lyrefit/base/error.h"
 
 namespace lyrefit {
@@ -26,7 +28,6 @@ class Journal {
   static Expected<std::unique_ptr<Journal>> Open(const std::string& path,
                                                  const std::string& section,
                                                  const JournalLine& options);
-  ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
@@ -36,8 +37,8 @@ class Journal {
     int line = 0;
   };
   const std::vector<Record>& records() const { return records_; }
-  const std::string& path() const { return path_; }
-  bool torn() const { return torn_; }  // a last line was cut off
+  const std::string& path() const { return log_->path(); }
+  bool torn() const { return log_->torn(); }  // a last line was cut off
 
   // Writes a record before it returns, from any thread. After a failure nothing more is written.
   void Append(const JournalLine& record);
@@ -45,17 +46,14 @@ class Journal {
   std::string failure() const;
 
  private:
-  Journal(std::string path, std::string section);
-  Expected<void> Lock();
-  Expected<void> Read(const JournalLine& options);
+  Journal(std::unique_ptr<AppendLog> log, std::string section)
+      : log_(std::move(log)), section_(std::move(section)) {}
   Expected<void> Take(const std::string& text, int number, const JournalLine& options);
   Expected<void> CheckHead(const JournalLine& found, int number, const JournalLine& options) const;
 
-  std::string path_;
-  std::string section_;
-  int file_ = -1;
+  const std::unique_ptr<AppendLog> log_;
+  const std::string section_;
   bool has_head_ = false;
-  bool torn_ = false;
   std::vector<Record> records_;
   mutable std::mutex mutex_;  // of what follows
   std::string failure_;

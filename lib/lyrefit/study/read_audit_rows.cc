@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_lines.h"
+#include "lyrefit/curve/text_encoding.h"
 #include "lyrefit/study/audit_columns.h"
 
 namespace lyrefit {
@@ -219,9 +219,9 @@ class RowReader {
 
 Expected<AuditRows> ReadAuditRows(const std::string& path) {
   constexpr std::uintmax_t kLargestFile = 1U << 24;
-  const Expected<std::string> text = ReadTextFile(path, kLargestFile);
-  if (!text) return tl::unexpected(text.error());
-  LineReader lines(*text);
+  const Expected<DecodedText> decoded = ReadDecodedFile(path, kLargestFile);
+  if (!decoded) return tl::unexpected(decoded.error());
+  LineReader lines(decoded->text);
   std::string_view line;
   if (!lines.NextContent(&line)) {
     return Fail(fmt::format("expected a header line with the columns {}", kAuditColumnNames), path,
@@ -231,6 +231,7 @@ Expected<AuditRows> ReadAuditRows(const std::string& path) {
   if (!columns) return tl::unexpected(columns.error());
   AuditRows rows;
   rows.path = path;
+  rows.remark = decoded->remark;
   RowReader reader(*columns, path);
   while (lines.NextContent(&line)) {
     Expected<AuditRow> row = reader.Read(line, lines.number());

@@ -45,6 +45,7 @@ struct AuditRows {
   std::string path;  // of the table
   std::vector<AuditRow> rows;
   std::vector<Error> bad_rows;  // what could not be read, with file, line and column
+  std::string remark;           // how its bytes were read, where they are no UTF-8
 };
 
 // Reads a table with a header that names its columns, in any order and case: source, device, model
@@ -54,6 +55,7 @@ struct AuditRows {
 // and a resistance in ohm, mohm or 100ohm; columns of several units may stand side by side, and a
 // row fills one of them; a row without any parameters has its claim alone. Comma, semicolon or tab
 // between the fields; lines that start with '#' are comments.
+// A file that is no UTF-8 is read as those of curves are: UTF-16, or Windows-1252.
 //
 // A printed zero, and an n without decimals (it stands at a bound), are exact. An unknown, repeated
 // or missing column is an error of the whole file; a row that cannot be read is one of `bad_rows`.

@@ -95,9 +95,13 @@ function quantile(sorted, share) {
   return sorted[low] + (place - low) * (sorted[Math.min(low + 1, sorted.length - 1)] - sorted[low]);
 }
 
+// Whether two numbers, the smaller first, differ by more than what rounding leaves: the labels of an axis
+// have 12 digits at the most, and steps have to be numbers too.
+const areApart = (low, high) => high - low > Math.max(1e-9 * Math.abs(low), 1e-9 * Math.abs(high), 1e-300);
+
 // Ends and steps of an axis that read well: 1, 2 or 5 times a power of ten.
 function axisOf(low, high, steps) {
-  if (!(high > low)) {
+  if (!areApart(low, high)) {
     const room = Math.abs(low) * 0.1 || 1;
     low -= room;
     high += room;
@@ -117,6 +121,19 @@ function axisOfKnown(sorted, steps) {
   const high = quantile(sorted, 0.99);
   const room = high - low;
   return axisOf(Math.max(sorted[0], low - room), Math.min(sorted[sorted.length - 1], high + room), steps);
+}
+
+// A field of CSV, as CsvField in report/csv.cc writes it: a spreadsheet takes a text that begins with a sign of a
+// formula for one and runs it, so that an apostrophe stands before it. Numbers stay as they are.
+function csvField(value) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "";
+  let text = String(value);
+  const bare = text.replace(/^'+/, "");
+  const inner = bare.replace(/^[ \t\r\n]+|[ \t\r\n]+$/g, "");
+  const number = /^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/.test(inner);
+  const formula = /^[=+\-@\uff1d\uff0b\uff0d\uff20]./su.test(inner) && !number;
+  if (typeof value === "string" && (formula || /^[\t\r\n]/.test(bare))) text = `'${text}`;
+  return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
 function roundNumber(value) {

@@ -195,7 +195,7 @@ function numberLook(cells) {
   const bad = worstFirst(map.colour);
   const usual = quantile(known, 0.75) - quantile(known, 0.25);
   const low = bad && usual > 0 ? Math.max(known[0], quantile(known, 0.5) - 20 * usual) : quantile(known, 0.02);
-  const share = (value) => (high > low ? (value - low) / (high - low) : 0.3);
+  const share = (value) => (areApart(low, high) ? (value - low) / (high - low) : 0.3);
   return { low, high, bad,
     of: (value) => (Number.isNaN(value) ? null : shade(bad ? 1 - share(value) : share(value), bad || worstLast(map.colour) ? "bad" : "")),
     text: (value) => value.toFixed(Math.max(0, Math.min(4, 2 - Math.floor(Math.log10(high - low || 1))))) };

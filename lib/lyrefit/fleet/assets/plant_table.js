@@ -188,12 +188,8 @@ async function drawTable(focus) {
 async function csvOfShown() {
   const rows = await sortedRows();
   const values = await loadAll(columnNames);
-  const field = (value) => {
-    const text = value === null || Number.isNaN(value) ? "" : String(value);
-    return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-  };
-  const lines = [columnNames.map(field).join(",")];
-  for (const row of rows) lines.push(values.map((column) => field(column[row])).join(","));
+  const lines = [columnNames.map(csvField).join(",")];
+  for (const row of rows) lines.push(values.map((column) => csvField(column[row])).join(","));
   const url = URL.createObjectURL(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }));
   lyrefit.save(lyrefit.fileName("csv"), url);
   setTimeout(() => URL.revokeObjectURL(url), 10000);

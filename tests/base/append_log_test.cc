@@ -1,0 +1,107 @@
+#include "lyrefit/base/append_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "../error_of.h"
+#include "../file_limit.h"
+#include "../temp_folder.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr AppendLog::Kind kDiary = {"diary", "this diary", "a diary", "dear", "no diary"};
+
+class AppendLogTest : public testing::Test {
+ protected:
+  // What stands in the log, or why it cannot be taken up.
+  Expected<std::vector<std::string>> TakeUp(bool* torn = nullptr) {
+    auto log = AppendLog::Open(path_, kDiary);
+    if (!log) return tl::unexpected(log.error());
+    std::vector<std::string> lines;
+    const auto taken = (*log)->TakeUp([&](const std::string& line, int number) -> Expected<void> {
+      EXPECT_EQ(number, static_cast<int>(lines.size()) + 1);
+      if (line == "bad") return Fail("a bad line", path_, number);
+      lines.push_back(line);
+      return {};
+    });
+    if (!taken) return tl::unexpected(taken.error());
+    if (torn != nullptr) *torn = (*log)->torn();
+    return lines;
+  }
+
+  const TempFolder folder_;
+  const std::string path_ = folder_.Path("diary");
+};
+
+TEST_F(AppendLogTest, GoesOnWhereItEnded) {
+  EXPECT_THAT(*TakeUp(), ElementsAre());
+  {
+    const auto log = AppendLog::Open(path_, kDiary);
+    ASSERT_TRUE(log) << MessageOf(log);
+    EXPECT_TRUE((*log)->empty());
+    ASSERT_TRUE((*log)->Append("dear\none\n"));
+    ASSERT_TRUE((*log)->Append("two\n"));
+    EXPECT_FALSE((*log)->empty());
+  }
+  bool torn = true;
+  EXPECT_THAT(*TakeUp(&torn), ElementsAre("dear", "one", "two"));
+  EXPECT_FALSE(torn);
+}
+
+TEST_F(AppendLogTest, CutsALineThatWasNeverFinishedOnce) {
+  folder_.Write("diary", "dear\none\ntw");
+  bool torn = false;
+  EXPECT_THAT(*TakeUp(&torn), ElementsAre("dear", "one"));
+  EXPECT_TRUE(torn);
+  EXPECT_EQ(FileText(path_), "dear\none\n");
+  EXPECT_THAT(*TakeUp(&torn), ElementsAre("dear", "one"));
+  EXPECT_FALSE(torn);
+}
+
+TEST_F(AppendLogTest, NeverTouchesAFileOfAnotherKind) {
+  for (const char* text : {"V,I\n0,1\n", "V,I\n0", "x"}) {
+    folder_.Write("diary", text);
+    ExpectErrorAt(TakeUp(), path_, 1, 0, "no diary");
+    EXPECT_EQ(FileText(path_), text);
+  }
+  folder_.Write("diary", "dear\nbad\nhal");
+  ExpectErrorAt(TakeUp(), path_, 2, 0, "a bad line");
+  EXPECT_EQ(FileText(path_), "dear\nbad\nhal");
+  folder_.Write("diary", "de");  // the first line of a diary, cut short
+  EXPECT_THAT(*TakeUp(), ElementsAre());
+}
+
+TEST_F(AppendLogTest, IsWrittenByOneAtATime) {
+  const auto log = AppendLog::Open(path_, kDiary);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(MessageOf(AppendLog::Open(path_, kDiary)), "another process is writing this diary");
+}
+
+TEST_F(AppendLogTest, SaysWhyItCannotBeWritten) {
+  EXPECT_EQ(MessageOf(AppendLog::Open("/dev/full", kDiary)),
+            "expected a diary, or a file that does not exist yet");
+  EXPECT_EQ(MessageOf(AppendLog::Open(folder_.Path("no/diary"), kDiary)),
+            "cannot write the diary: No such file or directory");
+  const auto log = AppendLog::Open(path_, kDiary);
+  ASSERT_TRUE(log);
+  ASSERT_TRUE((*log)->Append("dear\n"));
+  {
+    const FileLimit limit(20);
+    const auto written = (*log)->Append("a line of more than twenty bytes\n");
+    EXPECT_EQ(MessageOf(written), "cannot write the diary: File too large");
+    EXPECT_EQ(written.error().file, path_);
+    EXPECT_EQ(FileText(path_), "dear\n") << "what could not be written whole is taken back";
+  }
+  ASSERT_TRUE((*log)->Append("once more\n"));
+  EXPECT_EQ(FileText(path_), "dear\nonce more\n");
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -25,6 +25,25 @@ TEST(CheckReadingsTest, SoundCurvesHaveNoFindings) {
   EXPECT_THAT(CheckReadings(MadeCell(0)), IsEmpty());  // dark
 }
 
+TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
+  for (const double stated : {0.0, 5.0}) {
+    IvCurve curve = MadeModule();
+    curve.conditions.irradiance_W_m2 = stated;
+    const auto findings = CheckReadings(curve);
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].id, "light");
+    EXPECT_FALSE(findings[0].refuse);
+    EXPECT_THAT(findings[0].sentence, HasSubstr("W/m2 are stated, but the device delivers"));
+    EXPECT_THAT(findings[0].sentence, HasSubstr("--irradiance-Wm2"));
+  }
+  IvCurve dim = MadeCell(0.01);  // 1.5 mA at 10 W/m2
+  dim.conditions.irradiance_W_m2 = 10;
+  IvCurve dark = MadeCell(0);
+  dark.conditions.irradiance_W_m2 = 0;
+  EXPECT_THAT(CheckReadings(dim), IsEmpty());
+  EXPECT_THAT(CheckReadings(dark), IsEmpty());
+}
+
 TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
   const struct {
     const char* what;

@@ -62,5 +62,19 @@ TEST(NoiseFromDifferences, SeesTheNoiseUnderASmoothCurve) {
   EXPECT_NEAR(NoiseFromDifferences(v, values), 0.01, 0.002);
 }
 
+TEST(NoiseFromDifferencesTest, CopiesOfAPointCountOnce) {
+  RandomStream random(3);
+  std::vector<double> voltage_V, values, twice_V, twice;
+  for (int k = 0; k < 50; ++k) {
+    voltage_V.push_back(k);
+    values.push_back(random.Normal());
+    twice_V.insert(twice_V.end(), 4, voltage_V.back());
+    twice.insert(twice.end(), 4, values.back());
+  }
+  const double noise = NoiseFromDifferences(voltage_V, values);
+  EXPECT_NEAR(noise, 1, 0.4);
+  EXPECT_EQ(NoiseFromDifferences(twice_V, twice), noise);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -67,6 +67,32 @@ TEST(UsableTest, WhatIsNoCurveIsNotUsable) {
   EXPECT_TRUE(!noise || !noise->usable);
 }
 
+TEST(UsableTest, ALineIsNoCurveWhetherItFallsOrRises) {
+  const auto line = [](double slope_A_V, double noise_A, int seed) {
+    IvCurve curve;
+    curve.conditions.cells_in_series = 60;
+    RandomStream random(seed, 0);
+    for (int k = 0; k < 40; ++k) {
+      const double voltage_V = k < 39 || slope_A_V > 0 ? 36.0 * k / 39 : 36.5;
+      curve.voltage_V.push_back(voltage_V);
+      curve.current_A.push_back(8 + slope_A_V * voltage_V + noise_A * random.Normal());
+    }
+    return curve;
+  };
+  for (const double slope_A_V : {-8.0 / 36, -0.4 / 36, 1.0 / 36}) {
+    for (const double noise_A : {0.0, 1e-3, 0.05}) {
+      for (int seed = 1; seed <= 3; ++seed) {
+        IvCurve curve = line(slope_A_V, noise_A, seed);
+        curve.as_is = true;  // a rising current is refused before it is fitted
+        const auto report = Fit(curve, Quick());
+        ASSERT_TRUE(report) << report.error().ToString();
+        EXPECT_FALSE(report->usable) << slope_A_V << ' ' << noise_A;
+        EXPECT_EQ(report->not_usable_because, "a straight line describes these points as well");
+      }
+    }
+  }
+}
+
 TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {
   for (const Intervals method : {Intervals::kProfile, Intervals::kSymmetric, Intervals::kNone}) {
     FitOptions options = Quick();

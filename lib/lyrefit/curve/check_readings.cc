@@ -125,6 +125,26 @@ void LookAtSigns(const Examined& look, Findings* out) {
   }
 }
 
+// A device without light delivers no current; under a few W/m2 it delivers less than the largest
+// string would. A sensor's offset or a leak of the instrument stays below a part of the currents.
+void LookAtLight(const Examined& look, Findings* out) {
+  constexpr double kOffset = 0.05;  // of the largest current
+  const IvCurve& curve = look.curve;
+  const double stated = curve.conditions.irradiance_W_m2;
+  if (!curve.irradiance_known || !(stated < kDark_W_m2)) return;
+  const double largest_A = kLargestString_A * curve.conditions.strings_in_parallel * stated / 1000;
+  const double isc = look.key.short_circuit_current_A;
+  if (!(isc > kOffset * look.largest_A && isc > largest_A)) return;
+  out->push_back(
+      {"light",
+       fmt::format("{:g} W/m2 are stated, but the device delivers {:.4g} A at 0 V, which "
+                   "it cannot without light: which of the two is right? state the light "
+                   "with --irradiance-Wm2",
+                   stated, isc),
+       false,
+       {}});
+}
+
 bool ImplausibleCell(double voltage_V) {
   return voltage_V < kLowestCell_V || voltage_V > kHighestCell_V;
 }
@@ -270,7 +290,11 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);
   LookAtUnits(look, &findings);
-  if (findings.empty()) LookAtCells(look, &findings);
+  LookAtLight(look, &findings);
+  const bool lit_as_stated =
+      std::none_of(findings.begin(), findings.end(),
+                   [](const ReadingFinding& finding) { return finding.id != "light"; });
+  if (lit_as_stated) LookAtCells(look, &findings);
   for (ReadingFinding& limit : FindEqualReadings(curve)) findings.push_back(std::move(limit));
   std::stable_sort(
       findings.begin(), findings.end(),

@@ -74,6 +74,7 @@ void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* be
                  kSmallestNoise);
   }
   bench->path = sizes.path;
+  bench->path_length = sizes.length;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ ErrorModel ErrorsOf(const Workbench& bench) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Reading& r = points[k];
     const double step = k > 0 ? std::fabs(r.voltage - points[k - 1].voltage) / voltage : 0;
-    at += neighbours ? apart : step;
+    at += neighbours ? apart : step / bench.path_length;
     const double light = brightest > 0 ? r.irradiance / brightest : 0;
     errors.position.push_back(at);
     errors.path.push_back(neighbours ? bench.sigma[k] : r.dark ? 0 : bench.path * light);

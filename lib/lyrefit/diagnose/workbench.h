@@ -21,6 +21,7 @@ struct Workbench {
   // Of a rough path along each curve, in current scales at the brightest light: see
   // refine/error_model.h, with a length of one open-circuit voltage.
   double path = 0;
+  double path_length = 1;  // in pivot voltages
   // The noise's size follows the residuals, but its variance is not taken below this part of
   // sigma^2: 1 where sigma holds more than noise.
   double least_variance = 0;

@@ -47,8 +47,9 @@ Values WidthsOf(const Values& position) {
   return widths;
 }
 
-// Readings at even distances d about x: the variance of their mean part in a path is the mean of
-// exp(-|x - x'|) over all pairs, 1 - d (m^2 - 1) / (3 m).
+// Readings at even distances d about x: the variance of their mean part in a path of length l is
+// the mean of exp(-|x - x'| / l) over all pairs, 1 - d (m^2 - 1) / (3 m l) where d m is much less
+// than l.
 Values AveragedAway(const std::vector<int>& first, const Values& position) {
   Values parts = WidthsOf(position);
   for (std::size_t g = 0; g < parts.size(); ++g) {
@@ -121,7 +122,7 @@ Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& s
     append(shape.voltage, begin, end, &differences.shape.voltage);
     append(shape.stated, begin, end, &differences.shape.stated);
     append(shape.path, begin, end, &differences.shape.path);
-    differences.shape.path.back() *= std::sqrt(widths[g] / count);  // exp(-d) is near 1 - d
+    differences.shape.position.push_back(widths[g] / count);
     differences.count.push_back(pairs);
     differences.mean_square.push_back(squares / pairs);
   }

@@ -23,6 +23,7 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path) {
     return Fail(fmt::format("expected sizes of errors as an object like {}", kLike), path, 1, 1);
   }
   const JsonFields fields(*json, text, path);
+  constexpr char kLength[] = "path_length_of_voc";
   ErrorSpec spec{ErrorKind::kStated, {}, path};
   const std::pair<const char*, double ErrorSizes::*> keys[] = {
       {"current_noise_A", &ErrorSizes::current_A},
@@ -39,10 +40,19 @@ Expected<ErrorSpec> ReadErrorFile(const std::string& path) {
       return fields.Refuse(key, "a number from 0 up");
     spec.sizes.*size = **number;
   }
+  const auto length = fields.Number({kLength});
+  if (!length) return tl::unexpected(length.error());
+  if (*length && !(**length > 0 && std::isfinite(**length))) {
+    return fields.Refuse(kLength, "a number above 0");
+  }
+  if (*length) spec.sizes.length = **length;
   for (const auto& [key, value] : json->items()) {
     const bool known = std::any_of(std::begin(keys), std::end(keys),
                                    [&name = key](const auto& one) { return name == one.first; });
-    if (!known) return fields.Refuse(key, "current_noise_A, voltage_noise_V or path_of_isc");
+    if (!known && key != kLength) {
+      return fields.Refuse(key,
+                           "current_noise_A, voltage_noise_V, path_of_isc or path_length_of_voc");
+    }
   }
   if (!(spec.sizes.current_A + spec.sizes.path > 0)) {
     return fields.Refuse("current_noise_A", "a size above 0, here or in \"path_of_isc\"");

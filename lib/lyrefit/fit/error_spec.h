@@ -26,7 +26,8 @@ struct ErrorSpec {
 };
 
 // {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}: all three, none below
-// 0, the first or the last above. Errors carry file, line and column.
+// 0, the first or the last above; "path_length_of_voc", above 0, is 1 where it is not there. Errors
+// carry file, line and column.
 Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 
 // "white", "field", or such a file. Errors: those of the file.

@@ -18,6 +18,7 @@
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/polish_extended.h"
 #include "lyrefit/fit/prove_floor.h"
+#include "lyrefit/fit/refuted_bound.h"
 #include "lyrefit/fit/robust.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
@@ -79,6 +80,14 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   return elites;
 }
 
+// Of the residuals of the distinct readings, where there are fewer of them.
+ResidualStatistics StatisticsOfDistinct(const FitJob& job, const std::vector<double>& p) {
+  std::vector<double> residual =
+      SolveCurrents(job.problem.device, p.data(), job.problem.points, *job.problem.kernel);
+  for (std::size_t k = 0; k < residual.size(); ++k) residual[k] -= job.distinct.current_A[k];
+  return FindResidualStatistics(job.distinct.voltage_V, residual);
+}
+
 // Everything that follows from the parameters.
 void FillResults(const FitJob& job, FitReport* report) {
   const IvCurve& curve = job.curve;
@@ -93,8 +102,10 @@ void FillResults(const FitJob& job, FitReport* report) {
   report->nNsVth = p[IdealityIndex(0)] * device.module_thermal_voltage_V;
   report->measured = FindKeyPoints(curve.voltage_V, curve.current_A);
   report->simulated = ModelKeyPoints(device, p.data());
-  report->model_current_A =
-      SolveCurrents(device, p.data(), job.problem.points, *job.problem.kernel);
+  const bool all = job.problem.voltage_V.size() == curve.size();
+  report->model_current_A = SolveCurrents(
+      device, p.data(), all ? job.problem.points : MakePointSet(curve.voltage_V, curve.current_A),
+      *job.problem.kernel);
   report->residual_A.clear();
   for (std::size_t k = 0; k < curve.size(); ++k) {
     report->residual_A.push_back(report->model_current_A[k] - curve.current_A[k]);
@@ -102,9 +113,9 @@ void FillResults(const FitJob& job, FitReport* report) {
   const RefineProblem& problem = job.problem;
   const double mean_square =
       MeanSquare(device, problem.objective, p.data(), problem.points, *problem.kernel);
-  report->criteria =
-      FindInformation(mean_square, static_cast<int>(curve.size()), job.free_parameters);
-  report->residuals = FindResidualStatistics(curve.voltage_V, report->residual_A);
+  report->criteria = FindInformation(mean_square, job.readings(), job.free_parameters);
+  report->residuals = all ? FindResidualStatistics(curve.voltage_V, report->residual_A)
+                          : StatisticsOfDistinct(job, p);
   report->not_usable_because =
       WhyNotUsable(*report, job.watch.stopped(), job.options.loss != Loss::kSquared);
   report->usable = report->not_usable_because.empty();
@@ -151,6 +162,11 @@ void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
   report->refine.best_bird_seconds = SecondsSince(begin);
 }
 
+std::string TooFewReadings(const FitJob& job) {
+  return fmt::format("{} different readings fix {} parameters without a remainder", job.readings(),
+                     job.free_parameters);
+}
+
 // Polishes, finds intervals around what is usable, and says where the polish ended.
 void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const SearchSpace& space,
                     FitReport* report) {
@@ -176,7 +192,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   std::vector<int> degrees;
   if (options.errors.kind != ErrorKind::kWhite) {
     const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
-    const auto weighed = WeighAndRefine(options.errors, job->curve, &job->watch, &problem, &end);
+    const auto weighed = WeighAndRefine(options.errors, job->fitted(), &job->watch, &problem, &end);
     if (weighed) {
       report->errors = weighed->errors;
       report->errors->least_squares = least_squares;
@@ -186,14 +202,24 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   OrderAlike(report->device, job->bounds, &end.p, &end.held);
   const std::vector<double> polished = report->refined = end.p;
   FillResults(*job, report);
-  if (!report->usable && options.intervals != Intervals::kNone) {
+  const bool saturated = job->readings() <= job->free_parameters;
+  if (options.intervals != Intervals::kNone) {
     report->no_intervals_because =
-        "the fit is not usable: around parameters of a curve that the model does not describe no "
-        "interval means anything";
+        !report->usable ? "the fit is not usable: around parameters of a curve that the model does "
+                          "not describe no interval means anything"
+        : saturated     ? TooFewReadings(*job) + ", and nothing is left over to tell how well"
+                        : RefutedBound(job, problem, end, *report);
   }
   const Instant begin = Now();
   for (FitPoint& other : polish.ends) OrderAlike(report->device, job->bounds, &other.p, nullptr);
   JudgeAndImprove(job, problem, polish.ends, degrees, &end, report);
+  if (saturated) {
+    for (Estimate& e : report->estimates) {
+      if (e.fixed) continue;
+      e.identifiable = false;
+      e.reason = TooFewReadings(*job);
+    }
+  }
   if (!report->errors && options.find_errors)
     FindIntervalsUnderErrors(job, polish.ends, end, report);
   if (report->refined != polished) FillResults(*job, report);

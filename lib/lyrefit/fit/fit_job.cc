@@ -8,6 +8,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/fit/distinct_readings.h"
 #include "lyrefit/fit/fixed_values.h"
 #include "lyrefit/fit/form_problem.h"
 #include "lyrefit/fit/reading_errors.h"
@@ -133,18 +134,26 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
     lower.push_back(b.lower);
     upper.push_back(b.upper);
   }
-  const int points = static_cast<int>(curve.size());
-  if (points < job->free_parameters) {
+  DistinctReadings distinct = FindDistinctReadings(curve);
+  job->distinct = std::move(distinct.curve);
+  if (job->readings() < job->free_parameters) {
     return Fail(
-        fmt::format("{} points cannot determine {} parameters: measure more points or fix some",
-                    points, job->free_parameters),
+        fmt::format("{} {}points cannot determine {} parameters: measure more points or fix some",
+                    job->readings(), distinct.copies.empty() ? "" : "different ",
+                    job->free_parameters),
         curve.source);
   }
   if (job->free_parameters == 0) return Fail("every parameter is fixed: nothing is left to fit");
+  // Effects know their readings by their places in the curve.
+  const IvCurve& fitted = job->fitted();
   std::vector<double> weights;
-  for (const double sigma : curve.sigma_A) weights.push_back(1 / (sigma * sigma));
+  for (const double sigma : fitted.sigma_A) weights.push_back(1 / (sigma * sigma));
+  if (job->forms.empty() && !distinct.copies.empty()) {
+    weights.resize(fitted.size(), 1.0);
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] *= distinct.copies[k];
+  }
   job->problem =
-      MakeRefineProblem(report->device, options.objective, curve.voltage_V, curve.current_A,
+      MakeRefineProblem(report->device, options.objective, fitted.voltage_V, fitted.current_A,
                         std::move(weights), std::move(lower), std::move(upper));
   if (options.kernel != nullptr) job->problem.kernel = options.kernel;
   job->few = Thin(job->problem);

@@ -19,10 +19,16 @@ struct FitJob {
   std::vector<ParameterBounds> bounds;
   std::vector<double> fixed;
   int free_parameters = 0;
-  RefineProblem problem;
-  RefineProblem few;  // the same problem or, of many points, what stands for it in the search
+  RefineProblem problem;  // on the distinct readings, or on all of a device with effects
+  RefineProblem few;      // the same problem or, of many points, what stands for it in the search
   FitWatch watch;
-  std::vector<Form> forms;  // of a device with effects
+  std::vector<Form> forms = {};  // of a device with effects
+  IvCurve distinct = {};         // the curve with each reading once: what counts as evidence
+
+  int readings() const { return static_cast<int>(distinct.size()); }
+
+  // The rows of `problem`.
+  const IvCurve& fitted() const { return forms.empty() ? distinct : curve; }
 
   // Of its base, which come first.
   int base_size() const { return problem.device.size() - effects(); }

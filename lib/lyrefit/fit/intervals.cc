@@ -53,13 +53,12 @@ struct IntervalWork {
 
 IntervalWork WorkOn(const IntervalInput& input, std::vector<Estimate>* estimates) {
   const Device& device = input.problem.device;
-  const int points = static_cast<int>(input.problem.voltage_V.size());
   IntervalWork work{input,
                     *estimates,
                     static_cast<int>(estimates->size()),
                     Reported(device, input.end.p),
                     Reported(device, Neutral(device, input.end.p)),
-                    std::max(points - input.free_parameters, 1)};
+                    std::max(input.readings - input.free_parameters, 1)};
   for (int i = 0; i < work.size; ++i) {
     work.t.push_back(StudentT95(input.degrees.empty() ? work.degrees : input.degrees[i]));
   }

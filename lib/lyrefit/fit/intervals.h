@@ -16,6 +16,7 @@ struct IntervalInput {
   const std::vector<FitPoint>& ends;  // of other fits, of a device with effects
   Intervals method = Intervals::kProfile;
   int free_parameters = 0;
+  int readings = 0;  // that are no copies of others
   int threads = 0;
   FitWatch* watch;
   bool final = false;  // true: the profiles go on where one comes upon a lower optimum

@@ -22,9 +22,7 @@ void StartOver(const RefineProblem& problem, const RefineEnd& end,
   report->agreeing = 1;
 }
 
-int SpareReadings(const FitJob& job) {
-  return std::max(static_cast<int>(job.curve.size()) - job.free_parameters, 1);
-}
+int SpareReadings(const FitJob& job) { return std::max(job.readings() - job.free_parameters, 1); }
 
 }  // namespace
 
@@ -48,6 +46,7 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
                               ends,
                               wanted ? method : Intervals::kNone,
                               job->free_parameters,
+                              job->readings(),
                               options.threads,
                               &job->watch,
                               round == kRestarts,
@@ -65,25 +64,25 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
 
 void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
                               FitReport* report) {
-  constexpr double kLeastGain = 6;  // independent errors would reach it in some 3 % of all curves
   const bool possible = job->options.loss == Loss::kSquared && report->no_intervals_because.empty();
   if (job->options.intervals == Intervals::kNone || !possible || job->watch.stopped()) return;
-  const std::optional<FoundErrors> found = FindErrors(job->problem, job->curve, end);
+  const std::optional<FoundErrors> found = FindErrors(job->problem, job->fitted(), end);
   if (!found) return;
   ErrorReport errors;
   errors.sizes = found->sizes;
   errors.gain = found->gain;
-  errors.current_stated = !job->curve.sigma_A.empty();
-  errors.believed = found->gain > kLeastGain;
+  errors.current_stated = !job->fitted().sigma_A.empty();
+  errors.believed = found->gain > kGainToBelieve;
   report->errors = errors;
   if (!errors.believed) return;
-  const ErrorShape shape = ShapeOfErrors(job->problem, job->curve, end.p);
+  const ErrorShape shape = ShapeOfErrors(job->problem, job->fitted(), end.p);
   const auto input_under = [&](const ErrorModel& model) {
     return IntervalInput{job->problem,
                          end,
                          ends,
                          job->options.intervals,
                          job->free_parameters,
+                         job->readings(),
                          job->options.threads,
                          &job->watch,
                          true,
@@ -104,12 +103,13 @@ void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, co
 std::vector<int> DegreesOfWeighed(FitJob* job, const FoundErrors& found, const RefineEnd& end) {
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
-    const RefineProblem there = WeighByErrors(job->problem, job->curve, spec, end.p);
+    const RefineProblem there = WeighByErrors(job->problem, job->fitted(), spec, end.p);
     return StandardErrors({there,
                            end,
                            {},
                            Intervals::kSymmetric,
                            job->free_parameters,
+                           job->readings(),
                            job->options.threads,
                            &job->watch});
   };

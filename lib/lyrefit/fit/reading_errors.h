@@ -22,9 +22,13 @@ struct ReadingsAt {
   const std::vector<double>& p;
 };
 
+// A gain (FoundErrors) above this is believed: independent errors reach it in some 3 % of all
+// curves.
+constexpr double kGainToBelieve = 6;
+
 // How errors of the readings show in the weighted residuals. The noise of a voltage has its size at
 // Voc and is in proportion to the voltage elsewhere. The path goes along the readings as they were
-// taken, its length is one Voc. Effects beside the diodes change what light and voltages do too
+// taken, in Voc. Effects beside the diodes change what light and voltages do too
 // little to matter here.
 void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape);
 

@@ -89,7 +89,12 @@ double RobustScale(std::vector<double> values) {
 double NoiseFromDifferences(const std::vector<double>& voltage_V,
                             const std::vector<double>& values) {
   if (values.size() < 5) return 0;
-  const std::vector<int> order = OrderByVoltage(voltage_V);
+  std::vector<int> order = OrderByVoltage(voltage_V);
+  const auto copy = [&](int a, int b) {
+    return voltage_V[a] == voltage_V[b] && values[a] == values[b];
+  };
+  order.erase(std::unique(order.begin(), order.end(), copy), order.end());
+  if (order.size() < 5) return 0;
   std::vector<double> differences;
   for (std::size_t k = 1; k + 1 < order.size(); ++k) {
     differences.push_back(values[order[k - 1]] - 2 * values[order[k]] + values[order[k + 1]]);

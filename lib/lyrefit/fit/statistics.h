@@ -25,7 +25,8 @@ ResidualStatistics FindResidualStatistics(const std::vector<double>& voltage_V,
 std::vector<int> OrderByVoltage(const std::vector<double>& voltage_V);
 
 // Standard deviation of the noise from second differences of the values in order of voltage (median
-// absolute deviation, so that a few bad points or a knee do not count). 0 for fewer than 5 points.
+// absolute deviation, so that a few bad points or a knee do not count). Copies of a point count
+// once. 0 for fewer than 5 points.
 double NoiseFromDifferences(const std::vector<double>& voltage_V,
                             const std::vector<double>& values);
 

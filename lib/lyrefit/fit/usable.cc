@@ -15,21 +15,50 @@ namespace {
 
 constexpr double kLargestMisfit = 0.03;  // of Isc
 
-// RMSE of the straight line through the points: what a fit must at least beat.
-double StraightLineRmse(const IvCurve& curve) {
+// Residuals of the straight line through the points: what a fit must at least beat.
+std::vector<double> StraightLineResiduals(const IvCurve& curve) {
   const double n = static_cast<double>(curve.size());
   const auto mean = [&](const std::vector<double>& x) {
     return std::accumulate(x.begin(), x.end(), 0.0) / n;
   };
   const double v0 = mean(curve.voltage_V), i0 = mean(curve.current_A);
-  double vv = 0, vi = 0, ii = 0;
+  double vv = 0, vi = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    const double v = curve.voltage_V[k] - v0, i = curve.current_A[k] - i0;
+    const double v = curve.voltage_V[k] - v0;
     vv += v * v;
-    vi += v * i;
-    ii += i * i;
+    vi += v * (curve.current_A[k] - i0);
   }
-  return std::sqrt(std::max(ii - vi * vi / vv, 0.0) / n);
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    residuals.push_back(i0 + vi / vv * (curve.voltage_V[k] - v0) - curve.current_A[k]);
+  }
+  return residuals;
+}
+
+double Typical(const std::vector<double>& residuals, bool robust) {
+  if (robust) return RobustScale(residuals);
+  double squares = 0;
+  for (const double one : residuals) squares += one * one;
+  return std::sqrt(squares / static_cast<double>(residuals.size()));
+}
+
+// Whether a line describes the curve as well as parameters that leave `misfit`: by AICc, or by BIC
+// where the readings are too few for AICc. A search that was cut short says nothing of the model,
+// so it must be worse than the line.
+bool LineDoesAsWell(const FitReport& report, double misfit, bool robust, bool at_its_end) {
+  constexpr double kRounding = 1e-11;  // of the largest current: no residual is told from 0
+  constexpr int kLineParameters = 2;
+  const double line = Typical(StraightLineResiduals(report.curve), robust);
+  if (!at_its_end) return misfit >= line;
+  const double smallest = kRounding * LargestMagnitude(report.curve.current_A);
+  const auto criteria = [&](double size, int parameters) {
+    const double mean_square = std::pow(std::max(size, smallest), 2);
+    return FindInformation(mean_square, report.criteria.points, parameters);
+  };
+  const InformationCriteria of_fit = criteria(misfit, report.criteria.parameters);
+  const InformationCriteria of_line = criteria(line, kLineParameters);
+  if (std::isnan(of_fit.aicc)) return of_line.bic <= of_fit.bic;
+  return of_line.aicc <= of_fit.aicc;
 }
 
 // What a misfit is measured by: Isc, or the largest current of a curve that has none to speak of,
@@ -53,10 +82,13 @@ std::string WhyNotUsable(const FitReport& report, bool interrupted, bool robust)
   const double rmse =
       (report.polished ? report.rmse.refined : report.rmse.searched).solved_current_A;
   if (!std::isfinite(rmse)) return "the model gives no finite current at these readings";
-  // A search that was cut short or not polished says nothing about what the model could do.
   const Scale scale = ScaleOf(report);
   const double misfit = robust ? RobustScale(report.residual_A) : rmse;
-  const bool misses = report.polished && !interrupted && misfit > kLargestMisfit * scale.current_A;
+  const bool at_its_end = report.polished && !interrupted;
+  if (LineDoesAsWell(report, misfit, robust, at_its_end)) {
+    return "a straight line describes these points as well";
+  }
+  const bool misses = at_its_end && misfit > kLargestMisfit * scale.current_A;
   if (misses) {
     const std::string size =
         fmt::format("{} is {:.1f} % of {}", robust ? "the typical residual" : "RMSE",
@@ -70,9 +102,6 @@ std::string WhyNotUsable(const FitReport& report, bool interrupted, bool robust)
     return fmt::format("no diode model within the bounds describes this curve: {}; {}", size,
                        report.doubts.empty() ? "a diagnosis may name the cause (lyrefit diagnose)"
                                              : "look first at what is doubtful about its readings");
-  }
-  if (rmse >= StraightLineRmse(report.curve)) {
-    return "a straight line describes these points as well";
   }
   return "";
 }

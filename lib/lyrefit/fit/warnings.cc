@@ -58,7 +58,8 @@ void WarnOfRichModel(const FitReport& report, Sentences* out) {
     if (e.identifiable || e.info.name.rfind("saturation_current", 0) != 0) continue;
     absent += (absent.empty() ? "" : ", ") + e.info.symbol;
   }
-  if (absent.empty() || report.model == Model::kSingleDiode) return;
+  const bool judged = report.no_intervals_because.empty();
+  if (absent.empty() || !judged || report.model == Model::kSingleDiode) return;
   out->push_back(fmt::format(
       "{} may be 0: the data do not support this many diodes; --model auto decides", absent));
 }
@@ -81,7 +82,19 @@ void WarnOfProfiles(const FitReport& report, Sentences* out) {
       unsettled));
 }
 
+void WarnOfNoIntervals(const FitReport& report, Sentences* out) {
+  if (report.no_intervals_because.empty() || !report.usable) return;
+  out->push_back("no intervals: " + report.no_intervals_because);
+}
+
 void WarnOfData(const FitReport& report, Sentences* out) {
+  const int copies = static_cast<int>(report.curve.size()) - report.criteria.points;
+  if (copies > 0) {
+    out->push_back(fmt::format(
+        "{} of {} readings are exact copies of others, which tell nothing new: the {} different "
+        "ones count for standard errors and intervals",
+        copies, report.curve.size(), report.criteria.points));
+  }
   const int spare = report.criteria.points - report.criteria.parameters;
   if (spare < 3) {
     out->push_back(fmt::format("{} points for {} parameters leave {} to judge the fit by",
@@ -119,12 +132,14 @@ void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
 void WarnOfResiduals(const FitReport& report, Sentences* out) {
   if (!(report.residuals.runs_p_value < 0.01)) return;
   const bool allowed_for = report.errors && report.errors->believed;
+  const char* of_intervals = !report.no_intervals_because.empty() ? ""
+                             : allowed_for ? "; the intervals under the error model allow for it"
+                                           : "; the intervals are too narrow";
   out->push_back(fmt::format(
       "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): "
-      "the model misses something, or the light wandered; {}",
+      "the model misses something, or the light wandered{}",
       report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value,
-      allowed_for ? "the intervals under the error model allow for it"
-                  : "the intervals are too narrow"));
+      of_intervals));
 }
 
 }  // namespace
@@ -132,6 +147,7 @@ void WarnOfResiduals(const FitReport& report, Sentences* out) {
 std::vector<std::string> FindWarnings(const FitReport& report) {
   Sentences warnings;
   WarnOfStops(report, &warnings);
+  WarnOfNoIntervals(report, &warnings);
   WarnOfBounds(report, &warnings);
   WarnOfRichModel(report, &warnings);
   WarnOfProfiles(report, &warnings);

@@ -8,13 +8,21 @@
 namespace lyrefit {
 namespace {
 
-using Logs = std::vector<double>;  // ln of current_A, voltage_V, path
+// Of the prior of ln length, below its center. Above it a path hardly changes within the sweep, and
+// its size and length say one thing.
+constexpr double kLengthWidth = 4;
+constexpr double kLongerWidth = 0.5;
+
+using Logs = std::vector<double>;  // ln of current_A, voltage_V, path, length
 
 Logs LogsOf(const ErrorSizes& sizes) {
-  return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path)};
+  return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path),
+          std::log(sizes.length)};
 }
 
-ErrorSizes SizesAt(const Logs& at) { return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2])}; }
+ErrorSizes SizesAt(const Logs& at) {
+  return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), std::exp(at[3])};
+}
 
 struct Rows {
   const ErrorShape& shape;
@@ -50,7 +58,8 @@ double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
   double sum = 0;
   for (int g = 0; g < errors.size(); ++g) {
     const double path = errors.path.empty() ? 0 : errors.path[g];
-    const double variance = errors.white[g] * errors.white[g] + path * path;
+    const double parted = -std::expm1(-errors.position[g]);
+    const double variance = errors.white[g] * errors.white[g] + path * path * parted;
     const double terms = std::log(variance) + differences.mean_square[g] / variance;
     sum -= 0.5 * differences.count[g] * terms;
   }
@@ -59,11 +68,15 @@ double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
 
 double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   const Logs center = LogsOf(prior.center);
-  const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path};
+  const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path,
+                          prior.width.length};
   const ErrorSizes sizes = SizesAt(at);
   double sum = LogLikelihood(MakeErrorModel(rows.shape, sizes), rows.columns) +
                LogLikelihood(rows.differences, sizes);
-  for (int i = 0; i < 3; ++i) sum -= 0.5 * std::pow((at[i] - center[i]) / width[i], 2);
+  for (int i = 0; i < 4; ++i) {
+    const bool longer = i == 3 && at[i] > center[i];
+    sum -= 0.5 * std::pow((at[i] - center[i]) / (longer ? kLongerWidth : width[i]), 2);
+  }
   return std::isnan(sum) ? -HUGE_VAL : sum;
 }
 
@@ -78,15 +91,19 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   const double relative = rms_A / prior.center.current_A * prior.width.path;
   Logs best;
   double highest = -HUGE_VAL;
+  const auto consider = [&](double current, double voltage, double path, double length) {
+    const Logs at = {std::log(current * rms_A), usual[1] + std::log(voltage),
+                     usual[2] + std::log(path * std::min(std::max(relative, 1e-3), 10.0)),
+                     usual[3] + std::log(length)};
+    const double value = LogPosterior(rows, prior, at);
+    if (!(value > highest)) return;
+    highest = value;
+    best = at;
+  };
   for (const double current : {1.0, 0.2}) {
     for (const double voltage : {0.03, 1.0}) {
       for (const double path : {0.05, 0.5, 2.0}) {
-        const Logs at = {std::log(current * rms_A), usual[1] + std::log(voltage),
-                         usual[2] + std::log(path * std::min(std::max(relative, 1e-3), 10.0))};
-        const double value = LogPosterior(rows, prior, at);
-        if (!(value > highest)) continue;
-        highest = value;
-        best = at;
+        for (const double length : {1.0, 0.2, 0.04}) consider(current, voltage, path, length);
       }
     }
   }
@@ -94,12 +111,12 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
 }
 
 // 0 where it is not positive.
-Eigen::Matrix3d InverseOf(const Eigen::MatrixXd& curvature) {
-  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-  for (int j = 0; j < 3; ++j) {
+Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
+  Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+  for (int j = 0; j < 4; ++j) {
     Eigen::VectorXd column;
-    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(3, j), &column)) {
-      return Eigen::Matrix3d::Zero();
+    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(4, j), &column)) {
+      return Eigen::Matrix4d::Zero();
     }
     inverse.col(j) = column;
   }
@@ -119,6 +136,13 @@ double WhiteLogLikelihood(const Rows& rows) {
   return LogLikelihood(white, rows.columns);
 }
 
+// 1 less the mean of exp(-|x - x'|) over a stretch of this third: what averaging takes of the path.
+double AveragedAway(double third) {
+  const double x = 3 * third;
+  if (x < 1e-3) return third;
+  return 1 - 2 * (x + std::expm1(-x)) / (x * x);
+}
+
 }  // namespace
 
 bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
@@ -126,7 +150,7 @@ bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
     return std::fabs(one - other) <= tolerance * std::fabs(other);
   };
   return close(a.current_A, b.current_A) && close(a.voltage_V, b.voltage_V) &&
-         close(a.path, b.path);
+         close(a.path, b.path) && close(a.length, b.length);
 }
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
@@ -139,14 +163,16 @@ ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
     errors.white.push_back(std::hypot(current, sizes.voltage_V * shape.voltage[k]));
     if (sizes.path > 0) errors.path.push_back(sizes.path * shape.path[k]);
   }
-  errors.position = shape.position;
+  for (const double position : shape.position) errors.position.push_back(position / sizes.length);
   errors.chain = shape.chain;
-  errors.averaged_away = shape.averaged_away;
+  for (const double part : shape.averaged_away) {
+    errors.averaged_away.push_back(AveragedAway(part / sizes.length));
+  }
   return errors;
 }
 
 ErrorPrior UsualErrors(double isc_A, double voc_V) {
-  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3}, {3, 3, 1}};
+  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3, 1}, {3, 3, 1, kLengthWidth}};
 }
 
 FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,

@@ -10,6 +10,8 @@ struct ErrorSizes {
   double current_A = 0;  // standard deviation of every current by itself
   double voltage_V = 0;  // of a voltage at Voc, which shows by the slope of the curve
   double path = 0;       // of the light, relative, along the sweep, or of what looks like it
+  // Along the sweep, in Voc, over which the path's correlation falls to 1 / e.
+  double length = 1;
 };
 
 // Whether each size is within a relative `tolerance` of the other's.

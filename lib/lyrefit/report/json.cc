@@ -87,6 +87,7 @@ void to_json(Json& j, const ErrorReport& errors) {
   j = {{"current_noise_A", errors.sizes.current_A},
        {"voltage_noise_V", errors.sizes.voltage_V},
        {"path_of_isc", errors.sizes.path},
+       {"path_length_of_voc", errors.sizes.length},
        {"sizes", origin(errors.stated)},
        {"current_noise", origin(errors.current_stated || errors.stated)},
        {"gain", errors.gain},

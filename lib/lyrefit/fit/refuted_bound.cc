@@ -1,0 +1,102 @@
+#include "lyrefit/fit/refuted_bound.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lyrefit/base/distributions.h"
+#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kLevel = 0.05;
+
+// Positions of the idealities that sit at a bound with room beyond it. Below `steepest_n` a diode
+// is a step (law/term.h).
+std::vector<int> AtBound(const FitJob& job, const RefineEnd& end, const FitReport& report) {
+  std::vector<int> found;
+  for (int d = 0; d < DiodeCount(report.device); ++d) {
+    const int i = IdealityIndex(d);
+    const ParameterBounds& bounds = job.bounds[i];
+    const bool absent = !(end.p[SaturationCurrentIndex(d)] > 0);
+    if (absent || bounds.lower == bounds.upper) continue;
+    const bool low = end.p[i] <= bounds.lower && bounds.lower != report.steepest_n;
+    if (low || end.p[i] >= bounds.upper) found.push_back(i);
+  }
+  return found;
+}
+
+RefineProblem WithRoom(RefineProblem problem, const std::vector<int>& at_bound, double steepest) {
+  constexpr double kRoom = 4;
+  for (const int i : at_bound) {
+    problem.lower[i] /= kRoom;
+    if (steepest > 0) problem.lower[i] = std::max(problem.lower[i], steepest);
+    problem.upper[i] *= kRoom;
+  }
+  return problem;
+}
+
+// p-value of as large a fall from `bound` to `free`, mean squares of one problem.
+double PValue(const RefineProblem& problem, double bound, double free, int extra, int spare) {
+  if (problem.errors == nullptr) return FTestPValue(bound, free, extra, spare);
+  const double squares =
+      (bound - free) * static_cast<double>(problem.voltage_V.size()) / std::pow(problem.noise_A, 2);
+  return FisherTail(squares / extra, extra, spare);
+}
+
+// Both ends under the errors that the residuals of the wider fit show; `p` where they show none.
+double UnderTheirErrors(FitJob* job, const RefineProblem& wide, const RefineEnd& free,
+                        const RefineEnd& end, int extra, int spare, double p) {
+  const std::optional<FoundErrors> found = FindErrors(wide, job->fitted(), free);
+  if (!found || found->gain <= kGainToBelieve) return p;
+  RefineOptions how;
+  how.stop = job->watch.stop();
+  const RefineProblem beyond =
+      WeighByErrors(wide, job->fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);
+  RefineProblem within = beyond;
+  within.lower = job->problem.lower;
+  within.upper = job->problem.upper;
+  const double bound = Refine(within, end.p, how).mean_square;
+  return PValue(beyond, bound, Refine(beyond, free.p, how).mean_square, extra, spare);
+}
+
+}  // namespace
+
+std::string RefutedBound(FitJob* job, const RefineProblem& problem, const RefineEnd& end,
+                         const FitReport& report) {
+  if (job->watch.stopped()) return "";
+  const std::vector<int> at_bound = AtBound(*job, end, report);
+  if (at_bound.empty()) return "";
+  const RefineProblem wide = WithRoom(problem, at_bound, report.steepest_n);
+  RefineOptions how;
+  how.stop = job->watch.stop();
+  const RefineEnd free = Refine(wide, end.p, how);
+  const int extra = static_cast<int>(at_bound.size());
+  const int spare = job->readings() - job->free_parameters;
+  double p = PValue(wide, end.mean_square, free.mean_square, extra, spare);
+  if (p < kLevel && problem.errors == nullptr) {
+    p = UnderTheirErrors(job, wide, free, end, extra, spare, p);
+  }
+  if (!(p < kLevel)) return "";
+  std::string where, room;
+  for (const int i : at_bound) {
+    const ParameterBounds& bounds = job->bounds[i];
+    const std::string& symbol = report.device.parameters[i].symbol;
+    const bool low = end.p[i] <= bounds.lower;
+    where += fmt::format("{}{} = {:g}, its {} bound", where.empty() ? "" : ", ", symbol, end.p[i],
+                         low ? "lower" : "upper");
+    room += fmt::format("{}--bound {}={:g}:{:g}", room.empty() ? "" : " ", symbol,
+                        low ? wide.lower[i] : bounds.lower, low ? bounds.upper : wide.upper[i]);
+  }
+  return fmt::format(
+      "the readings refute {} (with more room the RMSE falls from {:.3g} to {:.3g} A, p = {:.1g}): "
+      "the other parameters make up for it, and no interval would hold the truth; allow more with "
+      "{}, or check temperature, number of cells and model",
+      where, std::sqrt(end.mean_square), std::sqrt(free.mean_square), p, room);
+}
+
+}  // namespace lyrefit

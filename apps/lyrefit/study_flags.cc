@@ -31,7 +31,8 @@ Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
 
 void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {
   const std::string peers = PagmoNames();
-  const std::string pagmo = peers.empty() ? "; pagmo:NAME in a build with pagmo2"
+  const std::string pagmo = peers.empty() ? "; pagmo:NAME with pagmo2's algorithms, none of which "
+                                            "is in this build: install libpagmo-dev and build again"
                                           : "; pagmo:NAME with NAME one of " + peers;
   verb->AddOption("--algorithms", &flags->algorithms,
                   "list of " + AllTexts<Algorithm>() +

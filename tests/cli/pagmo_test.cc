@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "run_app.h"
 
 namespace lyrefit {
@@ -9,7 +11,21 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
+// The help without the breaks of its lines.
+std::string HelpOf(const std::string& verb) {
+  std::istringstream words(RunApp(verb + " --help").out);
+  std::string text, word;
+  while (words >> word) text += word + " ";
+  return text;
+}
+
 #ifdef LYREFIT_HAS_PAGMO
+
+TEST(Pagmo, HelpNamesThePeersThatAreIn) {
+  for (const char* verb : {"compare", "budget"}) {
+    EXPECT_THAT(HelpOf(verb), HasSubstr("pagmo:NAME with NAME one of de, sade")) << verb;
+  }
+}
 
 const char kEverybody[] =
     "pagmo:de,pagmo:sade,pagmo:de1220,pagmo:cmaes,pagmo:xnes,pagmo:pso,pagmo:pso_gen,pagmo:gwo,"
@@ -79,6 +95,14 @@ TEST(Pagmo, JoinsTheBudgetStudy) {
 }
 
 #else
+
+TEST(Pagmo, HelpSaysThatNoPeersAreInAndHowToGetThem) {
+  for (const char* verb : {"compare", "budget"}) {
+    EXPECT_THAT(HelpOf(verb), HasSubstr("none of which is in this build: install libpagmo-dev and "
+                                        "build again"))
+        << verb;
+  }
+}
 
 TEST(Pagmo, IsAskedForWhereTheBuildHasNone) {
   const AppResult result = RunApp("compare " + kRtc + " --algorithms mlo,pagmo:de");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "error_of.h"
+#include "lyrefit/curve/key_points.h"
 #include "made_curve.h"
 
 namespace lyrefit {
@@ -17,6 +18,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+
+// As it would be with `voc_V` in place of the module's open-circuit voltage.
+void ScaleVoc(double voc_V, IvCurve* curve) {
+  const double factor =
+      voc_V / FindKeyPoints(curve->voltage_V, curve->current_A).open_circuit_voltage_V;
+  for (double& voltage : curve->voltage_V) voltage *= factor;
+}
 
 TEST(CheckReadingsTest, SoundCurvesHaveNoFindings) {
   EXPECT_THAT(CheckReadings(MadeModule()), IsEmpty());
@@ -149,6 +157,23 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
        [](IvCurve* c) {
          c->conditions.cells_in_series = 1;
          c->cells_known = false;
+       }},
+      {"one stated cell with the voltage of two junctions",
+       "cells",
+       true,
+       {"1.73", "cells in series forgotten (--cells 3)", "tandem", "wide band gap"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         ScaleVoc(1.73, c);
+       }},
+      {"cells not stated, and the voltage of two junctions",
+       "cells",
+       false,
+       {"some 3 cells in series, or", "tandem", "(--cells)"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = false;
+         ScaleVoc(1.73, c);
        }},
       {"cells not stated, and a sweep that ends before open circuit",
        "cells",

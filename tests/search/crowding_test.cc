@@ -1,11 +1,14 @@
 #include "lyrefit/search/crowding.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "lyrefit/base/random.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -38,6 +41,33 @@ TEST(Crowding, AgreesWithThePlainDefinitionAfterManyMoves) {
     }
     ASSERT_NEAR(crowding.LargestDistance(), largest, 1e-15) << "move " << move;
   }
+}
+
+TEST(Crowding, FindsTheLargestDistanceOfManyBirdsInLittleMemory) {
+  SKIP_IF_SANITIZED();
+  constexpr int kBirds = 20000;
+  RandomStream random(5);
+  std::vector<double> unit(kBirds);
+  for (double& x : unit) x = random.Uniform();
+  // A table of all distances would have 3.2 GB.
+  const auto in_little_memory = [&] {
+    const rlimit limit = {1U << 30, 1U << 30};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(1);
+    Crowding crowding(kBirds, 1, unit);
+    const auto largest = [&] {
+      const auto ends = std::minmax_element(unit.begin(), unit.end());
+      return *ends.second - *ends.first;
+    };
+    if (crowding.LargestDistance() != largest()) std::_Exit(2);
+    for (int move = 0; move < 20; ++move) {  // the outermost bird to the middle
+      const auto end = std::max_element(unit.begin(), unit.end());
+      *end = 0.5;
+      crowding.Move(static_cast<int>(end - unit.begin()), &*end);
+      if (crowding.LargestDistance() != largest()) std::_Exit(3);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(in_little_memory(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/search/run.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {
@@ -37,8 +39,9 @@ struct Spread {
   double deviation = 0;
 };
 
+const Box kLiteratureBox = {{0, 0, 0, 0, 1, 0, 1, 0, 1}, {1, 0.5, 100, 1e-6, 2, 1e-6, 2, 1e-6, 2}};
+
 Spread OverSeeds(Algorithm algorithm, int seeds, int population = 100, int iterations = 1000) {
-  const Box box = {{0, 0, 0, 0, 1, 0, 1, 0, 1}, {1, 0.5, 100, 1e-6, 2, 1e-6, 2, 1e-6, 2}};
   SearchOptions options;
   options.algorithm = algorithm;
   options.population = population;
@@ -46,7 +49,7 @@ Spread OverSeeds(Algorithm algorithm, int seeds, int population = 100, int itera
   std::vector<double> ends;
   for (int seed = 0; seed < seeds; ++seed) {
     options.seed = seed;
-    ends.push_back(Search(Rmse, box, options).best.objective);
+    ends.push_back(Search(Rmse, kLiteratureBox, options).best.objective);
   }
   Spread spread;
   for (const double end : ends) spread.mean += end / seeds;
@@ -71,6 +74,49 @@ TEST(Lyrebird, ReachesThePublishedMeanOfTheOriginal) {
 TEST(Lyrebird, ReachesThePublishedMeanOfTheModification) {
   const Spread mlo = OverSeeds(Algorithm::kMlo, 20);
   EXPECT_NEAR(mlo.mean, 9.8555e-4, Allowance(mlo, 2.8e-6, 20));
+}
+
+struct Dispersals {
+  double share = 0;  // of the moves of the hiding phase
+  int equal = 0;     // runs that end where LO does, to the bit
+};
+
+Dispersals CountDispersals(double gamma, int runs) {
+  const ObjectiveFunction objective = Rmse;
+  const Observer nobody;
+  std::int64_t hides = 0, dispersals = 0;
+  Dispersals counted;
+  for (int r = 0; r < runs; ++r) {
+    SearchOptions options;
+    options.run = r;
+    options.population = 100;
+    options.iterations = 1000;
+    options.algorithm = Algorithm::kLo;
+    const double lo = Search(objective, kLiteratureBox, options).best.objective;
+    options.algorithm = Algorithm::kLoDmlss;
+    options.distance_coefficient = gamma;
+    SearchRun run(objective, kLiteratureBox, options, nobody);
+    RunLyrebird(&run, options);
+    hides += run.hides();
+    dispersals += run.dispersals();
+    counted.equal += run.Finish().best.objective == lo;
+  }
+  counted.share = static_cast<double>(dispersals) / static_cast<double>(hides);
+  std::printf("gamma %g: %lld of %lld hides disperse (%.3f %%), %d of %d runs end where LO does\n",
+              gamma, static_cast<long long>(dispersals), static_cast<long long>(hides),
+              100 * counted.share, counted.equal, runs);
+  return counted;
+}
+
+// README.md of lib/lyrefit/search has these figures.
+TEST(Lyrebird, HardlyEverDispersesAtThePapersGamma) {
+  const Dispersals at_papers = CountDispersals(0.25, 30);
+  EXPECT_GT(at_papers.share, 0);
+  EXPECT_LT(at_papers.share, 0.005);
+  EXPECT_GT(at_papers.equal, 15);
+  const Dispersals at_twice = CountDispersals(0.5, 3);
+  EXPECT_GT(at_twice.share, 0.1);
+  EXPECT_EQ(at_twice.equal, 0);
 }
 
 // A thousand evaluations, where fixed settings have not converged yet.

@@ -134,6 +134,23 @@ TEST_P(EveryAlgorithm, ReturnsDistinctElitesBestFirst) {
   }
 }
 
+TEST_P(EveryAlgorithm, ThinsALongTraceAndKeepsItsEnds) {
+  SearchOptions options = Options();
+  options.population = 4;
+  options.iterations = 150001;
+  const SearchSummary summary = Search(Sphere, kBox, options);
+  EXPECT_LE(summary.trace.size(), 65538U);
+  EXPECT_GE(summary.trace.size(), 32768U);
+  EXPECT_EQ(summary.trace.front().iteration, 0);
+  EXPECT_EQ(summary.trace.back().iteration, 150001);
+  EXPECT_EQ(summary.trace.back().evaluations, summary.evaluations);
+  EXPECT_EQ(summary.trace.back().best, summary.best.objective);
+  for (std::size_t k = 1; k < summary.trace.size(); ++k) {
+    ASSERT_GT(summary.trace[k].iteration, summary.trace[k - 1].iteration);
+    ASSERT_LE(summary.trace[k].best, summary.trace[k - 1].best);
+  }
+}
+
 std::string AlgorithmName(const ::testing::TestParamInfo<Algorithm>& info) {
   std::string name = ToText(info.param);
   std::replace(name.begin(), name.end(), '+', '_');
@@ -164,6 +181,18 @@ TEST(Lyrebird, AblationsAreMloWithOneStrategyOff) {
   options.distance_coefficient = 0.25;
   options.memory_rate = 0;
   ExpectSame(Search(Sphere, kBox, options), dmlss);
+}
+
+TEST(Lyrebird, WithoutMemoryOneNumberAMoveAndOneACoordinateAreTheSame) {
+  SearchOptions options;
+  options.memory_rate = 0;
+  const SearchSummary one = Search(Sphere, kBox, options);
+  options.algorithm = Algorithm::kMloVector;
+  ExpectSame(Search(Sphere, kBox, options), one);
+  options.memory_rate = 1;
+  const SearchSummary vector = Search(Sphere, kBox, options);
+  options.algorithm = Algorithm::kMlo;
+  EXPECT_NE(Search(Sphere, kBox, options).best.x, vector.best.x);
 }
 
 // Two basins of one width; the lower one, at the second corner, 0.1 below.
@@ -236,6 +265,10 @@ TEST(SearchOptions, OutOfRangeAreNamedWithTheirRange) {
   ASSERT_FALSE(checked.has_value());
   EXPECT_EQ(checked.error().message, "memory-rate = 1.5 is outside [0, 1]");
   EXPECT_TRUE(ValidateOptions(SearchOptions{}, kSearchOptionTable).has_value());
+  options = {};
+  options.population = 100000;
+  EXPECT_EQ(ValidateOptions(options, kSearchOptionTable).error().message,
+            "population = 100000 is outside [4, 20000]");
 }
 
 TEST(Search, WorksOnOneDimensionAndOnAPointBox) {

@@ -26,8 +26,9 @@ constexpr double kLargestStated_V = 2e4;
 constexpr double kLowestCell_V = 0.2;
 constexpr double kHighestCell_V = 1.6;
 constexpr double kUsualCell_V = 0.62;
-constexpr double kDim_W_m2 = 50;   // below, a cell may have little voltage
-constexpr double kDark_W_m2 = 20;  // below, a sensor may show an offset
+constexpr double kHighestStack_V = 5.5;  // of one cell of several junctions
+constexpr double kDim_W_m2 = 50;         // below, a cell may have little voltage
+constexpr double kDark_W_m2 = 20;        // below, a sensor may show an offset
 
 // What the checks after the first two look at.
 struct Examined {
@@ -233,6 +234,16 @@ void LookAtUnits(const Examined& look, Findings* out) {
   }
 }
 
+// A voltage between that of a common cell and that of a short string has two readings.
+bool MayBeStack(double open_circuit_voltage_V, int cells) {
+  return cells == 1 && open_circuit_voltage_V > kHighestCell_V &&
+         open_circuit_voltage_V < kHighestStack_V;
+}
+
+constexpr char kStack[] =
+    "or is this one cell of several junctions (a tandem: count them, --cells 2) or of a wide band "
+    "gap";
+
 void LookAtCells(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
   const bool reached = look.key.open_circuit_voltage_V > 0;
@@ -245,18 +256,23 @@ void LookAtCells(const Examined& look, Findings* out) {
   const bool dim = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDim_W_m2;
   const int likely = LikelyCells(voc);
   if (per_cell > kHighestCell_V && !curve.cells_known) {
-    out->push_back({"cells",
-                    fmt::format("{} {:.4g} V: some {} cells in series? give their number (--cells)",
-                                reached ? "Voc is" : "the curve goes to", voc, likely),
-                    false,
-                    {}});
+    out->push_back(
+        {"cells",
+         fmt::format("{} {:.4g} V: some {} cells in series{}? give their number (--cells)",
+                     reached ? "Voc is" : "the curve goes to", voc, likely,
+                     MayBeStack(voc, cells) ? fmt::format(", {}", kStack) : ""),
+         false,
+         {}});
   } else if (per_cell > kHighestCell_V || (reached && per_cell < kLowestCell_V && !dim)) {
     const std::string stated =
         curve.cells_known ? fmt::format("each of {} stated cells", cells) : "one cell";
     const std::string each =
         per_cell < 1 ? fmt::format("{:.3g} mV", 1e3 * per_cell) : fmt::format("{:.4g} V", per_cell);
     const std::string instead =
-        likely != cells ? fmt::format(": give --cells {}?", likely) : ": is the unit right?";
+        MayBeStack(voc, cells)
+            ? fmt::format(": were cells in series forgotten (--cells {}), {}?", likely, kStack)
+        : likely != cells ? fmt::format(": give --cells {}?", likely)
+                          : ": is the unit right?";
     out->push_back({"cells",
                     fmt::format("{} {:.4g} V: {} for {}, and a cell at light has {:g} to {:g} V{}",
                                 reached ? "Voc is" : "the curve goes to", voc, each, stated,

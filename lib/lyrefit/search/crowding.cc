@@ -27,10 +27,13 @@ LYREFIT_CLONES void Distances(const double* coordinate, int stride, int dimensio
   for (int k = 0; k < stride; ++k) distance[k] = std::sqrt(distance[k]);
 }
 
-LYREFIT_CLONES void ReplaceRow(const double* fresh, int stride, double* row, double* sum) {
+// The sums and the bounds of the largest distance, after one bird has moved: its distances to the
+// others were `past` and are `fresh`.
+LYREFIT_CLONES void UpdateOthers(const double* past, const double* fresh, int stride, double* sum,
+                                 double* bound) {
   for (int k = 0; k < stride; ++k) {
-    sum[k] += fresh[k] - row[k];
-    row[k] = fresh[k];
+    sum[k] += fresh[k] - past[k];
+    bound[k] = fresh[k] > bound[k] ? fresh[k] : bound[k];
   }
 }
 
@@ -59,50 +62,66 @@ Crowding::Crowding(int birds, int dimensions, const std::vector<double>& unit)
       dimensions_(dimensions),
       stride_((birds + kLanes - 1) / kLanes * kLanes),
       coordinate_(static_cast<std::size_t>(dimensions) * stride_),
-      distance_(static_cast<std::size_t>(birds) * stride_),
+      point_(dimensions),
       sum_(stride_),
+      bound_(stride_),
+      past_(stride_),
       fresh_(stride_) {
   for (int i = 0; i < birds; ++i) {
     for (int j = 0; j < dimensions; ++j) {
-      coordinate_[static_cast<std::size_t>(j) * stride_ + i] = unit[i * dimensions + j];
+      coordinate_[static_cast<std::size_t>(j) * stride_ + i] =
+          unit[static_cast<std::size_t>(i) * dimensions + j];
     }
   }
   for (int i = 0; i < birds; ++i) {
-    Distances(coordinate_.data(), stride_, dimensions_, &unit[i * dimensions], Row(i));
-    std::fill(Row(i) + birds_, Row(i) + stride_, 0.0);
-    sum_[i] = SumOf(Row(i), stride_);
+    FindDistances(i, &fresh_);
+    sum_[i] = SumOf(fresh_.data(), stride_);
+    bound_[i] = LargestOf(fresh_.data(), stride_);
   }
   FindLargest();
 }
 
+void Crowding::FindDistances(int i, std::vector<double>* distance) {
+  for (int j = 0; j < dimensions_; ++j) {
+    point_[j] = coordinate_[static_cast<std::size_t>(j) * stride_ + i];
+  }
+  Distances(coordinate_.data(), stride_, dimensions_, point_.data(), distance->data());
+  std::fill(distance->begin() + birds_, distance->end(), 0.0);
+}
+
 void Crowding::Move(int i, const double* unit) {
+  FindDistances(i, &past_);
   for (int j = 0; j < dimensions_; ++j) {
     coordinate_[static_cast<std::size_t>(j) * stride_ + i] = unit[j];
   }
-  Distances(coordinate_.data(), stride_, dimensions_, unit, fresh_.data());
-  std::fill(fresh_.begin() + birds_, fresh_.end(), 0.0);
-  ReplaceRow(fresh_.data(), stride_, Row(i), sum_.data());
-  for (int k = 0; k < birds_; ++k) Row(k)[i] = fresh_[k];
+  FindDistances(i, &fresh_);
+  UpdateOthers(past_.data(), fresh_.data(), stride_, sum_.data(), bound_.data());
   sum_[i] = SumOf(fresh_.data(), stride_);
-  const double reach = LargestOf(fresh_.data(), stride_);
-  if (reach >= largest_) {
-    largest_ = reach;
+  bound_[i] = LargestOf(fresh_.data(), stride_);
+  if (bound_[i] >= largest_) {
+    largest_ = bound_[i];
     end_a_ = i;
-    end_b_ = static_cast<int>(std::find(fresh_.begin(), fresh_.end(), reach) - fresh_.begin());
+    end_b_ = FarthestOf(fresh_);
   } else if (i == end_a_ || i == end_b_) {
     FindLargest();
   }
 }
 
+// The greatest bound is the answer once it is attained; one that is not is lowered to what its bird
+// attains.
 void Crowding::FindLargest() {
-  largest_ = -1;
-  for (int i = 0; i < birds_; ++i) {
-    const double reach = LargestOf(Row(i), stride_);
-    if (reach <= largest_) continue;
-    largest_ = reach;
-    end_a_ = i;
-    end_b_ = static_cast<int>(std::find(Row(i), Row(i) + stride_, reach) - Row(i));
+  while (true) {
+    end_a_ = FarthestOf(bound_);
+    FindDistances(end_a_, &fresh_);
+    largest_ = LargestOf(fresh_.data(), stride_);
+    if (largest_ >= bound_[end_a_]) break;
+    bound_[end_a_] = largest_;
   }
+  end_b_ = FarthestOf(fresh_);
+}
+
+int Crowding::FarthestOf(const std::vector<double>& distance) {
+  return static_cast<int>(std::max_element(distance.begin(), distance.end()) - distance.begin());
 }
 
 }  // namespace lyrefit

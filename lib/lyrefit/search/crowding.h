@@ -4,10 +4,10 @@
 
 namespace lyrefit {
 
-// Distances between all birds in the unit box, kept up to date bird by bird: a move costs O(N d), a
-// question O(1), where recomputing would cost O(N d) a question and O(N^2 d) for the largest
-// distance. The sums are updated by differences; their drift is far below the threshold's own
-// arbitrariness and the same in every run.
+// How crowded each bird of a population is in the unit box: the mean of its distances to the others,
+// and the largest distance of all, kept up to date bird by bird. A move costs O(N d), a question
+// O(1), the memory is O(N d): no distance is stored. The sums are updated by differences; their
+// drift is far below the threshold's own arbitrariness and the same in every run.
 class Crowding {
  public:
   // `unit` holds `birds` rows of `dimensions` coordinates.
@@ -20,15 +20,18 @@ class Crowding {
   double LargestDistance() const { return largest_; }                  // Dis_max, Eq. 25
 
  private:
-  double* Row(int i) { return &distance_[static_cast<std::size_t>(i) * stride_]; }
+  void FindDistances(int i, std::vector<double>* distance);
   void FindLargest();
+  static int FarthestOf(const std::vector<double>& distance);
 
   int birds_;
   int dimensions_;
   int stride_;                      // birds, rounded up to whole vectors
   std::vector<double> coordinate_;  // dimension by dimension, stride_ apart
-  std::vector<double> distance_;    // birds_ rows, stride_ apart
+  std::vector<double> point_;
   std::vector<double> sum_;
+  std::vector<double> bound_;  // no distance of a bird is larger
+  std::vector<double> past_;
   std::vector<double> fresh_;
   double largest_ = 0;
   int end_a_ = 0;  // the two birds that are farthest apart

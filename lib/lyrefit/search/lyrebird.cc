@@ -1,14 +1,14 @@
-// The lyrebird optimizer (LO) and its modification (MLO), after J. Ind. Manag. Optim. 22(1),
-// 642-690, section 3; equation numbers are that paper's. One algorithm, four settings: LO has Pm =
-// gamma = 0.
+// The lyrebird optimizer (LO, doi:10.3390/biomimetics8060507) and its modification (MLO), after J.
+// Ind. Manag. Optim. 22(1), 642-690, section 3; equation numbers are that paper's. One algorithm,
+// four settings: LO has Pm = gamma = 0. What the paper prints, what LO's own paper says and what is
+// chosen here, with the evidence, stands in README.md beside this file.
 //
-// What the paper leaves open and we chose: r and the integers J are drawn per coordinate (only this
-// reaches the paper's LO figures); in Eq. 20 the memory is that of a random bird and z is one
-// number a move (the bird's own memory, read literally, equals its position and collapses the
-// search); Eq. 23 and 24 are lost in print, and the form below is ours.
+// Chosen here, in short: in Eq. 20 the memory is that of a random bird and z is one number a move,
+// where the paper prints the bird's own memory and a vector (kMloVector has the vector); Eq. 23 and
+// 24 are lost in print, and their form is a reconstruction.
 //
-// Ours too, and under a name of its own, is tuning during the run, which the paper leaves to the
-// future: each move draws its Pm or gamma from what lately gained.
+// Under a name of its own, and of no paper, is tuning during the run: each move draws its Pm or
+// gamma from what lately gained.
 
 #include <algorithm>
 #include <optional>
@@ -69,6 +69,7 @@ class Lyrebird {
   const double memory_rate_;
   const double gamma_;
   const bool keeps_distances_;
+  const bool vector_;  // a z for each coordinate in Eq. 20
   std::vector<double> candidate_;
   std::vector<double> unit_;
   BirdOrder order_;
@@ -86,6 +87,7 @@ Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* r
       memory_rate_(MemoryRateOf(options)),
       gamma_(GammaOf(options)),
       keeps_distances_(gamma_ > 0 || Learns(options)),
+      vector_(options.algorithm == Algorithm::kMloVector),
       candidate_(d_),
       unit_(d_),
       order_(*run) {
@@ -112,6 +114,7 @@ double Lyrebird::Gamma() { return learned_ ? drawn_ = learned_->gamma.Draw(rando
 // Fills candidate_; false where the bird stays.
 bool Lyrebird::Propose(int i, double t, double planned) {
   escaped_ = random_->Uniform() < 0.5;
+  if (!escaped_) run_->CountHide();
   if (escaped_) {
     const double rate = MemoryRate() * t / planned;  // Eq. 21
     if (rate > 0 && random_->Uniform() < rate) {
@@ -120,6 +123,7 @@ bool Lyrebird::Propose(int i, double t, double planned) {
       return false;
     }
   } else if (crowding_ && crowding_->MeanDistance(i) < Gamma() * crowding_->LargestDistance()) {
+    run_->CountDispersal();
     Disperse(i);
   } else {
     Hide(i, t);
@@ -151,8 +155,11 @@ void Lyrebird::Imitate(int i) {
   const double* memory = run_->x(random_->Index(n_));
   const double* best = run_->x(run_->best());
   const double* x = run_->x(i);
-  const double z = random_->Uniform();
-  for (int j = 0; j < d_; ++j) candidate_[j] = best[j] + z * (memory[j] - x[j]);
+  double z = random_->Uniform();
+  for (int j = 0; j < d_; ++j) {
+    if (vector_ && j > 0) z = random_->Uniform();
+    candidate_[j] = best[j] + z * (memory[j] - x[j]);
+  }
 }
 
 // Eq. 22: x' = x + (1 - 2 r) (u - l) / t.
@@ -164,7 +171,7 @@ void Lyrebird::Hide(int i, double t) {
   }
 }
 
-// DMLSS, Eq. 23: a crowded bird moves towards a random other one.
+// DMLSS in place of Eq. 23, which is lost in print: a crowded bird moves towards a random other one.
 void Lyrebird::Disperse(int i) {
   int other = static_cast<int>(random_->Index(n_ - 1));
   if (other >= i) ++other;

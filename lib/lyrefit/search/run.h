@@ -29,9 +29,15 @@ class SearchRun {
     return value == value ? value : kInfinity;
   }
 
+  // Moves of the hiding phase, and those of them that the diversity strategy took.
+  void CountHide() { ++hides_; }
+  void CountDispersal() { ++dispersals_; }
+  std::int64_t hides() const { return hides_; }
+  std::int64_t dispersals() const { return dispersals_; }
+
   void Replace(int bird, const double* x, double f);
 
-  // Ends iteration `t` of `planned`: writes the trace, asks the observer, looks at the clock.
+  // Ends iteration `t` of `planned`: adds to the trace, asks the observer, looks at the clock.
   void EndIteration(std::int64_t t, std::int64_t planned);
 
   SearchSummary Finish();
@@ -41,6 +47,7 @@ class SearchRun {
     if (!stopped()) summary_.termination = why;
   }
   double Seconds() const;
+  void AddToTrace(const TracePoint& point);
   void AddElite(const double* candidate, double f);
   void CollectElites();
 
@@ -53,8 +60,12 @@ class SearchRun {
   std::vector<double> x_;
   std::vector<double> f_;
   int best_ = 0;
+  std::int64_t hides_ = 0;
+  std::int64_t dispersals_ = 0;
   double best_at_last_gain_ = kInfinity;
   std::int64_t last_gain_ = 0;
+  std::int64_t trace_step_ = 1;  // iterations from one point of the trace to the next
+  TracePoint last_;              // of the iteration that ended last
   SearchSummary summary_;
 };
 

@@ -16,6 +16,8 @@ namespace {
 // Birds closer than this in every coordinate of the unit box count as one elite.
 constexpr double kDistinct = 0.01;
 
+constexpr std::size_t kLongestTrace = 65537;
+
 std::string Message(const SearchSummary& summary) {
   switch (summary.termination) {
     case SearchTermination::kNotRun:
@@ -56,10 +58,24 @@ void SearchRun::Replace(int bird, const double* x, double f) {
   if (f < f_[best_]) best_ = bird;
 }
 
+// A trace that is full loses every second point, and takes every second one from then on.
+void SearchRun::AddToTrace(const TracePoint& point) {
+  last_ = point;
+  if (point.iteration % trace_step_ != 0) return;
+  std::vector<TracePoint>& trace = summary_.trace;
+  trace.push_back(point);
+  if (trace.size() <= kLongestTrace) return;
+  trace_step_ *= 2;
+  trace.erase(
+      std::remove_if(trace.begin(), trace.end(),
+                     [this](const TracePoint& p) { return p.iteration % trace_step_ != 0; }),
+      trace.end());
+}
+
 void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
   const double best = f_[best_];
   summary_.iterations = t;
-  summary_.trace.push_back({t, summary_.evaluations, best});
+  AddToTrace({t, summary_.evaluations, best});
   if (best < best_at_last_gain_) {
     best_at_last_gain_ = best;
     last_gain_ = t;
@@ -102,6 +118,7 @@ void SearchRun::CollectElites() {
 
 SearchSummary SearchRun::Finish() {
   CollectElites();
+  if (last_.iteration > summary_.trace.back().iteration) summary_.trace.push_back(last_);
   summary_.message = Message(summary_);
   summary_.seconds = Seconds();
   return std::move(summary_);
@@ -144,6 +161,7 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
     case Algorithm::kLoMblss:
     case Algorithm::kLoDmlss:
     case Algorithm::kMloTuned:
+    case Algorithm::kMloVector:
     case Algorithm::kMloKnees:
       RunLyrebird(&run, options);
       break;

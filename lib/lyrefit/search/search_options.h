@@ -12,14 +12,15 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // The four settings of the lyrebird optimizer, what is built on it, and two plain baselines.
 enum class Algorithm {
-  kMlo,       // modified lyrebird: both strategies
-  kLo,        // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
-  kLoMblss,   // with the memory-based learn search strategy only
-  kLoDmlss,   // with the diversity-maintenance learn search strategy only
-  kMloTuned,  // mlo that learns Pm and gamma from the moves that gained
-  kMloKnees,  // mlo whose first flock sits partly where the problem suggests
-  kRandom,    // uniform random points: the baseline every figure is printed beside
-  kDe,        // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
+  kMlo,        // modified lyrebird: both strategies
+  kLo,         // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
+  kLoMblss,    // with the memory-based learn search strategy only
+  kLoDmlss,    // with the diversity-maintenance learn search strategy only
+  kMloTuned,   // mlo that learns Pm and gamma from the moves that gained
+  kMloKnees,   // mlo whose first flock sits partly where the problem suggests
+  kRandom,     // uniform random points: the baseline every figure is printed beside
+  kDe,         // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
+  kMloVector,  // mlo whose Eq. 20 draws a number for each coordinate, as the paper prints it
 };
 
 template <>
@@ -30,6 +31,7 @@ struct EnumTable<Algorithm> {
       {Algorithm::kLoMblss, "lo+mblss"},
       {Algorithm::kLoDmlss, "lo+dmlss"},
       {Algorithm::kMloTuned, "mlo+tuned"},
+      {Algorithm::kMloVector, "mlo+vector"},
       {Algorithm::kMloKnees, "mlo+knees"},
       {Algorithm::kRandom, "random"},
       {Algorithm::kDe, "de"},
@@ -59,7 +61,7 @@ inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     OptionRow<SearchOptions>("Search"),
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
     {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
-    {"population", "birds", "number of birds", &SearchOptions::population, 4, 100000},
+    {"population", "birds", "number of birds", &SearchOptions::population, 4, 20000},
     {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1,
      1e8},
     {"memory-rate", "", "Pm: rate of the memory-based strategy", &SearchOptions::memory_rate, 0, 1},

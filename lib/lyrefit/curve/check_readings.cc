@@ -12,6 +12,7 @@
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {
@@ -270,7 +271,10 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);
   LookAtUnits(look, &findings);
-  if (findings.empty()) LookAtCells(look, &findings);
+  if (findings.empty()) {
+    LookAtCells(look, &findings);
+    for (ReadingFinding& size : CheckPlausibility(curve)) findings.push_back(std::move(size));
+  }
   for (ReadingFinding& limit : FindEqualReadings(curve)) findings.push_back(std::move(limit));
   std::stable_sort(
       findings.begin(), findings.end(),

@@ -12,7 +12,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 // Something in the readings that no device does, or that is more likely the instrument's or the
 // file's than the device's.
 struct ReadingFinding {
-  std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "cells", "limit"
+  std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "cells",
+                            // "current", "shape", "limit"
   std::string sentence;     // what was seen and what to do; no full stop
   bool refuse = false;      // false: a doubt, the readings can be worked with
   std::vector<int> points;  // positions in the curve it is about; empty: all
@@ -27,6 +28,7 @@ struct ReadingFinding {
 //   exchanged  voltage in the column of the current
 //   unit       more than 30 A a string or 2000 V where the file names no unit
 //   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, at light
+//   current, shape   sizes that no device has: see CheckPlausibility
 //   limit      equal readings at an end of the curve where a device's would differ
 // Real curves, dark, coarse, noisy or shaded ones among them, have none.
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);

@@ -69,6 +69,12 @@ TEST(Plausibility, DoubtsAModuleWithTheCurrentOfASensor) {
   curve = ModuleWith(0.008);
   curve.cells_known = false;
   EXPECT_EQ(Said(curve), "");
+  curve = ModuleWith(0.0008);
+  curve.conditions.irradiance_W_m2 = 40;
+  EXPECT_EQ(Said(curve), "") << "dusk";
+  curve = ModuleWith(0.008);
+  curve.irradiance_known = false;
+  EXPECT_EQ(Said(curve), "") << "nobody stated the light";
 }
 
 TEST(Plausibility, DoubtsACurrentDensityBeyondSunlight) {

@@ -70,7 +70,8 @@ TEST(SettleWeights, FitsWithTheWeightsItTakes) {
 TEST(SettleWeights, SaysWhichAndWhy) {
   const std::string text = FamilyText(Fit(NoisySet(true, 1), FamilyWeights::kAuto));
   EXPECT_THAT(text, HasSubstr("relative to the Isc of each curve"));
-  EXPECT_THAT(text, HasSubstr("in proportion to Isc (2 ln likelihood +"));
+  EXPECT_THAT(text, HasSubstr("the residuals speak for errors in proportion to"));
+  EXPECT_THAT(text, HasSubstr("(2 ln likelihood +"));
   EXPECT_THAT(FamilyText(Fit(NoisySet(false, 1), FamilyWeights::kAuto)),
               HasSubstr("every point alike"));
 }

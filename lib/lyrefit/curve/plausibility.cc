@@ -20,8 +20,9 @@ constexpr double kMostOfString_A = 100;
 constexpr double kMostDensity_mA_cm2 = 70;
 constexpr double kLeastOfModule_A = 0.02;
 constexpr int kCellsOfModule = 30;
-// A diode of n = 1 at 1.5 V has 0.92.
-constexpr double kMostFillFactor = 0.92;
+constexpr double kLeastLightOfModule_W_m2 = 100;  // not dusk
+// A diode of n = 1 at 1.5 V has 0.92, and light that rises during the sweep adds to it.
+constexpr double kMostFillFactor = 0.95;
 constexpr double kLeastFillFactor = 0.1;
 // Bright light, cold cells and a bright back come to less than twice the rating.
 constexpr double kMostOfRating = 3;
@@ -75,7 +76,9 @@ std::string TooMuchOfArea(const IvCurve& curve, double isc_A) {
 
 std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
   const Conditions& at = curve.conditions;
-  if (!curve.cells_known || at.cells_in_series < kCellsOfModule || !(isc_A > 0)) return "";
+  const bool bright = curve.irradiance_known && at.irradiance_W_m2 >= kLeastLightOfModule_W_m2;
+  if (!bright || !curve.cells_known || at.cells_in_series < kCellsOfModule || !(isc_A > 0))
+    return "";
   if (!(isc_A < kLeastOfModule_A * at.strings_in_parallel * LightOf(curve))) return "";
   return fmt::format(
       "Isc of {:.4g} A{} is less than a module of {} cells gives: other units than were read "
@@ -83,9 +86,14 @@ std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
       isc_A, AtLight(curve), at.cells_in_series);
 }
 
-std::string OddShape(const KeyPoints& key) {
-  const double fill_factor = key.fill_factor;
-  if (!(key.max_power_W > 0) || !std::isfinite(fill_factor)) return "";
+// By the readings themselves: a parabola through few of them may pass above all.
+std::string OddShape(const IvCurve& curve, const KeyPoints& key) {
+  double power_W = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    power_W = std::max(power_W, curve.voltage_V[k] * curve.current_A[k]);
+  }
+  const double fill_factor = power_W / (key.short_circuit_current_A * key.open_circuit_voltage_V);
+  if (!(power_W > 0) || !std::isfinite(fill_factor)) return "";
   if (fill_factor >= kLeastFillFactor && fill_factor <= kMostFillFactor) return "";
   return fmt::format(
       "the fill factor is {:.3g}, {}: are all readings of one curve, and which column is which?",
@@ -126,7 +134,7 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve) {
   if (current.empty()) current = TooMuchOfArea(curve, isc_A);
   if (current.empty()) current = TooLittleOfModule(curve, isc_A);
   if (!current.empty()) findings.push_back({"current", current, false, {}});
-  const std::string shape = isc_A > 0 ? OddShape(key) : "";
+  const std::string shape = isc_A > 0 ? OddShape(curve, key) : "";
   if (!shape.empty()) findings.push_back({"shape", shape, false, {}});
   return findings;
 }

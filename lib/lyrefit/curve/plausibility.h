@@ -14,9 +14,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 // answer that depends on their size can be believed. None of these findings refuses. CheckReadings
 // has them among its own, so that every verb says them:
 //   current   Isc, brought to 1000 W/m2 where the irradiance is stated, above 100 A a string, or
-//             above 70 mA/cm2 where the area of a cell is stated; below 20 mA/string of 30 cells or
-//             more in series
-//   shape     a fill factor above 0.92 or below 0.1
+//             above 70 mA/cm2 where the area of a cell is stated; below 20 mA a string of 30 cells
+//             or more, from a stated 100 W/m2 on
+//   shape     a fill factor above 0.95 or below 0.1
 std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve);
 
 // Why nobody should believe an answer about this curve: Pmax above 3 times or below 1/300 of the

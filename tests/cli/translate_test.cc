@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "run_app.h"
@@ -61,6 +64,56 @@ TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
                       {good + "--rear-irradiance-Wm2 100", "say --bifaciality"},
                       {good + "--with-curve '" + folder.Path("good.csv") + "'", "--irradiance-Wm2"},
                       {kCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
+}
+
+// The same remark in every verb, and no verdict on a power that no device has.
+TEST(TranslateVerb, JudgesNoMilliampereReadAsAmpere) {
+  const TempFolder folder;
+  std::string rows = "voltage_V,current_A\n";
+  for (int k = 0; k <= 60; ++k) {
+    const double v = 0.61 * k;
+    rows += fmt::format("{},{}\n", v, 8000 - 2 * v - 1.2e-9 * std::expm1(v / 36.0 * 29.4));
+  }
+  const std::string file = folder.Write("milliampere.csv", rows);
+  const std::string at = " --cells 60 --temperature-C 25 ";
+  const std::string brief = "translate " + file + at + kQuickTranslation +
+                            "--procedures desoto --irradiance-Wm2 800 --rated-W 300 --brief";
+  const AppResult result = RunApp(brief);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("doubtful"));
+  EXPECT_THAT(result.out, ::testing::Not(HasSubstr("pass")));
+  constexpr char kSays[] = "more than any cell gives";
+  for (const std::string& verb :
+       {std::string("fit --intervals none "), std::string("diagnose --no-held-out --draws 200 "),
+        "translate --rated-W 300 --irradiance-Wm2 800 --procedures desoto " + kQuickTranslation}) {
+    const AppResult text = RunApp(verb + file + at);
+    std::string flat = text.out;
+    std::replace(flat.begin(), flat.end(), '\n', ' ');
+    EXPECT_THAT(flat.substr(0, 400), HasSubstr(kSays)) << verb;
+    const json document = json::parse(RunApp(verb + file + at + " --json -").out, nullptr, false);
+    ASSERT_TRUE(document.is_object()) << verb;
+    EXPECT_THAT(document["warnings"].dump(), HasSubstr(kSays)) << verb;
+    if (!document.contains("field_test")) continue;
+    EXPECT_EQ(document["field_test"]["zone"], "doubtful");
+    EXPECT_EQ(document["field_test"]["pass"], false);
+  }
+}
+
+TEST(TranslateVerb, SaysWhatTheSensorReadAndWhatTheCellsHave) {
+  const std::string back = kCell + kAt + kQuickTranslation +
+                           "--procedures desoto --temperature-C 33 --temperature-from back ";
+  const AppResult result = RunApp(back);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("33.0 C by a sensor on the back"));
+  EXPECT_THAT(result.out, HasSubstr("cells +2.50 K (1.5 K, k = 2): 35.5 C used"));
+  const json corrected = json::parse(RunApp(back + "--json -").out, nullptr, false);
+  ASSERT_TRUE(corrected.is_object());
+  EXPECT_DOUBLE_EQ(corrected["read_temperature_C"].get<double>(), 33);
+  EXPECT_DOUBLE_EQ(corrected["cell_correction_K"].get<double>(), 2.5);
+  EXPECT_DOUBLE_EQ(corrected["inputs"]["temperature_C"].get<double>(), 35.5);
+  const json cells = json::parse(RunApp(back + "--cell-correction 0 --json -").out, nullptr, false);
+  ASSERT_TRUE(cells.is_object());
+  EXPECT_DOUBLE_EQ(cells["inputs"]["temperature_C"].get<double>(), 33);
 }
 
 TEST(TranslateVerb, WarnsOfStepsThatNobodyMeasured) {

@@ -218,7 +218,9 @@ TEST(CheckReadingsTest, ACellInDimLightMayHaveLittleVoltage) {
 TEST(CheckReadingsTest, ManyAmperesAreTakenWhereTheUnitIsNamedOrStringsShareThem) {
   IvCurve curve = MadeModule();
   for (double& current : curve.current_A) current *= 100;
-  EXPECT_THAT(CheckReadings(curve), IsEmpty());
+  ASSERT_EQ(CheckReadings(curve).size(), 1U);
+  EXPECT_EQ(CheckReadings(curve)[0].id, "current");
+  EXPECT_FALSE(CheckReadings(curve)[0].refuse) << "taken, with a doubt";
   curve.current_unit_known = false;
   EXPECT_THAT(CheckReadings(curve), Not(IsEmpty()));
   curve.conditions.strings_in_parallel = 40;

@@ -1,6 +1,7 @@
 #include "translate/carried.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <cstdio>
 
@@ -25,8 +26,9 @@ lyrefit::UncertaintyOptions SizesOf(const Conditions& at) {
   sizes.temperature_K = at.temperature_K;
   sizes.cell_offset_K = 0;
   sizes.voltage_percent = sizes.current_percent = 0;  // one instrument on both ends
-  sizes.beta_percent = at.beta_percent;
+  if (at.beta_percent >= 0) sizes.beta_percent = at.beta_percent;
   sizes.alpha_percent = at.alpha_percent;
+  sizes.epsilon_percent = at.epsilon_percent;
   return sizes;
 }
 
@@ -53,6 +55,15 @@ Tally Sum(const std::vector<const Carried*>& rows, int left_out) {
   tally.expanded /= n;
   tally.within /= n;
   return tally;
+}
+
+// The share for which `within` or more of `count` have a probability of 2.5 %, and the one for which
+// `within` or fewer have.
+double LowestShare(int within, int count) {
+  return within <= 0 ? 0 : boost::math::ibeta_inv(within, count - within + 1.0, 0.025);
+}
+double HighestShare(int within, int count) {
+  return within >= count ? 1 : boost::math::ibeta_inv(within + 1.0, count - within, 0.975);
 }
 
 }  // namespace
@@ -87,7 +98,7 @@ std::vector<Sweep> MakeReady(const std::vector<lyrefit::IvCurve>& curves,
 }
 
 std::vector<Carried> CarryOne(const Sweep& from, const lyrefit::TranslationTarget& target,
-                              double true_power_W, const Conditions& at) {
+                              const lyrefit::KeyPoints& truth, const Conditions& at) {
   lyrefit::Preparation made = from.made;
   made.curve.target = target;
   const lyrefit::TranslationInputs& inputs = made.inputs.values;
@@ -112,8 +123,14 @@ std::vector<Carried> CarryOne(const Sweep& from, const lyrefit::TranslationTarge
     Carried row;
     row.procedure = results[i].procedure;
     row.recommended = i == best;
-    row.error = results[i].key_points.max_power_W / true_power_W - 1;
-    row.expanded = budget->outputs[lyrefit::kMaxPowerOutput].expanded_uncertainty / true_power_W;
+    const std::vector<double> found = lyrefit::KeyPointVector(results[i].key_points);
+    const std::vector<double> wanted = lyrefit::KeyPointVector(truth);
+    for (std::size_t k = 0; k < row.errors.size(); ++k) {
+      row.errors[k] = found[k] / wanted[k] - 1;
+      row.expandeds[k] = budget->outputs[k].expanded_uncertainty / wanted[k];
+    }
+    row.error = row.errors[lyrefit::kMaxPowerOutput];
+    row.expanded = row.expandeds[lyrefit::kMaxPowerOutput];
     row.folds = std::fabs(std::log(target.irradiance_W_m2 / inputs.irradiance_W_m2));
     row.heat = std::fabs(target.temperature_C - inputs.temperature_C) / 10;
     const lyrefit::TranslationError own = lyrefit::TranslationErrorOf(row.procedure);
@@ -137,8 +154,8 @@ std::vector<Carried> CarryPairs(const std::vector<Sweep>& sweeps, const Conditio
     const int from = draw(), to = draw();
     if (from == to) return;
     const lyrefit::TranslationInputs& there = sweeps[to].made.inputs.values;
-    parts[k] = CarryOne(sweeps[from], {there.irradiance_W_m2, there.temperature_C},
-                        sweeps[to].key.max_power_W, at);
+    parts[k] =
+        CarryOne(sweeps[from], {there.irradiance_W_m2, there.temperature_C}, sweeps[to].key, at);
     for (Carried& row : parts[k]) {
       row.from = from;
       row.to = to;
@@ -204,6 +221,43 @@ Sizes FittedSizes(const std::vector<Carried>& all, Procedure procedure) {
     }
   }
   return best;
+}
+
+void PrintHeld(const std::vector<Carried>& all) {
+  std::printf(
+      "| procedure | n | Isc within U | mean U | Voc | mean U | Pmax | mean U |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  const auto print = [&all](const char* name, std::optional<Procedure> procedure,
+                            bool recommended) {
+    std::string row;
+    int count = 0;
+    for (const int k : {0, 1, lyrefit::kMaxPowerOutput}) {
+      int within = 0;
+      double expanded = 0;
+      count = 0;
+      for (const Carried& each : all) {
+        if ((procedure && each.procedure != *procedure) || (recommended && !each.recommended)) {
+          continue;
+        }
+        ++count;
+        within += std::fabs(each.errors[k]) <= each.expandeds[k] ? 1 : 0;
+        expanded += each.expandeds[k];
+      }
+      char text[120];
+      std::snprintf(text, sizeof text, " %d (%.1f .. %.1f %%) | %.2f %% |", within,
+                    100 * LowestShare(within, count), 100 * HighestShare(within, count),
+                    100 * expanded / std::max(1, count));
+      row += text;
+    }
+    if (count > 0) std::printf("| %s | %d |%s\n", name, count, row.c_str());
+  };
+  for (const Procedure procedure : kAll) {
+    print(lyrefit::ToText(procedure).c_str(), procedure, false);
+  }
+  print("recommended", std::nullopt, true);
+  for (const Procedure procedure : kAll) {
+    print(("recommended: " + lyrefit::ToText(procedure)).c_str(), procedure, true);
+  }
 }
 
 void PrintTable(const std::vector<Carried>& all) {

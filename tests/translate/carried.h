@@ -2,6 +2,7 @@
 // to the other by every procedure: how far off each is, and how far off it says it may be.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +24,16 @@ struct Sweep {
 struct Conditions {
   double light_percent = 0;
   double temperature_K = 0;
-  double beta_percent = 5;
+  double beta_percent = 5;  // below 0: as where nobody stated beta
   double alpha_percent = 20;
+  double epsilon_percent = lyrefit::UncertaintyOptions().epsilon_percent;
 };
 
 // One procedure from one sweep to one place. Of Pmax, in parts.
 struct Carried {
+  // Of Isc, Voc, Imp, Vmp, Pmax, FF: errors and expanded uncertainties (k = 2), in parts.
+  std::array<double, 6> errors{};
+  std::array<double, 6> expandeds{};
   lyrefit::Procedure procedure = lyrefit::Procedure::kIec1;
   bool recommended = false;
   double error = 0;
@@ -50,7 +55,7 @@ std::vector<Sweep> MakeReady(const std::vector<lyrefit::IvCurve>& curves,
 // One sweep to one place of which the truth is known. `light_too`: the light is doubted on both
 // ends, as where both were measured.
 std::vector<Carried> CarryOne(const Sweep& from, const lyrefit::TranslationTarget& target,
-                              double true_power_W, const Conditions& at);
+                              const lyrefit::KeyPoints& truth, const Conditions& at);
 
 struct Pairing {
   int pairs = 1500;
@@ -90,5 +95,9 @@ Sizes FittedSizes(const std::vector<Carried>& all, lyrefit::Procedure procedure)
 
 // Markdown: a row a procedure, the recommended ones last.
 void PrintTable(const std::vector<Carried>& all);
+
+// Markdown: how many of Isc, Voc and Pmax lie within U, with exact 95 % limits (Clopper and Pearson
+// 1934), and the mean of U; a row a procedure, the recommended ones last.
+void PrintHeld(const std::vector<Carried>& all);
 
 }  // namespace shown

@@ -40,7 +40,7 @@ TEST(CarryOne, KeepsWithinTheStatedUncertaintyOnOtherLaws) {
       options.coefficients = made.coefficients;
       const std::vector<Sweep> ready = MakeReady({made.curve}, options, 1);
       ASSERT_EQ(ready.size(), 1U) << world << i;
-      for (const Carried& row : CarryOne(ready[0], {}, made.power_stc_W, {0, 0, 0, 0})) {
+      for (const Carried& row : CarryOne(ready[0], {}, made.stc, {0, 0, 0, 0})) {
         if (!row.recommended) continue;
         ++count;
         within += row.error <= row.expanded && -row.error <= row.expanded;

@@ -68,7 +68,7 @@ TEST(Checklist, AllCanBeMet) {
   options.wind_m_s = 2;
   const Checklist list = Checked(curve, facts, options);
   EXPECT_EQ(list.met, 12) << list.sentence;
-  EXPECT_THAT(Of(list, "temperature").found, HasSubstr("2.1 K warmer"));
+  EXPECT_THAT(Of(list, "temperature").found, HasSubstr("cells +2.1 K"));
   for (const CheckedCondition& each : list.conditions) {
     EXPECT_THAT(each.cure, IsEmpty()) << each.id;
     EXPECT_THAT(each.found, Not(IsEmpty())) << each.id;

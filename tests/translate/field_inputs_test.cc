@@ -44,6 +44,41 @@ TEST(FieldInputs, HalveTheExpandedSizesOfTheirClass) {
   EXPECT_EQ(Find(inputs, "lead_resistance_ohm"), nullptr) << "there is none";
 }
 
+TEST(CellCorrection, IsThatOfASensorOnTheBackOrAsStated) {
+  UncertaintyOptions options;
+  EXPECT_EQ(CellCorrection_K(options, 800), 0) << "nobody said what it was read from";
+  EXPECT_DOUBLE_EQ(CellOffsetSize_K(options, 800), 2);
+  options.temperature_source = TemperatureSource::kBackOfModule;
+  EXPECT_DOUBLE_EQ(CellCorrection_K(options, 1000), 2.5);
+  EXPECT_DOUBLE_EQ(CellCorrection_K(options, 400), 1);
+  EXPECT_DOUBLE_EQ(CellOffsetSize_K(options, 1000), 1.5);
+  options.cell_correction_K = 1;
+  EXPECT_DOUBLE_EQ(CellCorrection_K(options, 500), 0.5);
+  EXPECT_DOUBLE_EQ(CellOffsetSize_K(options, 1000), 1.5);
+  options.cell_correction_K = 0;
+  EXPECT_EQ(CellCorrection_K(options, 1000), 0);
+  EXPECT_EQ(CellOffsetSize_K(options, 1000), 0) << "a sensor of the cells";
+  options.cell_offset_K = 0.7;
+  EXPECT_DOUBLE_EQ(CellOffsetSize_K(options, 1000), 0.7);
+  for (const TemperatureSource source : {TemperatureSource::kVoc, TemperatureSource::kLaboratory}) {
+    UncertaintyOptions other;
+    other.temperature_source = source;
+    EXPECT_EQ(CellCorrection_K(other, 1000), 0);
+    EXPECT_EQ(CellOffsetSize_K(other, 1000), 0);
+  }
+}
+
+// The budget's line has the correction as its value, and its doubt.
+TEST(FieldInputs, KeepTheDoubtOfTheCorrection) {
+  UncertaintyOptions options;
+  options.temperature_source = TemperatureSource::kBackOfModule;
+  const std::vector<UncertainInput> inputs = FieldInputs(Settled(), options);
+  ASSERT_NE(Find(inputs, "cell_offset_K"), nullptr);
+  EXPECT_DOUBLE_EQ(Find(inputs, "cell_offset_K")->value, 2);
+  EXPECT_DOUBLE_EQ(Size(inputs, "cell_offset_K"), 1.5 * 0.8 / 2);
+  EXPECT_THAT(Find(inputs, "cell_offset_K")->source, HasSubstr("corrected for"));
+}
+
 TEST(FieldInputs, StatedSizesGoFirst) {
   UncertaintyOptions options;
   options.light_source = LightSource::kPyranometer;

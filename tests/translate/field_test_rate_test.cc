@@ -115,7 +115,7 @@ IvCurve Measure(const Maker& maker, double strength, double beta_V_K, RandomStre
   curve.conditions.cells_in_series = 1200;
   curve.conditions.irradiance_W_m2 = light * (1 + 0.015 * random->Normal());
   curve.conditions.cell_temperature_K =
-      273.15 + warm + 0.5 * random->Normal() + 1.25 * light / 1000 * random->Normal();
+      273.15 + warm + 0.5 * random->Normal() - light / 1000 * (2.5 + 0.75 * random->Normal());
   const double gain_V = 1 + 0.005 * random->Normal(), gain_A = 1 + 0.005 * random->Normal();
   for (std::size_t i = 0; i < truth.voltage_V.size(); ++i) {
     curve.voltage_V.push_back(truth.voltage_V[i] / gain_V);
@@ -134,6 +134,7 @@ Judged JudgeOne(const World& world, const Maker& maker, double beta_V_K, double 
   TranslateOptions how;
   how.procedures = {world.procedure};
   how.diagnosis.threads = 1;
+  how.uncertainty.temperature_source = TemperatureSource::kBackOfModule;
   const IvCurve curve = Measure(maker, strength, beta_V_K, &random, &how);
   const auto made = Prepare(curve, how, Observer());
   Judged judged;

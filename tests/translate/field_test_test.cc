@@ -121,6 +121,42 @@ TEST(FieldTest, PerformanceFactorIsMeasuredOverPredicted) {
               expanded, 0.002 * expanded + 5e-5);
 }
 
+// Other units, another device, other light: nothing is held against the rating.
+TEST(FieldTest, JudgesNoPowerFarAboveTheRating) {
+  UncertaintyOptions uncertainty;
+  uncertainty.draws = 0;
+  const auto high =
+      JudgeFieldTest(Power(281285, 8000), Measured(225000), Rated(300, "-0,+5"), uncertainty);
+  ASSERT_TRUE(high);
+  EXPECT_EQ(high->zone, Zone::kDoubtful);
+  EXPECT_FALSE(IsPass(high->zone));
+  EXPECT_TRUE(std::isnan(high->probability_wrong));
+  EXPECT_THAT(high->doubt, HasSubstr("performance factor of"));
+  EXPECT_THAT(high->sentence, HasSubstr("cannot be held against the rating"));
+  EXPECT_THAT(high->notes, IsEmpty());
+  const auto carried =
+      JudgeFieldTest(Power(700, 8), Measured(300), Rated(400, "-0,+5"), uncertainty);
+  ASSERT_TRUE(carried);
+  EXPECT_EQ(carried->zone, Zone::kDoubtful);
+  EXPECT_THAT(carried->doubt, HasSubstr("1.75 times the rating"));
+  const auto bifacial =
+      JudgeFieldTest(Power(520, 8), Measured(380), Rated(400, "-0,+5"), uncertainty);
+  ASSERT_TRUE(bifacial);
+  EXPECT_EQ(bifacial->zone, Zone::kPass);
+}
+
+TEST(FieldTest, JudgesNoReadingsThatNoDeviceHas) {
+  UncertaintyOptions uncertainty;
+  uncertainty.draws = 0;
+  FieldMeasurement measurement = Measured(300);
+  measurement.doubt = "Isc is more than any cell gives";
+  const auto test = JudgeFieldTest(Power(400, 4), measurement, Rated(400, "-0,+5"), uncertainty);
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->zone, Zone::kDoubtful);
+  EXPECT_EQ(test->doubt, measurement.doubt);
+  EXPECT_THAT(test->sentence, HasSubstr("more than any cell gives"));
+}
+
 TEST(FieldTest, PredictionOfAModelStandsInForTheRating) {
   const FieldTestOptions options = Rated(400, "-0,+5");
   FieldMeasurement measurement = Measured(300);

@@ -57,16 +57,17 @@ void TakeShunts(const field::Module& from, field::Module* to) {
   }
 }
 
-double Power(const field::Module& module, const field::Departure& departure) {
+lyrefit::KeyPoints KeyOf(const field::Module& module, const field::Departure& departure) {
   const field::Sampled curve = field::CurveOf(module);
   const double isc = field::ShortCircuit(curve), voc = field::OpenCircuit(curve);
-  double most = 0;
+  std::vector<double> voltage_V, current_A;
   constexpr int kSteps = 8000;
-  for (int i = 1; i < kSteps; ++i) {
-    const double u = static_cast<double>(i) / kSteps, plain = curve.CurrentAt(u * voc);
-    most = std::max(most, u * voc * (plain + isc * departure.At(u, 1 - plain / isc)));
+  for (int i = 0; i <= kSteps; ++i) {
+    const double u = 1.005 * i / kSteps, plain = curve.CurrentAt(u * voc);
+    voltage_V.push_back(u * voc);
+    current_A.push_back(plain + isc * departure.At(u, 1 - plain / isc));
   }
-  return most;
+  return lyrefit::FindKeyPoints(voltage_V, current_A);
 }
 
 lyrefit::StatedCoefficients DataSheet(const field::ModuleType& type, std::uint64_t seed,
@@ -148,7 +149,7 @@ MadeCase MakeCells(const std::string& kind, bool alike, double suns, double kelv
   MadeCase made;
   made.curve = CurveOfReadings(field::Measured(rig, &lit, &random), rig.module, suns, kelvin);
   made.coefficients = DataSheet(type, seed, alike);
-  made.power_stc_W = Power(there.module, rig.departure);
+  made.stc = KeyOf(there.module, rig.departure);
   return made;
 }
 
@@ -193,7 +194,7 @@ MadeCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
   made.coefficients.beta_V_K = (key(1000, kStandard_K + 10).open_circuit_voltage_V -
                                 key(1000, kStandard_K - 10).open_circuit_voltage_V) /
                                20;
-  made.power_stc_W = key(1000, kStandard_K).max_power_W;
+  made.stc = key(1000, kStandard_K);
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/device_coefficients.h"
 
 namespace shown {
@@ -15,7 +16,7 @@ namespace shown {
 struct MadeCase {
   lyrefit::IvCurve curve;
   lyrefit::StatedCoefficients coefficients;
-  double power_stc_W = 0;
+  lyrefit::KeyPoints stc{};
 };
 
 // "PVsyst", "two diodes", "cells".

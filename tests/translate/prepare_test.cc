@@ -40,6 +40,42 @@ TEST(Prepare, FindsTheDiodeAndAnchorsItsLawToBeta) {
   EXPECT_THAT(made->warnings, IsEmpty());
 }
 
+// A sensor on the back reads 2 K less than the cells at 800 W/m2 have.
+TEST(Prepare, CorrectsASensorOnTheBackToTheCells) {
+  const MadeModule module;
+  TranslateOptions options = NoDiagnosis(module);
+  options.further = {module.Measured(600, 40)};
+  IvCurve curve = module.Measured(800, 45);
+  curve.temperature_C.assign(curve.size(), 45);
+  const auto cells = Prepare(curve, options, {});
+  options.uncertainty.temperature_source = TemperatureSource::kBackOfModule;
+  const auto back = Prepare(curve, options, {});
+  ASSERT_TRUE(cells && back);
+  EXPECT_DOUBLE_EQ(cells->inputs.values.temperature_C, 45);
+  EXPECT_EQ(cells->inputs.cell_correction_K, 0);
+  EXPECT_DOUBLE_EQ(back->inputs.values.temperature_C, 47);
+  EXPECT_DOUBLE_EQ(back->inputs.cell_correction_K, 2);
+  EXPECT_DOUBLE_EQ(back->curve.further[0].temperature_C, 41.5);
+  const double colder_n = back->fit->refined[2], n = cells->fit->refined[2];
+  EXPECT_NEAR(colder_n / n, (45 + 273.15) / (47 + 273.15), 1e-6) << "the fit is at the cells'";
+}
+
+TEST(Prepare, RefusesAndDoubtsReadingsAsAFitDoes) {
+  const MadeModule module;
+  TranslateOptions options = NoDiagnosis(module);
+  options.procedures = {Procedure::kIec1};
+  IvCurve curve = module.Measured(800, 45);
+  curve.conditions.cells_in_series = 10;
+  EXPECT_THAT(ErrorOfCurve(curve, options), HasSubstr("each of 10 stated cells"));
+  curve = module.Measured(800, 45);
+  for (double& current : curve.current_A) current *= 1000;
+  options.coefficients.alpha_A_K = 4.6;
+  const auto made = Prepare(curve, options, {});
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->doubts.size(), 1U);
+  EXPECT_THAT(made->doubts[0], HasSubstr("more than any cell gives"));
+}
+
 TEST(Prepare, LeavesAStatedBandGapAlone) {
   const MadeModule module;
   TranslateOptions options = NoDiagnosis(module);

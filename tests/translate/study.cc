@@ -17,6 +17,8 @@ constexpr Mode kModes[] = {
     {"halves", shown::StudyHalves, "sizes fitted to half of the sweeps, tried on the other half"},
     {"sizes", shown::StudySizes, "sizes fitted to every set and world by itself"},
     {"made", shown::StudyMade, "healthy devices by other laws, to standard conditions"},
+    {"sensors", shown::StudySensors, "the same, the cells warmer than the sensor on the back"},
+    {"beta", shown::StudyBeta, "the same where nobody states beta"},
     {"faults", shown::StudyFaults, "modules of cells with a fault, to standard conditions"},
     {"real", shown::StudyReal, "single real curves to standard conditions"},
 };

@@ -22,6 +22,10 @@ int StudyHalves(const StudyOptions& options);
 int StudySizes(const StudyOptions& options);
 // Healthy devices by other laws than any procedure's, to standard conditions.
 int StudyMade(const StudyOptions& options);
+// The same where the cells are warmer than their sensor, corrected and not.
+int StudySensors(const StudyOptions& options);
+// The same where nobody states beta.
+int StudyBeta(const StudyOptions& options);
 // Modules of cells with a fault, to standard conditions.
 int StudyFaults(const StudyOptions& options);
 // Real curves with and without faults.

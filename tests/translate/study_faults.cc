@@ -43,14 +43,14 @@ Answer Ask(const MadeCase& made) {
   }
   for (const lyrefit::TranslatedResult& result : report->results) {
     if (!result.computed()) continue;
-    answer.errors[result.procedure] = result.key_points.max_power_W / made.power_stc_W - 1;
+    answer.errors[result.procedure] = result.key_points.max_power_W / made.stc.max_power_W - 1;
   }
   const lyrefit::TranslatedResult* best = report->Recommended();
   if (best == nullptr || best->budget.outputs.empty()) return answer;
   answer.any = true;
   answer.recommended = answer.errors[best->procedure];
   answer.expanded =
-      best->budget.outputs[lyrefit::kMaxPowerOutput].expanded_uncertainty / made.power_stc_W;
+      best->budget.outputs[lyrefit::kMaxPowerOutput].expanded_uncertainty / made.stc.max_power_W;
   answer.by_extended = best->procedure == Procedure::kExtended;
   return answer;
 }

@@ -17,37 +17,62 @@ namespace {
 
 using lyrefit::Procedure;
 
-// What the field does not know: light by 3 %, temperature by 1 K and another 2.5 K at 1000 W/m2
-// (k = 2), alpha and beta of the data sheet by 20 % and 5 %.
-constexpr double kLight_percent = 3, kSensor_K = 1, kOffset_K = 2.5;
+// What the field does not know: light by 3 %, a sensor on the back by 1 K (k = 2), alpha and beta of
+// the data sheet by 20 % and 5 %; how much warmer the cells are at 1000 W/m2 is `of`'s.
+constexpr double kLight_percent = 3, kSensor_K = 1;
 
-void Misread(std::uint64_t seed, MadeCase* made) {
+struct Warmer {
+  const char* name;
+  double mean_K, spread_K;  // of a normal distribution
+};
+
+// A back sensor's answer to it, and its expanded uncertainty at 1000 W/m2.
+struct Answer {
+  const char* name;
+  double correction_K, expanded_K;
+};
+constexpr Answer kCorrected = {"corrected by 2.5 K, U 1.5 K", 2.5, 1.5};
+
+// What whoever carries the curves is told and doubts.
+struct Told {
+  Answer answer = kCorrected;
+  bool beta = true;
+  double epsilon_percent = lyrefit::UncertaintyOptions().epsilon_percent;
+};
+
+void Misread(std::uint64_t seed, const Warmer& of, MadeCase* made) {
   lyrefit::RandomStream random(seed, 99);
   lyrefit::Conditions& at = made->curve.conditions;
   const double suns = at.irradiance_W_m2 / 1000;
   at.irradiance_W_m2 *= 1 + kLight_percent / 200 * random.Normal();
-  at.cell_temperature_K += kSensor_K / 2 * random.Normal() + kOffset_K / 2 * suns * random.Normal();
+  at.cell_temperature_K +=
+      kSensor_K / 2 * random.Normal() - suns * (of.mean_K + of.spread_K * random.Normal());
   *made->coefficients.alpha_A_K *= 1 + 0.10 * random.Normal();
   *made->coefficients.beta_V_K *= 1 + 0.025 * random.Normal();
 }
 
 std::vector<Carried> CarryWorld(const std::string& world, const Light& light, int cases,
-                                bool misread, const StudyOptions& options) {
+                                const Warmer* misread, const StudyOptions& options,
+                                const Told& told = {}) {
   std::vector<std::vector<Carried>> parts(cases);
   lyrefit::ParallelFor(cases, options.threads, [&](int i) {
     const std::uint64_t seed = 1000 * options.seed + i;
     MadeCase made = MakeHealthy(world, light, seed);
-    if (misread) Misread(seed, &made);
+    if (misread != nullptr) Misread(seed, *misread, &made);
     lyrefit::TranslateOptions how = ReadyOptions(false);
     how.coefficients = made.coefficients;
+    if (!told.beta) how.coefficients.beta_V_K.reset();
+    if (misread != nullptr) how.uncertainty.cell_correction_K = told.answer.correction_K;
     const std::vector<Sweep> ready = MakeReady({made.curve}, how, 1);
     if (ready.empty()) return;
-    Conditions at = {0, 0, 0, 0};
-    if (misread) {
+    Conditions at = {0, 0, 0, 0, told.epsilon_percent};
+    if (misread != nullptr) {
       const double suns = made.curve.conditions.irradiance_W_m2 / 1000;
-      at = {kLight_percent, std::hypot(kSensor_K, kOffset_K * suns), 5, 20};
+      at = {kLight_percent, std::hypot(kSensor_K, told.answer.expanded_K * suns), 5, 20,
+            told.epsilon_percent};
     }
-    parts[i] = CarryOne(ready[0], {}, made.power_stc_W, at);
+    if (!told.beta) at.beta_percent = -1;
+    parts[i] = CarryOne(ready[0], {}, made.stc, at);
     for (Carried& row : parts[i]) row.from = row.to = i;
   });
   std::vector<Carried> all;
@@ -67,7 +92,48 @@ void PrintSizes(const std::string& set, const std::vector<Carried>& all) {
   std::fflush(stdout);
 }
 
+constexpr Warmer kUsual = {"drawn about 2.5 K, k = 2 of 1.5 K", 2.5, 0.75};
+
 }  // namespace
+
+int StudySensors(const StudyOptions& options) {
+  const int cases = options.cases > 0 ? options.cases : 200;
+  const Answer answers[] = {{"as read, U 2.5 K", 0, 2.5}, kCorrected};
+  for (const Warmer& warmer : {kUsual, Warmer{"always 2.5 K", 2.5, 0}, Warmer{"always 3 K", 3, 0},
+                               Warmer{"always 1 K", 1, 0}}) {
+    for (const Answer& answer : answers) {
+      std::vector<Carried> together;
+      for (const std::string& world : Worlds()) {
+        const auto all = CarryWorld(world, {}, cases, &warmer, options, {answer});
+        together.insert(together.end(), all.begin(), all.end());
+      }
+      std::printf("## cells warmer than the sensor: %s; temperature %s; all worlds\n\n",
+                  warmer.name, answer.name);
+      PrintHeld(together);
+      std::printf("\n");
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}
+
+int StudyBeta(const StudyOptions& options) {
+  const int cases = options.cases > 0 ? options.cases : 200;
+  for (const std::string& world : Worlds()) {
+    for (const Warmer* misread : {static_cast<const Warmer*>(nullptr), &kUsual}) {
+      for (const double epsilon_percent : {2.0, Told().epsilon_percent}) {
+        std::printf("## %s, beta not stated, %s, epsilon within %g %%\n\n", world.c_str(),
+                    misread != nullptr ? "light and temperature as in the field" : "the rest exact",
+                    epsilon_percent);
+        PrintHeld(
+            CarryWorld(world, {}, cases, misread, options, {kCorrected, false, epsilon_percent}));
+        std::printf("\n");
+        std::fflush(stdout);
+      }
+    }
+  }
+  return 0;
+}
 
 int StudySizes(const StudyOptions& options) {
   std::printf(
@@ -88,7 +154,7 @@ int StudySizes(const StudyOptions& options) {
   }
   const int cases = options.cases > 0 ? options.cases : 400;
   for (const std::string& world : Worlds()) {
-    PrintSizes(world, CarryWorld(world, {}, cases, false, options));
+    PrintSizes(world, CarryWorld(world, {}, cases, nullptr, options));
   }
   return 0;
 }
@@ -96,16 +162,20 @@ int StudySizes(const StudyOptions& options) {
 int StudyMade(const StudyOptions& options) {
   const int cases = options.cases > 0 ? options.cases : 400;
   for (const std::string& world : Worlds()) {
-    for (const bool misread : {false, true}) {
+    for (const Warmer* misread : {static_cast<const Warmer*>(nullptr), &kUsual}) {
       std::printf(
           "## %s, %s\n\n", world.c_str(),
-          misread ? "light, temperature, alpha and beta as sure as in the field"
-                  : "all inputs exact: U is of the procedure and of what is read off the curve");
-      PrintTable(CarryWorld(world, {}, cases, misread, options));
+          misread != nullptr
+              ? "light, temperature, alpha and beta as sure as in the field"
+              : "all inputs exact: U is of the procedure and of what is read off the curve");
+      const auto all = CarryWorld(world, {}, cases, misread, options);
+      PrintTable(all);
+      std::printf("\n");
+      PrintHeld(all);
       std::printf("\n");
     }
     std::printf("## %s, all inputs exact, light of 50 to 200 W/m2\n\n", world.c_str());
-    PrintTable(CarryWorld(world, {50, 200}, cases, false, options));
+    PrintTable(CarryWorld(world, {50, 200}, cases, nullptr, options));
     std::printf("\n");
   }
   return 0;

@@ -35,6 +35,8 @@ void ShowSet(const MeasuredSet& set, const StudyOptions& options) {
         at.light_percent, factor);
     PrintTable(all);
     if (factor == 1) {
+      std::printf("\n");
+      PrintHeld(all);
       std::printf(
           "\nThe recommended one by step:\n\n| step | n | bias | rms | mean U | within U |\n");
       std::printf("|---|---|---|---|---|---|\n");

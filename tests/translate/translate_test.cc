@@ -123,6 +123,45 @@ TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
   EXPECT_GT(ErrorOf(*step, Procedure::kDeSoto, healthy), 0.03);
 }
 
+// Read 2.5 K too cold at 1000 W/m2, as by a sensor on the back.
+TEST(TranslateCurve, SaysWhatWasReadAndWhatTheCellsHave) {
+  const MadeModule module;
+  TranslateOptions options = Quick(module);
+  options.procedures = {Procedure::kDeSoto};
+  IvCurve curve = module.Measured(800, 45);
+  curve.conditions.cell_temperature_K -= 2;
+  const double truth = module.Truth(1000, 25).open_circuit_voltage_V;
+  const auto as_read = TranslateCurve(curve, options);
+  options.uncertainty.temperature_source = TemperatureSource::kBackOfModule;
+  const auto back = TranslateCurve(curve, options);
+  ASSERT_TRUE(as_read && back);
+  EXPECT_DOUBLE_EQ(back->read_temperature_C, 43);
+  EXPECT_DOUBLE_EQ(back->inputs.values.temperature_C, 45);
+  EXPECT_DOUBLE_EQ(back->curve.conditions.cell_temperature_K, 43 + kZeroCelsius_K) << "as read";
+  const double voc = back->Recommended()->key_points.open_circuit_voltage_V;
+  EXPECT_NEAR(voc, truth, 2e-4 * truth);
+  EXPECT_LT(as_read->Recommended()->key_points.open_circuit_voltage_V, truth - 0.15);
+  EXPECT_LT(back->Recommended()->budget.outputs[1].expanded_uncertainty,
+            as_read->Recommended()->budget.outputs[1].expanded_uncertainty);
+}
+
+TEST(TranslateCurve, JudgesNoMilliampereReadAsAmpere) {
+  const MadeModule module;
+  TranslateOptions options = Quick(module);
+  options.coefficients.alpha_A_K = 4.6;
+  options.procedures = {Procedure::kDeSoto};
+  options.field_test.rated_W = 300;
+  IvCurve curve = module.Measured(800, 45);
+  for (double& current : curve.current_A) current *= 1000;
+  const auto report = TranslateCurve(curve, options);
+  ASSERT_TRUE(report) << report.error().message;
+  ASSERT_TRUE(report->field_test);
+  EXPECT_EQ(report->field_test->zone, Zone::kDoubtful);
+  EXPECT_THAT(report->field_test->doubt, HasSubstr("more than any cell gives"));
+  EXPECT_THAT(report->doubts, ::testing::ElementsAre(HasSubstr("more than any cell gives")));
+  EXPECT_THAT(report->warnings, ::testing::Contains(report->doubts[0]));
+}
+
 TEST(TranslateCurve, HasOneBudgetWhereOneIsWanted) {
   const MadeModule module;
   const IvCurve curve = Simulated(module, 800, 45, 1e9, "", 0.004);

@@ -12,6 +12,7 @@
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {
@@ -306,11 +307,14 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);
   LookAtUnits(look, &findings);
-  LookAtLight(look, &findings);
-  const bool lit_as_stated =
-      std::none_of(findings.begin(), findings.end(),
-                   [](const ReadingFinding& finding) { return finding.id != "light"; });
-  if (lit_as_stated) LookAtCells(look, &findings);
+  if (findings.empty()) {
+    LookAtLight(look, &findings);
+    const bool lit_as_stated = findings.empty();
+    LookAtCells(look, &findings);
+    if (lit_as_stated) {
+      for (ReadingFinding& size : CheckPlausibility(curve)) findings.push_back(std::move(size));
+    }
+  }
   for (ReadingFinding& limit : FindEqualReadings(curve)) findings.push_back(std::move(limit));
   std::stable_sort(
       findings.begin(), findings.end(),

@@ -13,7 +13,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // file's than the device's.
 struct ReadingFinding {
   std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "light", "cells",
-                            // "limit"
+                            // "current", "shape", "limit"
   std::string sentence;     // what was seen and what to do; no full stop
   bool refuse = false;      // false: a doubt, the readings can be worked with
   std::vector<int> points;  // positions in the curve it is about; empty: all
@@ -29,6 +29,7 @@ struct ReadingFinding {
 //   unit       more than 30 A a string or 2000 V where the file names no unit
 //   light      no light stated, or next to none, where the device delivers current
 //   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, at light
+//   current, shape   sizes that no device has: see CheckPlausibility
 //   limit      equal readings at an end of the curve where a device's would differ
 // Real curves, dark, coarse, noisy or shaded ones among them, have none.
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);

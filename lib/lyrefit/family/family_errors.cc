@@ -46,6 +46,12 @@ void AppendCurve(const JointProblem& problem, const JointPoint& point, int c, Ro
   AppendErrorShape({device, problem.objective, curve.voltage_V, curve.current_A, curve.weight,
                     voc > 0 ? voc : problem.voltage_scale_V, p},
                    c, &rows->shape.readings);
+  // What each reading has by itself is of the size that its weight says: that of a point of weight 1
+  // over the root of its own.
+  std::vector<double>& current = rows->shape.readings.current;
+  for (std::size_t k = before; k < current.size(); ++k) {
+    current[k] /= std::sqrt(curve.weight[k - before]);
+  }
   rows->light.push_back(curve.irradiance_W_m2);
   if (!problem.translation.extended) return;
   // The photocurrent of such a device is that at the reference.

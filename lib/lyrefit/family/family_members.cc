@@ -139,24 +139,11 @@ Expected<void> GuessTemperatures(std::vector<FamilyMember>* members,
   return {};
 }
 
-void SetWeights(const FamilyOptions& options, double reference,
-                std::vector<FamilyMember>* members) {
-  for (FamilyMember& member : *members) {
-    double weight = 1;
-    if (options.weights == FamilyWeights::kIsc) {
-      const double own = member.IsDark() ? LargestMagnitude(member.joint.current_A)
-                                         : member.short_circuit_current_A;
-      weight = (reference / own) * (reference / own);
-    }
-    member.joint.weight.assign(member.joint.voltage_V.size(), weight);
-  }
-}
-
-// Standard deviations of single points, where every curve has them.
-void UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
+// Standard deviations of single points, where every curve has them; false: not every one has.
+bool UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
   std::vector<double> sigmas;
   for (const IvCurve& curve : set.curves) {
-    if (curve.sigma_A.empty()) return;
+    if (curve.sigma_A.empty()) return false;
     sigmas.insert(sigmas.end(), curve.sigma_A.begin(), curve.sigma_A.end());
   }
   const double usual = UpperMedian(sigmas);
@@ -166,6 +153,7 @@ void UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
       (*members)[c].joint.weight[k] = ratio * ratio;
     }
   }
+  return true;
 }
 
 void AddSensorUnknowns(const FamilyOptions& options, std::vector<FamilyMember>* members) {
@@ -198,6 +186,19 @@ std::vector<Conditions> ConditionsOf(const FamilyMembers& members) {
     conditions[c].cell_temperature_K = members.members[c].joint.temperature_K;
   }
   return conditions;
+}
+
+void WeighMembers(FamilyWeights weights, FamilyMembers* members) {
+  for (FamilyMember& member : members->members) {
+    double weight = 1;
+    if (weights == FamilyWeights::kIsc) {
+      const double own = member.IsDark() ? LargestMagnitude(member.joint.current_A)
+                                         : member.short_circuit_current_A;
+      const double ratio = members->reference_current_A / own;
+      weight = ratio * ratio;
+    }
+    member.joint.weight.assign(member.joint.voltage_V.size(), weight);
+  }
 }
 
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options) {
@@ -244,8 +245,8 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
         set.source);
   }
   result.reference_current_A = UpperMedian(per_sun);
-  SetWeights(options, result.reference_current_A, &result.members);
-  UseSigmas(set, &result.members);
+  WeighMembers(options.weights, &result);
+  result.stated_errors = UseSigmas(set, &result.members);
   result.fitted = usable;
   if (options.fit_curves > 0) {
     result.fitted = SpreadCurves(ConditionsOf(result), usable, options.fit_curves);

@@ -24,13 +24,15 @@ namespace LYREFIT_PUBLIC lyrefit {
 // How the curves of a set count in the sum of squares. Where every curve states a standard
 // deviation of each current, that counts instead.
 enum class FamilyWeights {
+  kAuto,   // of the two below the one that the residuals of a joint fit speak for
   kEqual,  // every point alike, in ampere
-  kIsc,    // relative to the largest current of its own curve
+  kIsc,    // relative to the short-circuit current of its own curve
 };
 
 template <>
 struct EnumTable<FamilyWeights> {
-  static constexpr EnumText<FamilyWeights> kRows[] = {{FamilyWeights::kEqual, "equal"},
+  static constexpr EnumText<FamilyWeights> kRows[] = {{FamilyWeights::kAuto, "auto"},
+                                                      {FamilyWeights::kEqual, "equal"},
                                                       {FamilyWeights::kIsc, "isc"}};
 };
 
@@ -53,7 +55,7 @@ struct FamilyOptions {
   std::vector<EffectUse> with;
   bool force_effects = false;  // also those that data of this kind cannot show
   ErrorSpec errors;            // of curves fitted one by one, as in FitOptions
-  FamilyWeights weights = FamilyWeights::kEqual;
+  FamilyWeights weights = FamilyWeights::kAuto;
   SearchOptions search = FamilySearch();
   SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
   // Where the joint fit begins: kShape leaves out the search's birds, kSearch all but these.
@@ -116,7 +118,8 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      OptionTrait::kNoFlag},
     {"bound", "P=LOWER:UPPER", "range of one shared parameter, Rs=0:0.5; once for each",
      RangesOption<&FamilyOptions::bounds>(), OptionTrait::kNoFlag},
-    {"weights", "NAME", "how curves count: every point alike, or relative to Isc",
+    {"weights", "NAME",
+     "how curves count: every point alike, relative to Isc, or as the residuals say",
      EnumOption<&FamilyOptions::weights>()},
     {"algorithm", "NAME", "how to search",
      EnumOption<&FamilyOptions::search, &SearchOptions::algorithm>(), OptionTrait::kNoFlag},

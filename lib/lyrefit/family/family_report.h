@@ -8,6 +8,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/family/family_options.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/translation.h"
@@ -190,6 +191,10 @@ struct FamilyReport {
   std::vector<Interval> jackknife;
   // The same when points are what varies, under the errors found; empty where those are
   // independent.
+  // How the curves counted, and twice what the ln likelihood of the residuals gains by weights
+  // relative to Isc over equal ones. None: nothing to choose; NaN: they are more than noise.
+  FamilyWeights weights = FamilyWeights::kEqual;
+  std::optional<double> weights_gain;
   std::optional<FamilyErrors> errors;
   std::vector<Interval> under_errors;
   SearchOptions search_options;

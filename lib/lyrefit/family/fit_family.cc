@@ -16,6 +16,7 @@
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/family/family_warnings.h"
+#include "lyrefit/family/family_weights.h"
 #include "lyrefit/family/free_fits.h"
 #include "lyrefit/family/joint_fit.h"
 #include "lyrefit/family/odd_curves.h"
@@ -248,8 +249,12 @@ void Refine(Job* job, FamilyReport* report) {
   const Instant begin = Now();
   job->starts = ChooseStarts(job->family, job->options, job->search_curves, std::move(job->starts),
                              job->elites, job->observer);
-  const JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
-                                  job->observer, &problem);
+  JointEnd end = FitJointly(job->family, job->options, job->search_curves, job->starts,
+                            job->observer, &problem);
+  const WeightChoice weights =
+      SettleWeights(job->options, job->observer, &job->family, &problem, &end);
+  report->weights = weights.used;
+  report->weights_gain = weights.gain;
   SettleWhole(end.point.shared, &job->family);
   report->joint_seconds = SecondsSince(begin);
   report->termination = end.stopped     ? "interrupted"

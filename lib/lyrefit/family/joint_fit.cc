@@ -70,15 +70,21 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
     if (s == 0 || Total(end) < Total(best)) best = std::move(end);
   }
   *problem = HoldingWhole(std::move(*problem), family, best.point.shared);
-  constexpr int kRounds = 4;
-  for (int round = 0; HasPriors(*problem) && round < kRounds && !watch.Stopped(); ++round) {
-    const double before = problem->noise_A;
-    problem->noise_A = std::max(NoiseOf(family, *problem, best), 1e-9 * problem->current_scale_A);
-    best = RefineJointly(*problem, best.point, thorough);
-    if (std::fabs(problem->noise_A / before - 1) < 1e-3) break;
-  }
+  SettleNoise(family, thorough, problem, &best);
   best.stopped = watch.Stopped();
   return best;
+}
+
+void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProblem* problem,
+                 JointEnd* end) {
+  constexpr int kRounds = 4;
+  if (!HasPriors(*problem)) return;
+  for (int round = 0; round < kRounds && (!how.proceed || how.proceed()); ++round) {
+    const double before = problem->noise_A;
+    problem->noise_A = std::max(NoiseOf(family, *problem, *end), 1e-9 * problem->current_scale_A);
+    *end = RefineJointly(*problem, end->point, how);
+    if (std::fabs(problem->noise_A / before - 1) < 1e-3) break;
+  }
 }
 
 BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,

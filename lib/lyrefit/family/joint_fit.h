@@ -17,6 +17,11 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
                     const Observer& observer, JointProblem* problem);
 
+// Finds the noise that priors are weighed against at the end of a fit, and refines from there, until
+// both agree. Nothing without priors.
+void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProblem* problem,
+                 JointEnd* end);
+
 // What becomes of the search's best bird by itself: after one bounded solve of all curves, and
 // after a joint fit that begins at it alone.
 struct BirdEnds {

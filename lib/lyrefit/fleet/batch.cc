@@ -10,6 +10,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/fleet/finish.h"
 #include "lyrefit/fleet/part_file.h"
 #include "lyrefit/fleet/pipeline.h"
@@ -71,9 +72,10 @@ std::string ReasonOf(const Error& error) {
 }
 
 void AddDoubt(const FleetCurve& curve, TaskResult* result) {
-  const std::optional<std::string> doubt = WhyDoubtful(curve);
+  const std::optional<std::string> doubt = WhyDoubtful(*curve.curve, RatedPowerBeside(curve));
   if (!doubt) return;
   if (result->status == RowStatus::kFine) result->status = RowStatus::kDoubtful;
+  if (result->reason.find(*doubt) != std::string::npos) return;
   result->reason += (result->reason.empty() ? "" : "; ") + *doubt;
 }
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,13 +26,15 @@ std::vector<ResultColumn> FieldColumns() {
   std::vector<ResultColumn> columns = {
       {"zone", "", kText,
        "power at standard conditions against the least that the rating allows: pass, pass within "
-       "uncertainty, fail within uncertainty, fail"},
+       "uncertainty, fail within uncertainty, fail; doubtful where that cannot be judged"},
       {"performance_factor", "", kNumber, "measured over predicted maximum power"},
       {"performance_factor_low", "", kNumber, "its interval, k = 2"},
       {"performance_factor_high", "", kNumber, "its interval, k = 2"},
       {"wrong_decision_probability", "", kNumber,
        "that the true power is on the other side of the limit than what the zone says"},
       {"lowest_power_W", "W", kNumber, "the least that rating and tolerance allow"},
+      {"cell_temperature_C", "C", kNumber,
+       "of the cells, as used: what was read, and how much warmer than the sensor they are"},
       {"procedure", "", kText, "that carried the curve to standard conditions"},
   };
   for (std::size_t q = 0; q < kQuantityCount; ++q) {
@@ -86,6 +88,7 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
                                    NumberCell(test.performance_high),
                                    NumberCell(test.probability_wrong),
                                    NumberCell(test.lowest_W),
+                                   NumberCell(report.inputs.values.temperature_C),
                                    best == nullptr ? ResultCell() : TextCell(best->title)};
   for (std::size_t q = 0; q < kQuantityCount; ++q) {
     const bool has = best != nullptr && q < best->budget.outputs.size();
@@ -115,13 +118,9 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
 
 // The string's own rating, where one stands beside it and none was stated for all.
 void TakeRating(const FleetCurve& curve, FieldTestOptions* options) {
-  const auto beside = curve.beside.find("rated_power_W");
-  if (options->rated_W || beside == curve.beside.end()) return;
-  double value = 0;
-  const char* const end = beside->second.data() + beside->second.size();
-  const auto read = std::from_chars(beside->second.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return;
-  options->rated_W = value;
+  const std::optional<double> rated_W = RatedPowerBeside(curve);
+  if (options->rated_W || !rated_W) return;
+  options->rated_W = *rated_W;
   options->modules = options->strings = 1;
 }
 
@@ -153,6 +152,10 @@ FleetTask FieldTestTask(const TranslateOptions& asked) {
     TaskResult result{usable ? RowStatus::kFine : RowStatus::kNotUsable,
                       usable ? std::string() : report->reason, FieldCells(*report),
                       report->interrupted};
+    if (usable && report->field_test && report->field_test->zone == Zone::kDoubtful) {
+      result.status = RowStatus::kDoubtful;
+      result.reason = report->field_test->doubt;
+    }
     const bool passes = !report->field_test || IsPass(report->field_test->zone);
     result.failed = !usable || !passes || !report->causes.empty();
     report->seconds = kUnknown;  // nobody's clock is in a page

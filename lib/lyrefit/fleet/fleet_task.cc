@@ -1,5 +1,6 @@
 #include "lyrefit/fleet/fleet_task.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue.h"
@@ -9,6 +10,16 @@ namespace lyrefit {
 std::string AboutOf(const std::string& cause) {
   const Effect* const effect = FindEffect(cause);
   return effect == nullptr ? std::string() : ToText(effect->where);
+}
+
+std::optional<double> RatedPowerBeside(const FleetCurve& curve) {
+  const auto beside = curve.beside.find("rated_power_W");
+  if (beside == curve.beside.end()) return std::nullopt;
+  double value = 0;
+  const char* const end = beside->second.data() + beside->second.size();
+  const auto read = std::from_chars(beside->second.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
 }
 
 ResultCell NumberCell(double value) {

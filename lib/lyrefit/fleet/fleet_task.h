@@ -23,7 +23,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // What a row says of its curve.
 enum class RowStatus {
   kFine,
-  kDoubtful,   // there is an answer, but the row says what no string can be: see WhyDoubtful
+  kDoubtful,   // there is an answer, but of readings that no device has: see WhyDoubtful
   kNotUsable,  // there is an answer, but nobody should work with it
   kBroken,     // there is none: the curve could not be read, or not be worked with
 };
@@ -78,9 +78,9 @@ FitOptions FleetFitOptions();
 // probability to 1.6 % or better and the ends of an interval to a twelfth of its half width.
 TranslateOptions FleetTranslateOptions();
 
-// Why nobody should believe the row as it stands, whatever is made of its curve: currents that no
-// string has, or a power far beyond the rating beside it. None: nothing is odd.
-std::optional<std::string> WhyDoubtful(const FleetCurve& curve);
+// The rated power that stands beside a curve (rated_power_W, of the whole string), in W; none: there
+// is none, or it is no number.
+std::optional<double> RatedPowerBeside(const FleetCurve& curve);
 
 // What the causes of a verdict are about, by the catalogue (Effect::where): "device", "sweep",
 // "instrument", "conditions", "unknown". Empty: there is no such cause.

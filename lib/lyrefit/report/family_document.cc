@@ -116,6 +116,17 @@ std::string WithRange(const Interval& interval, const std::string& unit) {
 
 std::string Percent(double part) { return Significant(100 * part, 2) + " %"; }
 
+// How the curves counted, and why.
+std::string WeightsText(const FamilyReport& report) {
+  const bool relative = report.weights == FamilyWeights::kIsc;
+  const std::string used = relative ? "relative to the Isc of each curve" : "every point alike";
+  if (!report.weights_gain) return used;
+  if (std::isnan(*report.weights_gain)) return used + ": the residuals are more than noise";
+  return fmt::format("{}: the residuals speak for errors {} (2 ln likelihood {:+.1f})", used,
+                     relative ? "in proportion to Isc" : "of one size over all curves",
+                     std::fabs(*report.weights_gain));
+}
+
 // What hangs together in the errors, in a sentence each.
 std::string FamilyErrorText(const FamilyErrors& errors) {
   const std::string by =
@@ -252,6 +263,7 @@ Section FamilyRmseSection(const FamilyReport& report) {
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A)) {
     AddField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
+    AddField("weights", WeightsText(report), &section);
   }
   return section;
 }

@@ -47,6 +47,7 @@ std::string InUnit(const std::string& text, const OutputQuantity& quantity) {
 }
 
 std::string ProbabilityText(const FieldTest& test) {
+  if (!std::isfinite(test.probability_wrong)) return "not judged";
   if (test.probability_wrong < test.probability_step) {
     return fmt::format("less than {:.2g} %", 100 * test.probability_step);
   }

@@ -159,6 +159,8 @@ void AddFamilyAnswer(const FamilyReport& report, Json* json) {
   j["reference"] = shared ? Json(report.reference) : Json();
   j["rmse"] = report.rmse;
   j["noise_A"] = report.noise_A;
+  j["weights"] = report.weights;
+  j["weights_gain"] = report.weights_gain;
   j["errors"] = report.errors;
 }
 

@@ -168,7 +168,7 @@ Section CoefficientSection(const TranslationReport& report) {
 Document TranslationDocument(const TranslationReport& report) {
   Document document;
   document.banners =
-      Banners(report.interrupted, report.Recommended() != nullptr, report.reason, {});
+      Banners(report.interrupted, report.Recommended() != nullptr, report.reason, report.doubts);
   AddHead(report, &document.head);
   AddSections({AnswerSection(report)}, &document);
   std::vector<Section> tested;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/base/constants.h"
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/record_parts.h"
@@ -59,14 +58,19 @@ std::string LightText(const TranslationReport& report) {
 
 std::string TemperatureText(const TranslationReport& report) {
   const IvCurve& curve = report.curve;
-  const std::string value =
-      fmt::format("{:.1f} C", curve.conditions.cell_temperature_K - kZeroCelsius_K);
+  const std::string value = fmt::format("{:.1f} C", report.read_temperature_C);
   if (!curve.temperature_known) return value + " assumed: nobody stated it";
   const double offset_K = CellOffsetSize_K(report.uncertainty, curve.conditions.irradiance_W_m2);
   std::string text =
       fmt::format("{} {}; {:.2g} K (k = 2)", value, Words(report.uncertainty.temperature_source),
                   TemperatureSize_K(report.uncertainty));
-  if (offset_K > 0) text += fmt::format(", {:.2g} K more as cells are warmer", offset_K);
+  const double warmer_K = report.inputs.cell_correction_K;
+  if (warmer_K != 0) {
+    text += fmt::format("; cells {:+.2f} K ({:.2g} K, k = 2): {:.1f} C used", warmer_K, offset_K,
+                        report.inputs.values.temperature_C);
+  } else if (offset_K > 0) {
+    text += fmt::format(", {:.2g} K more as cells are warmer", offset_K);
+  }
   return text;
 }
 
@@ -87,6 +91,7 @@ std::string PowerLine(const TranslationReport& report) {
   const FieldTest& test = *report.field_test;
   std::string zone = ToText(test.zone);
   zone.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(zone.front())));
+  if (test.zone == Zone::kDoubtful) return FullSentence(zone + ": " + test.doubt);
   const bool rare = test.probability_wrong < test.probability_step;
   return fmt::format(
       "{}: {} at 1000 W/m2 and 25 C ({:.0f} .. {}, k = 2), allowed are {} or more ({} rated, {}). "

@@ -53,10 +53,10 @@ std::vector<CoverageRow> RowsOf(const SimulatedSet& made, const FamilyReport& re
   std::vector<CoverageRow> rows;
   for (std::size_t i = 0; i < made.truth.size(); ++i) {
     const Estimate& e = report.estimates[i];
-    rows.push_back({made.truth[i],
-                    {e.refined, e.standard_error, e.low_95, e.high_95},
-                    e.fixed,
-                    e.identifiable});
+    const bool under_errors = i < report.under_errors.size() && e.identifiable;
+    const Interval plain = {e.refined, e.standard_error, e.low_95, e.high_95};
+    rows.push_back(
+        {made.truth[i], under_errors ? report.under_errors[i] : plain, e.fixed, e.identifiable});
   }
   if (options.family.temperature_offset) {
     rows.push_back(OffsetRow(options.temperature_error_K, report.temperature_offset_K));
@@ -82,6 +82,8 @@ CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
     set.error = "the fit is not usable";
   } else {
     set.rows = RowsOf(made, *report, options);
+    set.weights = report->weights;
+    set.correlated = !report->under_errors.empty();
   }
   return set;
 }
@@ -217,7 +219,11 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   report.remarks = run.Remarks();
   report.journal_lacks_sets = run.JournalFailed();
   report.interrupted = static_cast<int>(report.sets.size()) < options.sets;
-  for (const CoverageSet& set : report.sets) report.failed += set.rows.empty() ? 1 : 0;
+  for (const CoverageSet& set : report.sets) {
+    report.failed += set.rows.empty() ? 1 : 0;
+    report.relative += set.weights == FamilyWeights::kIsc ? 1 : 0;
+    report.correlated += set.correlated ? 1 : 0;
+  }
   const std::vector<ParameterInfo> infos = CoveredParameters(*translation, options);
   for (std::size_t i = 0; i < infos.size(); ++i) {
     report.parameters.push_back(

@@ -26,8 +26,11 @@ struct CoverageRow {
 // One simulated set and what its fit says of the parameters.
 struct CoverageSet {
   int cells_in_series = 1;
-  int curves = 0;                 // in the set
-  std::string error;              // why there is no usable fit; empty: there is one
+  int curves = 0;                                 // in the set
+  std::string error;                              // why there is no usable fit; empty: there is one
+  FamilyWeights weights = FamilyWeights::kEqual;  // that the fit took
+  bool correlated = false;  // the fit found correlated errors, and the rows' intervals are under
+                            // these
   std::vector<CoverageRow> rows;  // in the order of CoverageReport::parameters; empty: no fit
   double seconds = 0;
 };
@@ -53,7 +56,9 @@ struct CoverageReport {
   // The shared parameters of the law, then the sensors' offsets that were fitted.
   std::vector<ParameterCoverage> parameters;
   std::vector<CoverageSet> sets;
-  int failed = 0;  // sets without a usable fit
+  int failed = 0;      // sets without a usable fit
+  int relative = 0;    // fits with weights relative to Isc
+  int correlated = 0;  // fits that found correlated errors
   double seconds = 0;
   bool interrupted = false;          // only the sets that were done are there
   std::vector<std::string> remarks;  // on the journal, in plain sentences

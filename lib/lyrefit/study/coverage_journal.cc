@@ -8,7 +8,8 @@ JournalLine CoverageHead(const CoverageOptions& options) {
   JournalLine head = {{"lyrefit", Version()},
                       {"cells", options.cells_in_series},
                       {"law", ToText(options.family.law)},
-                      {"model", ToText(options.family.model)}};
+                      {"model", ToText(options.family.model)},
+                      {"noise", ToText(options.noise)}};
   for (const OptionRow<CoverageOptions>& row : kCoverageOptionTable) {
     if (std::string(row.name) == "sets" || row.Is(OptionTrait::kNoEcho)) continue;
     std::visit(
@@ -39,6 +40,8 @@ JournalLine WriteSet(int index, const CoverageSet& set) {
           {"cells_in_series", set.cells_in_series},
           {"curves", set.curves},
           {"error", set.error},
+          {"weights_isc", set.weights == FamilyWeights::kIsc ? 1 : 0},
+          {"correlated", set.correlated ? 1 : 0},
           {"rows", std::move(rows)},
           {"seconds", ExactNumber(set.seconds)}};
 }
@@ -51,6 +54,8 @@ Expected<WrittenSet> ReadSet(const Journal& journal, const Journal::Record& reco
   set.cells_in_series = static_cast<int>(read.Whole("cells_in_series"));
   set.curves = static_cast<int>(read.Whole("curves"));
   set.error = read.Text("error");
+  set.weights = read.Whole("weights_isc") == 1 ? FamilyWeights::kIsc : FamilyWeights::kEqual;
+  set.correlated = read.Whole("correlated") == 1;
   set.seconds = read.Number("seconds");
   bool sound = written.index >= 0;
   for (const std::vector<double>& row : read.Rows("rows")) {

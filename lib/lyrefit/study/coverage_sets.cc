@@ -101,6 +101,24 @@ Expected<KeyPoints> PointsAt(const SimulatedSet& made, double irradiance_W_m2,
                           irradiance_W_m2, temperature_C));
 }
 
+// `share`: the curve's Isc in parts of that at the reference. Even steps up to Voc.
+void AddNoise(const CoverageOptions& options, double noise_A, double share,
+              std::vector<double>* current_A, RandomStream* random) {
+  constexpr double kIndependent = 0.1;
+  const bool correlated = options.noise == CoverageNoise::kCorrelated;
+  if (options.noise != CoverageNoise::kEqual) noise_A *= share;
+  const double kept = std::exp(-1.0 / static_cast<double>(current_A->size() - 1));
+  double path = 0;
+  for (std::size_t k = 0; k < current_A->size(); ++k) {
+    if (correlated) {
+      path =
+          k == 0 ? random->Normal() : kept * path + std::sqrt(1 - kept * kept) * random->Normal();
+      (*current_A)[k] += noise_A * path;
+    }
+    (*current_A)[k] += (correlated ? kIndependent : 1) * noise_A * random->Normal();
+  }
+}
+
 Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions& options,
                                 const std::pair<double, double>& at, RandomStream* random) {
   const auto& [irradiance, temperature_C] = at;
@@ -118,7 +136,8 @@ Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions&
     curve.voltage_V.push_back(points->open_circuit_voltage_V * i / (options.points - 1));
   }
   curve.current_A = SolveCurrents(module.device, module.parameters.data(), curve.voltage_V);
-  for (double& current : curve.current_A) current += made.noise_A * random->Normal();
+  AddNoise(options, made.noise_A, points->short_circuit_current_A / made.reference_isc_A,
+           &curve.current_A, random);
   return curve;
 }
 
@@ -156,7 +175,8 @@ Expected<SimulatedSet> SimulateSet(const CoverageOptions& options, int index) {
   }
   const Expected<KeyPoints> reference = PointsAt(made, kReferenceIrradiance_W_m2, 25);
   if (!reference) return tl::unexpected(reference.error());
-  made.noise_A = options.noise_relative * reference->short_circuit_current_A;
+  made.reference_isc_A = reference->short_circuit_current_A;
+  made.noise_A = options.noise_relative * made.reference_isc_A;
   const int count =
       options.curves > 0
           ? options.curves

@@ -177,10 +177,14 @@ CheckedCondition CheckTemperature(const IvCurve& curve, const ConditionFacts& fa
     return item;
   }
   const double size = TemperatureSize_K(by);
-  const double offset = CellOffsetSize_K(by, curve.conditions.irradiance_W_m2);
+  const double light_W_m2 = curve.conditions.irradiance_W_m2;
+  const double offset = CellOffsetSize_K(by, light_W_m2);
+  const double warmer = CellCorrection_K(by, light_W_m2);
   Settle(size <= 1, size, 1, "K",
          fmt::format("{} within {:g} K{}", read, size,
-                     offset > 0 ? fmt::format("; cells up to {:.1f} K warmer", offset) : ""),
+                     warmer != 0  ? fmt::format("; cells {:+.1f} K", warmer)
+                     : offset > 0 ? fmt::format("; cells up to {:.1f} K warmer", offset)
+                                  : ""),
          by.temperature_K ? "--temperature-u" : "usual of its class, not of this sensor",
          "use a better sensor", &item);
   return item;

@@ -92,6 +92,7 @@ struct SettledInputs {
   std::optional<double> beta_scatter;
   std::string usual_of;              // the technology that assumed values are of
   double usual_gamma_percent_K = 0;  // its temperature coefficient of Pmax, for who was told none
+  double cell_correction_K = 0;      // in `values`: of the cells against their sensor
   bool bandgap_stated = false;       // else De Soto's law has one with which Voc moves by beta
   bool mu_gamma_stated = false;      // the same of PVsyst's
   bool crystalline_silicon = true;   // procedure 4 is for no other

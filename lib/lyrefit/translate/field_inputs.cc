@@ -10,6 +10,7 @@ namespace lyrefit {
 namespace {
 
 constexpr double kFactor = 2;  // of all sizes among the options
+constexpr double kStandard_W_m2 = 1000;
 
 const char* LightTitle(LightSource source) {
   switch (source) {
@@ -60,9 +61,9 @@ class Collector {
  public:
   explicit Collector(const TranslationInputs& at) : at_(at) {}
 
-  // `expanded` in the unit of the quantity.
+  // `expanded` in the unit of the quantity. `name`, `part`: of something that is in the quantity.
   void Add(const char* quantity, const std::string& title, const char* group, double expanded,
-           std::string source, const char* name = nullptr) {
+           std::string source, const char* name = nullptr, double part = 0) {
     if (!(expanded > 0)) return;
     const TranslationInput& of = QuantityOf(quantity);
     UncertainInput input;
@@ -71,7 +72,7 @@ class Collector {
     input.group = group;
     input.unit = of.unit;
     input.quantity = quantity;
-    input.value = name != nullptr ? 0 : at_.*of.field;
+    input.value = name != nullptr ? part : at_.*of.field;
     input.standard_uncertainty = expanded / kFactor;
     input.source = std::move(source);
     inputs.push_back(std::move(input));
@@ -107,8 +108,10 @@ void AddSky(const TranslationInputs& at, const UncertaintyOptions& options, Coll
   to->Add("temperature_C", "temperature, cells above the sensor", "temperature",
           CellOffsetSize_K(options, at.irradiance_W_m2),
           Why(options.cell_offset_K.has_value(),
-              "2 to 3 K at 1000 W/m2 (SAND2004-3535), not corrected for"),
-          "cell_offset_K");
+              options.temperature_source == TemperatureSource::kBackOfModule
+                  ? "corrected for, by mounting 0 to 3 K at 1000 W/m2 (SAND2004-3535)"
+                  : "2 to 3 K at 1000 W/m2 where the sensor is on the back, not corrected for"),
+          "cell_offset_K", CellCorrection_K(options, at.irradiance_W_m2));
 }
 
 void AddInstrument(const UncertaintyOptions& options, Collector* to) {
@@ -142,7 +145,8 @@ void AddCoefficients(const SettledInputs& settled, const UncertaintyOptions& opt
               "by judgement");
   to->AddPart("b1", "coefficients", options.light_of_voc_percent, "by judgement");
   to->AddPart("b2", "coefficients", options.light_of_voc_percent, "by judgement");
-  to->AddPart("epsilon_V", "coefficients", options.bandgap_percent, "by judgement");
+  to->AddPart("epsilon_V", "coefficients", options.epsilon_percent,
+              "what measured beta and Voc of crystalline silicon modules make of it");
   to->AddPart("EgRef_eV", "coefficients", options.bandgap_percent, "by judgement");
   to->AddPart("dEgdT_1_K", "coefficients", options.bandgap_slope_percent, "by judgement");
   to->Add("mu_gamma_1_K", "", "coefficients", options.ideality_slope_percent_per_K / 100,
@@ -173,11 +177,25 @@ double TemperatureSize_K(const UncertaintyOptions& options) {
   return options.temperature_source == TemperatureSource::kLaboratory ? 0.5 : 1;
 }
 
+double CellCorrection_K(const UncertaintyOptions& options, double irradiance_W_m2) {
+  constexpr double kOfBack_K = 2.5;
+  const bool back = options.temperature_source == TemperatureSource::kBackOfModule;
+  return options.cell_correction_K.value_or(back ? kOfBack_K : 0) * irradiance_W_m2 /
+         kStandard_W_m2;
+}
+
 double CellOffsetSize_K(const UncertaintyOptions& options, double irradiance_W_m2) {
+  constexpr double kCorrected_K = 1.5, kUnknown_K = 2.5;
   if (options.cell_offset_K) return *options.cell_offset_K;
-  const bool sensed = options.temperature_source == TemperatureSource::kNotStated ||
-                      options.temperature_source == TemperatureSource::kBackOfModule;
-  return sensed ? 2.5 * irradiance_W_m2 / 1000 : 0;
+  double at_standard_K = 0;
+  if (options.cell_correction_K) {
+    at_standard_K = *options.cell_correction_K == 0 ? 0 : kCorrected_K;
+  } else if (options.temperature_source == TemperatureSource::kBackOfModule) {
+    at_standard_K = kCorrected_K;
+  } else if (options.temperature_source == TemperatureSource::kNotStated) {
+    at_standard_K = kUnknown_K;
+  }
+  return at_standard_K * irradiance_W_m2 / kStandard_W_m2;
 }
 
 std::vector<UncertainInput> FieldInputs(const SettledInputs& settled,

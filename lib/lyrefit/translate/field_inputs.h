@@ -18,14 +18,22 @@ namespace lyrefit {
 //                                                         dims all cells alike is not in it
 //                 unknown 5 %                             as of a pyranometer
 //   temperature   1 K (IEC 61829:2015), laboratory 0.5 K, from Voc 2 K (rated Voc, 1 %)
-//   cells warmer than the sensor
-//                 2.5 K at 1000 W/m2, in proportion       2 to 3 K behind glass in the open (King,
-//                 for a sensor on the back and for        Boyson and Kratochvil 2004,
-//                 an unknown one; else none               SAND2004-3535); the reading is not
-//                                                         corrected for it, its size is the doubt
+//   cells warmer than the sensor, at 1000 W/m2 and in proportion to the irradiance
+//                 corrected by 2.5 K, within 1.5 K,       2 to 3 K in an open rack, 1 K close to a
+//                 for a sensor on the back                roof, 0 behind insulation: Tc = Tm +
+//                                                         G / 1000 W/m2 dT (King, Boyson and
+//                                                         Kratochvil 2004, SAND2004-3535,
+//                                                         doi:10.2172/919131, Eq. 12);
+//                                                         a known bias is corrected and its doubt
+//                                                         kept (JCGM 100, 3.2.4)
+//                 not corrected, within 2.5 K,            it may be one on the back
+//                 for an unknown sensor
+//                 else none
 //   voltage, current   1 % (IEC 61829:2015), laboratory 0.2 %
 //   alpha 20 %, beta 5 %   as data sheets and measurements differ, by judgement; what was assumed of
 //                          a technology: twice what modules of that kind scatter by
+//   epsilon 8 %            of 1.232 V, procedure 4: (Voc - T beta) / Ns of 12 measured modules of
+//                          crystalline silicon is 1.19 to 1.37 V, README of the module
 //   other coefficients     in parts of themselves, see UncertaintyOptions: type B, by judgement
 //
 // Limits that a standard asks of a sensor count as expanded uncertainties, as on the certificate of
@@ -47,6 +55,9 @@ TranslationInputs WithInputs(const TranslationInputs& at, const std::vector<Unce
 // options, else of their class.
 double IrradianceSize_percent(const UncertaintyOptions& options);
 double TemperatureSize_K(const UncertaintyOptions& options);
+// How much warmer the cells are than the sensor at this irradiance, K, and the expanded uncertainty
+// of that (k = 2).
+double CellCorrection_K(const UncertaintyOptions& options, double irradiance_W_m2);
 double CellOffsetSize_K(const UncertaintyOptions& options, double irradiance_W_m2);
 
 }  // namespace lyrefit

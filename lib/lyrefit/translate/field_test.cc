@@ -15,6 +15,8 @@ namespace {
 constexpr double kExpanded = 2;  // of all sizes among the options
 constexpr double kStandardIrradiance_W_m2 = 1000;
 constexpr double kStandardTemperature_C = 25;
+// A bifacial module on snow comes to 1.3 times its rating, a sensor that is wrong adds to it.
+constexpr double kMostOfRating = 1.5;
 
 Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOptions& options) {
   TRY(ValidateOptions(options, kFieldTestOptionTable));
@@ -159,7 +161,30 @@ Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTe
   return {};
 }
 
+// Why the power cannot be held against the rating; empty: it can.
+std::string WhyNotJudged(const FieldMeasurement& measurement, const FieldTest& test) {
+  if (!measurement.doubt.empty()) return measurement.doubt;
+  constexpr char kReasons[] =
+      "other units than were read (mA?), the rating of another device (of one module for a string: "
+      "--modules), or more light than was stated";
+  if (test.performance_factor > kMostOfRating) {
+    return fmt::format("a performance factor of {:.4g} is of no device: {}",
+                       test.performance_factor, kReasons);
+  }
+  if (test.standard_W > kMostOfRating * test.rated_W) {
+    return fmt::format("{:.4g} times the rating at standard conditions is of no device: {}",
+                       test.standard_W / test.rated_W, kReasons);
+  }
+  return "";
+}
+
 std::string ZoneSentence(const FieldTest& test) {
+  if (test.zone == Zone::kDoubtful) {
+    return fmt::format(
+        "doubtful: {:.1f} W at standard conditions cannot be held against the rating "
+        "of {:.1f} W: {}",
+        test.standard_W, test.rated_W, test.doubt);
+  }
   const std::string least = fmt::format("{:.1f} W, the least that the rating of {:.1f} W allows",
                                         test.lowest_W, test.rated_W);
   const std::string have = fmt::format("{:.1f} W at standard conditions ({:.1f} .. {:.1f} W)",
@@ -173,7 +198,7 @@ std::string ZoneSentence(const FieldTest& test) {
 }
 
 void AddNotes(const UncertaintyOptions& uncertainty, FieldTest* test) {
-  if (test->standard_low_W > test->highest_W) {
+  if (test->zone != Zone::kDoubtful && test->standard_low_W > test->highest_W) {
     test->notes.push_back(fmt::format(
         "all of the interval lies above the rating with its upper tolerance, {:.1f} W: the light "
         "was brighter than its sensor said, or the rating is that of another module",
@@ -214,6 +239,11 @@ Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
     test.probability_step = 1 / static_cast<double>(compared.samples.size());
   }
   TRY(AddPerformance(measurement, options, uncertainty, &test));
+  test.doubt = WhyNotJudged(measurement, test);
+  if (!test.doubt.empty()) {
+    test.zone = Zone::kDoubtful;
+    test.probability_wrong = kUnknown;
+  }
   test.sentence = ZoneSentence(test);
   AddNotes(uncertainty, &test);
   return test;

@@ -21,18 +21,22 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   pass within uncertainty  the value at or above L, a part of the interval below
 //   fail within uncertainty  the value below L, a part of the interval at or above
 //   fail                     all of it below L
+//   doubtful                 not judged: no device has such readings (curve/plausibility.h), or the
+//                            power is far above the rating (more than 1.5 times: other units than
+//                            were read, the rating of another device, light that was not stated)
 //
 // as field instruments give them for Voc and Isc (HT I-V600 manual, 6.5.2.1), where the instrument's
 // error has the place of the uncertainty. More power than the upper tolerance is no failure; it is
 // a doubt about the light or the rating.
-enum class Zone { kPass, kPassWithin, kFailWithin, kFail };
+enum class Zone { kPass, kPassWithin, kFailWithin, kFail, kDoubtful };
 
 template <>
 struct EnumTable<Zone> {
   static constexpr EnumText<Zone> kRows[] = {{Zone::kPass, "pass"},
                                              {Zone::kPassWithin, "pass within uncertainty"},
                                              {Zone::kFailWithin, "fail within uncertainty"},
-                                             {Zone::kFail, "fail"}};
+                                             {Zone::kFail, "fail"},
+                                             {Zone::kDoubtful, "doubtful"}};
 };
 
 // For sure or within the uncertainty.
@@ -44,6 +48,7 @@ struct FieldMeasurement {
   TranslationInputs inputs;           // light, temperature, gains, leads
   std::optional<double> predicted_W;  // Pmax at these conditions by a model of the healthy string
   std::string predicted_by;           // what gave it, in words
+  std::string doubt;                  // why no device has such readings; empty: nothing is doubted
 };
 
 // Whether a string does what its rating says, and how sure that is.
@@ -56,8 +61,9 @@ struct FieldTest {
   double standard_low_W = kUnknown;
   double standard_high_W = kUnknown;
   Zone zone = Zone::kPass;
+  std::string doubt;  // why it cannot be judged; empty: it is
   // That the true value is on the other side of L than what the verdict says. The prior is flat:
-  // nothing is known of the string but this measurement.
+  // nothing is known of the string but this measurement. NaN where it is not judged.
   double probability_wrong = kUnknown;
   double probability_step =
       0;  // 1 / draws: what smaller probabilities cannot be told from; 0: none

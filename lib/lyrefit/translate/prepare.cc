@@ -9,11 +9,13 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/translate/complete_curve.h"
 #include "lyrefit/translate/extended_model.h"
+#include "lyrefit/translate/field_inputs.h"
 #include "lyrefit/translate/model_procedures.h"
 
 namespace lyrefit {
@@ -134,9 +136,18 @@ TranslationInputs MeasuredInputs(const IvCurve& curve, const TranslateOptions& o
   return inputs;
 }
 
+// The curve at the temperature of its cells.
+IvCurve AtCellTemperature(IvCurve curve, const UncertaintyOptions& options) {
+  const double warmer_K = CellCorrection_K(options, curve.conditions.irradiance_W_m2);
+  curve.conditions.cell_temperature_K += warmer_K;
+  for (double& temperature_C : curve.temperature_C) temperature_C += warmer_K;
+  return curve;
+}
+
 Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
-  for (const IvCurve& curve : options.further) {
-    TRY(Validate(curve));
+  for (const IvCurve& read : options.further) {
+    TRY(Validate(read));
+    const IvCurve curve = AtCellTemperature(read, options.uncertainty);
     TRY(RequireConditions(curve));
     std::string why_not;
     FurtherCurve further;
@@ -221,12 +232,14 @@ Expected<FitReport> FitOneDiode(const IvCurve& curve, int threads) {
   return Fit(curve, options);
 }
 
-Expected<Preparation> Prepare(const IvCurve& curve, const TranslateOptions& options,
+Expected<Preparation> Prepare(const IvCurve& read, const TranslateOptions& options,
                               const Observer& observer) {
-  TRY(Validate(curve));
-  TRY(RequireConditions(curve));
-  TRY(RequirePower(curve));
   Preparation made;
+  TRY(Validate(read));
+  TRY(RequireConditions(read));
+  TRY(RequirePower(read));
+  TRY(made.doubts, JudgeReadings(read));
+  const IvCurve curve = AtCellTemperature(read, options.uncertainty);
   made.curve.points = PointsOf(curve);
   made.curve.cells_in_series = curve.conditions.cells_in_series;
   made.curve.key_points = options.key_points;
@@ -243,6 +256,8 @@ Expected<Preparation> Prepare(const IvCurve& curve, const TranslateOptions& opti
       options.technology.empty() ? curve.notes.technology : options.technology;
   made.inputs =
       SettleInputs(options.coefficients, technology, made.curve, MeasuredInputs(curve, options));
+  made.inputs.cell_correction_K =
+      CellCorrection_K(options.uncertainty, curve.conditions.irradiance_W_m2);
   TRY(RequirePlausible(options, made));
   const TranslationInputs& inputs = made.inputs.values;
   if (made.curve.diode) {

@@ -20,11 +20,13 @@ struct Preparation {
   std::optional<FitReport> fit;        // of a single diode
   std::optional<Diagnosis> diagnosis;  // where the extended model is wanted
   std::string why_no_model;
+  std::vector<std::string> doubts;  // of the readings; see CheckReadings
   std::vector<std::string> warnings;
 };
 
-// Fits, settles the coefficients, diagnoses (unless the procedures asked for do without).
-// Errors: an unusable curve, no irradiance or temperature known, a dark curve, readings that end
+// Corrects the temperature as read to that of the cells (CellCorrection_K), fits, settles the
+// coefficients, diagnoses (unless the procedures asked for do without).
+// Errors: an unusable curve, readings that are refused (JudgeReadings), no irradiance or temperature known, a dark curve, readings that end
 // before the point of maximum power, coefficients or leads that no device has.
 Expected<Preparation> Prepare(const IvCurve& curve, const TranslateOptions& options,
                               const Observer& observer);

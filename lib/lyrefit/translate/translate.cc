@@ -9,6 +9,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/prepare.h"
@@ -126,6 +127,7 @@ Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& opt
   FieldMeasurement measurement;
   measurement.measured = KeyPointsBy(KeyPointMethod::kInterpolated, made.curve.points);
   measurement.inputs = made.inputs.values;
+  measurement.doubt = WhyDoubtful(report->curve).value_or("");
   FieldTestOptions test = options.field_test;
   if (!test.power_coefficient_percent_K) {
     test.power_coefficient_percent_K = made.inputs.usual_gamma_percent_K;
@@ -190,6 +192,7 @@ void AddRange(TranslationReport* report) {
 }
 
 void AddWarnings(const Preparation& made, TranslationReport* report) {
+  report->warnings.insert(report->warnings.begin(), made.doubts.begin(), made.doubts.end());
   for (const std::string& warning : made.warnings) report->warnings.push_back(warning);
   const TranslatedResult* best = report->Recommended();
   if (best == nullptr) return;
@@ -221,6 +224,8 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& curve, const Translate
   report.uncertainty = options.uncertainty;
   report.notes = options.notes;
   report.inputs = made.inputs;
+  report.doubts = made.doubts;
+  report.read_temperature_C = made.inputs.values.temperature_C - made.inputs.cell_correction_K;
   report.assumptions = SentencesOf(curve.assumptions);
   report.assumptions.insert(report.assumptions.end(), made.inputs.assumptions.begin(),
                             made.inputs.assumptions.end());

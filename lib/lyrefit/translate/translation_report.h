@@ -57,8 +57,10 @@ struct TranslationReport {
   UncertaintyOptions uncertainty;         // what light, temperature and instrument are
   FieldNotes notes;
   std::vector<OptionEcho> non_default_options;
+  double read_temperature_C = 0;         // before the cells' correction, which is in `inputs`
   std::vector<std::string> assumptions;  // of the reader, of the coefficients
-  std::vector<std::string> warnings;
+  std::vector<std::string> doubts;       // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> warnings;     // these doubts among them
   std::uint64_t seed = 0;
   double seconds = 0;
   bool interrupted = false;

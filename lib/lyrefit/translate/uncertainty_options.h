@@ -61,9 +61,13 @@ struct UncertaintyOptions {
   LightSource light_source = LightSource::kNotStated;
   TemperatureSource temperature_source = TemperatureSource::kNotStated;
   InstrumentClass instrument = InstrumentClass::kField;
+  // How much warmer the cells are than the sensor at 1000 W/m2, K: added to the temperature as read
+  // in proportion to the irradiance. The one member that is no size. Else 2.5 for a sensor on the
+  // back, 0 for any other.
+  std::optional<double> cell_correction_K;
   std::optional<double> irradiance_percent;
   std::optional<double> temperature_K;
-  std::optional<double> cell_offset_K;  // how much warmer the cells are than the sensor
+  std::optional<double> cell_offset_K;  // of how much warmer the cells are than the sensor
   std::optional<double> voltage_percent;
   std::optional<double> current_percent;
   double lead_percent = 20;
@@ -74,6 +78,7 @@ struct UncertaintyOptions {
   double kappa_percent = 100;
   double series_resistance_percent = 20;
   double light_of_voc_percent = 20;
+  double epsilon_percent = 8;
   double bandgap_percent = 2;
   double bandgap_slope_percent = 20;
   double ideality_slope_percent_per_K = 0.04;
@@ -92,6 +97,10 @@ inline constexpr OptionRow<UncertaintyOptions> kUncertaintyOptionTable[] = {
     {"temperature-from", "", "what the cell temperature was taken from",
      EnumOption<&UncertaintyOptions::temperature_source>()},
     {"instrument", "", "class of the curve tracer", EnumOption<&UncertaintyOptions::instrument>()},
+    {"cell-correction", "K",
+     "added to the temperature as read, at 1000 W/m2 and in proportion to the irradiance, as cells "
+     "are warmer than the sensor; 0 for a sensor of the cells; else 2.5 where it is on the back",
+     &UncertaintyOptions::cell_correction_K, -20, 20},
     {"irradiance-u", "%", "of the irradiance; else that of what it was taken from",
      &UncertaintyOptions::irradiance_percent},
     {"temperature-u", "K", "of the temperature as read", &UncertaintyOptions::temperature_K},
@@ -113,6 +122,8 @@ inline constexpr OptionRow<UncertaintyOptions> kUncertaintyOptionTable[] = {
      &UncertaintyOptions::series_resistance_percent, 0, 1000},
     {"b-u", "%", "of B1 and B2, how Voc follows the light",
      &UncertaintyOptions::light_of_voc_percent, 0, 1000},
+    {"epsilon-u", "%", "of epsilon, by which procedure 4 moves the voltage with temperature",
+     &UncertaintyOptions::epsilon_percent, 0, 100},
     {"bandgap-u", "%", "of the band gap", &UncertaintyOptions::bandgap_percent, 0, 100},
     {"bandgap-slope-u", "%", "of its slope with temperature",
      &UncertaintyOptions::bandgap_slope_percent, 0, 1000},

@@ -25,6 +25,7 @@ const zones = [
   { name: "pass within uncertainty", sign: "~", point: "■", colour: "#56B4E9" },
   { name: "fail within uncertainty", sign: "?", point: "▲", colour: "#E69F00" },
   { name: "fail", sign: "✕", point: "✕", colour: "#D55E00" },
+  { name: "doubtful", sign: "!", point: "+", colour: "#CC79A7" },
 ];
 const zoneOf = (name) => zones.find((zone) => zone.name === name);
 const noCause = (cause) => !cause || ["none", "clean", "healthy"].includes(cause);

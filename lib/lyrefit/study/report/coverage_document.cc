@@ -56,6 +56,25 @@ std::string SensorText(const CoverageOptions& options) {
          one(options.irradiance_error_W_m2, "W/m2", options.family.irradiance_offset);
 }
 
+const char* NoiseText(CoverageNoise noise) {
+  switch (noise) {
+    case CoverageNoise::kIsc:
+      return "each curve's Isc";
+    case CoverageNoise::kCorrelated:
+      return "each curve's Isc, correlated over one Voc";
+    case CoverageNoise::kEqual:
+      break;
+  }
+  return "Isc at the reference";
+}
+
+// "12 of 400 sets (1.7 .. 5.2 %)"
+std::string SharesText(int hits, int trials) {
+  const Share share = WilsonInterval(hits, trials);
+  return fmt::format("{} of {} ({} .. {})", hits, Plural(trials, "set"), PercentText(share.low_95),
+                     PercentText(share.high_95));
+}
+
 // Offsets have half-widths in their own unit.
 std::string HowToRead(const CoverageReport& report) {
   std::string text =
@@ -80,14 +99,20 @@ Document CoverageDocument(const CoverageReport& report) {
                              report.version, Plural(report.sets.size(), "simulated set"));
   AddField("device", DeviceText(o), &head);
   AddField("sets",
-           fmt::format("{} of {} points each, noise {:g} of Isc at the reference, seed {}",
+           fmt::format("{} of {} points each, noise {:g} of {}, seed {}",
                        o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves", o.points,
-                       o.noise_relative, o.seed),
+                       o.noise_relative, NoiseText(o.noise), o.seed),
            &head);
   AddField("sensors", SensorText(o), &head);
   if (report.failed > 0) {
     AddField("failed", fmt::format("{} without a usable fit", Plural(report.failed, "set")), &head);
   }
+  const int fits = static_cast<int>(report.sets.size()) - report.failed;
+  AddField("weights",
+           fmt::format("{}: relative to Isc in {}", ToText(o.family.weights),
+                       SharesText(report.relative, fits)),
+           &head);
+  AddField("correlated errors", "found in " + SharesText(report.correlated, fits), &head);
   AddField("time", Duration(report.seconds), &head);
   AddSections({{"", {ParameterTable(report)}}, {"", {block::Sentence{HowToRead(report)}}}},
               &document);

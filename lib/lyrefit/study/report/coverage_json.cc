@@ -17,6 +17,8 @@ void to_json(Json& j, const CoverageOptions& options) {
        {"curves", options.curves},
        {"points", options.points},
        {"noise_relative", options.noise_relative},
+       {"noise", options.noise},
+       {"weights", options.family.weights},
        {"temperature_error_K", options.temperature_error_K},
        {"irradiance_error_W_m2", options.irradiance_error_W_m2},
        {"temperature_offset", options.family.temperature_offset},
@@ -55,11 +57,14 @@ void to_json(Json& j, const CoverageReport& report) {
     sets.push_back({{"cells_in_series", set.cells_in_series},
                     {"curves", set.curves},
                     {"error", set.error.empty() ? Json() : Json(set.error)},
+                    {"weights", set.weights},
+                    {"correlated", set.correlated},
                     {"parameters", std::move(rows)},
                     {"seconds", set.seconds}});
   }
   j = {{"lyrefit_version", report.version}, {"options", report.options},
        {"interrupted", report.interrupted}, {"failed", report.failed},
+       {"relative", report.relative},       {"correlated", report.correlated},
        {"parameters", report.parameters},   {"sets", std::move(sets)},
        {"seconds", report.seconds}};
 }

@@ -15,29 +15,15 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-FleetCurve Curve(double isc_A, int strings = 1) {
-  IvCurve curve;
-  curve.conditions.strings_in_parallel = strings;
-  curve.voltage_V = {0, 10, 20, 30, 36};
-  for (const double part : {1.0, 0.99, 0.98, 0.8, 0.0}) curve.current_A.push_back(part * isc_A);
-  return {"s", curve, {}};
-}
-
-TEST(WhyDoubtful, DoubtsAPowerFarBeyondTheRatingBesideIt) {
-  FleetCurve curve = Curve(9);
-  EXPECT_FALSE(WhyDoubtful(curve));
-  curve.beside["rated_power_W"] = "250";
-  EXPECT_FALSE(WhyDoubtful(curve));
-  curve.beside["rated_power_W"] = "70";
-  EXPECT_THAT(WhyDoubtful(curve).value_or(""), HasSubstr("times the rated power of 70 W"));
+TEST(RatedPowerBeside, IsTheNumberThatStandsBesideACurve) {
+  FleetCurve curve{"s", IvCurve(), {}};
+  EXPECT_FALSE(RatedPowerBeside(curve));
+  curve.beside["rated_power_W"] = "250.5";
+  EXPECT_EQ(RatedPowerBeside(curve), 250.5);
   curve.beside["rated_power_W"] = "unknown";
-  EXPECT_FALSE(WhyDoubtful(curve));
-}
-
-TEST(WhyDoubtful, DoubtsACurrentThatNoCellGives) {
-  EXPECT_THAT(WhyDoubtful(Curve(9000)).value_or(""), HasSubstr("with 1 string in parallel"));
-  EXPECT_TRUE(WhyDoubtful(Curve(250, 2)));
-  EXPECT_FALSE(WhyDoubtful(Curve(250, 20)));
+  EXPECT_FALSE(RatedPowerBeside(curve));
+  curve.beside["rated_power_W"] = "250 W";
+  EXPECT_FALSE(RatedPowerBeside(curve));
 }
 
 // line -> {how, fate}
@@ -56,7 +42,7 @@ std::map<int, std::pair<std::string, std::string>> Truth(const std::string& path
   return truth;
 }
 
-TEST(WhyDoubtful, EveryBrokenRowOfALoadHasItsReason) {
+TEST(FitTask, EveryBrokenRowOfALoadHasItsReason) {
   const TempFolder folder;
   made::CurvesRequest request;
   request.count = 2000;

@@ -71,25 +71,23 @@ std::string DepartureText(double departure, const Floors& floors) {
 std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves) {
   if (!floors.Any()) return "Nothing to find: what the base model leaves is noise.";
   const double departure = verdict.departure.value;
-  const bool misses = MissesTooMuch(verdict, floors);
-  std::string text =
-      misses ? fmt::format(
-                   "The base model misses the data by {:.2f} % of Isc, more than it misses "
-                   "healthy modules by ({:.2f} to {:.2f} %), and no cause of the catalogue "
-                   "explains it",
-                   100 * departure, 100 * kLeastHealthy, 100 * kMostHealthy)
-             : "Nothing to act on: the data depart from the base model by " +
-                   DepartureText(departure, floors);
+  std::string present;
   if (!verdict.below_floor.empty()) {
-    text +=
+    present =
         fmt::format("; present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
                     100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
   }
-  if (misses) {
-    text += fmt::format(". To tell: {}{}", curves > 1 ? "diagnose each curve by itself; " : "",
-                        FindEffect("unknown_structure")->separate_by);
+  if (!MissesTooMuch(verdict, floors)) {
+    return "Nothing to act on: the data depart from the base model by " +
+           DepartureText(departure, floors) + present + ".";
   }
-  return text + ".";
+  if (present.empty()) present = ", and no cause of the catalogue explains it";
+  return fmt::format(
+      "The base model misses the data by {:.2f} % of Isc, more than it misses healthy modules by "
+      "({:.2f} to {:.2f} %){}. To tell: {}{}.",
+      100 * departure, 100 * kLeastHealthy, 100 * kMostHealthy, present,
+      curves > 1 ? "diagnose each curve by itself; " : "",
+      FindEffect("unknown_structure")->separate_by);
 }
 
 // `nameless`: structure alone, without a cause that fits it.

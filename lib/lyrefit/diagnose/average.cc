@@ -102,6 +102,16 @@ Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
   return averaged;
 }
 
+// A step of the light lies between two readings, also where it lies between averages.
+void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first,
+                         DataTraits* traits) {
+  traits->step_times.clear();
+  for (std::size_t g = 2; traits->single && g + 2 < first.size(); ++g) {
+    const Reading &before = readings.points[first[g] - 1], &after = readings.points[first[g]];
+    traits->step_times.push_back(0.5 * (before.x + after.x));
+  }
+}
+
 // All readings of a measurement that outlives it, trusted alike but for those at a limit.
 Workbench BenchOf(const Measurement& measurement) {
   const std::size_t count = measurement.readings.points.size();
@@ -164,7 +174,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
       means.points[k].current = readings.points[first].current;
     }
   }
-  SetStepTimes(&means);
+  SetStepTimesBetween(readings, averaged.first, &means.traits);
   SetRangeCurrents(&means);
   return averaged;
 }

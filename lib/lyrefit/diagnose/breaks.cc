@@ -74,8 +74,10 @@ void MarkSudden(const std::vector<Reading>& points, const std::vector<double>& o
   constexpr double kFar = 4.5, kUsual = 1000;  // standard deviations, among so many readings
   constexpr double kOfMiddle = 1.25;           // variance of a reading less the middle of six
   constexpr std::size_t kMost = 100;
+  // What stands alone is judged as one of the averages, not as one of all readings: chance must set
+  // a reading apart the less often the more there are, so its own square grows by 4 ln(times).
   const double times = std::max(static_cast<double>(points.size()) / kUsual, 1.0);
-  const double far = std::sqrt(kFar * kFar + 2 * kOfMiddle * std::log(times));
+  const double far = std::sqrt(kFar * kFar + 4 * kOfMiddle * kOfMiddle * std::log(times));
   std::vector<std::pair<double, int>> sudden;
   for (int k = 0; k < static_cast<int>(points.size()); ++k) {
     const double distance = OffNeighbours(points, off, k);

@@ -32,12 +32,13 @@ ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& u
 }
 
 // By how much a fit misses the readings, also those behind averages, in units of their noise.
-double MisfitRatio(const Workbench& bench, const LawFit& fit) {
+double MisfitRatio(const Workbench& bench, const LawFit& fit, const AtReadings& at) {
   double within = 0, more = 0;  // squares about the averages, and their readings beyond one
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
     if (bench.used[k] == 0) continue;
     const Reading& reading = bench.readings->points[k];
-    within += reading.scatter / (bench.sigma[k] * bench.sigma[k]);
+    const double sigma = at.bench.sigma[at.first[k]];
+    within += reading.weight * reading.scatter / (sigma * sigma);
     more += reading.weight - 1;
   }
   return std::sqrt((fit.sum + within) / (Degrees(bench, fit.law) + more));
@@ -204,7 +205,7 @@ Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = at.noise.dark.constant * scale;
   }
-  evidence.misfit_ratio = MisfitRatio(bench, selection.base);
+  evidence.misfit_ratio = MisfitRatio(bench, selection.base, at);
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;

@@ -9,6 +9,7 @@
 #include "lyrefit/base/largest.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/number_text.h"
@@ -48,8 +49,7 @@ Examined Examine(const IvCurve& curve) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     if (curve.voltage_V[k] >= 0) look.delivered_A = std::max(look.delivered_A, curve.current_A[k]);
   }
-  const bool dark = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDark_W_m2;
-  look.lit = !dark && look.delivered_A > kNoise * look.largest_A;
+  look.lit = !IsDark(curve) && look.delivered_A > kNoise * look.largest_A;
   return look;
 }
 

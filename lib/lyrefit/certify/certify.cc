@@ -65,8 +65,7 @@ BranchEnd RunBranch(const BranchLimits& limits, int diodes, double primal, Proof
   const std::vector<Window> box = proof->BoxOfModel(diodes);
   const SolvedRelaxation solved(proof->data);
   const MeasuredRelaxation measured(proof->data, limits.rigorous);
-  const Relaxation& relaxation =
-      Solved(*proof) ? static_cast<const Relaxation&>(solved) : measured;
+  const Relaxation& relaxation = Solved(*proof) ? static_cast<const Relaxation&>(solved) : measured;
   BranchEnd end = diodes == 0 ? BranchOver(relaxation, proof->window, 0, primal, limits)
                               : BranchOver(relaxation, box, primal, limits);
   proof->rs_reached = std::max(proof->rs_reached, end.rs_reached);
@@ -279,8 +278,8 @@ ModelCertificate CertifyModel(Model model, const BranchEnd& floor, Proof* shared
   }
   shared->attained.push_back(best.AsMixture());
   certificate.parameters = best.p();
-  certificate.rmse_A =
-      proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p()) : std::sqrt(best.mean_square());
+  certificate.rmse_A = proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p())
+                                              : std::sqrt(best.mean_square());
   certificate.lower_bound_A = std::min(proof.RmseBelow(lower), certificate.rmse_A);
   certificate.gap = Gap(proof, certificate.rmse_A, certificate.lower_bound_A);
   certificate.certified = Certified(proof, certificate.rmse_A, certificate.lower_bound_A);

@@ -123,7 +123,7 @@ class Branch {
     far.rs1 = limits_.rs_upper;
     far.left = far.right = nullptr;
     far.lower = std::max(part.lower, relaxation_.Beyond(rs));
-    if (far.lower >= Enough()) {
+    if (far.lower >= Enough() || rs >= limits_.rs_divided) {
       settled_ = std::min(settled_, far.lower);
       return;
     }

@@ -24,9 +24,10 @@ struct BranchLimits {
   // From here on the order of the points may prove enough: larger Rs are divided only where it does
   // not.
   double rs_cut = kInfinity;
-  double tolerance = 1e-10;  // relative gap of the sums of squares that settles a part
-  bool rigorous = false;     // the lower bound holds in spite of rounding
-  int most_solved = 20000;   // mixtures solved before giving up
+  double rs_divided = kInfinity;  // beyond this the order has to do: parts of that are settled
+  double tolerance = 1e-10;       // relative gap of the sums of squares that settles a part
+  bool rigorous = false;          // the lower bound holds in spite of rounding
+  int most_solved = 20000;        // mixtures solved before giving up
   // Asked now and then with the count of mixtures solved, the best half sum of squares and the
   // lower bound proved so far; false ends the work. May be empty.
   std::function<bool(std::int64_t, double, double)> proceed;

@@ -22,6 +22,10 @@
 namespace lyrefit {
 namespace {
 
+// A range of Rs without an end is divided up to so many times the largest forward voltage over the
+// largest current: the parts it takes grow with Rs.
+constexpr double kMostDivided = 4;
+
 // What every step of one proof needs.
 struct Proof {
   const IvCurve& curve;
@@ -114,6 +118,7 @@ Expected<void> Prepare(Proof* proof) {
   limits.rs_lower = options.rs_lower_ohm;
   limits.rs_upper = options.rs_upper_ohm;
   limits.rs_cut = data.reference_voltage_V / largest_current;
+  if (!std::isfinite(limits.rs_upper)) limits.rs_divided = kMostDivided * limits.rs_cut;
   if (limits.rs_lower > limits.rs_cut) {
     return Fail(
         fmt::format("rs-lower = {:g} ohm is above {:g} ohm, the largest forward voltage "

@@ -258,8 +258,9 @@ Section PhysicsSection(const CornerStudy& study) {
           "that one diode and a straight Rs do not bend, and Rs grows from {} to {} ohm to make "
           "room for it. Whatever bends it, it is no junction; the readings ask for it all the same "
           "(AICc {:.1f} against {:.1f}, the lower the better, errors taken as independent). Fitted "
-          "to the solved current two diodes end in the same corner, n = {}, {} A "
-          "(solved-current, not certified).",
+          "to the solved current, two diodes end in the same corner: n = {}, {} A; what is proved "
+          "of "
+          "that stands among the [certified optima](../README.md#certified-optima).",
           1e3 * decade_V, 1e3 * decade_V / n, Significant(study.one.refined[kRs], 4),
           Significant(two.refined[kRs], 4), two.criteria.aicc, study.one.criteria.aicc,
           Significant(solved.refined[IdealityIndex(Steep(solved))], 4),

@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kLevel = 0.05;
+constexpr double kRefutedAt = 0.05;
 
 // Positions of the idealities that sit at a bound with room beyond it. Below `steepest_n` a diode
 // is a step (law/term.h).
@@ -78,10 +78,10 @@ std::string RefutedBound(FitJob* job, const RefineProblem& problem, const Refine
   const int extra = static_cast<int>(at_bound.size());
   const int spare = job->readings() - job->free_parameters;
   double p = PValue(wide, end.mean_square, free.mean_square, extra, spare);
-  if (p < kLevel && problem.errors == nullptr) {
+  if (p < kRefutedAt && problem.errors == nullptr) {
     p = UnderTheirErrors(job, wide, free, end, extra, spare, p);
   }
-  if (!(p < kLevel)) return "";
+  if (!(p < kRefutedAt)) return "";
   std::string where, room;
   for (const int i : at_bound) {
     const ParameterBounds& bounds = job->bounds[i];

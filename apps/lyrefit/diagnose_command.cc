@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "diagnose_request.h"
@@ -103,23 +104,28 @@ Expected<CurveSet> Read(const DiagnoseRequest& request, const std::vector<std::s
                           : ReadMeasurementOrInput(files.front(), request.reading);
 }
 
-Expected<Diagnosis> DiagnoseFiles(const DiagnoseRequest& request,
-                                  const std::vector<std::string>& files) {
-  const std::string& file = files.front();
+Expected<CurveSet> ReadFlagged(const DiagnoseRequest& request,
+                               const std::vector<std::string>& files) {
   TRY(CurveSet set, Read(request, files));
   if (request.conditions.irradiance_W_m2 && set.curves.size() > 1) {
     return Fail(fmt::format("--irradiance-Wm2 is for one curve, this measurement has {}",
                             set.curves.size()),
-                file);
+                files.front());
   }
   TRY(ApplyConditionFlags(request.conditions, &set));
+  return set;
+}
+
+Expected<Diagnosis> DiagnoseSet(const DiagnoseRequest& request, const CurveSet& set,
+                                const std::string& file) {
   Expected<Diagnosis> diagnosis = Diagnose(set, request.options, TerminalObserver());
   if (!diagnosis && diagnosis.error().file.empty()) diagnosis.error().file = file;
   return diagnosis;
 }
 
-// A measurement that cannot be diagnosed keeps no other from it.
-Diagnoses DiagnoseAll(const DiagnoseRequest& request) {
+// A measurement that cannot be diagnosed keeps no other from it. `guard` begins with the first that
+// was read.
+Diagnoses DiagnoseAll(const DiagnoseRequest& request, std::optional<InterruptGuard>* guard) {
   Diagnoses all;
   std::vector<std::vector<std::string>> measurements;
   if (request.together) measurements = {request.files};
@@ -127,7 +133,10 @@ Diagnoses DiagnoseAll(const DiagnoseRequest& request) {
     if (!request.together) measurements.push_back({file});
   }
   for (const std::vector<std::string>& files : measurements) {
-    Expected<Diagnosis> diagnosis = DiagnoseFiles(request, files);
+    const Expected<CurveSet> set = ReadFlagged(request, files);
+    if (!*guard) guard->emplace();
+    Expected<Diagnosis> diagnosis = set ? DiagnoseSet(request, *set, files.front())
+                                        : Expected<Diagnosis>(tl::unexpected(set.error()));
     if (!diagnosis) {
       all.exit_code = Refuse(diagnosis.error());
       all.interrupted = Interrupted();
@@ -183,8 +192,8 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
   TRY(CheckRequest(verb, request));
   if (request.module) return RunModule(verb, request);
   if (!request.healthy_files.empty()) return RunHealthy(verb, request);
-  const InterruptGuard guard;
-  const Diagnoses all = DiagnoseAll(request);
+  std::optional<InterruptGuard> guard;
+  const Diagnoses all = DiagnoseAll(request, &guard);
   TRY(Write(verb, request, all));
   return all.interrupted ? kExitInterrupted : all.exit_code;
 }

@@ -50,8 +50,8 @@ TEST(SharedObserver, AsksOneThreadAtATimeAndStopsThemAll) {
   });
   EXPECT_TRUE(shared.Stopped());
   EXPECT_EQ(asked, 51) << "not asked again after the stop";
-  EXPECT_GE(done, 50);
-  EXPECT_LT(done, 60);
+  EXPECT_GT(done, 0);
+  EXPECT_LE(done, 51 + 4) << "no thread begins another one";
 }
 
 TEST(SharedObserver, AsksFromTheInsideOfAJobAtMostEveryFewMilliseconds) {

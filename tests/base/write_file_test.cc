@@ -89,7 +89,8 @@ TEST(WriteTextFileTest, AKilledProcessLeavesNoPartOfAFile) {
         if (!WriteTextFile(folder.Path(name), text)) _exit(1);
       }
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20 + turn));
+    // In the midst of one of the next files.
+    while (FilesIn(folder.Path("")) <= turn % 3) std::this_thread::yield();
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);

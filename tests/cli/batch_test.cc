@@ -1,12 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include "../fleet/strings.h"
 #include "run_app.h"
@@ -19,10 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 #ifdef LYREFIT_SANITIZED
-constexpr double kBatchPatience_s = 20;
 constexpr int kRows = 60;
 #else
-constexpr double kBatchPatience_s = 5;
 constexpr int kRows = 400;
 #endif
 
@@ -35,6 +29,14 @@ class BatchCommand : public testing::Test {
     return RunApp("batch '" + file_ + "' --out '" + folder_.Path(out) + "' --threads 2 " + more);
   }
   std::string PartOf(const std::string& out) { return folder_.Path(out) + "/results.part"; }
+  // Runs on until some more lines are written or all is done; then `signal` comes. The exit code.
+  int Interrupted(int signal, int lines) {
+    const auto before = LinesIn(PartOf("out"));
+    const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
+    Await(child, [&] { return LinesIn(PartOf("out")) >= before + lines; });
+    kill(child, signal);
+    return ExitCodeOf(child);
+  }
 
   const TempFolder folder_;
   const std::string file_ = folder_.Write("strings.jsonl", ManyRows(kRows));
@@ -43,15 +45,7 @@ class BatchCommand : public testing::Test {
 TEST_F(BatchCommand, LosesNothingToKills) {
   ASSERT_EQ(Run("whole").exit_code, 0);
   int killed = 0;
-  for (int i = 0; i < 100; ++i) {
-    const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(30 + 37 * i % 120));
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    if (WIFEXITED(status)) break;
-    ++killed;
-  }
+  for (int i = 0; i < 100 && Interrupted(SIGKILL, i % 7) == -1; ++i) ++killed;
   const AppResult last = Run("out", "--resume");
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_GE(killed, 1);
@@ -61,17 +55,12 @@ TEST_F(BatchCommand, LosesNothingToKills) {
 TEST_F(BatchCommand, EndsOnSignalsAndGoesOn) {
   ASSERT_EQ(Run("whole").exit_code, 0);
   for (const int signal : {SIGINT, SIGTERM}) {
-    const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
-    while (!Listens(child, SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    const auto begin = std::chrono::steady_clock::now();
-    kill(child, signal);
-    int status = 0;
-    waitpid(child, &status, 0);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(took.count(), kBatchPatience_s);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130) << FileText(folder_.Path("err"));
+    int exit_code = 0;
+    // Once more where all was done before the signal came.
+    while ((exit_code = Interrupted(signal, 2)) == 0) {
+      std::filesystem::remove_all(folder_.Path("out"));
+    }
+    EXPECT_EQ(exit_code, 130) << FileText(folder_.Path("err"));
     EXPECT_THAT(FileText(folder_.Path("text")),
                 HasSubstr("the same command with --resume goes on from there"));
     EXPECT_TRUE(std::filesystem::exists(PartOf("out")));
@@ -101,16 +90,16 @@ TEST_F(BatchCommand, InShardsAndMergedGivesTheSameBytes) {
 }
 
 TEST_F(BatchCommand, RefusesAWriterBesideIt) {
-  const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
-  while (!std::filesystem::exists(PartOf("out"))) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  pid_t child = -1;
+  for (int status = 0; !WIFSTOPPED(status);) {  // once more where all was done before it was held
+    child = StartApp(Words("out", "--force"), folder_.Path("text"), folder_.Path("err"));
+    Await(child, [&] { return LinesIn(PartOf("out")) > 0; });
+    kill(child, SIGSTOP);
+    waitpid(child, &status, WUNTRACED);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const AppResult second = Run("out", "--resume");
   kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (WIFEXITED(status)) GTEST_SKIP() << "the first was done before the second began";
+  EXPECT_EQ(ExitCodeOf(child), -1);
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_THAT(second.err, HasSubstr("another process is writing these rows"));
 }

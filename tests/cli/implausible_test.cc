@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -47,16 +46,14 @@ IvCurve Changed(IvCurve curve, const std::function<void(double*, double*)>& chan
   return curve;
 }
 
-// One sentence, exit code 1, at once.
+// One sentence, exit code 1.
 void ExpectRefused(const std::string& content, const std::string& flags,
                    const std::vector<std::string>& says) {
   const TempFolder folder;
   const std::string file = folder.Write("curve.csv", content);
   for (const std::string verb : kVerbs) {
     SCOPED_TRACE(verb);
-    const auto begin = std::chrono::steady_clock::now();
     const AppResult result = RunApp(Quick(verb) + file + " " + flags);
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.out, "");
     EXPECT_THAT(result.err, StartsWith("lyrefit: "));

@@ -1,14 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 
-#include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "run_app.h"
@@ -17,35 +11,9 @@
 namespace lyrefit {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-// How long the app may take to end. The command as it ships ends within a second on a quiet
-// machine; the sanitizers make everything several times slower.
-#ifdef LYREFIT_SANITIZED
-constexpr double kPatience_s = 20;
-#else
-constexpr double kPatience_s = 5;
-#endif
-
-struct Ended {
-  int exit_code = -1;  // -1: by a signal
-  double seconds = 0;  // from the signal to the end
-};
-
-// A signal a while after the work began.
-Ended Interrupt(pid_t child, int signal) {
-  while (!Listens(child, SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));
-  const auto begin = Clock::now();
-  kill(child, signal);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-          std::chrono::duration<double>(Clock::now() - begin).count()};
-}
 
 const std::vector<std::string> kLongFit = {
     "fit",  DataFolder("rtc_france"), "--model", "td", "--population",
@@ -64,32 +32,49 @@ std::vector<std::string> With(std::vector<std::string> arguments,
 
 class InterruptTest : public testing::TestWithParam<int> {
  protected:
-  // Runs until the signal; the exit code and the time are as promised.
-  std::string OutputOf(const std::vector<std::string>& arguments) {
-    const std::string out = folder_.Path("out.txt");
-    const pid_t child = StartApp(arguments, out);
-    EXPECT_GT(child, 0);
-    const Ended ended = Interrupt(child, GetParam());
-    EXPECT_EQ(ended.exit_code, 130);
-    EXPECT_LT(ended.seconds, kPatience_s);
-    return FileText(out);
+  // What it writes when the signal comes as soon as it has shown `until`. All these would take hours.
+  std::string OutputOf(const std::vector<std::string>& arguments, const std::string& until) {
+    ShownApp app(arguments, out_);
+    app.AwaitShown(until);
+    kill(app.child(), GetParam());
+    EXPECT_EQ(app.ExitCode(), 130) << app.shown();
+    return FileText(out_);
   }
 
-  nlohmann::json JsonOf(const std::vector<std::string>& arguments) {
-    return nlohmann::json::parse(OutputOf(With(arguments, {"--json", "-"})), nullptr, false);
+  nlohmann::json JsonOf(const std::vector<std::string>& arguments, const std::string& until) {
+    return nlohmann::json::parse(OutputOf(With(arguments, {"--json", "-"}), until), nullptr, false);
+  }
+
+  // The same as soon as it waits for the pipe.
+  std::string OutputAt(SilentPipe* pipe, const std::vector<std::string>& arguments) {
+    const pid_t child = StartApp(arguments, out_, err_);
+    Await(child, [pipe] { return pipe->IsRead(); });
+    kill(child, GetParam());
+    EXPECT_EQ(ExitCodeOf(child), 130) << arguments.front();
+    return FileText(out_);
+  }
+  std::string OutputAtPipe(const std::vector<std::string>& before,
+                           const std::vector<std::string>& after = {}) {
+    SilentPipe pipe(folder_.Path("pipe" + std::to_string(pipes_++)));
+    return OutputAt(&pipe, With(With(before, {pipe.path()}), after));
   }
 
   const TempFolder folder_;
+  const std::string out_ = folder_.Path("out.txt");
+  const std::string err_ = folder_.Path("err.txt");
+  int pipes_ = 0;
 };
 
+const char kSearching[] = "search \\[";
+
 TEST_P(InterruptTest, EndsALongFitAndReports) {
-  const std::string text = OutputOf(kLongFit);
+  const std::string text = OutputOf(kLongFit, kSearching);
   EXPECT_THAT(text, StartsWith("INTERRUPTED"));
   EXPECT_THAT(text, HasSubstr("searched (best bird)"));
 }
 
 TEST_P(InterruptTest, IsMarkedInTheJsonOfAFit) {
-  const nlohmann::json j = JsonOf(kLongFit);
+  const nlohmann::json j = JsonOf(kLongFit, kSearching);
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   EXPECT_EQ(j["search"]["termination"], "interrupted");
@@ -99,11 +84,11 @@ TEST_P(InterruptTest, IsMarkedInTheJsonOfAFit) {
 TEST_P(InterruptTest, EndsAFitOfAllModelsToo) {
   std::vector<std::string> arguments = kLongFit;
   arguments[3] = "auto";
-  EXPECT_THAT(OutputOf(arguments), StartsWith("INTERRUPTED"));
+  EXPECT_THAT(OutputOf(arguments, kSearching), StartsWith("INTERRUPTED"));
 }
 
 TEST_P(InterruptTest, KeepsTheRunsOfAComparison) {
-  const nlohmann::json j = JsonOf(kLongCompare);
+  const nlohmann::json j = JsonOf(kLongCompare, "\\] [0-9]{3,} of 600000");
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   ASSERT_EQ(j["problems"].size(), 1U) << "of the one it was at";
@@ -114,37 +99,58 @@ TEST_P(InterruptTest, KeepsTheRunsOfAComparison) {
 }
 
 TEST_P(InterruptTest, SaysThatAComparisonIsNotComplete) {
-  EXPECT_THAT(OutputOf(kLongCompare), StartsWith("INTERRUPTED: only the runs that were done"));
+  EXPECT_THAT(OutputOf(kLongCompare, "compare \\["),
+              StartsWith("INTERRUPTED: only the runs that were done"));
 }
 
 TEST_P(InterruptTest, KeepsWhatIsProved) {
-  const nlohmann::json j = JsonOf({"certify", LongCurve(folder_), "--cells", "60"});
+  const nlohmann::json j =
+      JsonOf({"certify", LongCurve(folder_), "--cells", "60"}, "floor: [0-9]+ done, best [^ ]+");
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   EXPECT_GT(j["floor"]["rmse_A"], 0);
 }
 
-TEST_P(InterruptTest, KeepsTheFilesThatWereDiagnosed) {
-  std::vector<std::string> arguments = {"diagnose"};
-  for (int i = 0; i < 200; ++i) {
-    const std::string name = "curve" + std::to_string(i) + ".csv";
-    arguments.push_back(folder_.Write(name, FileText(DataFolder("rtc_france") + "/curve.csv")));
-  }
-  EXPECT_THAT(OutputOf(arguments), HasSubstr("curve0"));
-}
-
 TEST_P(InterruptTest, KeepsTheSetsOfACoverageStudy) {
   const nlohmann::json j =
-      JsonOf({"coverage", "--sets", "100000", "--curves", "5", "--points", "10"});
+      JsonOf({"coverage", "--sets", "100000", "--curves", "5", "--points", "10"},
+             "coverage \\[[.#]*\\] [1-9]");
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
 }
 
-TEST_P(InterruptTest, EndsWhatTakesAMomentToo) {
-  const std::string pipe = folder_.Path("pipe");  // nobody writes into it
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(OutputOf({"simulate", "--from", pipe}), "");
-  EXPECT_EQ(OutputOf({"audit", pipe}), "");
+TEST_P(InterruptTest, KeepsTheBudgetOfATranslationWithoutItsDraws) {
+  const nlohmann::json j = JsonOf({"translate", DataFolder("rtc_france"), "--irradiance-Wm2", "800",
+                                   "--temperature-C", "33", "--draws", "10000000"},
+                                  "draws \\[[.#]*\\] [1-9]");
+  ASSERT_TRUE(j.is_object());
+  EXPECT_EQ(j["interrupted"], true);
+  for (const auto& result : j["results"]) {
+    if (result["budget"].is_object()) EXPECT_EQ(result["budget"]["draws"], 0);
+  }
+}
+
+// The second measurement never comes.
+TEST_P(InterruptTest, KeepsTheFilesThatWereDiagnosed) {
+  EXPECT_THAT(OutputAtPipe({"diagnose", DataFolder("rtc_france")}), HasSubstr("rtc_france"));
+}
+
+TEST_P(InterruptTest, KeepsTheFilesThatWereFitted) {
+  EXPECT_THAT(OutputAtPipe({"fit", "--threads", "1", DataFolder("rtc_france")}),
+              HasSubstr("rtc_france"));
+}
+
+TEST_P(InterruptTest, EndsWhatWaitsForAPipe) {
+  for (const char* verb : {"fit", "certify", "translate", "diagnose", "compare", "audit"}) {
+    EXPECT_EQ(OutputAtPipe({verb}), "") << verb;
+  }
+  EXPECT_EQ(OutputAtPipe({"simulate", "--from"}), "");
+  EXPECT_EQ(OutputAtPipe({"fit", DataFolder("rtc_france"), "--bounds"}), "");
+  for (const char* verb : {"batch", "pack"}) {
+    const std::string out = folder_.Path(std::string(verb) + ".jsonl");
+    EXPECT_EQ(OutputAtPipe({verb}, {"--out", out}), "") << verb;
+    EXPECT_FALSE(std::filesystem::exists(out)) << verb;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptTest, testing::Values(SIGINT, SIGTERM, SIGHUP),
@@ -169,8 +175,11 @@ nlohmann::json Comparison(const std::string& journal) {
 TEST(Resume, LosesNothingButTheRunUnderWayToAKill) {
   const TempFolder folder;
   const std::string journal = folder.Path("study.jsonl");
-  const pid_t child = StartApp(With(kLongCompare, {"--resume", journal}), folder.Path("out.txt"));
-  Interrupt(child, SIGKILL);
+  const pid_t child = StartApp(With(kLongCompare, {"--resume", journal}), folder.Path("out.txt"),
+                               folder.Path("err.txt"));
+  Await(child, [&] { return LinesIn(journal) > 10; });
+  kill(child, SIGKILL);
+  EXPECT_EQ(ExitCodeOf(child), -1);
   const std::string text = FileText(journal);
   ASSERT_GE(std::count(text.begin(), text.end(), '\n'), 3) << "a head and some runs";
   EXPECT_EQ(FileText(folder.Path("out.txt")), "");

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 
 #include "../temp_folder.h"
 #include "run_app.h"
@@ -49,6 +53,25 @@ TEST(ReadingFlags, StandardInputIsRead) {
     const AppResult result = RunApp("fit -" + kQuickFit, kFormats + file);
     EXPECT_NE(result.exit_code, 1) << file << ": " << result.err;
     EXPECT_THAT(result.out, HasSubstr("standard input: sd")) << file;
+  }
+}
+
+// By whatever verb: once, and all of it.
+TEST(ReadingFlags, APipeIsReadAsItsFile) {
+  const TempFolder folder;
+  const std::string pipe = folder.Path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string table = FileText(DataFolder("rtc_france") + "/curve.csv");
+  const std::string told = " --cells 1 --temperature-C 33 ";
+  for (const std::string& verb :
+       {"fit" + told + "--no-polish --intervals none", "certify" + told, "diagnose" + told,
+        "translate" + told + "--irradiance-Wm2 1000 --draws 0",
+        std::string("compare --runs 1 --population 5 --iterations 3 --temperature-C 33")}) {
+    std::thread writer([&] { std::ofstream(pipe) << table; });
+    const AppResult result = RunApp(verb + " " + pipe);
+    writer.join();
+    EXPECT_NE(result.exit_code, 1) << verb << ": " << result.err;
+    EXPECT_NE(result.out, "") << verb;
   }
 }
 

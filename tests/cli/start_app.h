@@ -1,13 +1,22 @@
 #pragma once
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
+#include <pty.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
-#include <fstream>
+#include <regex>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "../temp_folder.h"
 
 extern char** environ;
 
@@ -41,15 +50,93 @@ inline pid_t StartApp(std::vector<std::string> arguments, const std::string& out
   return child;
 }
 
-// Whether the process catches `signal` by now.
-inline bool Listens(pid_t child, int signal) {
-  std::ifstream status("/proc/" + std::to_string(child) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind("SigCgt:", 0) == 0) {
-      return (std::stoull(line.substr(7), nullptr, 16) & (1ULL << (signal - 1))) != 0;
-    }
-  }
-  return true;  // it has ended
+// The exit code, -1 if a signal ended it.
+inline int ExitCodeOf(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
+
+// Returns as soon as `state` holds, or the child has ended, who stays to be waited for. How long
+// that takes does not matter; what never happens runs into the time limit of the test.
+template <class State>
+void Await(pid_t child, const State& state) {
+  const auto ended = [child] {
+    siginfo_t info = {};
+    return waitid(P_PID, child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
+  };
+  while (!state() && !ended()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+// How many lines a file has by now.
+inline std::ptrdiff_t LinesIn(const std::string& path) {
+  const std::string text = FileText(path);
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+// A named pipe that gives nothing. Somebody who opened it waits for it.
+class SilentPipe {
+ public:
+  explicit SilentPipe(std::string path) : path_(std::move(path)) {
+    EXPECT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  }
+  ~SilentPipe() {
+    if (end_ >= 0) close(end_);
+  }
+  SilentPipe(const SilentPipe&) = delete;
+  SilentPipe& operator=(const SilentPipe&) = delete;
+
+  const std::string& path() const { return path_; }
+  // Whether somebody has opened it to read.
+  bool IsRead() {
+    if (end_ < 0) end_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    return end_ >= 0;
+  }
+
+ private:
+  std::string path_;
+  int end_ = -1;
+};
+
+// The app with its standard error on a terminal, where it shows how far it is.
+class ShownApp {
+ public:
+  ShownApp(const std::vector<std::string>& arguments, const std::string& out) {
+    int inner = -1;
+    char name[128] = {};
+    EXPECT_EQ(openpty(&terminal_, &inner, name, nullptr, nullptr), 0);
+    for (const int end : {terminal_, inner}) fcntl(end, F_SETFD, FD_CLOEXEC);
+    child_ = StartApp(arguments, out, name);
+    close(inner);
+  }
+  ~ShownApp() { close(terminal_); }
+  ShownApp(const ShownApp&) = delete;
+  ShownApp& operator=(const ShownApp&) = delete;
+
+  pid_t child() const { return child_; }
+  const std::string& shown() const { return shown_; }
+
+  // Reads until it has shown `until`, or has ended.
+  void AwaitShown(const std::string& until) {
+    const std::regex awaited(until);
+    while (!std::regex_search(shown_, awaited) && ReadOn()) continue;
+  }
+  int ExitCode() {
+    while (ReadOn()) continue;
+    return ExitCodeOf(child_);
+  }
+
+ private:
+  bool ReadOn() {
+    char buffer[4096];
+    const ssize_t got = read(terminal_, buffer, sizeof buffer);
+    if (got > 0) shown_.append(buffer, static_cast<std::size_t>(got));
+    return got > 0;
+  }
+
+  int terminal_ = -1;
+  pid_t child_ = -1;
+  std::string shown_;
+};
 
 }  // namespace lyrefit

@@ -17,11 +17,11 @@ cd -- "$work"
 "$lyrefit" batch "$input" --out single > single.log 2>&1
 "$python" "$example" "$input" --out out --shards 6 --lyrefit "$lyrefit" &> dask.log &
 running=$!
-WaitFor 30 HasRows out/shards/shard-2-of-6.part || Fail "shard 2 does not get on its way: $(cat dask.log)"
+WaitFor 600 HasRows out/shards/shard-2-of-6.part || Fail "shard 2 does not get on its way: $(cat dask.log)"
 shard=$(pgrep -f -- '--shard 2/6 --out out/shards')
 worker=$(ps -o ppid= -p "$shard")
 Run kill -KILL "$((worker))"
-WaitFor 10 bash -c "! kill -0 $shard 2> /dev/null" || Fail "the shard of a killed worker runs on"
+WaitFor 600 bash -c "! kill -0 $shard 2> /dev/null" || Fail "the shard of a killed worker runs on"
 wait "$running" || Fail "$(cat dask.log)"
 Run cat dask.log
 for file in results.csv results.jsonl results.schema.json; do

@@ -25,14 +25,14 @@ Need() {
   exit 77
 }
 
-# WaitFor SECONDS COMMAND...: succeeds as soon as the command does.
+# WaitFor SECONDS COMMAND...: succeeds as soon as the command does. The seconds end what hangs.
 WaitFor() {
   local end=$((SECONDS + $1))
   until "${@:2}"; do
     ((SECONDS < end)) || return 1
-    sleep 0.1
+    sleep 0.02
   done
 }
 
 # HasRows FILE: a part file that a shard is writing rows to.
-HasRows() { (($(wc -l 2> /dev/null < "$1" || echo 0) > 20)); }
+HasRows() { (($(wc -l 2> /dev/null < "$1" || echo 0) > 1)); }

@@ -15,10 +15,10 @@ StartSlurm() {
   StartDaemon munged --foreground --force "--key-file=$slurm_folder/munge.key" \
     "--socket=$slurm_folder/munge/socket" "--pid-file=$slurm_folder/munge/pid" \
     "--seed-file=$slurm_folder/munge/seed" --num-threads=2
-  WaitFor 10 test -S "$slurm_folder/munge/socket"
+  WaitFor 600 test -S "$slurm_folder/munge/socket"
   StartDaemon slurmctld -D
   StartDaemon slurmd -D -N localhost
-  WaitFor 30 NodeIsIdle || return 1
+  WaitFor 600 NodeIsIdle || return 1
 }
 
 # Ends with the test, however that ends.

@@ -20,7 +20,7 @@ Log "$line"
 lyrefit batch fleet.jsonl --out single > single.log 2>&1
 bash -c "$line" &> parallel.log &
 running=$!
-WaitFor 30 HasRows OUT/shards/shard-2-of-8.part || Fail "shard 2 does not get on its way: $(cat parallel.log)"
+WaitFor 600 HasRows OUT/shards/shard-2-of-8.part || Fail "shard 2 does not get on its way: $(cat parallel.log)"
 Run pkill -KILL -f -- "--shard 2/8 --out OUT/shards"
 wait "$running" || Fail "$(cat parallel.log)"
 Run cut -f 1,4,7,8 OUT.joblog

@@ -47,7 +47,7 @@ if "${submit[@]}" --out "$out" --shards 4 > "$work/twice.log" 2>&1; then
 fi
 
 for k in 1 2 3 4; do
-  WaitFor 60 HasRows "$(PartOf "$k")" || Fail "shard $k does not get on its way"
+  WaitFor 600 HasRows "$(PartOf "$k")" || Fail "shard $k does not get on its way"
 done
 Run scancel --batch --signal=USR1 "${job}_1"
 Run kill -KILL "$(ProcessOf 2)"
@@ -55,7 +55,7 @@ Run scontrol requeue "${job}_3"
 Run scancel "${job}_4"
 Run squeue --array
 Run "$lyrefit_slurm" status "$out"
-WaitFor 120 NothingQueued || Fail "the queue does not empty"
+WaitFor 600 NothingQueued || Fail "the queue does not empty"
 Run grep -hE '^20|^slurmstepd|INTERRUPTED|^  done' "$out"/slurm/logs/shard_{1,2,3,4}.log
 Logs shard_1 'the time limit is near, requeued' || Fail "shard 1 was not requeued before its time was up"
 Logs shard_1 'restarts: 1' || Fail "shard 1 did not start again"
@@ -69,7 +69,7 @@ grep -q '3 of 4 shards done, 0 running, 0 waiting, 1 missing' "$work/status" || 
 Run cat "$out/slurm/logs/merge.log"
 Run "$lyrefit_slurm" resubmit "$out" | tee "$work/resubmit"
 grep -q 'shards 4:' "$work/resubmit" || Fail "resubmitted something else than shard 4"
-WaitFor 120 NothingQueued || Fail "the queue does not empty"
+WaitFor 600 NothingQueued || Fail "the queue does not empty"
 Run "$lyrefit_slurm" status "$out"
 for file in results.jsonl results.csv results.schema.json; do
   Run cmp -- "$work/single/$file" "$out/$file"
@@ -83,10 +83,10 @@ Run "${submit[@]}" --out "$out" --sample-seconds 1 --minutes 0.01 --max-tasks 3 
 Run "$lyrefit_slurm" cancel "$out"
 NothingQueued || Fail "something is queued after cancel: $(Queued)"
 Run "$lyrefit_slurm" resubmit "$out"
-WaitFor 120 NothingQueued || Fail "the queue does not empty"
+WaitFor 600 NothingQueued || Fail "the queue does not empty"
 Run cmp -- "$work/single/results.csv" "$out/results.csv"
 
 StopSlurm
-sleep 0.2
-[[ -z $(SlurmProcesses) ]] || Fail "left running: $(SlurmProcesses)"
+NothingRuns() { [[ -z $(SlurmProcesses) ]]; }
+WaitFor 600 NothingRuns || Fail "left running: $(SlurmProcesses)"
 Log "passed; nothing is left running"

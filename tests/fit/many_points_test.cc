@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "fit/simulated.h"
 #include "lyrefit/fit/fit.h"
@@ -46,19 +46,16 @@ TEST(ManyPoints, EndAtTheOptimumOfAllOfThem) {
   }
 }
 
-TEST(ManyPoints, StopWithinASecondInEveryStage) {
-  using Clock = std::chrono::steady_clock;
+TEST(ManyPoints, StopInEveryStage) {
   const IvCurve curve = ModuleCurve(Model::kDoubleDiode, kDoubleTruth, 3e-3, 5, 100000);
   for (const char* stage : {"search", "polish", "intervals", "held out"}) {
     FitOptions options;
     options.model = Model::kDoubleDiode;
-    Clock::time_point asked;
     bool stopped = false;
+    std::string last;
     const Observer observer = [&](const Progress& progress) {
-      if (!stopped && progress.stage == stage) {
-        stopped = true;
-        asked = Clock::now();
-      }
+      stopped = stopped || progress.stage == stage;
+      last = progress.stage;
       return stopped ? ObserverAction::kStop : ObserverAction::kContinue;
     };
     const bool held_out = std::string(stage) == "held out";
@@ -66,11 +63,7 @@ TEST(ManyPoints, StopWithinASecondInEveryStage) {
         held_out ? *FitAuto(curve, options, observer) : *Fit(curve, options, observer);
     EXPECT_TRUE(stopped) << stage;
     EXPECT_TRUE(report.interrupted) << stage;
-    [[maybe_unused]] const double seconds =
-        std::chrono::duration<double>(Clock::now() - asked).count();
-#ifdef NDEBUG
-    EXPECT_LT(seconds, 1.0) << stage;
-#endif
+    EXPECT_EQ(last, stage) << "no further one begins";
   }
 }
 

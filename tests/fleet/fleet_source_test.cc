@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
 
 #include "read_fleet.h"
 
@@ -342,6 +345,56 @@ TEST(Digest, ChangesWithTheBytesAndNamesOfTheShard) {
   EXPECT_NE(other, tree);
   std::filesystem::rename(folder.Path("t/inv2/str9.csv"), folder.Path("t/inv2/str8.csv"));
   EXPECT_NE(digest(folder.Path("t"), {}), other);
+}
+
+// What a pipe gives can be read once: nothing may take a look at it before.
+TEST(Pipes, GiveEveryRow) {
+  const TempFolder folder;
+  const std::string pipe = folder.Path("rows.jsonl");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string rows;
+  for (int i = 0; i < 500; ++i) rows += GoodRow(std::to_string(i)) + "\n";
+  std::thread writer([&] {
+    std::ofstream(pipe) << rows << R"({"voltage_V":[1]})"
+                        << "\n";
+  });
+  const auto source = OpenFleet({pipe});
+  ASSERT_TRUE(source) << MessageOf(source);
+  EXPECT_EQ(*(*source)->Digest(), "") << "cannot be known without reading it";
+  EXPECT_EQ((*source)->size(), 0);
+  std::string last;
+  int count = 0;
+  for (auto item = (*source)->Next(); item && *item; item = (*source)->Next()) {
+    last = (*item)->id;
+    ++count;
+  }
+  writer.join();
+  EXPECT_EQ(count, 501);
+  EXPECT_EQ(last, "input:501") << "as on standard input";
+  FleetReadOptions part;
+  part.shard = {1, 2};
+  EXPECT_THAT(MessageOf(OpenFleet({pipe}, part)), HasSubstr("cannot be split into shards"));
+}
+
+TEST(Pipes, AreBrokenRowsOfAFolder) {
+  const TempFolder folder;
+  folder.Write("t/b.csv", "V,I\n0,8\n10,8\n20,7.9\n30,6\n36,0\n");
+  ASSERT_EQ(mkfifo(folder.Path("t/a.csv").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(folder.Path("t/b.json").c_str(), 0600), 0);  // a sidecar
+  const auto items = ReadFleet({folder.Path("t")});
+  ASSERT_THAT(IdsOf(items), ElementsAre("a", "b"));
+  for (const ReadItem& one : items) {
+    EXPECT_EQ(MessageOf(one.curve.curve), "expected a file, found a pipe, a socket or a device");
+  }
+}
+
+TEST(Inputs, WithoutAnyCurveAreRefused) {
+  const TempFolder folder;
+  for (const char* text : {"", "\n\n"}) {
+    const auto source = OpenFleet({folder.Write("none.jsonl", text)});
+    ASSERT_TRUE(source) << MessageOf(source);
+    EXPECT_EQ(MessageOf((*source)->Next()), "expected at least one curve, found none");
+  }
 }
 
 }  // namespace

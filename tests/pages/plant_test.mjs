@@ -25,7 +25,7 @@ after(() => browser?.close());
 // With everything drawn.
 async function openPlant(rows, look) {
   const opened = await open(browser, file(rows), look);
-  await opened.page.waitForSelector('html[data-ready]', {state: 'attached', timeout: 60000});
+  await opened.page.waitForSelector('html[data-ready]', {state: 'attached', timeout: 600000});
   return opened;
 }
 

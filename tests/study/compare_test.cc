@@ -250,7 +250,7 @@ TEST(Compare, StopsInsideALongRun) {
   };
   const Comparison stopped = Compared(contenders, options, observer);
   EXPECT_TRUE(stopped.interrupted);
-  EXPECT_LT(stopped.seconds, 5);
+  EXPECT_TRUE(stopped.problems.empty()) << "none is done";
 }
 
 // The sentence with which a comparison is refused; no run may have been made before.

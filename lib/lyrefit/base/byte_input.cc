@@ -28,6 +28,10 @@ bool IsStream(const std::string& path) {
   return std::filesystem::is_other(path, error);
 }
 
+tl::unexpected<Error> FailAsStopped(const std::string& path) {
+  return Fail("stopped before the end of it was read", path);
+}
+
 StoppableReads::StoppableReads(std::function<bool()> stopped)
     : stopped_(std::move(stopped)), outer_(std::exchange(innermost, this)) {}
 
@@ -57,7 +61,7 @@ Expected<void> ByteInput::Open() {
 // Until there is something to read, or the end. What cannot be waited for is read as it is.
 Expected<void> ByteInput::AwaitBytes() const {
   for (;;) {
-    if (StoppableReads::Stopped()) return Fail("stopped before the end of it was read", path_);
+    if (StoppableReads::Stopped()) return FailAsStopped(path_);
     if (!stream_) return {};
     pollfd waiting = {descriptor_, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, kLook_ms);

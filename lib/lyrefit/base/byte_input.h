@@ -12,6 +12,9 @@ namespace lyrefit {
 // device.
 bool IsStream(const std::string& path);
 
+// The error of reading that was asked to stop (StoppableReads).
+tl::unexpected<Error> FailAsStopped(const std::string& path);
+
 // A file that is read once from its beginning, "-" for standard input. Closed at the end of its
 // life.
 class ByteInput {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"
@@ -76,6 +77,7 @@ Expected<void> AddChannels(std::string_view text, const std::string& path, std::
                            const ReadOptions& options, CurveSetBuilder* builder) {
   std::set<std::string> ids;
   for (std::size_t i = 1; i <= channels; ++i) {
+    if (StoppableReads::Stopped()) return FailAsStopped(path);
     ReadOptions one = options;
     one.column = std::to_string(i);
     TRY(Table table, ReadTable(text, path, one));

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/source_meter_trace.h"
@@ -161,6 +163,7 @@ Expected<std::optional<TableLayout>> ReadRows(TablesBelow* rows, const TableLayo
   std::size_t offset = lines.offset();
   for (std::string_view line; lines.NextContent(&line, &offset);) {
     if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+    if (StoppableReads::Stopped()) return FailAsStopped(rows->file);
     const auto read = reader.Read(line, lines.number());
     if (read) continue;
     const bool aside = rows->broken_rows == BrokenRows::kSetAside &&

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/header_layout.h"
 #include "lyrefit/curve/number_text.h"
@@ -200,6 +202,7 @@ Expected<TableLayout> LayoutFromRow(const LayoutSearch& search, const TableLine&
 Expected<TableLayout> FindLayout(LayoutSearch* search) {
   std::size_t offset = 0;
   while (search->skipped <= kLargestPreamble && NextLineOf(search, &offset)) {
+    if (StoppableReads::Stopped()) return FailAsStopped(search->file);
     if (auto header = TryHeader(search)) return *header;
     const TableLine row = AsRow(search->line);
     if (const TableLine header = HeaderOfNames(search->names, row, search->rules);

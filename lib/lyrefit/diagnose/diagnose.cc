@@ -284,6 +284,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   TRY(const Measurement measurement, TakeIn(set, disorder, options));
   const Readings& readings = measurement.readings;
   Watch watch(observer);
+  watch.Begin("base fit", 3);
   const SelectOptions select =
       MakeSelectOptions(readings, options, Candidates(known, readings.traits, options), &watch);
   Diagnosis diagnosis = BeginDiagnosis(set, measurement, options);

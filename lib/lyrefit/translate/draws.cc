@@ -8,12 +8,15 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/translate/linear_budget.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kBlock = 256;  // draws that one thread does on end
+
+int BlocksOf(int draws) { return (draws + kBlock - 1) / kBlock; }
 
 double Draw(const UncertainInput& input, RandomStream* random) {
   const double deviate = input.distribution == Distribution::kNormal
@@ -38,10 +41,10 @@ void AddChoice(const ChoiceRange& range, const std::vector<double>& reported, Ra
   }
 }
 
-// samples[result][draw]
+// samples[result][draw]; not all are drawn where `shared` stops.
 std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
                                          const UncertaintySources& sources, int threads,
-                                         const UncertaintyBudget& budget) {
+                                         const UncertaintyBudget& budget, SharedObserver* shared) {
   std::vector<double> reported;
   for (const UncertainOutput& output : budget.outputs) reported.push_back(output.value);
   std::vector<ChoiceRange> ranges;
@@ -57,9 +60,11 @@ std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
     for (const ChoiceRange& range : ranges) AddChoice(range, reported, &random, &outputs);
     for (std::size_t k = 0; k < outputs.size(); ++k) samples[k][draw] = outputs[k];
   };
-  ParallelFor((budget.draws + kBlock - 1) / kBlock, threads, [&](int block) {
+  ParallelFor(BlocksOf(budget.draws), threads, [&](int block) {
+    if (shared->Stopped()) return;
     const int end = std::min(budget.draws, (block + 1) * kBlock);
     for (int draw = block * kBlock; draw < end; ++draw) draw_one(draw);
+    shared->FinishJob();
   });
   return samples;
 }
@@ -105,8 +110,14 @@ void AddInterval(const std::vector<double>& rising, double probability, DrawnInt
 }  // namespace
 
 void AddDraws(const UncertainModel& model, const UncertaintySources& sources, int threads,
-              UncertaintyBudget* budget) {
-  std::vector<std::vector<double>> samples = DrawAll(model, sources, threads, *budget);
+              const Observer& observer, UncertaintyBudget* budget) {
+  SharedObserver shared(observer, "draws", BlocksOf(budget->draws));
+  shared.Begin();
+  std::vector<std::vector<double>> samples = DrawAll(model, sources, threads, *budget, &shared);
+  if (shared.Stopped()) {
+    budget->draws = 0;
+    return;
+  }
   for (std::size_t k = 0; k < samples.size(); ++k) {
     UncertainOutput& output = budget->outputs[k];
     std::vector<double>& finite = samples[k];

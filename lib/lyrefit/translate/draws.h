@@ -5,7 +5,8 @@
 namespace lyrefit {
 
 // The propagation of distributions: fills what is drawn of the outputs that AddLinearBudget left.
+// Where it is stopped nothing is, and the budget's `draws` are 0.
 void AddDraws(const UncertainModel& model, const UncertaintySources& sources, int threads,
-              UncertaintyBudget* budget);
+              const Observer& observer, UncertaintyBudget* budget);
 
 }  // namespace lyrefit

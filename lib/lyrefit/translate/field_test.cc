@@ -136,7 +136,8 @@ std::vector<UncertainInput> SensorInputs(const FieldMeasurement& measurement,
 }
 
 Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTestOptions& options,
-                              const UncertaintyOptions& uncertainty, FieldTest* test) {
+                              const UncertaintyOptions& uncertainty, const Observer& observer,
+                              FieldTest* test) {
   test->measured_W = TruePower(measurement.measured, measurement.inputs);
   const double coefficient = options.power_coefficient_percent_K.value_or(0);
   test->predicted_W = measurement.predicted_W.value_or(
@@ -153,7 +154,7 @@ Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTe
   }
   const std::vector<UncertainInput> inputs = SensorInputs(measurement, options, uncertainty);
   TRY(test->performance_budget,
-      Propagate(PerformanceModel(measurement, options, inputs), {inputs}, uncertainty));
+      Propagate(PerformanceModel(measurement, options, inputs), {inputs}, uncertainty, observer));
   const UncertainOutput& factor = test->performance_budget.outputs[0];
   test->performance_factor = factor.value;
   test->performance_low = factor.low();
@@ -221,7 +222,8 @@ Zone ZoneOf(double value, double low, double high, double limit) {
 Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
                                    const FieldMeasurement& measurement,
                                    const FieldTestOptions& options,
-                                   const UncertaintyOptions& uncertainty) {
+                                   const UncertaintyOptions& uncertainty,
+                                   const Observer& observer) {
   TRY(CheckFieldTest(standard, options));
   FieldTest test;
   test.tolerance = ToleranceText(options.tolerance) + (options.tolerance.in_W ? "" : " %");
@@ -238,7 +240,7 @@ Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
   if (!compared.samples.empty()) {
     test.probability_step = 1 / static_cast<double>(compared.samples.size());
   }
-  TRY(AddPerformance(measurement, options, uncertainty, &test));
+  TRY(AddPerformance(measurement, options, uncertainty, observer, &test));
   test.doubt = WhyNotJudged(measurement, test);
   if (!test.doubt.empty()) {
     test.zone = Zone::kDoubtful;

@@ -85,7 +85,8 @@ struct FieldTest {
 Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
                                    const FieldMeasurement& measurement,
                                    const FieldTestOptions& options,
-                                   const UncertaintyOptions& uncertainty);
+                                   const UncertaintyOptions& uncertainty,
+                                   const Observer& observer = {});
 
 // The zone of an interval against its limit.
 Zone ZoneOf(double value, double low, double high, double limit);

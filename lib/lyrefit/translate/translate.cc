@@ -88,7 +88,7 @@ TranslatedResult Compute(const Named& named, const Preparation& made, const KeyP
 
 // Budgets of all that was computed, or of the recommended one: draws are for that, the others have
 // the linear propagation alone.
-void AddBudgets(const Preparation& made, const TranslateOptions& options,
+void AddBudgets(const Preparation& made, const TranslateOptions& options, const Observer& observer,
                 TranslationReport* report) {
   TranslationDoubts doubts;
   doubts.noise = NoiseOfCurve(made.curve, options.uncertainty.seed);
@@ -98,7 +98,8 @@ void AddBudgets(const Preparation& made, const TranslateOptions& options,
     if (!result.computed() || !(best || options.all_budgets)) continue;
     UncertaintyOptions sizes = options.uncertainty;
     if (!best) sizes.draws = 0;
-    auto budget = TranslationBudget(result.procedure, made.curve, made.inputs, doubts, sizes);
+    auto budget =
+        TranslationBudget(result.procedure, made.curve, made.inputs, doubts, sizes, observer);
     if (!budget) {
       report->warnings.push_back(result.title + ": no uncertainty: " + budget.error().message);
       continue;
@@ -116,7 +117,7 @@ bool IsStandard(const TranslationTarget& target) {
 }
 
 Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& options,
-                            TranslationReport* report) {
+                            const Observer& observer, TranslationReport* report) {
   if (!options.field_test.rated_W) return {};
   if (!IsStandard(report->target)) {
     report->warnings.push_back("a rating is held against Pmax at 1000 W/m2 and 25 C: say --to STC");
@@ -137,7 +138,7 @@ Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& opt
         *test.power_coefficient_percent_K, test.power_coefficient_percent, made.inputs.usual_of));
   }
   TRY(report->field_test, JudgeFieldTest(best->budget.outputs[kMaxPowerOutput], measurement, test,
-                                         options.uncertainty));
+                                         options.uncertainty, observer));
   return {};
 }
 
@@ -242,8 +243,14 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& curve, const Translate
   report.recommended = best.result;
   report.reason = best.reason;
   AddDiagnosis(made, &report);
-  AddBudgets(made, options, &report);
-  TRY(AddFieldTest(made, options, &report));
+  bool stopped = false;
+  const Observer heard = [&](const Progress& progress) {
+    stopped = stopped || StopRequested(observer, progress);
+    return stopped ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+  AddBudgets(made, options, heard, &report);
+  TRY(AddFieldTest(made, options, heard, &report));
+  report.interrupted = report.interrupted || stopped;
   ConditionFacts facts;
   facts.diagnosis = made.diagnosis ? &*made.diagnosis : nullptr;
   facts.uncertainty = options.uncertainty;

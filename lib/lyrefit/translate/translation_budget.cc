@@ -97,7 +97,8 @@ OutputChoice RemovalChoice(const PreparedCurve& curve, const TranslationInputs& 
 Expected<UncertaintyBudget> TranslationBudget(Procedure procedure, const PreparedCurve& curve,
                                               const SettledInputs& settled,
                                               const TranslationDoubts& doubts,
-                                              const UncertaintyOptions& options) {
+                                              const UncertaintyOptions& options,
+                                              const Observer& observer) {
   const TranslationInputs& inputs = settled.values;
   TRY(const KeyPoints key, TranslatedKeyPoints(procedure, curve, inputs));
   const std::vector<double> translated = KeyPointVector(key);
@@ -124,7 +125,7 @@ Expected<UncertaintyBudget> TranslationBudget(Procedure procedure, const Prepare
         TranslatedKeyPoints(procedure, curve, WithInputs(inputs, sources.inputs, fields, drawn));
     return moved ? KeyPointVector(*moved) : std::vector<double>{};
   };
-  return Propagate(model, sources, options);
+  return Propagate(model, sources, options, observer);
 }
 
 }  // namespace lyrefit

@@ -36,6 +36,7 @@ struct TranslationDoubts {
 Expected<UncertaintyBudget> TranslationBudget(Procedure procedure, const PreparedCurve& curve,
                                               const SettledInputs& settled,
                                               const TranslationDoubts& doubts,
-                                              const UncertaintyOptions& options);
+                                              const UncertaintyOptions& options,
+                                              const Observer& observer = {});
 
 }  // namespace lyrefit

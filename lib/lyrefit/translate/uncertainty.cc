@@ -41,7 +41,7 @@ Expected<void> CheckSources(const UncertaintySources& sources, std::size_t outpu
 
 Expected<UncertaintyBudget> Propagate(const UncertainModel& model,
                                       const UncertaintySources& sources,
-                                      const UncertaintyOptions& options) {
+                                      const UncertaintyOptions& options, const Observer& observer) {
   TRY(ValidateOptions(options, kUncertaintyOptionTable));
   TRY(CheckSources(sources, model.outputs.size()));
   UncertaintyBudget budget;
@@ -54,7 +54,7 @@ Expected<UncertaintyBudget> Propagate(const UncertainModel& model,
                    [](const UncertainOutput& each) { return std::isfinite(each.value); })) {
     return Fail("none of the results has a value at the inputs as they are");
   }
-  if (options.draws > 0) AddDraws(model, sources, options.threads, &budget);
+  if (options.draws > 0) AddDraws(model, sources, options.threads, observer, &budget);
   JudgeAgreement(model, sources, options.significant_digits, &budget);
   return budget;
 }

@@ -7,6 +7,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/translate/uncertainty_options.h"
 
@@ -166,11 +167,13 @@ struct UncertaintyBudget {
 // Both propagations. Sensitivities are central differences over one standard uncertainty either way
 // (GUM 5.1.3, note 2), exact for linear models and for quadratic ones. Draws come from one stream
 // each, so that they are the same on any number of threads and the first of many.
+// Where `observer` stops the draws there are none in the budget: `draws` is 0.
 // Errors: options outside their ranges, sizes that do not fit or are negative, no result at the
 // inputs' values.
 Expected<UncertaintyBudget> Propagate(const UncertainModel& model,
                                       const UncertaintySources& sources,
-                                      const UncertaintyOptions& options);
+                                      const UncertaintyOptions& options,
+                                      const Observer& observer = {});
 
 // The factors of a term with this covariance (its Cholesky factor; a matrix that rounding has left
 // a little indefinite is taken as the nearest one that is not).

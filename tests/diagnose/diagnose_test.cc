@@ -225,6 +225,37 @@ TEST(DiagnoseTest, ADarkCurveThatIsSaidToBeLitIsTakenAsDark) {
   EXPECT_THAT(Ids(d), IsEmpty());
 }
 
+TEST(DiagnoseTest, ACurveUnderLittleLightIsFittedAsOneUnderMuch) {
+  for (const double irradiance : {5.0, 10.0, 15.0, 20.0, 40.0}) {
+    Recipe recipe;
+    recipe.irradiance_W_m2 = irradiance;
+    recipe.noise_A = 2e-6 * irradiance;
+    const Diagnosis d = DiagnoseOrFail(MadeCurve(recipe));
+    EXPECT_THAT(Ids(d), IsEmpty()) << irradiance << ": " << d.verdict.sentence;
+    EXPECT_LT(d.verdict.departure.value, 5e-4) << irradiance;
+    EXPECT_THAT(d.warnings, IsEmpty()) << irradiance;
+    EXPECT_NEAR(d.gain.shifts[0].after, 0.008 * irradiance, 1e-4 * irradiance);
+  }
+}
+
+// Down to little light every curve is fitted under the light that was stated.
+TEST(DiagnoseTest, ASeriesDownToLittleLightHasNothingToFind) {
+  std::vector<IvCurve> curves;
+  for (const double irradiance : {5.0, 10.0, 20.0, 50.0, 200.0, 1000.0}) {
+    Recipe recipe;
+    recipe.name = std::to_string(static_cast<int>(irradiance));
+    recipe.irradiance_W_m2 = irradiance;
+    recipe.noise_A = 2e-4;
+    recipe.seed = 3 + static_cast<std::uint64_t>(irradiance);
+    curves.push_back(MadeCurve(recipe));
+  }
+  const Diagnosis d = DiagnoseOrFail(SetOf(curves), Quick());
+  EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_THAT(d.warnings, Not(Contains(HasSubstr("taken as"))));
+  for (const DiagnosedCurve& curve : d.curves) EXPECT_FALSE(curve.dark) << curve.name;
+  EXPECT_LT(d.verdict.departure.value, 5e-4);
+}
+
 TEST(DiagnoseTest, ADarkCurveAloneIsEnough) {
   const Diagnosis d = DiagnoseOrFail(MadeDarkCurve());
   ExpectComplete(d);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "law/made_curve.h"
+#include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
@@ -213,6 +214,20 @@ TEST(LookAtValuesTest, SeesNoLimitWhereTheCurrentStandsStillAsWell) {
   }
   EXPECT_THAT(Look(curve).at_voltage_limit, IsEmpty());
   EXPECT_FALSE(Look(MadeCurve({})).HasLimits());
+}
+
+// Sweeps of a family end at one voltage, each with one reading.
+TEST(ValuesTest, TheCommonEndOfSweepsIsNoLimitOfTheVoltage) {
+  std::vector<IvCurve> curves;
+  for (const double irradiance : {200.0, 400.0, 600.0, 800.0, 1000.0}) {
+    Recipe recipe;
+    recipe.name = std::to_string(irradiance);
+    recipe.irradiance_W_m2 = irradiance;
+    curves.push_back(MadeCurve(recipe));
+  }
+  const auto made = MakeMeasurement(SetOf(curves));
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->values.at_voltage_limit.empty());
 }
 
 }  // namespace

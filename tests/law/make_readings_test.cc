@@ -143,6 +143,27 @@ TEST(MakeReadingsTest, TheDataDecideWhatIsDark) {
   EXPECT_EQ(stated_dark.readings.points.front().irradiance, 1);
 }
 
+// Little light is light.
+TEST(MakeReadingsTest, ACurveUnderLittleLightIsLitByIt) {
+  for (const double irradiance : {5.0, 10.0, 20.0}) {
+    Recipe recipe;
+    recipe.irradiance_W_m2 = irradiance;
+    recipe.noise_A = 1e-5;
+    const Made made = Make(SetOf({MadeCurve(recipe)}));
+    EXPECT_THAT(made.warnings, IsEmpty());
+    EXPECT_FALSE(made.readings.points.front().dark);
+    EXPECT_NEAR(made.readings.points.front().irradiance, irradiance / 1000, 1e-12);
+  }
+}
+
+TEST(MakeReadingsTest, ASensorThatShowsALittleInTheDarkIsNotReproached) {
+  IvCurve dark = MadeDarkCurve();
+  dark.conditions.irradiance_W_m2 = 3;
+  const Made made = Make(SetOf({dark}));
+  EXPECT_TRUE(made.readings.points.front().dark);
+  EXPECT_THAT(made.warnings, IsEmpty());
+}
+
 TEST(MakeReadingsTest, WarnsOfSweepsThatAreNone) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.sweep.push_back(k < 30 ? 1 : 2);

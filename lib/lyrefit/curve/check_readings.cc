@@ -9,6 +9,7 @@
 #include "lyrefit/base/largest.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/number_text.h"
@@ -26,8 +27,7 @@ constexpr double kLargestStated_V = 2e4;
 constexpr double kLowestCell_V = 0.2;
 constexpr double kHighestCell_V = 1.6;
 constexpr double kUsualCell_V = 0.62;
-constexpr double kDim_W_m2 = 50;   // below, a cell may have little voltage
-constexpr double kDark_W_m2 = 20;  // below, a sensor may show an offset
+constexpr double kDim_W_m2 = 50;  // below, a cell may have little voltage
 
 // What the checks after the first two look at.
 struct Examined {
@@ -46,8 +46,7 @@ Examined Examine(const IvCurve& curve) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     if (curve.voltage_V[k] >= 0) look.delivered_A = std::max(look.delivered_A, curve.current_A[k]);
   }
-  const bool dark = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDark_W_m2;
-  look.lit = !dark && look.delivered_A > kNoise * look.largest_A;
+  look.lit = !IsDark(curve) && look.delivered_A > kNoise * look.largest_A;
   return look;
 }
 

@@ -89,13 +89,24 @@ void FindVoltageLimit(const Readings& readings, double step, ValueFindings* find
   const std::vector<Reading>& points = readings.points;
   double largest = 0, least = 1e300, most = -1e300;
   for (const Reading& r : points) largest = std::max(largest, r.voltage);
+  const auto at_limit = [&](std::size_t k) {
+    return k < points.size() && !points[k].dark && !(points[k].voltage < largest * (1 - 1e-9));
+  };
+  // Sweeps of one length each end at the largest voltage: one reading of a stretch is no limit.
+  const auto stands_alone = [&](std::size_t k) {
+    const auto beside = [&](std::size_t i) {
+      return at_limit(i) && points[i].segment == points[k].segment;
+    };
+    return !beside(k + 1) && !(k > 0 && beside(k - 1));
+  };
   std::vector<int> at;
   std::size_t ties = 0;  // in coarse bins repeats say nothing
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].dark || points[k].voltage < largest * (1 - 1e-9)) {
+    if (!at_limit(k)) {
       ties += k > 0 && points[k].voltage == points[k - 1].voltage;
       continue;
     }
+    if (stands_alone(k)) continue;
     at.push_back(static_cast<int>(k));
     least = std::min(least, points[k].current);
     most = std::max(most, points[k].current);

@@ -11,9 +11,9 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/family/spread_curves.h"
-#include "lyrefit/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
@@ -37,14 +37,6 @@ int UsualCells(const CurveSet& set) {
   return cells.empty() ? 0 : static_cast<int>(UpperMedian(cells));
 }
 
-// Whether a curve delivers, at 0 V, more than what a meter says of a dark one.
-bool IsLit(const IvCurve& curve, double isc) {
-  constexpr double kNothing = 0.002;  // of the largest current
-  constexpr double kNoise = 5;        // of the noise
-  return isc > kNothing * LargestMagnitude(curve.current_A) &&
-         isc > kNoise * NoiseFromDifferences(curve.voltage_V, curve.current_A);
-}
-
 // Members that no law can place. `refusal` gets the first one's whose readings cannot be.
 void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
                      std::vector<FamilyMember>* members, std::optional<Error>* refusal) {
@@ -66,7 +58,7 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       LeaveOut(judged.error().message, &member);
       if (!refusal->has_value()) *refusal = judged.error();
     } else if (member.irradiance_known && !(irradiance > 0)) {
-      const bool lit = IsLit(curve, isc);
+      const bool lit = !IsDark(curve);
       if (!lit && !options.with.empty()) {  // effects know the dark
         member.joint.irradiance_W_m2 = 0;
         continue;
@@ -76,7 +68,7 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
                                  isc)
                    : "a dark curve: no law of irradiance places it",
                &member);
-    } else if (!(isc > 0)) {
+    } else if (!(isc > 0) || IsDark(curve)) {
       LeaveOut(
           fmt::format("delivers no current at 0 V ({:.4g} A) under {:.4g} W/m2", isc, irradiance),
           &member);

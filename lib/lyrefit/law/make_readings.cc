@@ -5,10 +5,10 @@
 #include <set>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/law/held_values.h"
@@ -25,17 +25,6 @@ int SubstringsOf(const DataTraits& traits) {
 
 namespace {
 
-constexpr double kLargestDark_W_m2 = 20;
-
-// Current at the smallest |V| of a curve: above 0 for a lit one.
-double CurrentNearZero(const IvCurve& curve) {
-  std::size_t nearest = 0;
-  for (std::size_t k = 1; k < curve.size(); ++k) {
-    if (std::fabs(curve.voltage_V[k]) < std::fabs(curve.voltage_V[nearest])) nearest = k;
-  }
-  return curve.current_A[nearest];
-}
-
 bool TimesIncrease(const std::vector<double>& time) {
   for (std::size_t k = 1; k < time.size(); ++k) {
     if (!(time[k] > time[k - 1])) return false;
@@ -51,23 +40,18 @@ bool Varies(const std::vector<double>& values, double part) {
 
 // Whether a curve is dark, by its readings; says so where its metadata disagree.
 bool DecideDark(const IvCurve& curve, std::vector<std::string>* warnings) {
-  const double isc = CurrentNearZero(curve);
-  const double largest = LargestMagnitude(curve.current_A);
-  const bool said_dark =
-      curve.irradiance_known && curve.conditions.irradiance_W_m2 <= kLargestDark_W_m2;
-  const bool looks_lit = isc > 0.05 * largest;
-  const bool looks_dark = isc < 0.002 * largest && !looks_lit;
-  if (said_dark && looks_lit && largest > 0) {
+  constexpr double kOffset_W_m2 = 20;  // a sensor may show as much in the dark
+  const bool dark = IsDark(curve);
+  if (!dark && IsStatedDark(curve)) {
     warnings->push_back(curve.name +
                         ": stated as dark, but it delivers current at 0 V; taken as lit at 1000 "
                         "W/m2");
-    return false;
   }
-  if (!said_dark && looks_dark) {
+  const bool said_lit = !curve.irradiance_known || curve.conditions.irradiance_W_m2 > kOffset_W_m2;
+  if (dark && said_lit) {
     warnings->push_back(curve.name + ": stated as lit, but no current flows at 0 V; taken as dark");
-    return true;
   }
-  return said_dark;
+  return dark;
 }
 
 struct CurveLayout {
@@ -131,7 +115,7 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
                                                    : 1000.0) /
                          1000;
     if (dark) reading.irradiance = 0;
-    if (!dark && reading.irradiance * 1000 <= kLargestDark_W_m2) reading.irradiance = 1;
+    if (!dark && reading.irradiance <= 0) reading.irradiance = 1;
     reading.temperature_K = curve.conditions.cell_temperature_K;
     reading.x = (layout.clock[k] - first) / span - 0.5;
     reading.rate = Rate(curve, layout, cells, static_cast<int>(k), begin, end);

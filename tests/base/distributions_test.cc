@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace lyrefit {
 namespace {
 
@@ -12,6 +14,29 @@ TEST(DistributionsTest, TailsAndQuantilesAreThoseOfTheTables) {
   EXPECT_NEAR(ChiSquaredTail(15.507, 8), 0.05, 1e-5);
   EXPECT_NEAR(FisherTail(4.9646, 1, 10), 0.05, 1e-5);
   EXPECT_NEAR(StudentQuantile(0.975, 10), 2.228, 5e-4);
+}
+
+// Against closed forms, to the digits of a double.
+TEST(DistributionsTest, TailsAndQuantilesAreExactInDoublePrecision) {
+  constexpr double kPart = 1e-13;
+  for (const double x : {-3.0, 0.5, 2.0, 6.0, 12.0}) {
+    const double tail = 0.5 * std::erfc(x / std::sqrt(2.0));
+    EXPECT_NEAR(NormalTail(x) / tail, 1, kPart) << x;
+    EXPECT_NEAR(NormalAbove(tail), x, 1e-12 * (1 + std::fabs(x))) << x;
+  }
+  for (const double x : {0.1, 3.0, 15.507, 80.0}) {
+    double sum = 0, term = 1;
+    for (int k = 0; k < 4; ++k) {
+      sum += term;
+      term *= 0.5 * x / (k + 1);
+    }
+    EXPECT_NEAR(ChiSquaredTail(x, 8) / (std::exp(-0.5 * x) * sum), 1, kPart) << x;
+    EXPECT_NEAR(FisherTail(x, 2, 10) / std::pow(1 + 0.2 * x, -5), 1, 1e-12) << x;
+  }
+  for (const double p : {0.6, 0.95, 0.975, 0.9999}) {
+    EXPECT_NEAR(StudentQuantile(p, 1) / std::tan(M_PI * (p - 0.5)), 1, 1e-11) << p;
+    EXPECT_NEAR(StudentQuantile(p, 2) / ((2 * p - 1) / std::sqrt(2 * p * (1 - p))), 1, 1e-11) << p;
+  }
 }
 
 }  // namespace

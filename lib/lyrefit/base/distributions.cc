@@ -9,23 +9,28 @@ namespace lyrefit {
 
 using boost::math::complement;
 
-double NormalTail(double x) { return cdf(complement(boost::math::normal(), x)); }
+namespace {
 
-double ChiSquaredTail(double x, double degrees) {
-  return cdf(complement(boost::math::chi_squared(degrees), x));
-}
+// In double precision throughout: long double takes several times as long and is no more exact than
+// needed, and where it has fewer digits than it should (under valgrind) the algorithms do not end.
+using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using Normal = boost::math::normal_distribution<double, Policy>;
+using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
+using Fisher = boost::math::fisher_f_distribution<double, Policy>;
+using Student = boost::math::students_t_distribution<double, Policy>;
 
-// In double precision throughout: long double takes several times as long, and this is asked often.
+}  // namespace
+
+double NormalTail(double x) { return cdf(complement(Normal(), x)); }
+
+double ChiSquaredTail(double x, double degrees) { return cdf(complement(ChiSquared(degrees), x)); }
+
 double FisherTail(double x, double degrees_above, double degrees_below) {
-  using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-  const boost::math::fisher_f_distribution<double, Policy> law(degrees_above, degrees_below);
-  return cdf(complement(law, x));
+  return cdf(complement(Fisher(degrees_above, degrees_below), x));
 }
 
-double NormalAbove(double tail) { return quantile(complement(boost::math::normal(), tail)); }
+double NormalAbove(double tail) { return quantile(complement(Normal(), tail)); }
 
-double StudentQuantile(double p, double degrees) {
-  return quantile(boost::math::students_t(degrees), p);
-}
+double StudentQuantile(double p, double degrees) { return quantile(Student(degrees), p); }
 
 }  // namespace lyrefit

@@ -41,9 +41,11 @@ TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   EXPECT_LT(means.size(), 350U);
   EXPECT_GT(means.size(), 250U);
   std::size_t counted = 0;
-  for (std::size_t k = 0; k < averaged.members.size(); ++k) {
-    counted += averaged.members[k].size();
-    EXPECT_EQ(means[k].weight, averaged.members[k].size());
+  ASSERT_EQ(averaged.first.size(), means.size() + 1);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const int behind = averaged.first[k + 1] - averaged.first[k];
+    counted += behind;
+    EXPECT_EQ(means[k].weight, behind);
   }
   EXPECT_EQ(counted, made->readings.points.size());
   IvCurve exact = MadeCurve(recipe);
@@ -87,6 +89,62 @@ TEST(AverageTest, AStepInALongCurveIsFound) {
   const Diagnosis d = DiagnosedQuickly(curve);
   ASSERT_THAT(Ids(d), Contains("irr_step"));
   EXPECT_LT(d.gain.rmse_after_A, 0.0043);
+}
+
+Recipe VeryLong() {
+  Recipe recipe;
+  recipe.points = 100000;
+  return recipe;
+}
+
+TEST(AverageTest, ACleanCurveOfAHundredThousandReadingsIsClean) {
+  const Diagnosis d = DiagnosedQuickly(MadeCurve(VeryLong()));
+  EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
+  EXPECT_FALSE(d.verdict.unexplained);
+  ASSERT_EQ(d.points.size(), 100000U);
+  EXPECT_NEAR(d.points[70000].sigma_A, 0.004, 1e-4);
+  EXPECT_NEAR(d.gain.rmse_before_A, 0.004, 1e-4);
+  EXPECT_NEAR(d.evidence.misfit_ratio, 1, 0.02);
+}
+
+// The errors are those of so many readings: ten times smaller than of a hundredth of them.
+TEST(AverageTest, ManyReadingsLeaveLessOpen) {
+  Recipe few = VeryLong();
+  few.points = 1000;
+  const Diagnosis many = DiagnosedQuickly(MadeCurve(VeryLong()));
+  const Diagnosis less = DiagnosedQuickly(MadeCurve(few));
+  for (const int k : {0, 2, 3}) {  // Iph, n, Rs
+    const double ratio = less.gain.shifts[k].standard_error / many.gain.shifts[k].standard_error;
+    EXPECT_NEAR(ratio, 10, 1.5) << many.gain.shifts[k].symbol;
+  }
+}
+
+// Wherever it lies in an average, and in both modes.
+TEST(AverageTest, AStepAmongAHundredThousandReadingsIsFoundAtItsReading) {
+  constexpr int kStep = 40123;
+  for (const DiagnoseOptions& options : {LaboratoryOptions(), DiagnoseOptions()}) {
+    IvCurve curve = MadeCurve(VeryLong());
+    for (std::size_t k = kStep; k < curve.size(); ++k) curve.current_A[k] += 0.16;
+    const Diagnosis d = DiagnoseOrFail(curve, Quick(options));
+    ASSERT_THAT(Ids(d), testing::ElementsAre("irr_step")) << d.verdict.sentence;
+    EXPECT_LT(d.gain.rmse_after_A, 0.0045);
+    EXPECT_LT(std::fabs(d.points[kStep].after_A - curve.current_A[kStep]), 0.02);
+    EXPECT_LT(std::fabs(d.points[kStep - 1].after_A - curve.current_A[kStep - 1]), 0.02);
+  }
+}
+
+TEST(AverageTest, NoAverageGoesOverAJump) {
+  constexpr int kJump = 40123;
+  IvCurve curve = MadeCurve(VeryLong());
+  for (std::size_t k = kJump; k < curve.size(); ++k) curve.current_A[k] += 0.02;
+  const auto made = MakeMeasurement(SetOf({curve}));
+  ASSERT_TRUE(made);
+  const Averaged averaged =
+      Average(*made, StartingLaw(made->readings, Model::kSingleDiode), nullptr);
+  const auto next = std::lower_bound(averaged.first.begin(), averaged.first.end(), kJump - 3);
+  ASSERT_NE(next, averaged.first.end());
+  EXPECT_NEAR(*next, kJump, 3);
+  EXPECT_LT(averaged.first.size(), 330U);
 }
 
 // Readings in no order are put in one, and it is said.

@@ -2,78 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/breaks.h"
+#include "lyrefit/fit/average_neighbours.h"
 #include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr int kEnough = 300;          // readings that show as much as more would
+constexpr int kEnough = 300;          // averages that show as much as more would
 constexpr int kFewestInStretch = 40;  // averages of a monotone stretch that shapes need
 
-// Base model and noise of all readings.
-struct FittedBase {
-  Workbench bench;
-  LawFit fit;
-  Noise noise;
-};
-
-FittedBase FitAllReadings(const Measurement& measurement, const Law& base, Watch* watch) {
-  const std::size_t count = measurement.readings.points.size();
-  FittedBase shape;
-  shape.bench.readings = std::make_shared<const Readings>(measurement.readings);
-  shape.bench.sigma.assign(count, 1e-3);
-  shape.bench.used.assign(count, 1);
-  shape.bench.watch = watch;
-  for (const int k : measurement.values.at_lower) shape.bench.used[k] = 0;
-  for (const int k : measurement.values.at_voltage_limit) shape.bench.used[k] = 0;
-  if (count <= kQuickToFit) shape.bench.watch = nullptr;
-  shape.fit = FitBase(shape.bench, base);
-  shape.bench.watch = watch;
-  if (shape.fit.usable) shape.noise = SettleNoise(measurement, &shape.bench, &shape.fit);
-  return shape;
-}
-
-// Further from the middle of its neighbours than noise goes.
-bool Sudden(const FittedBase& shape, const std::vector<double>& off, int k) {
-  constexpr int kReach = 3;
-  constexpr double kFar = 4.5;
-  const std::vector<Reading>& points = shape.bench.readings->points;
-  std::vector<double> around;
-  for (int i = std::max(0, k - kReach); i <= k + kReach; ++i) {
-    if (i == k || i >= static_cast<int>(points.size())) continue;
-    if (points[i].segment == points[k].segment) around.push_back(off[i]);
+// Readings that the values themselves set apart.
+std::vector<char> SetApart(const Measurement& measurement) {
+  const ValueFindings& values = measurement.values;
+  std::vector<char> alone(measurement.readings.points.size(), 0);
+  for (const auto* set : {&values.clipped, &values.at_lower, &values.at_voltage_limit}) {
+    for (const int k : *set) alone[k] = 1;
   }
-  if (around.size() < 2) return false;
-  return std::fabs(off[k] - UpperMedian(std::move(around))) > kFar * shape.bench.sigma[k];
+  return alone;
 }
 
-// Readings of a stretch in lots of `size`, those alone by themselves.
-void Divide(int first, int last, int size, const std::vector<char>& alone,
-            std::vector<std::vector<int>>* lots) {
-  bool open = false;
-  for (int k = first; k < last; ++k) {
-    if (alone[k] != 0) {
-      lots->push_back({k});
-      open = false;
-      continue;
-    }
-    if (!open || static_cast<int>(lots->back().size()) >= size) lots->emplace_back();
-    lots->back().push_back(k);
-    open = true;
+// Groups within the monotone stretches; readings that are `alone` stay so.
+std::vector<int> GroupStretches(const Readings& readings, const std::vector<char>& alone) {
+  const int count = static_cast<int>(readings.points.size());
+  const auto parted = [&](int begin, int k) { return alone[begin] != 0 || alone[k] != 0; };
+  std::vector<int> first;
+  for (int begin = 0, end = 0; begin < count; begin = end) {
+    const int segment = readings.points[begin].segment;
+    while (end < count && readings.points[end].segment == segment) ++end;
+    const int size = std::min((count + kEnough / 2) / kEnough, (end - begin) / kFewestInStretch);
+    AppendGroups(begin, end, size, parted, &first);
   }
+  first.push_back(count);
+  return first;
 }
 
-Reading Mean(const Readings& readings, const std::vector<int>& lot,
+// Positions of the averages that stand for the given readings.
+std::vector<int> PositionsOf(const std::vector<int>& first, const std::vector<int>& readings) {
+  std::vector<int> positions;
+  positions.reserve(readings.size());
+  for (const int k : readings) {
+    const auto next = std::upper_bound(first.begin(), first.end(), k);
+    positions.push_back(static_cast<int>(next - first.begin()) - 1);
+  }
+  return positions;
+}
+
+// Mean of the readings from `begin` to before `end`; its current is their distance `off` a model.
+Reading Mean(const std::vector<Reading>& points, int begin, int end,
              const std::vector<double>& off) {
-  Reading mean = readings.points[lot.front()];
-  const double n = static_cast<double>(lot.size());
+  Reading mean = points[begin];
+  const double n = end - begin;
   double voltage = 0, x = 0, rate = 0, irradiance = 0, distance = 0, square = 0;
-  for (const int k : lot) {
-    const Reading& r = readings.points[k];
+  for (int k = begin; k < end; ++k) {
+    const Reading& r = points[k];
     voltage += r.voltage / n;
     x += r.x / n;
     rate += r.rate / n;
@@ -81,60 +67,79 @@ Reading Mean(const Readings& readings, const std::vector<int>& lot,
     distance += off[k] / n;
     square += off[k] * off[k] / n;
   }
-  if (lot.size() > 1) {
+  if (end - begin > 1) {
     mean.voltage = voltage;
     mean.x = x;
     mean.rate = rate;
     mean.irradiance = irradiance;
   }
-  mean.current = distance;  // the model's current is added where all are known
+  mean.current = distance;
   mean.weight = n;
   mean.scatter = std::max(0.0, square - distance * distance);
   return mean;
 }
 
-// Of the mean of each lot of independent errors; empty where these are.
-std::vector<double> ErrorsOfMeans(const std::vector<double>& errors,
-                                  const std::vector<std::vector<int>>& lots) {
-  std::vector<double> means;
-  if (errors.empty()) return means;
-  for (const std::vector<int>& lot : lots) {
-    double squares = 0;
-    for (const int k : lot) squares += errors[k] * errors[k];
-    means.push_back(std::sqrt(squares) / static_cast<double>(lot.size()));
+// The measurement in groups; currents are mean distances `off` a model.
+Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
+                   const std::vector<double>& off) {
+  const ValueFindings& values = measurement.values;
+  Averaged averaged;
+  averaged.measurement = measurement;
+  Measurement& means = averaged.measurement;
+  means.values.rounding = MeanErrors(first, values.rounding);
+  means.values.bin_rounding = MeanErrors(first, values.bin_rounding);
+  means.stated_sigma = MeanErrors(first, measurement.stated_sigma);
+  means.values.clipped = PositionsOf(first, values.clipped);
+  means.values.at_lower = PositionsOf(first, values.at_lower);
+  means.values.at_voltage_limit = PositionsOf(first, values.at_voltage_limit);
+  std::vector<Reading>& points = means.readings.points;
+  points.clear();
+  for (std::size_t g = 0; g + 1 < first.size(); ++g) {
+    points.push_back(Mean(measurement.readings.points, first[g], first[g + 1], off));
   }
-  return means;
+  means.readings.traits.readings = static_cast<int>(points.size());
+  averaged.first = std::move(first);
+  return averaged;
 }
 
-// Positions of the averages that stand for the given readings.
-std::vector<int> Translated(const std::vector<int>& of, const std::vector<int>& readings) {
-  std::vector<int> result;
-  result.reserve(readings.size());
-  for (const int k : readings) result.push_back(of[k]);
-  return result;
+// A step of the light lies between two readings, also where it lies between averages.
+void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first,
+                         DataTraits* traits) {
+  traits->step_times.clear();
+  for (std::size_t g = 2; traits->single && g + 2 < first.size(); ++g) {
+    const Reading &before = readings.points[first[g] - 1], &after = readings.points[first[g]];
+    traits->step_times.push_back(0.5 * (before.x + after.x));
+  }
 }
 
-// The same fit as seen by all readings.
-LawFit Seen(const Workbench& bench, LawFit fit) {
-  fit.current.assign(bench.readings->points.size(), 0.0);
+// All readings of a measurement that outlives it, trusted alike but for those at a limit.
+Workbench BenchOf(const Measurement& measurement) {
+  const std::size_t count = measurement.readings.points.size();
+  Workbench bench;
+  bench.readings = {std::shared_ptr<const Readings>(), &measurement.readings};
+  bench.sigma.assign(count, 1e-3);
+  bench.used.assign(count, 1);
+  for (const int k : measurement.values.at_lower) bench.used[k] = 0;
+  for (const int k : measurement.values.at_voltage_limit) bench.used[k] = 0;
+  return bench;
+}
+
+// The fit's current at every reading; false where it cannot be had.
+bool CurrentsAt(const Readings& readings, const LawFit& fit, std::vector<double>* current) {
+  current->assign(readings.points.size(), 0.0);
   LawWorkspace workspace;
-  fit.usable = fit.usable && EvaluateLaw(fit.law, *bench.readings, fit.p.data(), &workspace,
-                                         fit.current.data(), nullptr);
-  if (!fit.usable) return fit;
-  Eigen::VectorXd residual(static_cast<int>(fit.current.size()));
-  for (int k = 0; k < residual.size(); ++k) {
-    residual[k] = fit.current[k] - bench.readings->points[k].current;
-  }
-  fit.sum = Whiten(bench, residual).squaredNorm();
-  return fit;
+  return EvaluateLaw(fit.law, readings, fit.p.data(), &workspace, current->data(), nullptr);
 }
 
-// Fitted to all readings from where the averages left it.
-LawFit Refitted(const Measurement& measurement, LawFit fit, Workbench* bench, Noise* noise) {
-  fit = Seen(*bench, std::move(fit));
-  if (!fit.usable) return fit;
-  *noise = SettleNoise(measurement, bench, &fit);
-  return fit;
+// The base model fitted to plain means of the currents: near enough to bend as the readings do.
+LawFit FitPlainMeans(const Measurement& measurement, const Law& base, Watch* watch) {
+  std::vector<double> currents;
+  for (const Reading& r : measurement.readings.points) currents.push_back(r.current);
+  const Averaged plain =
+      TakeMeans(measurement, GroupStretches(measurement.readings, SetApart(measurement)), currents);
+  Workbench bench = BenchOf(plain.measurement);
+  if (plain.measurement.readings.points.size() > kQuickToFit) bench.watch = watch;
+  return FitBase(bench, base);
 }
 
 }  // namespace
@@ -145,92 +150,79 @@ bool IsLong(const Readings& readings) {
 
 Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) {
   const Readings& readings = measurement.readings;
-  const ValueFindings& values = measurement.values;
-  const int count = static_cast<int>(readings.points.size());
-  const FittedBase shape = FitAllReadings(measurement, base, watch);
-  std::vector<double> off(count, 0.0);
-  std::vector<char> alone(count, shape.fit.usable ? 0 : 1);
-  for (int k = 0; shape.fit.usable && k < count; ++k) {
-    off[k] = readings.points[k].current - shape.fit.current[k];
+  LawFit fit = FitPlainMeans(measurement, base, watch);
+  const bool known = fit.usable && CurrentsAt(readings, fit, &fit.current);
+  if (!known) fit.current.assign(readings.points.size(), 0.0);
+  std::vector<double> off;
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    off.push_back(readings.points[k].current - fit.current[k]);
   }
-  for (int k = 0; shape.fit.usable && k < count; ++k) alone[k] = Sudden(shape, off, k) ? 1 : 0;
-  for (const auto* set : {&values.clipped, &values.at_lower, &values.at_voltage_limit}) {
-    for (const int k : *set) alone[k] = 1;
-  }
-  Averaged averaged;
-  averaged.measurement = measurement;
-  Readings& averages = averaged.measurement.readings;
-  for (int first = 0, last = 0; first < count; first = last) {
-    while (last < count && readings.points[last].segment == readings.points[first].segment) ++last;
-    const int size = std::min((count + kEnough / 2) / kEnough, (last - first) / kFewestInStretch);
-    Divide(first, last, std::max(size, 1), alone, &averaged.members);
-  }
-  std::vector<Reading>& means = averages.points;
-  means.clear();
-  std::vector<int> of(count);
-  ValueFindings& of_means = averaged.measurement.values;
-  of_means.rounding = ErrorsOfMeans(values.rounding, averaged.members);
-  of_means.bin_rounding = ErrorsOfMeans(values.bin_rounding, averaged.members);
-  averaged.measurement.stated_sigma = ErrorsOfMeans(measurement.stated_sigma, averaged.members);
-  for (const std::vector<int>& lot : averaged.members) {
-    for (const int k : lot) of[k] = static_cast<int>(means.size());
-    means.push_back(Mean(readings, lot, off));
-  }
-  of_means.clipped = Translated(of, values.clipped);
-  of_means.at_lower = Translated(of, values.at_lower);
-  of_means.at_voltage_limit = Translated(of, values.at_voltage_limit);
-  std::vector<double> model(means.size(), 0.0);
-  LawWorkspace workspace;
-  const bool known = shape.fit.usable && EvaluateLaw(shape.fit.law, averages, shape.fit.p.data(),
-                                                     &workspace, model.data(), nullptr);
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    const std::vector<int>& lot = averaged.members[k];
-    if (known && lot.size() > 1) {
-      means[k].current += model[k];
+  std::vector<char> alone = SetApart(measurement);
+  Workbench bench = BenchOf(measurement);
+  TakeNoise(measurement, fit, &bench);
+  MarkSudden(readings.points, off, bench.sigma, &alone);
+  Averaged averaged =
+      TakeMeans(measurement, CutAtJumps(GroupStretches(readings, alone), off, bench.sigma), off);
+  Readings& means = averaged.measurement.readings;
+  std::vector<double> model(means.points.size(), 0.0);
+  if (known) CurrentsAt(means, fit, &model);
+  for (std::size_t k = 0; k < means.points.size(); ++k) {
+    const int first = averaged.first[k];
+    if (averaged.first[k + 1] - first > 1) {
+      means.points[k].current += model[k];
     } else {
-      means[k].current = readings.points[lot.front()].current;
+      means.points[k].current = readings.points[first].current;
     }
   }
-  averages.traits.readings = static_cast<int>(means.size());
-  SetStepTimes(&averages);
-  SetRangeCurrents(&averages);
+  SetStepTimesBetween(readings, averaged.first, &means.traits);
+  SetRangeCurrents(&means);
   return averaged;
 }
 
-Selection OnAllReadings(const Selection& found, const Averaged& averaged,
-                        const Measurement& measurement) {
-  Selection all = found;
-  const auto readings = std::make_shared<const Readings>(measurement.readings);
-  const std::size_t count = readings->points.size();
-  const auto widen = [&](Workbench* bench) {
-    const std::vector<char> used = bench->used;
-    bench->readings = readings;
-    bench->correlation = bench->path = 0;
-    bench->sigma.assign(count, 1e-3);
-    bench->used.assign(count, 1);
-    for (std::size_t lot = 0; lot < used.size(); ++lot) {
-      for (const int k : averaged.members[lot]) bench->used[k] = used[lot];
-    }
+std::vector<int> AtReadings::Behind(const std::vector<int>& positions) const {
+  std::vector<int> readings;
+  for (const int at : positions) {
+    for (int k = first[at]; k < first[at + 1]; ++k) readings.push_back(k);
+  }
+  return readings;
+}
+
+AtReadings AtItsReadings(const Selection& selection) {
+  AtReadings at;
+  at.bench = selection.bench;
+  at.noise = selection.noise;
+  at.base = selection.base.current;
+  at.extended = selection.extended.current;
+  at.first = EachAlone(at.base.size());
+  if (!CurrentsAt(*at.bench.readings, WithoutEffects(selection.extended), &at.without)) {
+    at.without.assign(at.base.size(), kUnknown);
+  }
+  return at;
+}
+
+AtReadings AtItsReadings(const Selection& selection, const Averaged& averaged,
+                         const Measurement& measurement) {
+  const Readings& readings = measurement.readings;
+  const auto currents = [&](const LawFit& fit) {
+    std::vector<double> at;
+    if (!CurrentsAt(readings, fit, &at)) at.assign(readings.points.size(), kUnknown);
+    return at;
   };
-  widen(&all.bench);
-  widen(&all.base_bench);
-  Noise noise;
-  all.base = Refitted(measurement, found.base, &all.base_bench, &noise);
-  all.extended = Refitted(measurement, found.extended, &all.bench, &all.noise);
-  all.outliers.clear();
-  for (const int lot : found.outliers) {
-    const std::vector<int>& members = averaged.members[lot];
-    all.outliers.insert(all.outliers.end(), members.begin(), members.end());
+  AtReadings at;
+  at.first = averaged.first;
+  at.bench = BenchOf(measurement);
+  for (std::size_t g = 0; g + 1 < at.first.size(); ++g) {
+    std::fill(at.bench.used.begin() + at.first[g], at.bench.used.begin() + at.first[g + 1],
+              selection.bench.used[g]);
   }
-  for (Rival& trial : all.trials) {
-    if (trial.fit.usable) trial.fit = Seen(all.base_bench, trial.fit);
-  }
-  for (Rival& rival : all.below) rival.fit = Seen(all.bench, rival.fit);
-  all.without.clear();
-  for (std::size_t c = 0; c < all.causes.size(); ++c) {
-    all.without.push_back(FitWithout(all.bench, all.extended, static_cast<int>(c)));
-  }
-  return all;
+  LawFit extended = selection.extended;
+  extended.current = currents(selection.extended);
+  const bool plain = extended.law.effects.empty();
+  at.base = plain && selection.base.p == extended.p ? extended.current : currents(selection.base);
+  at.without = plain ? extended.current : currents(WithoutEffects(extended));
+  at.noise = TakeNoise(measurement, extended, &at.bench);
+  at.extended = std::move(extended.current);
+  return at;
 }
 
 }  // namespace lyrefit

@@ -91,13 +91,15 @@ Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) 
 }
 
 double RmseOf(const Workbench& bench, const std::vector<double>& current) {
-  double sum = 0;
+  double sum = 0, count = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
     if (bench.used[k] == 0) continue;
-    const double r = current[k] - bench.readings->points[k].current;
-    sum += r * r;
+    const Reading& reading = bench.readings->points[k];
+    const double r = current[k] - reading.current;
+    sum += reading.weight * (r * r + reading.scatter);
+    count += reading.weight;
   }
-  return bench.readings->scale.current_A * std::sqrt(sum / std::max(bench.count(), 1));
+  return bench.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
 }
 
 std::string StrengthText(const CauseParameter& parameter) {
@@ -228,7 +230,8 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
   return causes;
 }
 
-std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values) {
+std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
+                                  const ValueFindings& values) {
   std::vector<Cause> causes;
   const Workbench& bench = selection.bench;
   for (std::size_t c = 0; c < selection.causes.size(); ++c) {
@@ -253,7 +256,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
       }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
-      cause.points = WhereItActs(bench, selection.extended, static_cast<int>(c));
+      cause.points = at.Behind(WhereItActs(bench, selection.extended, static_cast<int>(c)));
     }
     cause.sentence = CauseSentence(cause, effect);
     if (by_values) {
@@ -264,10 +267,10 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFinding
   }
   if (!selection.outliers.empty()) {
     Cause cause = MakeCause(*FindEffect("outliers"), "fit", selection.outlier_p);
-    cause.points = selection.outliers;
+    cause.points = at.Behind(selection.outliers);
     std::sort(cause.points.begin(), cause.points.end());
     cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +
-                      std::to_string(bench.readings->points.size()) + " readings, left out";
+                      std::to_string(at.bench.readings->points.size()) + " readings, left out";
     causes.push_back(std::move(cause));
   }
   return causes;

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
 
@@ -22,8 +22,9 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
 // A cause still without size and place. `evidence`: "fit" or "values".
 Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);
 
-// The causes found, what cannot be told from them and where they act.
-std::vector<Cause> DescribeCauses(const Selection& selection, const ValueFindings& values);
+// The causes found, what cannot be told from them and at which readings they act.
+std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
+                                  const ValueFindings& values);
 
 // What is there but not worth a name: the likeliest, with those that are as good.
 std::vector<Cause> DescribeBelow(const Selection& selection);
@@ -34,7 +35,7 @@ std::string StrengthText(const CauseParameter& parameter);
 // Base parameters with and without the causes, and the maximum power of the device.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
 
-// RMSE in ampere over the readings a bench uses.
+// RMSE in ampere over the readings a bench uses, also those behind averages.
 double RmseOf(const Workbench& bench, const std::vector<double>& current);
 
 }  // namespace lyrefit

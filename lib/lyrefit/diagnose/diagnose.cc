@@ -57,7 +57,7 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptio
   return correlation;
 }
 
-void DescribePoints(const CurveSet& set, const Measurement& measurement, const Selection& selection,
+void DescribePoints(const CurveSet& set, const Measurement& measurement, const AtReadings& at,
                     Diagnosis* diagnosis) {
   const Readings& readings = measurement.readings;
   const double scale = readings.scale.current_A;
@@ -65,12 +65,6 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
     diagnosis->curves.push_back({curve.name, curve.conditions.irradiance_W_m2,
                                  curve.conditions.cell_temperature_K - kZeroCelsius_K, false,
                                  static_cast<int>(curve.size())});
-  }
-  std::vector<double> without(readings.points.size());
-  const LawFit plain = WithoutEffects(selection.extended);
-  LawWorkspace workspace;
-  if (!EvaluateLaw(plain.law, readings, plain.p.data(), &workspace, without.data(), nullptr)) {
-    without.assign(without.size(), kUnknown);
   }
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
@@ -81,10 +75,10 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
     point.segment = r.segment;
     point.voltage_V = curve.voltage_V[r.index];
     point.current_A = curve.current_A[r.index];
-    point.sigma_A = selection.bench.sigma[k] * scale;
-    point.before_A = selection.base.current[k] * scale;
-    point.after_A = selection.extended.current[k] * scale;
-    point.without_A = without[k] * scale;
+    point.sigma_A = at.bench.sigma[k] * scale;
+    point.before_A = at.base[k] * scale;
+    point.after_A = at.extended[k] * scale;
+    point.without_A = at.without[k] * scale;
     point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[r.index];
     diagnosis->points.push_back(point);
   }
@@ -95,9 +89,9 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const S
   }
 }
 
-void DescribeGain(const Selection& selection, bool field, Gain* gain) {
-  gain->rmse_before_A = RmseOf(selection.bench, selection.base.current);
-  gain->rmse_after_A = RmseOf(selection.bench, selection.extended.current);
+void DescribeGain(const Selection& selection, const AtReadings& at, bool field, Gain* gain) {
+  gain->rmse_before_A = RmseOf(at.bench, at.base);
+  gain->rmse_after_A = RmseOf(at.bench, at.extended);
   gain->shifts = DescribeShifts(selection);
   gain->gain = gain->folds > 1 && gain->held_out_gain_A2 > gain->held_out_gain_error_A2;
   if (selection.causes.empty() && selection.outliers.empty()) {
@@ -189,7 +183,7 @@ void ForgetLimits(ValueFindings* values) {
 // The selection on readings or, where these are many, on averages of them.
 struct Outcome {
   Selection found;
-  Selection shown;  // fitted to all readings
+  AtReadings at;
   Autocorrelation correlation;
 };
 
@@ -203,9 +197,10 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
   outcome.correlation = SelectWhitened(seen, select, &outcome.found);
   if (!outcome.found.base.usable) return outcome;
   FindRivals(select, &outcome.found);
-  outcome.shown = is_long ? OnAllReadings(outcome.found, averaged, measurement) : outcome.found;
+  outcome.at =
+      is_long ? AtItsReadings(outcome.found, averaged, measurement) : AtItsReadings(outcome.found);
   diagnosis->trials =
-      DescribeTrials(measurement.readings, outcome.shown, known, select.candidates, options);
+      DescribeTrials(measurement.readings, outcome.found, known, select.candidates, options);
   if (options.held_out && !Stopped(select.watch)) {
     MeasureHeldOut(seen, select, outcome.found, options.folds, options.threads, &diagnosis->gain,
                    &diagnosis->trials);
@@ -232,17 +227,18 @@ Expected<Measurement> TakeIn(const CurveSet& set, const std::vector<std::string>
 
 void DescribeEvidenceAndVerdict(const Measurement& measurement, const Outcome& outcome,
                                 const DiagnoseOptions& options, Diagnosis* diagnosis) {
-  const Selection &found = outcome.found, &shown = outcome.shown;
+  const Selection& found = outcome.found;
+  const AtReadings& at = outcome.at;
   const Readings& readings = measurement.readings;
-  diagnosis->base_sentence = DescribeLaw(readings, shown.base.law);
+  diagnosis->base_sentence = DescribeLaw(readings, found.base.law);
   Evidence& evidence = diagnosis->evidence;
-  evidence = DescribeEvidence(shown, measurement.values, outcome.correlation);
+  evidence = DescribeEvidence(found, at, measurement.values, outcome.correlation);
   if (measurement.noise_is_stated()) {
-    evidence.noise_stated_A = UpperMedian(shown.bench.sigma) * readings.scale.current_A;
+    evidence.noise_stated_A = UpperMedian(at.bench.sigma) * readings.scale.current_A;
   }
   evidence.whiteness_p_value = Whiteness(found.base_bench, found.base);
   evidence.whiteness_after_p_value = Whiteness(found.bench, found.extended);
-  diagnosis->verdict = Decide(measurement, shown, options, evidence.whiteness_after_p_value);
+  diagnosis->verdict = Decide(measurement, found, at, options, evidence.whiteness_after_p_value);
 }
 
 void MarkInterrupted(Diagnosis* diagnosis) {
@@ -293,24 +289,24 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   Diagnosis diagnosis = BeginDiagnosis(set, measurement, options);
   diagnosis.doubts = std::move(doubts);
   const Outcome outcome = SearchCauses(measurement, select, options, known, &diagnosis);
-  const Selection& shown = outcome.shown;
-  if (!shown.base.usable || !shown.extended.usable) {
+  const Selection& found = outcome.found;
+  if (!found.base.usable || !found.extended.usable) {
     return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
                                                   : ": no diode model fits these readings"));
   }
   DescribeEvidenceAndVerdict(measurement, outcome, options, &diagnosis);
-  DescribeGain(shown, measurement.has_path(), &diagnosis.gain);
+  DescribeGain(found, outcome.at, measurement.has_path(), &diagnosis.gain);
   if (options.plan && !watch.Stopped()) {
-    diagnosis.plan = MakePlan(outcome.found, options.seed, options.threads);
+    diagnosis.plan = MakePlan(found, options.seed, options.threads);
   }
   if (options.proofs && !watch.Stopped()) {
-    diagnosis.proofs = FindProofs(set, shown, diagnosis, &watch);
+    diagnosis.proofs = FindProofs(set, found, outcome.at, diagnosis, &watch);
   }
-  DescribePoints(set, measurement, shown, &diagnosis);
-  AddWarnings(outcome.found, measurement, &diagnosis);
+  DescribePoints(set, measurement, outcome.at, &diagnosis);
+  AddWarnings(found, measurement, &diagnosis);
   if (watch.Stopped()) MarkInterrupted(&diagnosis);
-  diagnosis.extended =
-      ExtendedReport(set, shown, options.extend && !diagnosis.interrupted, options.seed, observer);
+  diagnosis.extended = ExtendedReport(
+      set, found, outcome.at, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;
   diagnosis.seconds = SecondsSince(begin);
   return diagnosis;

@@ -131,8 +131,10 @@ struct CannotBeExcluded {
 
 // What the diagnosis comes to.
 struct Verdict {
-  bool found = false;         // at least one cause is named
-  bool unexplained = false;   // something is there that no known cause fits
+  bool found = false;  // at least one cause is named
+  // Something is there that no known cause fits; without a cause, the base model misses the data by
+  // more than it misses modules without a fault.
+  bool unexplained = false;
   std::vector<Cause> causes;  // the most certain first
   // There beyond doubt, but too small to act on.
   std::vector<Cause> below_floor;

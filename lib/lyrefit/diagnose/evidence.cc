@@ -18,16 +18,30 @@ namespace {
 
 double MedianSigma(const Noise& noise) { return UpperMedian(noise.sigma); }
 
-// Of the readings that the bench uses.
-ResidualStatistics StatisticsOf(const Workbench& bench, const LawFit& fit) {
-  const Readings& readings = *bench.readings;
+// Of what the base model leaves at the readings that `used` marks.
+ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& used) {
+  const Readings& readings = *at.bench.readings;
   std::vector<double> voltages, residuals;
-  for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    voltages.push_back(readings.points[k].voltage * readings.scale.cells);
-    residuals.push_back((fit.current[k] - readings.points[k].current) * readings.scale.current_A);
+  for (std::size_t g = 0; g + 1 < at.first.size(); ++g) {
+    for (int k = at.first[g]; k < at.first[g + 1] && used[g] != 0; ++k) {
+      voltages.push_back(readings.points[k].voltage * readings.scale.cells);
+      residuals.push_back((at.base[k] - readings.points[k].current) * readings.scale.current_A);
+    }
   }
   return FindResidualStatistics(voltages, residuals);
+}
+
+// By how much a fit misses the readings, also those behind averages, in units of their noise.
+double MisfitRatio(const Workbench& bench, const LawFit& fit, const AtReadings& at) {
+  double within = 0, more = 0;  // squares about the averages, and their readings beyond one
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (bench.used[k] == 0) continue;
+    const Reading& reading = bench.readings->points[k];
+    const double sigma = at.bench.sigma[at.first[k]];
+    within += reading.weight * reading.scatter / (sigma * sigma);
+    more += reading.weight - 1;
+  }
+  return std::sqrt((fit.sum + within) / (Degrees(bench, fit.law) + more));
 }
 
 // A photocurrent that no string of cells gives at 1000 W/m2: the irradiance is not what was stated.
@@ -63,10 +77,10 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
 }
 
 // Readings that stand at a limit of the instrument, and grids that they lie on.
-void AddValueFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
-  const ReadingScale& scale = selection.bench.readings->scale;
-  const auto clipping = [&](const std::vector<int>& at, const std::string& text) {
-    evidence->findings.push_back({"clipping", text, at});
+void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidence* evidence) {
+  const ReadingScale& scale = at.bench.readings->scale;
+  const auto clipping = [&](const std::vector<int>& points, const std::string& text) {
+    evidence->findings.push_back({"clipping", text, points});
   };
   if (evidence->clipped_points > 0) {
     clipping(values.clipped,
@@ -88,7 +102,7 @@ void AddValueFindings(const Selection& selection, const ValueFindings& values, E
     evidence->findings.push_back(
         {"grid",
          fmt::format("all currents lie on a grid of {:.4g} A; the noise is {:.3g} A",
-                     evidence->grid_step_A, MedianSigma(selection.noise) * scale.current_A),
+                     evidence->grid_step_A, MedianSigma(at.noise) * scale.current_A),
          {}});
   }
 }
@@ -120,14 +134,15 @@ void AddResidualFindings(const Selection& selection, Evidence* evidence) {
   }
 }
 
-void AddFindings(const Selection& selection, const ValueFindings& values, Evidence* evidence) {
-  AddValueFindings(selection, values, evidence);
+void AddFindings(const Selection& selection, const AtReadings& at, const ValueFindings& values,
+                 Evidence* evidence) {
+  AddValueFindings(at, values, evidence);
   AddResidualFindings(selection, evidence);
-  AddIrradianceFinding(*selection.bench.readings, evidence);
+  AddIrradianceFinding(*at.bench.readings, evidence);
   AddIdealityFinding(selection, evidence);
   const LawFit& fit = selection.extended;
-  for (const auto& [at, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
-    if (fit.p[at] > 1e-9) continue;
+  for (const auto& [k, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
+    if (fit.p[k] > 1e-9) continue;
     evidence->findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
   }
 }
@@ -176,21 +191,21 @@ std::string KindOfData(const Readings& readings) {
   return text;
 }
 
-Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
-                          const Autocorrelation& autocorrelation) {
+Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
+                          const ValueFindings& values, const Autocorrelation& autocorrelation) {
   const Workbench& bench = selection.base_bench;
-  const Readings& readings = *bench.readings;
+  const Readings& readings = *at.bench.readings;
   const double scale = readings.scale.current_A;
   Evidence evidence;
   evidence.kind = KindOfData(readings);
-  evidence.noise_constant_A = selection.noise.lit.constant * scale;
-  evidence.noise_voltage_V = selection.noise.lit.voltage * readings.scale.cells;
-  evidence.noise_relative = selection.noise.lit.relative;
+  evidence.noise_constant_A = at.noise.lit.constant * scale;
+  evidence.noise_voltage_V = at.noise.lit.voltage * readings.scale.cells;
+  evidence.noise_relative = at.noise.lit.relative;
   evidence.noise_path_A = selection.bench.path * scale;
   if (readings.traits.dark || readings.traits.only_dark) {
-    evidence.noise_dark_A = selection.noise.dark.constant * scale;
+    evidence.noise_dark_A = at.noise.dark.constant * scale;
   }
-  evidence.misfit_ratio = std::sqrt(SquarePerDegree(bench, selection.base));
+  evidence.misfit_ratio = MisfitRatio(bench, selection.base, at);
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
@@ -198,8 +213,8 @@ Evidence DescribeEvidence(const Selection& selection, const ValueFindings& value
   evidence.grid_step_V = FindGrid(voltages);
   evidence.clipped_points = static_cast<int>(values.clipped.size());
   evidence.clip_level_A = values.clip_level * scale;
-  evidence.residuals = StatisticsOf(bench, selection.base);
-  AddFindings(selection, values, &evidence);
+  evidence.residuals = StatisticsOf(at, bench.used);
+  AddFindings(selection, at, values, &evidence);
   return evidence;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
 
@@ -15,8 +15,8 @@ std::string KindOfData(const Readings& readings);
 double Whiteness(const Workbench& bench, const LawFit& fit);
 
 // Everything that was seen before a cause was thought of.
-Evidence DescribeEvidence(const Selection& selection, const ValueFindings& values,
-                          const Autocorrelation& autocorrelation);
+Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
+                          const ValueFindings& values, const Autocorrelation& autocorrelation);
 
 // n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
 // plausible. Nothing where n is. With `shorted`, a bypass group without voltage is thought of.

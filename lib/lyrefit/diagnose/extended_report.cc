@@ -213,10 +213,10 @@ bool IsPlain(const CurveSet& set, const Law& law) {
 // are counted as stated, and of one curve with nothing free but the diodes and the effects. Without
 // effects it is the device of the cells that were counted. The report's parameters are the device's
 // own from here on.
-void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* report) {
+void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& readings,
+               FitReport* report) {
   const Law& law = selection.extended.law;
   const IvCurve& curve = set.curves.front();
-  const Readings& readings = *selection.bench.readings;
   const bool one = set.curves.size() == 1;
   if (IsPlain(set, law)) {
     Conditions at = curve.conditions;
@@ -244,8 +244,8 @@ void AttachLaw(const CurveSet& set, const Selection& selection, FitReport* repor
 
 }  // namespace
 
-FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool search,
-                         std::uint64_t seed, const Observer& observer) {
+FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
+                         bool search, std::uint64_t seed, const Observer& observer) {
   const Workbench& bench = selection.bench;
   const Readings& readings = *bench.readings;
   const LawFit& fit = selection.extended;
@@ -268,21 +268,21 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool s
     searched = Reported(bench, fit.law, found.best);
   }
   AddEstimates(selection, searched, &report);
-  report.rmse.refined.solved_current_A = RmseOf(bench, fit.current);
+  report.rmse.refined.solved_current_A = RmseOf(at.bench, at.extended);
   report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
   if (!search) return report;
-  AttachLaw(set, selection, &report);
+  AttachLaw(set, selection, *at.bench.readings, &report);
   report.curve = AllPoints(set);
   report.refine.termination = "converged";
-  for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    report.model_current_A.push_back(fit.current[k] * readings.scale.current_A);
+  for (std::size_t k = 0; k < at.extended.size(); ++k) {
+    report.model_current_A.push_back(at.extended[k] * readings.scale.current_A);
     report.residual_A.push_back(report.model_current_A[k] - report.curve.current_A[k]);
   }
   report.measured = FindKeyPoints(report.curve.voltage_V, report.curve.current_A);
   report.simulated = FindKeyPoints(report.curve.voltage_V, report.model_current_A);
   report.residuals = FindResidualStatistics(report.curve.voltage_V, report.residual_A);
   const double rmse = report.rmse.refined.solved_current_A;
-  report.criteria = FindInformation(rmse * rmse, bench.count(), FreeCount(bench, fit.law));
+  report.criteria = FindInformation(rmse * rmse, at.bench.count(), FreeCount(bench, fit.law));
   report.warnings.push_back(
       "an extended model: its causes change currents as 'lyrefit diagnose --explain' says; the "
       "readings are weighted by their estimated noise");

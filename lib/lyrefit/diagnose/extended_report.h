@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/diagnose/select.h"
+#include "lyrefit/diagnose/average.h"
 #include "lyrefit/fit/fit_report.h"
 
 namespace lyrefit {
@@ -13,7 +13,7 @@ namespace lyrefit {
 // The extended law as a FitReport: base parameters in pvlib's units, then those of the causes.
 // With `search` the modified lyrebird optimizer searches the whole law's box first and its best
 // bird is polished too, beside a random baseline of the same budget.
-FitReport ExtendedReport(const CurveSet& set, const Selection& selection, bool search,
-                         std::uint64_t seed, const Observer& observer);
+FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
+                         bool search, std::uint64_t seed, const Observer& observer);
 
 }  // namespace lyrefit

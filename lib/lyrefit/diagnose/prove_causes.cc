@@ -128,12 +128,12 @@ void AddShapes(const IvCurve& curve, const Selection& selection, const Diagnosis
 
 }  // namespace
 
-Proofs FindProofs(const CurveSet& set, const Selection& selection, const Diagnosis& diagnosis,
-                  Watch* watch) {
+Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
+                  const Diagnosis& diagnosis, Watch* watch) {
   Proofs proofs;
   proofs.sentence = WhyNothing(set, *selection.bench.readings);
   if (!proofs.sentence.empty()) return proofs;
-  const IvCurve curve = UsedPart(set.curves.front(), selection.bench);
+  const IvCurve curve = UsedPart(set.curves.front(), at.bench);
   AddLinear(curve, selection, diagnosis, watch, &proofs);
   AddShapes(curve, selection, diagnosis, &proofs);
   std::stable_sort(proofs.causes.begin(), proofs.causes.end(),

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/watch.h"
 
 namespace lyrefit {
@@ -13,7 +13,7 @@ namespace lyrefit {
 // their curves have (certify/concave_floor.h). The verdict, its trials and the gain stand in
 // `diagnosis` already. None of a dark curve, of several conditions, of readings that have a light or
 // a temperature each, and of thousands of them.
-Proofs FindProofs(const CurveSet& set, const Selection& selection, const Diagnosis& diagnosis,
-                  Watch* watch);
+Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
+                  const Diagnosis& diagnosis, Watch* watch);
 
 }  // namespace lyrefit

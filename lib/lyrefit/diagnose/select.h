@@ -70,6 +70,9 @@ struct Selection {
 Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
                        double correlation, const SelectOptions& options);
 
+// Noise of the readings from a fit's residuals, and what the bench is to trust each of them.
+Noise TakeNoise(const Measurement& measurement, const LawFit& fit, Workbench* bench);
+
 // Noise from the residuals of the present law, which is then fitted anew, twice.
 Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit);
 

@@ -78,32 +78,38 @@ void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* be
 
 }  // namespace
 
-Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit) {
+Noise TakeNoise(const Measurement& measurement, const LawFit& fit, Workbench* bench) {
   const Readings& readings = measurement.readings;
+  std::vector<double> residual(readings.points.size());
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    residual[k] = fit.current[k] - readings.points[k].current;
+  }
+  Noise noise = EstimateNoise(measurement, residual, bench->used);
+  bench->sigma = noise.sigma;
+  const std::vector<double> rounding = CoarseRounding(measurement, noise);
+  const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
+                     10 * kSmallestNoise;  // computed readings: what is left is arithmetic
+  if (exact) bench->least_variance = 1;
+  const bool stated = measurement.errors.kind == ErrorKind::kStated;
+  if (measurement.has_path()) {
+    bench->least_variance = 1;
+    if (stated) {
+      TakeStated(measurement, fit, bench);
+    } else if (measurement.stated_sigma.empty()) {
+      LevelNoise(bench, Misfit(*bench, residual, rounding));
+    } else {
+      TakeStatedSigma(measurement, bench);
+    }
+  }
+  if (!stated) Widen(rounding, bench);
+  return noise;
+}
+
+Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit) {
+  const bool stated = measurement.errors.kind == ErrorKind::kStated;
   Noise noise;
   for (int round = 0; round < 2; ++round) {
-    std::vector<double> residual(readings.points.size());
-    for (std::size_t k = 0; k < residual.size(); ++k) {
-      residual[k] = fit->current[k] - readings.points[k].current;
-    }
-    noise = EstimateNoise(measurement, residual, bench->used);
-    bench->sigma = noise.sigma;
-    const std::vector<double> rounding = CoarseRounding(measurement, noise);
-    const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
-                       10 * kSmallestNoise;  // computed readings: what is left is arithmetic
-    if (exact) bench->least_variance = 1;
-    const bool stated = measurement.errors.kind == ErrorKind::kStated;
-    if (measurement.has_path()) {
-      bench->least_variance = 1;
-      if (stated) {
-        TakeStated(measurement, *fit, bench);
-      } else if (measurement.stated_sigma.empty()) {
-        LevelNoise(bench, Misfit(*bench, residual, rounding));
-      } else {
-        TakeStatedSigma(measurement, bench);
-      }
-    }
-    if (!stated) Widen(rounding, bench);
+    noise = TakeNoise(measurement, *fit, bench);
     if (measurement.has_path() && !stated) bench->path = FindPath(*bench, *fit);
     LawFit again = FitLaw(*bench, fit->law, fit->p);
     if (again.usable) *fit = std::move(again);

@@ -47,39 +47,56 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
   return cause;
 }
 
+// Of one diode fitted to sweeps of modules without a fault, parts of Isc.
+constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
+
+// Whether the base model misses the data by more than it misses modules without a fault, and by
+// more than the floor.
+bool MissesTooMuch(const Verdict& verdict, const Floors& floors) {
+  return floors.Any() && verdict.departure.value > std::max(kMostHealthy, floors.current);
+}
+
+// "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)"
+std::string DepartureText(double departure, const Floors& floors) {
+  const std::string usual =
+      fmt::format("({:.2f} to {:.2f} %)", 100 * kLeastHealthy, 100 * kMostHealthy);
+  const std::string text = fmt::format("{:.2f} % of Isc", 100 * departure);
+  if (departure < kLeastHealthy) return text + " beyond their noise";
+  if (departure <= kMostHealthy) return text + ", as healthy modules do " + usual;
+  return text + fmt::format(", more than healthy modules do {} but less than the floor of {:g} %",
+                            usual, 100 * floors.current);
+}
+
 // Where no cause is named: how far the data are from the model, and what is there all the same.
-std::string NothingSentence(const Verdict& verdict, const Floors& floors) {
-  if (floors.current == 0 && floors.power == 0) {
-    return "Nothing to find: what the base model leaves is noise.";
-  }
-  // Of one diode fitted to sweeps of healthy modules, parts of Isc.
-  constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
+std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves) {
+  if (!floors.Any()) return "Nothing to find: what the base model leaves is noise.";
   const double departure = verdict.departure.value;
-  std::string text =
-      departure < kLeastHealthy
-          ? fmt::format(
-                "Nothing to act on: the data depart from the base model by {:.2f} % of Isc "
-                "beyond their noise",
-                100 * departure)
-          : fmt::format(
-                "Nothing to act on: the data depart from the base model by {:.2f} % of Isc, "
-                "{} healthy modules do ({:.2f} to {:.2f} %)",
-                100 * departure, departure < kMostHealthy ? "as" : "where", 100 * kLeastHealthy,
-                100 * kMostHealthy);
+  std::string present;
   if (!verdict.below_floor.empty()) {
-    text +=
+    present =
         fmt::format("; present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
                     100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
   }
-  return text + ".";
+  if (!MissesTooMuch(verdict, floors)) {
+    return "Nothing to act on: the data depart from the base model by " +
+           DepartureText(departure, floors) + present + ".";
+  }
+  if (present.empty()) present = ", and no cause of the catalogue explains it";
+  return fmt::format(
+      "The base model misses the data by {:.2f} % of Isc, more than it misses healthy modules by "
+      "({:.2f} to {:.2f} %){}. To tell: {}{}.",
+      100 * departure, 100 * kLeastHealthy, 100 * kMostHealthy, present,
+      curves > 1 ? "diagnose each curve by itself; " : "",
+      FindEffect("unknown_structure")->separate_by);
 }
 
 // `nameless`: structure alone, without a cause that fits it.
-std::string VerdictSentence(const Verdict& verdict, const Floors& floors, bool nameless) {
+std::string VerdictSentence(const Verdict& verdict, const Floors& floors, int curves,
+                            bool nameless) {
   if (nameless) {
     return "Something is there that noise does not explain, and none of the known causes fits.";
   }
-  if (!verdict.found) return NothingSentence(verdict, floors);
+  if (!verdict.found) return NothingSentence(verdict, floors, curves);
   std::string text = "The data show ";
   for (std::size_t c = 0; c < verdict.causes.size(); ++c) {
     if (c > 0) text += c + 1 < verdict.causes.size() ? ", " : " and ";
@@ -118,17 +135,16 @@ bool Remains(const Selection& selection, double whiteness_after) {
 
 }  // namespace
 
-Verdict Decide(const Measurement& measurement, const Selection& selection,
+Verdict Decide(const Measurement& measurement, const Selection& selection, const AtReadings& at,
                const DiagnoseOptions& options, double whiteness_after) {
   Verdict verdict;
-  verdict.causes = DescribeCauses(selection, measurement.values);
+  verdict.causes = DescribeCauses(selection, at, measurement.values);
   const Effect& quantisation = *FindEffect("quantisation");
-  if (IsWanted(quantisation, options) && IsCoarse(measurement, selection.noise)) {
+  if (IsWanted(quantisation, options) && IsCoarse(measurement, at.noise)) {
     verdict.causes.push_back(QuantisationCause(quantisation, measurement));
   }
   const Effect& bins = *FindEffect("voltage_bins");
-  if (IsWanted(bins, options) &&
-      HasMaterialBins(measurement, selection.noise, options.floor_current)) {
+  if (IsWanted(bins, options) && HasMaterialBins(measurement, at.noise, options.floor_current)) {
     verdict.causes.push_back(BinsCause(bins, measurement));
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
@@ -155,12 +171,13 @@ Verdict Decide(const Measurement& measurement, const Selection& selection,
   }
   verdict.found = !verdict.causes.empty();
   if (verdict.found && material && Remains(selection, whiteness_after)) verdict.unexplained = true;
+  const Floors floors{options.floor_current, options.floor_power};
+  if (!verdict.found && MissesTooMuch(verdict, floors)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {
     if (!open.applies(measurement.readings.traits)) continue;
     verdict.cannot_be_excluded.push_back({open.id, open.biases, open.sentence, open.separate_by});
   }
-  verdict.sentence =
-      VerdictSentence(verdict, {options.floor_current, options.floor_power}, nameless);
+  verdict.sentence = VerdictSentence(verdict, floors, measurement.readings.traits.curves, nameless);
   return verdict;
 }
 

@@ -17,26 +17,6 @@ using Values = std::vector<double>;
 
 int GroupCount(const std::vector<int>& first) { return static_cast<int>(first.size()) - 1; }
 
-Values Means(const std::vector<int>& first, const Values& values) {
-  Values means;
-  for (int g = 0; g < GroupCount(first) && !values.empty(); ++g) {
-    const auto begin = values.begin() + first[g], end = values.begin() + first[g + 1];
-    means.push_back(std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin));
-  }
-  return means;
-}
-
-// Of the mean of independent errors.
-Values MeanErrors(const std::vector<int>& first, const Values& errors) {
-  Values squares = errors;
-  for (double& one : squares) one *= one;
-  Values means = Means(first, squares);
-  for (std::size_t g = 0; g < means.size(); ++g) {
-    means[g] = std::sqrt(means[g] / static_cast<double>(first[g + 1] - first[g]));
-  }
-  return means;
-}
-
 // Along the path, of groups whose means lie there: to the nearer of the next ones.
 Values WidthsOf(const Values& position) {
   Values widths(position.size(), kWidest);
@@ -60,6 +40,35 @@ Values AveragedAway(const std::vector<int>& first, const Values& position) {
 
 }  // namespace
 
+Values Means(const std::vector<int>& first, const Values& values) {
+  Values means;
+  for (int g = 0; g < GroupCount(first) && !values.empty(); ++g) {
+    const auto begin = values.begin() + first[g], end = values.begin() + first[g + 1];
+    means.push_back(std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin));
+  }
+  return means;
+}
+
+Values MeanErrors(const std::vector<int>& first, const Values& errors) {
+  Values squares = errors;
+  for (double& one : squares) one *= one;
+  Values means = Means(first, squares);
+  for (std::size_t g = 0; g < means.size(); ++g) {
+    means[g] = std::sqrt(means[g] / static_cast<double>(first[g + 1] - first[g]));
+  }
+  return means;
+}
+
+void AppendGroups(int begin, int end, int most, const std::function<bool(int, int)>& parted,
+                  std::vector<int>* first) {
+  for (int k = begin, at = begin; k < end; ++k) {
+    const bool begins = k == begin || k - at >= most || parted(at, k);
+    if (!begins) continue;
+    at = k;
+    first->push_back(k);
+  }
+}
+
 std::vector<int> EachAlone(std::size_t readings) {
   std::vector<int> first(readings + 1);
   std::iota(first.begin(), first.end(), 0);
@@ -70,11 +79,11 @@ std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double op
   const int readings = static_cast<int>(voltage_V.size());
   const int most = (readings + kFewPoints - 1) / kFewPoints;
   if (most <= 1) return EachAlone(voltage_V.size());
-  std::vector<int> first = {0};
-  for (int k = 1; k < readings; ++k) {
-    const bool far = std::fabs(voltage_V[k] - voltage_V[first.back()]) > kWidest * open_circuit_V;
-    if (far || k - first.back() >= most) first.push_back(k);
-  }
+  std::vector<int> first;
+  const auto far = [&](int begin, int k) {
+    return std::fabs(voltage_V[k] - voltage_V[begin]) > kWidest * open_circuit_V;
+  };
+  AppendGroups(0, readings, most, far, &first);
   first.push_back(readings);
   return first;
 }

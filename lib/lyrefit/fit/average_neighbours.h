@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lyrefit/base/dense.h"
@@ -14,12 +15,25 @@ namespace lyrefit {
 // too small (errors in variables). Averages lie further apart and are less noisy, and a few hundred
 // hold what thousands of readings say of five parameters and a path.
 
-// The first reading of every group of neighbours, and the end: equally many readings each, but none
+// Groups of neighbours are stated by the first reading of each, and the end.
+
+// Appends the first readings of the groups from reading `begin` to before `end`, of `most` readings
+// or fewer. A group ends before a reading k that `parted(first, k)` keeps out of it.
+void AppendGroups(int begin, int end, int most, const std::function<bool(int, int)>& parted,
+                  std::vector<int>* first);
+
+// Groups of equally many readings each, but none
 // farther from its group's first than a hundredth of Voc. Up to kFewPoints readings stay alone.
 std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V);
 
 // Each reading by itself.
 std::vector<int> EachAlone(std::size_t readings);
+
+// Means of values, one for each group; empty where there are no values.
+std::vector<double> Means(const std::vector<int>& first, const std::vector<double>& values);
+
+// Errors of the means of independent errors, one for each group.
+std::vector<double> MeanErrors(const std::vector<int>& first, const std::vector<double>& errors);
 
 // Means of rows, one for each group.
 RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows);

@@ -18,11 +18,12 @@ Pack Gather(const Readings& readings, const ReadingBlock& block, F value) {
   return every_processor::Load(lanes);
 }
 
-// How many readings from `first` on have its sky.
+// How many readings from `first` on have its sky, counted up to a full block.
 int RunFrom(const Readings& readings, int first) {
   const std::vector<Reading>& points = readings.points;
+  const int end = std::min(first + Block::kLanes, static_cast<int>(points.size()));
   int last = first + 1;
-  while (last < static_cast<int>(points.size()) && OneSky(points[first], points[last])) ++last;
+  while (last < end && OneSky(points[first], points[last])) ++last;
   return last - first;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnose/made_diagnosis.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/words.h"
@@ -131,6 +132,23 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   // Cells are not sorted better than this.
   EXPECT_GT(cause.strength[0].high_95 - cause.strength[0].low_95, 0.01);
   EXPECT_GT(d.evidence.noise_path_A, 0);
+}
+
+// What no cause explains is not healthy because it has no name.
+TEST(FieldDiagnosis, WhatNoCauseExplainsIsNotSaidToBeHealthy) {
+  IvCurve curve = CurveWithAStep();
+  DiagnoseOptions options = Quick();
+  options.effects = {"collection"};
+  const Diagnosis d = DiagnoseOrFail(curve, options);
+  ASSERT_GT(d.verdict.departure.value, 0.0025);
+  EXPECT_THAT(d.verdict.causes, IsEmpty());
+  EXPECT_FALSE(d.verdict.found);
+  EXPECT_TRUE(d.verdict.unexplained);
+  EXPECT_THAT(d.verdict.sentence, Not(HasSubstr("Nothing to act on")));
+  EXPECT_THAT(d.verdict.sentence, Not(HasSubstr("as healthy modules do")));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("The base model misses the data by"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("no cause of the catalogue explains it"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("To tell: repeat the measurement"));
 }
 
 TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {

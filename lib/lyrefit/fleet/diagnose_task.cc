@@ -25,7 +25,9 @@ std::vector<ResultColumn> DiagnoseColumns() {
       {"separate_by", "", kText, "measurements that would, with '; ' between them"},
       {"causes", "", kText, "ids of all causes, the most certain first"},
       {"below_floor", "", kText, "ids of what is there too but too small to act on"},
-      {"unexplained", "", CellType::kTruth, "something is there that no known cause fits"},
+      {"unexplained", "", CellType::kTruth,
+       "something is there that no known cause fits; where no cause is named, the model misses "
+       "more than it misses of healthy modules"},
       {"departure_percent", "%", kNumber,
        "of the readings from the model beyond noise, root mean square in percent of Isc"},
       {"power_effect_percent", "%", kNumber,

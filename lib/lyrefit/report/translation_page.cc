@@ -156,7 +156,7 @@ std::string TranslationVerdict(const TranslationReport& report) {
   if (!report.diagnosis) return text;
   const Verdict& found = report.diagnosis->verdict;
   const bool fails = report.field_test && !IsPass(report.field_test->zone);
-  if (fails && !found.found) {
+  if (fails && !found.found && !found.unexplained) {
     text +=
         "Cause: the shape of the curve shows none. What acts on all cells alike leaves no trace in "
         "it: dirt, a wrong sensor of light or temperature, missing modules, a lower class.\n"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "lyrefit/curve/read_curve.h"
@@ -61,6 +62,50 @@ TEST(FitOfContestCurves, FitsExactCurvesToTheRoundingOfTheirNumbers) {
       for (const double i : curve.current_A) largest = std::max(largest, std::fabs(i));
       EXPECT_LE(report->rmse.refined.solved_current_A, 1e-10 * largest) << name << curve.name;
     }
+  }
+}
+
+// The score of the contest for the noisy sets: the sum of |fitted / true - 1| over the five
+// parameters. What is submitted of a set is the mean over its 50 fits, of 1 / Rsh for Rsh.
+TEST(FitOfContestCurves, ScoresOnTheNoisySets) {
+  const struct {
+    const char* name;
+    double iph, is, n, rs, rsh;
+    double highest;
+  } kSets[] = {{"case3a", 8, 5e-10, 1.01, 0.1, 3000, 0.046},
+               {"case3b", 1, 3e-08, 1.3, 1.0, 300, 0.0098},
+               {"case3c", 2.5, 1e-09, 1.3, 0.1, 3000, 0.031},
+               {"case3d", 0.5, 1e-08, 1.5, 1.0, 300, 0.235}};
+  for (const auto& set : kSets) {
+    const auto curves =
+        ReadIvCurvesJson(std::string(LYREFIT_FIELD_DATA_DIR) + "/ivcurves/" + set.name + ".json");
+    ASSERT_TRUE(curves.has_value()) << curves.error().ToString();
+    double scores[2];
+    for (const bool field : {false, true}) {
+      const std::vector<double> truth = {set.iph, set.is, set.n, set.rs, 1 / set.rsh};
+      std::vector<double> mean(5);
+      for (const IvCurve& curve : *curves) {
+        FitOptions options;
+        options.intervals = Intervals::kNone;
+        options.random_baseline = false;
+        options.bounds.overrides["n1"] = {0.5, 3};
+        if (field) options.errors = {ErrorKind::kField, {}, "field"};
+        const auto report = Fit(curve, options);
+        ASSERT_TRUE(report.has_value()) << report.error().ToString();
+        for (int i = 0; i < 5; ++i) {
+          const double value = report->refined[i];
+          mean[i] += (i == 4 ? 1 / value : value) / static_cast<double>(curves->size());
+        }
+      }
+      double score = 0;
+      for (int i = 0; i < 5; ++i) {
+        score += std::fabs(i == 4 ? truth[i] / mean[i] - 1 : mean[i] / truth[i] - 1);
+      }
+      scores[field ? 1 : 0] = score;
+    }
+    std::printf("%s: least squares %.4f, --noise field %.4f\n", set.name, scores[0], scores[1]);
+    EXPECT_LT(scores[1], scores[0]) << set.name;
+    EXPECT_LT(scores[1], set.highest) << set.name;
   }
 }
 

@@ -24,7 +24,7 @@ struct ReadingsAt {
 
 // A gain (FoundErrors) above this is believed: independent errors reach it in some 3 % of all
 // curves.
-constexpr double kGainToBelieve = 6;
+constexpr double kGainToBelieve = 5;
 
 // How errors of the readings show in the weighted residuals. The noise of a voltage has its size at
 // Voc and is in proportion to the voltage elsewhere. The path goes along the readings as they were

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "lyrefit/refine/climb.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 // Of the prior of ln length, below its center. Above it a path hardly changes within the sweep, and
 // its size and length say one thing.
-constexpr double kLengthWidth = 4;
+constexpr double kLengthWidth = 8;
 constexpr double kLongerWidth = 0.5;
 
 using Logs = std::vector<double>;  // ln of current_A, voltage_V, path, length
@@ -136,6 +137,29 @@ double WhiteLogLikelihood(const Rows& rows) {
   return LogLikelihood(white, rows.columns);
 }
 
+// The longest path, up to the usual length, that is nearly as likely as the best at `top`. What a fit
+// takes out of the residuals is the slowest part of the path, so its length is known poorly from
+// above, and standard errors are too small where it is taken for short.
+Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs& top,
+                    double usual) {
+  constexpr double kAllowed = 0.25;  // less in ln posterior
+  constexpr int kLonger = 4, kMostSteps = 10;
+  const double highest = value(top);
+  Logs at = top, longest = top;
+  for (int step = 1; step <= kLonger && top[3] < usual; ++step) {
+    const double length = top[3] + (usual - top[3]) * step / kLonger;
+    const auto others = [&](const Logs& three) {
+      return value({three[0], three[1], three[2], length});
+    };
+    // What neighbours differ by, path^2 / length, stays.
+    const double path = at[2] + 0.5 * (length - at[3]);
+    at = Climb(others, {at[0], at[1], path}, kMostSteps);
+    at.push_back(length);
+    if (value(at) >= highest - kAllowed) longest = at;
+  }
+  return longest;
+}
+
 // 1 less the mean of exp(-|x - x'|) over a stretch of this third: what averaging takes of the path.
 double AveragedAway(double third) {
   const double x = 3 * third;
@@ -184,10 +208,10 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   all.columns.rightCols(1) = residual;
   constexpr int kMostSteps = 30;
   const auto value = [&](const Logs& there) { return LogPosterior(all, prior, there); };
-  const Logs at = Climb(value, FindStart(all, prior), kMostSteps);
+  const Logs top = Climb(value, FindStart(all, prior), kMostSteps);
   FoundErrors found;
-  found.sizes = SizesAt(at);
-  found.uncertainty = InverseOf(-CurvatureAt(value, at));
+  found.sizes = SizesAt(LongestAllowed(value, top, std::log(prior.center.length)));
+  found.uncertainty = InverseOf(-CurvatureAt(value, top));
   const double likely = LogLikelihood(MakeErrorModel(shape, found.sizes), all.columns);
   found.gain = 2 * (likely - WhiteLogLikelihood(all));
   return found;

@@ -40,7 +40,8 @@ ErrorPrior UsualErrors(double isc_A, double voc_V);
 
 // What residuals say of their errors.
 struct FoundErrors {
-  ErrorSizes sizes;  // where restricted likelihood times prior is largest
+  // Where restricted likelihood times prior is largest or, of a longer path, nearly so.
+  ErrorSizes sizes;
   // Covariance of the logarithms of current, voltage, path and length, from the curvature there; 0
   // where there is no maximum.
   Eigen::Matrix4d uncertainty = Eigen::Matrix4d::Zero();

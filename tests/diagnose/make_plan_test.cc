@@ -38,7 +38,7 @@ TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
   EXPECT_THAT(EquivalentsOf(cause), IsEmpty());
 }
 
-DiagnoseOptions Quick(const std::vector<std::string>& effects) {
+DiagnoseOptions QuickWith(const std::vector<std::string>& effects) {
   DiagnoseOptions options;
   options.noise = ErrorSpec();
   options.floor_current = options.floor_power = 0;
@@ -67,7 +67,7 @@ const PlannedMeasurement& Find(const Plan& plan, const std::string& id) {
 }
 
 TEST(PlanTest, ADarkCurveTellsAShuntFromCollection) {
-  const auto diagnosis = Diagnose(CurveOfPoorCollection(), Quick({"nonohmic_shunt", "collection"}));
+  const auto diagnosis = Diagnose(CurveOfPoorCollection(), QuickWith({"nonohmic_shunt", "collection"}));
   ASSERT_TRUE(diagnosis);
   ASSERT_TRUE(diagnosis->plan);
   const Plan& plan = *diagnosis->plan;
@@ -81,7 +81,7 @@ TEST(PlanTest, ADarkCurveTellsAShuntFromCollection) {
 }
 
 TEST(PlanTest, IsTheSameOnAnyNumberOfThreads) {
-  DiagnoseOptions options = Quick({"nonohmic_shunt", "collection"});
+  DiagnoseOptions options = QuickWith({"nonohmic_shunt", "collection"});
   options.threads = 1;
   const auto one = Diagnose(CurveOfPoorCollection(), options);
   options.threads = 3;
@@ -95,14 +95,14 @@ TEST(PlanTest, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(PlanTest, WhereOneCauseStandsAloneThereIsNothingToTell) {
-  const auto diagnosis = Diagnose(CurveOfPoorCollection(), Quick({"collection"}));
+  const auto diagnosis = Diagnose(CurveOfPoorCollection(), QuickWith({"collection"}));
   ASSERT_TRUE(diagnosis);
   EXPECT_THAT(diagnosis->plan->causes, IsEmpty());
   EXPECT_THAT(diagnosis->plan->measurements, IsEmpty());
 }
 
 TEST(PlanTest, IsThereOnlyWhereAskedFor) {
-  DiagnoseOptions options = Quick({"collection"});
+  DiagnoseOptions options = QuickWith({"collection"});
   options.plan = false;
   EXPECT_FALSE(Diagnose(CurveOfPoorCollection(), options)->plan);
 }

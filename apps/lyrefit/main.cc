@@ -41,6 +41,7 @@ int Print(const std::string& text) {
 }
 
 int Main(int argc, char** argv) {
+  EndOnSignals();
   if (argc == 1) return Print(FirstPage());
   char topic_follows[] = "help";  // lyrefit --help terms
   if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
@@ -54,7 +55,6 @@ int Main(int argc, char** argv) {
   }
   if (!asked->empty()) return Print(*asked);
   StartLogging(argv[0], line.verbosity());
-  EndOnSignals();
   if (line.quiet()) SilenceProgress();
   const Expected<int> exit_code = line.Run();
   if (exit_code) return *exit_code;

@@ -126,7 +126,7 @@ TEST_P(InterruptTest, KeepsTheBudgetOfATranslationWithoutItsDraws) {
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   for (const auto& result : j["results"]) {
-    if (result["budget"].is_object()) EXPECT_EQ(result["budget"]["draws"], 0);
+    EXPECT_TRUE(result["budget"].is_null() || result["budget"]["draws"] == 0) << result["title"];
   }
 }
 

@@ -31,6 +31,7 @@ std::string OnTerminal(std::vector<std::string> arguments, const std::string& un
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
     alarm(kAlarm_s);
+    std::signal(SIGINT, SIG_DFL);  // what the test was told to ignore, the app is not
     execv(LYREFIT_APP, words.data());
     _exit(127);
   }

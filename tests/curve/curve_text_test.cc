@@ -39,7 +39,7 @@ TEST(CurveOfAPipe, IsThatOfTheFile) {
              ASSERT_TRUE(curve) << curve.error().ToString();
              EXPECT_EQ(curve->current_A, file->current_A);
              EXPECT_EQ(curve->conditions.cell_temperature_K, file->conditions.cell_temperature_K);
-             EXPECT_EQ(curve->name, "pipe");
+             EXPECT_EQ(curve->name, file->name);
            });
 }
 

@@ -132,7 +132,9 @@ LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>&
   fit.law = law;
   LawWorkspace workspace;
   const LeastSquaresProblem problem = MakeProblem(bench, law, &workspace, &fit.current);
-  const LeastSquaresEnd end = SolveLeastSquares(problem, start, options);
+  LeastSquaresOptions watched = options;
+  if (!watched.stop) watched.stop = [&bench] { return Stopped(bench.watch); };
+  const LeastSquaresEnd end = SolveLeastSquares(problem, start, watched);
   fit.p = end.p;
   fit.sum = end.sum_of_squares;
   fit.usable = end.usable && EvaluateLaw(law, *bench.readings, fit.p.data(), &workspace,

@@ -27,15 +27,15 @@ struct Warmer {
 };
 
 // A back sensor's answer to it, and its expanded uncertainty at 1000 W/m2.
-struct Answer {
+struct SensorAnswer {
   const char* name;
   double correction_K, expanded_K;
 };
-constexpr Answer kCorrected = {"corrected by 2.5 K, U 1.5 K", 2.5, 1.5};
+constexpr SensorAnswer kCorrected = {"corrected by 2.5 K, U 1.5 K", 2.5, 1.5};
 
 // What whoever carries the curves is told and doubts.
 struct Told {
-  Answer answer = kCorrected;
+  SensorAnswer answer = kCorrected;
   bool beta = true;
   double epsilon_percent = lyrefit::UncertaintyOptions().epsilon_percent;
 };
@@ -98,10 +98,10 @@ constexpr Warmer kUsual = {"drawn about 2.5 K, k = 2 of 1.5 K", 2.5, 0.75};
 
 int StudySensors(const StudyOptions& options) {
   const int cases = options.cases > 0 ? options.cases : 200;
-  const Answer answers[] = {{"as read, U 2.5 K", 0, 2.5}, kCorrected};
+  const SensorAnswer answers[] = {{"as read, U 2.5 K", 0, 2.5}, kCorrected};
   for (const Warmer& warmer : {kUsual, Warmer{"always 2.5 K", 2.5, 0}, Warmer{"always 3 K", 3, 0},
                                Warmer{"always 1 K", 1, 0}}) {
-    for (const Answer& answer : answers) {
+    for (const SensorAnswer& answer : answers) {
       std::vector<Carried> together;
       for (const std::string& world : Worlds()) {
         const auto all = CarryWorld(world, {}, cases, &warmer, options, {answer});

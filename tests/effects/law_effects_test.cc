@@ -93,7 +93,8 @@ std::vector<double> ExactColumn(const Settled& at, const Readings& readings, int
 
 Column CompareColumn(const Settled& at, const Readings& readings, int parameter, double part) {
   const double range = at.law.Upper(parameter) - at.law.Lower(parameter);
-  const double step = part * std::max(std::fabs(at.p[parameter]), 1e-2 * range);
+  // The photocurrent may be 10,000 times what it is, which says nothing of how it bends the curve.
+  const double step = part * std::max(std::fabs(at.p[parameter]), 1e-2 * std::min(range, 20.0));
   const auto moved = [&](double steps) {
     Settled there = at;
     there.p[parameter] += steps * step;

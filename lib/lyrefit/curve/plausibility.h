@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/base/public.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/iv_curve.h"
 
-namespace LYREFIT_PUBLIC lyrefit {
+namespace lyrefit {
 
 // Sizes that no device has, mostly of a unit gone wrong. The readings can be worked with, but no
 // answer that depends on their size can be believed. None of these findings refuses. CheckReadings

@@ -42,9 +42,9 @@ struct PreparedTerm {
   S b;  // 1 / (n Ns Vt) of a diode, NsVbi of the recombination
 };
 
-// Exponents are cut here, far outside any real device, so that even the square of a current is
-// finite.
-constexpr double kLargestExponent = 230;
+// Exponents are cut here, far outside any real device, so that even the square of a current, or of
+// its derivative, is finite.
+constexpr double kLargestExponent = 320;
 // Smallest shunt resistance and n that are told from 0, so that a bound of 0 is legal.
 constexpr double kSmallestResistance_ohm = 1e-9;
 constexpr double kSmallestIdeality = 1e-3;

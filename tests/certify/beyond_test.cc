@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
+#include "lyrefit/certify/interval.h"
 
 namespace lyrefit {
 namespace {
@@ -37,6 +38,18 @@ TEST(BoundBeyond, IsTheMeanOfTwoPointsInTheWrongOrder) {
   data.current_A = Eigen::Vector3d(1, 0.5, 0);
   EXPECT_EQ(BoundBeyond(data, 0.9), 0);
   EXPECT_EQ(BoundBeyond(data, 1.1), 0.25);
+}
+
+// At any larger Rs the order is that of the currents, and no mixture beats their mean.
+TEST(BoundBeyond, IsTheSpreadOfTheCurrentsFarOut) {
+  for (std::uint64_t seed = 310; seed < 320; ++seed) {
+    MixtureData data = DataOf(RandomCurve(seed));
+    const double far = 1e12 * Cut(data);
+    const double spread = 0.5 * (data.current_A.array() - data.current_A.mean()).square().sum();
+    EXPECT_NEAR(BoundBeyond(data, far) / spread, 1, 1e-12) << seed;
+    EXPECT_LE(BoundBeyond<Interval>(data, far), BoundBeyond(data, far)) << seed;
+    EXPECT_NEAR(BoundBeyond<Interval>(data, far) / spread, 1, 1e-12) << seed;
+  }
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ struct Ugly {
 };
 
 TEST(CertifySound, TakesUglyCurves) {
-  constexpr int kFewProblems = 200;  // convex ones: the search ends soon, on any machine
+  constexpr int kFewProblems = 500;  // convex ones: the search ends soon, on any machine
   const Ugly curves[] = {
       {"two points", {0, 0.5}, {0.76, 0.5}, true},
       {"three points, unsorted", {0.5, 0, 0.4}, {0.5, 0.76, 0.7}, true},
@@ -159,22 +159,60 @@ TEST(CertifySound, TakesUglyCurves) {
   }
 }
 
-// Points around Isc alone shut out no resistance, and the bound says so.
-TEST(CertifySound, ClaimsNoMoreThanIsProvedBeyondTheResistancesGoneThrough) {
+// Points around Isc alone shut out no resistance by their order: what is asked for is gone through, of
+// a range without an end a part, and the bound says so.
+TEST(CertifySound, GoesThroughResistancesThatTheOrderOfThePointsDoesNotShutOut) {
   IvCurve curve;
   curve.voltage_V = {0, 0.02, 0.04, 0.06, 0.08};
   curve.current_A = {0.76, 0.759, 0.7605, 0.7591, 0.7603};
+  const double in_order_ohm = 0.08 / 0.7605;
+  for (const double factor : {0.9, 1.7, 10.0}) {
+    CertifyOptions options;
+    options.rs_upper_ohm = factor * in_order_ohm;
+    const auto closed = Certify(curve, options);
+    ASSERT_TRUE(closed) << closed.error().ToString();
+    EXPECT_LE(closed->floor.gap, 1e-9) << factor;
+    EXPECT_EQ(closed->rs_upper_ohm, options.rs_upper_ohm);
+    for (const ModelCertificate& model : closed->models) EXPECT_TRUE(model.certified) << factor;
+    ExpectNotUndercut(*closed, 3);
+  }
   const auto open = Certify(curve);
   ASSERT_TRUE(open) << open.error().ToString();
+  EXPECT_GE(open->rs_upper_ohm, 2 * in_order_ohm);
   const double beyond = BoundBeyond(DataOf(curve), open->rs_upper_ohm);
   EXPECT_NEAR(open->floor.lower_bound_A, std::sqrt(2 * beyond / 5), 1e-15);
   EXPECT_FALSE(open->models[0].certified);
-  CertifyOptions options;
-  options.rs_upper_ohm = open->rs_upper_ohm;
-  const auto closed = Certify(curve, options);
-  ASSERT_TRUE(closed) << closed.error().ToString();
-  EXPECT_LE(closed->floor.gap, 1e-9);
-  EXPECT_TRUE(closed->models[0].certified);
+}
+
+// Curves that end before their open circuit, where the order of the points says little.
+TEST(CertifySound, ProvesEveryRangeOfTheSeriesResistance) {
+  for (int seed = 800; seed < 800 + Repeats(24); ++seed) {
+    IvCurve curve = RandomCurve(seed);
+    RandomStream random(seed, 78);
+    const MixtureData all = DataOf(curve);
+    const double last = (0.7 + 0.25 * random.Uniform()) * all.voltage_V.maxCoeff();
+    IvCurve part = curve;
+    part.voltage_V.clear();
+    part.current_A.clear();
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      if (curve.voltage_V[k] > last) continue;
+      part.voltage_V.push_back(curve.voltage_V[k]);
+      part.current_A.push_back(curve.current_A[k]);
+    }
+    const MixtureData data = DataOf(part);
+    CertifyOptions options;
+    options.models = {Model::kSingleDiode, Model::kDoubleDiode};
+    options.rs_upper_ohm =
+        (0.9 + 0.8 * random.Uniform()) * data.voltage_V.maxCoeff() / data.current_A.maxCoeff();
+    options.effort = 3000;
+    const auto certificate = Certify(part, options);
+    ASSERT_TRUE(certificate) << certificate.error().ToString();
+    EXPECT_TRUE(certificate->floor.certified) << seed << " " << certificate->floor.gap;
+    for (const ModelCertificate& model : certificate->models) {
+      EXPECT_TRUE(model.certified) << seed << " " << model.gap;
+    }
+    ExpectNotUndercut(*certificate, seed);
+  }
 }
 
 TEST(CertifySound, HoldsBeyondTheResistancesGoneThrough) {

@@ -97,6 +97,34 @@ TEST(Certify, ProvesTwoDiodesInTheLiteraturesBoxOfPwp201) {
               1e-12);
 }
 
+// The same box and the solved current: an unfinished floor's mixture is a model of three diodes, and one
+// that the models come to is the floor's.
+TEST(Certify, TakesWhatIsAttainedToEveryModelThatAdmitsIt) {
+  constexpr double kThree_A = 1.0797463265e-3, kTwo_A = 1.2082911855e-3;  // fit from many starts
+  CertifyOptions options;
+  options.n_lower = 1.0 / 36;
+  options.n_upper = 50.0 / 36;
+  options.rs_upper_ohm = 2;
+  options.is_upper_A = 5e-5;
+  options.iph_upper_A = 2;
+  options.rsh_upper_ohm = 2000;
+  options.objective = Objective::kSolvedCurrent;
+  options.models = {Model::kDoubleDiode, Model::kTripleDiode};
+  for (const int effort : {30, 120}) {
+    options.effort = effort;
+    const auto certificate = Certify(Shipped("pwp201"), options);
+    ASSERT_TRUE(certificate) << certificate.error().ToString();
+    EXPECT_LE(certificate->models[0].rmse_A, kTwo_A) << effort;
+    EXPECT_LE(certificate->models[1].rmse_A, kThree_A) << effort;
+    EXPECT_LE(certificate->floor.rmse_A, certificate->models[1].rmse_A * (1 + 1e-9)) << effort;
+    EXPECT_LE(certificate->floor.lower_bound_A, certificate->floor.rmse_A);
+    for (const ModelCertificate& model : certificate->models) {
+      EXPECT_GE(model.above_floor, 0);
+      EXPECT_LE(certificate->floor.lower_bound_A, model.lower_bound_A);
+    }
+  }
+}
+
 // Three diodes refined from a random point of the ranges.
 double RefinedAtRandom(const Certificate& certificate, RandomStream* random) {
   const IvCurve& curve = certificate.curve;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/as_diodes.h"
+#include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 
@@ -27,16 +28,11 @@ double LargestExponent(const Device& device, const MixtureData& data,
 // The mean square of Shockley's equation, no exponent cut.
 double UncutMeanSquare(const RefineProblem& problem, const MixtureData& data,
                        const std::vector<double>& p) {
-  const Eigen::ArrayXd vd = data.JunctionVoltage(p[kRs]).array();
-  Eigen::ArrayXd current = p[kIph] - vd / p[kRsh];
-  for (int d = 0; d < DiodeCount(problem.device); ++d) {
-    const double saturation = p[SaturationCurrentIndex(d)];
-    if (!(saturation > 0)) continue;
-    const double u = 1 / (p[IdealityIndex(d)] * problem.device.module_thermal_voltage_V);
-    current -= (vd * u + std::log(saturation)).exp() - saturation;
-  }
-  const Eigen::ArrayXd residual = data.weight.array() * (current - data.target_A.array());
-  return residual.square().mean();
+  const Mixture mixture = AsMixture(problem.device, data, p);
+  const bool solved = problem.objective == Objective::kSolvedCurrent;
+  const Eigen::VectorXd residual =
+      solved ? data.weight.cwiseProduct(data.target_A - SolvedCurrents(data, mixture)) : mixture.y;
+  return residual.squaredNorm() / static_cast<double>(residual.size());
 }
 
 std::vector<double> WithinBox(const RefineProblem& problem, std::vector<double> p) {
@@ -115,6 +111,31 @@ std::vector<double> ConstantCurrent(const RefineProblem& problem, const MixtureD
 
 }  // namespace
 
+Mixture AsMixture(const Device& device, const MixtureData& data, const std::vector<double>& p) {
+  Mixture mixture;
+  mixture.rs = p[kRs];
+  mixture.reference_voltage_V = data.reference_voltage_V;
+  mixture.linear = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(data.terms.size()));
+  mixture.linear[kPhotocurrentTerm] = p[kIph];
+  mixture.linear[kShuntTerm] = 1 / p[kRsh];
+  const Eigen::VectorXd vd = data.JunctionVoltage(p[kRs]);
+  mixture.scale_voltage_V = vd.maxCoeff();
+  mixture.y = data.target_A.array() - p[kIph] + vd.array() / p[kRsh];
+  for (int d = 0; d < DiodeCount(device); ++d) {
+    const double saturation = p[SaturationCurrentIndex(d)];
+    if (!(saturation > 0)) continue;
+    const double u = 1 / (p[IdealityIndex(d)] * device.module_thermal_voltage_V);
+    mixture.y.array() += (vd.array() * u + std::log(saturation)).exp() - saturation;
+    const double most = std::exp(u * data.reference_voltage_V + std::log(saturation));
+    mixture.atoms.push_back({u, most - saturation});
+  }
+  std::sort(mixture.atoms.begin(), mixture.atoms.end(),
+            [](const Atom& a, const Atom& b) { return a.u < b.u; });
+  mixture.y = data.weight.cwiseProduct(mixture.y);
+  mixture.primal = 0.5 * mixture.y.squaredNorm();
+  return mixture;
+}
+
 RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRanges& ranges,
                            Objective objective) {
   double current = 0;
@@ -147,7 +168,6 @@ void Attain(const RefineProblem& problem, const ModelRanges& ranges, const Mixtu
             const Mixture& mixture, Attained* best) {
   const auto consider = [&](const std::vector<double>& p) {
     const bool cut = LargestExponent(problem.device, data, p) > kLargestExponent;
-    if (cut && problem.objective == Objective::kSolvedCurrent) return;
     const double mean_square = cut ? UncutMeanSquare(problem, data, p) : MeanSquare(problem, p);
     if (mean_square < best->mean_square) *best = {p, mean_square};
   };

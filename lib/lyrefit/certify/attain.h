@@ -31,6 +31,10 @@ struct ModelRanges {
   std::vector<DiodeRanges> diodes = {};  // of each; empty: n as above
 };
 
+// Parameters of a model as a mixture; diodes that carry nothing are left out. Its dual vector is that of
+// the residuals, and proves nothing.
+Mixture AsMixture(const Device& device, const MixtureData& data, const std::vector<double>& p);
+
 // The model's own unweighted least-squares problem within the ranges.
 RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRanges& ranges,
                            Objective objective = Objective::kMeasuredCurrent);

@@ -1,6 +1,8 @@
 #include "lyrefit/certify/beyond.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -9,11 +11,23 @@
 namespace lyrefit {
 namespace {
 
-std::vector<int> ByFalling(const Eigen::ArrayXd& values) {
-  std::vector<int> falling(static_cast<std::size_t>(values.size()));
-  std::iota(falling.begin(), falling.end(), 0);
-  std::sort(falling.begin(), falling.end(), [&](int a, int b) { return values[a] > values[b]; });
-  return falling;
+// Points of rising current whose junction voltage does not fall: a model's current does not rise along
+// them, so that the best it can do is their mean.
+struct Chain {
+  std::vector<Eigen::Index> points;
+};
+
+// Half the sum of squares about the mean.
+template <class Real>
+Real HalfSpread(const Eigen::VectorXd& current, const Chain& chain) {
+  Real sum(0), squares(0);
+  for (const Eigen::Index k : chain.points) sum += Real(current[k]);
+  const Real mean = sum / Real(static_cast<double>(chain.points.size()));
+  for (const Eigen::Index k : chain.points) {
+    const Real off = Real(current[k]) - mean;
+    squares += off * off;
+  }
+  return Real(0.5) * squares;
 }
 
 }  // namespace
@@ -21,23 +35,31 @@ std::vector<int> ByFalling(const Eigen::ArrayXd& values) {
 template <class Real>
 double BoundBeyond(const MixtureData& data, double rs) {
   const ArrayOf<Real> vd = JunctionVoltage<Real>(data, rs);
-  Eigen::ArrayXd least(vd.size()), most(vd.size());
-  for (Eigen::Index k = 0; k < vd.size(); ++k) {
-    least[k] = Lower(vd[k]);
-    most[k] = Upper(vd[k]);
-  }
-  const std::vector<int> above = ByFalling(least);
-  auto next = above.begin();
-  // The best the model can do for two points is to give both their mean.
-  double largest = -kInfinity;  // current of those whose voltage is no lower for certain
-  double drop = 0;
-  for (const int k : ByFalling(most)) {
-    for (; next != above.end() && least[*next] >= most[k]; ++next) {
-      largest = std::max(largest, data.current_A[*next]);
+  std::vector<Eigen::Index> rising(static_cast<std::size_t>(vd.size()));
+  std::iota(rising.begin(), rising.end(), 0);
+  const Eigen::VectorXd& current = data.current_A;
+  std::sort(rising.begin(), rising.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return current[a] < current[b] ||
+           (current[a] == current[b] && data.voltage_V[a] < data.voltage_V[b]);
+  });
+  // Every point goes on with the chain that ends closest below it.
+  std::vector<Chain> chains;
+  std::multimap<double, std::size_t> ends;
+  for (const Eigen::Index k : rising) {
+    auto next = ends.upper_bound(Lower(vd[k]));
+    std::size_t chain = chains.size();
+    if (next == ends.begin()) {
+      chains.emplace_back();
+    } else {
+      chain = std::prev(next)->second;
+      ends.erase(std::prev(next));
     }
-    drop = std::max(drop, Lower(Real(largest) - Real(data.current_A[k])));
+    chains[chain].points.push_back(k);
+    ends.emplace(Upper(vd[k]), chain);
   }
-  return std::max(0.0, Lower(Real(0.25) * Real(drop) * Real(drop)));
+  Real sum(0);
+  for (const Chain& chain : chains) sum += HalfSpread<Real>(current, chain);
+  return std::max(0.0, Lower(sum));
 }
 
 template double BoundBeyond<double>(const MixtureData&, double);

@@ -5,9 +5,10 @@
 namespace lyrefit {
 
 // A lower bound of half the sum of squares of every mixture with a series resistance of `rs` or
-// more. A model's current never rises with the junction voltage V + I Rs; where of two points the
-// one of larger current also has the larger junction voltage, and it stays so for all larger Rs,
-// the model has to miss them both. With `Real` Interval rounding cannot raise it above the truth.
+// more. A model's current never rises with the junction voltage V + I Rs. Where points of rising
+// current have rising junction voltages, which stays so for all larger Rs, the model can do no better
+// than their mean; the points are sorted into such chains. With `Real` Interval rounding cannot raise
+// the bound above the truth.
 template <class Real = double>
 double BoundBeyond(const MixtureData& data, double rs);
 

@@ -75,14 +75,17 @@ class Branch {
     incumbent_.diodes = static_cast<int>(box.size());
     incumbent_.box = std::move(box);
     incumbent_.tolerance = limits.tolerance;
+    incumbent_.polish = limits.polish;
   }
 
   BranchEnd Run(const std::vector<Window>& windows) {
     BranchPart whole;
     whole.windows = windows;
     whole.rs0 = limits_.rs_lower;
-    whole.rs1 = limits_.rs_upper;
+    whole.rs1 = std::min(limits_.rs_upper, limits_.rs_cut);
+    const BranchPart start = whole;
     Push(nullptr, std::move(whole));
+    if (limits_.rs_upper > limits_.rs_cut) PushFar(start, limits_.rs_cut);
     while (!open_.empty()) {
       const BranchPart part = open_.top();
       if (part.lower >= Enough()) break;
@@ -100,6 +103,7 @@ class Branch {
     end.complete = end.lower >= Enough();
     end.solved = incumbent_.solved;
     end.best = std::move(incumbent_.best);
+    end.rs_reached = rs_reached_;
     return end;
   }
 
@@ -112,11 +116,27 @@ class Branch {
                                                    : incumbent_.primal * (1 - limits_.tolerance);
   }
 
+  // Everything of a part beyond this Rs, by the order of the points alone: no ends are solved.
+  void PushFar(const BranchPart& part, double rs) {
+    BranchPart far = part;
+    far.rs0 = rs;
+    far.rs1 = limits_.rs_upper;
+    far.left = far.right = nullptr;
+    far.lower = std::max(part.lower, relaxation_.Beyond(rs));
+    if (far.lower >= Enough() || rs >= limits_.rs_divided) {
+      settled_ = std::min(settled_, far.lower);
+      return;
+    }
+    open_.push(std::move(far));
+  }
+
   void Push(const BranchPart* parent, BranchPart part) {
+    rs_reached_ = std::max(rs_reached_, part.rs1);
+    const double known = part.lower;  // of what it was cut from
     relaxation_.Bound(parent, &part, &incumbent_);
     part.stuck = part.lower + part.lacking >= Enough() ? part.stuck + 1 : 0;
     if (!(part.lower > 0)) part.lower = 0;
-    if (parent != nullptr) part.lower = std::max(part.lower, parent->lower);
+    part.lower = std::max(part.lower, known);
     if (part.lower >= Enough() || part.stuck > kMostStuck) {
       settled_ = std::min(settled_, part.lower);
       return;
@@ -125,11 +145,22 @@ class Branch {
   }
 
   void Split(const BranchPart& part) {
-    if (incumbent_.diodes > 0 && relaxation_.SplitsWindows(part, Enough())) {
+    if (part.left == nullptr) {
+      SplitFar(part);
+    } else if (incumbent_.diodes > 0 && relaxation_.SplitsWindows(part, Enough())) {
       SplitWindow(part);
     } else {
       SplitResistance(part);
     }
+  }
+
+  // Takes the smaller Rs of a part that has no ends as a part like any other.
+  void SplitFar(const BranchPart& part) {
+    BranchPart near = part;
+    near.rs1 = std::min(2 * part.rs0, part.rs1);
+    const double rs = near.rs1;
+    Push(nullptr, std::move(near));
+    if (rs < part.rs1) PushFar(part, rs);
   }
 
   void SplitResistance(const BranchPart& part) {
@@ -180,6 +211,7 @@ class Branch {
   const BranchLimits& limits_;
   Incumbent incumbent_;
   double settled_ = kInfinity;
+  double rs_reached_ = 0;
   std::priority_queue<BranchPart, std::vector<BranchPart>, LowerFirst> open_;
 };
 
@@ -187,8 +219,13 @@ class Branch {
 
 void Incumbent::Note(const Mixture& mixture, double value) {
   if (!(value < best.primal)) return;
-  if (diodes > 0 && static_cast<int>(mixture.atoms.size()) > diodes) return;
-  if (!box.empty() && !AsDiodes(mixture, box)) return;
+  const bool few = diodes == 0 || static_cast<int>(mixture.atoms.size()) <= diodes;
+  if (!few || (!box.empty() && !AsDiodes(mixture, box))) {
+    if (!polish || !(value < primal) || solved < next_polish) return;
+    next_polish = 2 * solved + 1;
+    primal = std::min(primal, polish(mixture));
+    return;
+  }
   best = mixture;
   best.primal = value;
   primal = std::min(primal, value);

@@ -15,17 +15,24 @@ struct BranchEnd {
   double lower = 0;         // proved lower bound of everything in the region
   std::int64_t solved = 0;  // mixtures solved
   bool complete = false;    // every part of the region is settled to the tolerance
+  double rs_reached = 0;    // largest Rs of a mixture solved
 };
 
 struct BranchLimits {
   double rs_lower = 0;
-  double rs_upper = 0;
-  double tolerance = 1e-10;  // relative gap of the sums of squares that settles a part
-  bool rigorous = false;     // the lower bound holds in spite of rounding
-  int most_solved = 20000;   // mixtures solved before giving up
+  double rs_upper = 0;  // may be infinite where `rs_cut` is not
+  // From here on the order of the points may prove enough: larger Rs are divided only where it does
+  // not.
+  double rs_cut = kInfinity;
+  double rs_divided = kInfinity;  // beyond this the order has to do: parts of that are settled
+  double tolerance = 1e-10;       // relative gap of the sums of squares that settles a part
+  bool rigorous = false;          // the lower bound holds in spite of rounding
+  int most_solved = 20000;        // mixtures solved before giving up
   // Asked now and then with the count of mixtures solved, the best half sum of squares and the
   // lower bound proved so far; false ends the work. May be empty.
   std::function<bool(std::int64_t, double, double)> proceed;
+  // See Incumbent.
+  std::function<double(const Mixture&)> polish;
 };
 
 // The lowest value of a model with a diode in each window of the box and Rs in the limits. Each part

@@ -11,9 +11,9 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/attain.h"
-#include "lyrefit/certify/beyond.h"
 #include "lyrefit/certify/box.h"
 #include "lyrefit/certify/branch.h"
+#include "lyrefit/certify/measured_relaxation.h"
 #include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/certify/safe_values.h"
 #include "lyrefit/certify/solved_relaxation.h"
@@ -21,6 +21,10 @@
 
 namespace lyrefit {
 namespace {
+
+// A range of Rs without an end is divided up to so many times the largest forward voltage over the
+// largest current: the parts it takes grow with Rs.
+constexpr double kMostDivided = 4;
 
 // What every step of one proof needs.
 struct Proof {
@@ -31,7 +35,8 @@ struct Proof {
   Window window;
   BranchLimits limits;
   double thermal_voltage_V = 0;
-  double beyond = kInfinity;             // half sum of squares at larger Rs
+  double rs_reached = 0;                 // largest Rs that a search came to
+  std::vector<Mixture> attained = {};    // of the floor and of every model so far
   double rounding_A = 0;                 // RMSEs no further apart than this are equal
   std::vector<std::string> doubts = {};  // of the readings
   bool stopped = false;
@@ -60,15 +65,15 @@ struct Proof {
 bool Solved(const Proof& proof) { return proof.options.objective == Objective::kSolvedCurrent; }
 
 // A model of `diodes` diodes, or any number of them (0), of which `primal` is known to be reached.
-BranchEnd RunBranch(const Proof& proof, int diodes, double primal) {
-  const std::vector<Window> box = proof.BoxOfModel(diodes);
-  if (Solved(proof)) {
-    const SolvedRelaxation solved(proof.data);
-    return diodes == 0 ? BranchOver(solved, proof.window, 0, primal, proof.limits)
-                       : BranchOver(solved, box, primal, proof.limits);
-  }
-  if (diodes == 0) return BranchOverResistance(proof.data, proof.window, proof.limits);
-  return BranchOverDiodes(proof.data, box, primal, proof.limits);
+BranchEnd RunBranch(const BranchLimits& limits, int diodes, double primal, Proof* proof) {
+  const std::vector<Window> box = proof->BoxOfModel(diodes);
+  const SolvedRelaxation solved(proof->data);
+  const MeasuredRelaxation measured(proof->data, limits.rigorous);
+  const Relaxation& relaxation = Solved(*proof) ? static_cast<const Relaxation&>(solved) : measured;
+  BranchEnd end = diodes == 0 ? BranchOver(relaxation, proof->window, 0, primal, limits)
+                              : BranchOver(relaxation, box, primal, limits);
+  proof->rs_reached = std::max(proof->rs_reached, end.rs_reached);
+  return end;
 }
 
 Expected<void> CheckOptions(const CertifyOptions& options) {
@@ -111,21 +116,18 @@ Expected<void> Prepare(Proof* proof) {
   proof->window = AnyDiode(options, proof->thermal_voltage_V, proof->ThermalVoltage());
   BranchLimits& limits = proof->limits;
   limits.rs_lower = options.rs_lower_ohm;
-  limits.rs_upper = std::min(options.rs_upper_ohm, data.reference_voltage_V / largest_current);
-  if (limits.rs_lower > limits.rs_upper) {
+  limits.rs_upper = options.rs_upper_ohm;
+  limits.rs_cut = data.reference_voltage_V / largest_current;
+  if (!std::isfinite(limits.rs_upper)) limits.rs_divided = kMostDivided * limits.rs_cut;
+  if (limits.rs_lower > limits.rs_cut) {
     return Fail(
         fmt::format("rs-lower = {:g} ohm is above {:g} ohm, the largest forward voltage "
                     "over the largest current",
-                    limits.rs_lower, limits.rs_upper));
+                    limits.rs_lower, limits.rs_cut));
   }
   limits.tolerance = 2 * options.tolerance;  // of the sum of squares
   limits.rigorous = options.rigorous;
   limits.most_solved = static_cast<int>(options.effort);
-  if (limits.rs_upper < options.rs_upper_ohm) {
-    proof->beyond = Solved(*proof)     ? BoundBeyondSolved(data, limits.rs_upper)
-                    : options.rigorous ? BoundBeyond<Interval>(data, limits.rs_upper)
-                                       : BoundBeyond(data, limits.rs_upper);
-  }
   proof->rounding_A = kCertifiedRounding * data.current_A.cwiseAbs().maxCoeff();
   return CheckExponents(*proof);
 }
@@ -173,6 +175,30 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const 
   return {dual, vd};
 }
 
+// A model may have come lower than the search of an unfinished floor: the best mixture at its Rs.
+void TakeBest(const Proof& proof, BranchEnd* floor) {
+  for (const Mixture& model : proof.attained) {
+    if (!(model.primal < floor->best.primal * (1 - kCertifiedGap))) continue;
+    const double tolerance = 0.01 * proof.limits.tolerance;
+    const double price_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
+    Mixture here = model;
+    if (Solved(proof)) {
+      const SolvedMixture solved =
+          SolveSolvedMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance);
+      here.y = solved.mixture.y;
+      here.excess = solved.mixture.excess;
+      here.relative_gap = std::fabs(model.primal - solved.mixture.dual) / model.primal;
+      if (solved.value < model.primal) {
+        here = solved.mixture;
+        here.primal = solved.value;
+      }
+    } else {
+      here = SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, price_A);
+    }
+    if (here.primal < floor->best.primal) floor->best = here;
+  }
+}
+
 Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   const Mixture& best = end.best;
   Floor floor;
@@ -199,34 +225,66 @@ Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   return floor;
 }
 
-ModelCertificate CertifyModel(const Proof& proof, Model model, const BranchEnd& floor) {
-  const CertifyOptions& options = proof.options;
-  const BranchLimits& limits = proof.limits;
+// The best that is known of one model.
+class ModelSearch {
+ public:
+  ModelSearch(Proof* proof, Model model)
+      : proof_(*proof), diodes_(static_cast<int>(model)), device_(DeviceOf(*proof, model)) {}
+
+  // Improves it from a mixture, whatever its number of diodes.
+  void From(const Mixture& mixture) {
+    const CertifyOptions& options = proof_.options;
+    const double rs = std::max({proof_.limits.rs_cut, proof_.rs_reached, mixture.rs});
+    const ModelRanges ranges = RangesOfModel(options, diodes_, std::min(options.rs_upper_ohm, rs),
+                                             proof_.data.reference_voltage_V);
+    const RefineProblem problem = ModelProblem(proof_.curve, device_, ranges, options.objective);
+    Attain(problem, ranges, proof_.data, mixture, &best_);
+  }
+  const std::vector<double>& p() const { return best_.p; }
+  double mean_square() const { return best_.mean_square; }
+  double Half() const { return proof_.Half(std::sqrt(best_.mean_square)); }
+  Mixture AsMixture() const {
+    Mixture mixture = lyrefit::AsMixture(device_, proof_.data, best_.p);
+    mixture.primal = Half();
+    return mixture;
+  }
+
+ private:
+  static Device DeviceOf(const Proof& proof, Model model) {
+    return MakeDevice(model, proof.curve.conditions, proof.options.constants);
+  }
+
+  const Proof& proof_;
+  int diodes_;
+  Device device_;
+  Attained best_;
+};
+
+ModelCertificate CertifyModel(Model model, const BranchEnd& floor, Proof* shared) {
+  const Proof& proof = *shared;
   const int diodes = static_cast<int>(model);
-  const ModelRanges ranges =
-      RangesOfModel(options, diodes, limits.rs_upper, proof.data.reference_voltage_V);
-  const RefineProblem problem =
-      ModelProblem(proof.curve, MakeDevice(model, proof.curve.conditions, options.constants),
-                   ranges, options.objective);
-  Attained best;
-  Attain(problem, ranges, proof.data, floor.best, &best);
-  const auto half = [&] { return proof.Half(std::sqrt(best.mean_square)); };
+  ModelSearch best(shared, model);
+  for (const Mixture& mixture : proof.attained) best.From(mixture);
   ModelCertificate certificate;
   certificate.model = model;
   double lower = floor.lower;
   const bool floor_proves = AsDiodes(floor.best, proof.BoxOfModel(diodes)) ||
-                            lower >= half() * (1 - 2 * limits.tolerance);
+                            lower >= best.Half() * (1 - 2 * proof.limits.tolerance);
   if (!floor_proves) {
-    const BranchEnd end = RunBranch(proof, diodes, half());
+    BranchLimits limits = proof.limits;
+    limits.polish = [&](const Mixture& mixture) {
+      best.From(mixture);
+      return best.Half();
+    };
+    const BranchEnd end = RunBranch(limits, diodes, best.Half(), shared);
     certificate.solved = end.solved;
-    lower = std::max(lower, std::min(end.lower, proof.beyond));
-    if (end.best.primal < half() * (1 - 1e-9)) {
-      Attain(problem, ranges, proof.data, end.best, &best);
-    }
+    lower = std::max(lower, end.lower);
+    if (end.best.primal < best.Half() * (1 - 1e-9)) best.From(end.best);
   }
-  certificate.parameters = best.p;
-  certificate.rmse_A =
-      proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p) : std::sqrt(best.mean_square);
+  shared->attained.push_back(best.AsMixture());
+  certificate.parameters = best.p();
+  certificate.rmse_A = proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p())
+                                              : std::sqrt(best.mean_square());
   certificate.lower_bound_A = std::min(proof.RmseBelow(lower), certificate.rmse_A);
   certificate.gap = Gap(proof, certificate.rmse_A, certificate.lower_bound_A);
   certificate.certified = Certified(proof, certificate.rmse_A, certificate.lower_bound_A);
@@ -268,22 +326,25 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
   certificate.curve = curve;
   certificate.options = options;
   certificate.doubts = proof.doubts;
-  certificate.rs_upper_ohm = proof.limits.rs_upper;
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
   AppendNonDefaults(asked, kCertifyOptionTable, &certificate.non_default_options);
-  BranchEnd floor = RunBranch(proof, 0, kInfinity);
-  floor.lower = std::min(floor.lower, proof.beyond);
-  certificate.floor = FillFloor(proof, floor);
+  BranchEnd floor = RunBranch(proof.limits, 0, kInfinity, &proof);
+  proof.attained.push_back(floor.best);
   for (const Model model : options.models) {
     if (proof.stopped) break;
     const std::string name = ToText(model);
     stage = name.c_str();
-    certificate.models.push_back(CertifyModel(proof, model, floor));
-    ModelCertificate& last = certificate.models.back();
-    const double above = last.rmse_A - certificate.floor.rmse_A;
-    last.above_floor = above > proof.rounding_A ? above / certificate.floor.rmse_A : 0;
+    certificate.models.push_back(CertifyModel(model, floor, &proof));
   }
+  TakeBest(proof, &floor);
+  certificate.floor = FillFloor(proof, floor);
+  for (ModelCertificate& model : certificate.models) {
+    const double above = model.rmse_A - certificate.floor.rmse_A;
+    model.above_floor = above > proof.rounding_A ? above / certificate.floor.rmse_A : 0;
+  }
+  certificate.rs_upper_ohm =
+      std::min(options.rs_upper_ohm, std::max(proof.limits.rs_cut, proof.rs_reached));
   certificate.interrupted = proof.stopped;
   certificate.seconds = SecondsSince(begin);
   return certificate;

@@ -65,9 +65,9 @@ struct Certificate {
   std::string version;
   IvCurve curve;
   CertifyOptions options;  // what was asked for
-  // End of the range of Rs that is gone through: at most the largest forward voltage over the
-  // largest current. Beyond it the points come in the wrong order of junction voltage, which bounds
-  // every model at once; the lower bounds hold for the whole range asked for.
+  // End of the range of Rs that is gone through: the largest forward voltage over the largest current,
+  // or more where that does not do (four times as much where no end was asked for). Beyond it the points come in the wrong order of junction voltage,
+  // which bounds every model at once; the lower bounds hold for the whole range asked for.
   double rs_upper_ohm = 0;
   double reference_voltage_V = 0;       // largest one at which the device delivers current
   double module_thermal_voltage_V = 0;  // Ns k T / q

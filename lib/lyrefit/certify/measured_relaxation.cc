@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/certify/beyond.h"
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/part_bound.h"
 
@@ -15,6 +16,10 @@ PartBound BoundEnds(const MixtureData& data, const BranchPart& part, const Incum
 }
 
 }  // namespace
+
+double MeasuredRelaxation::Beyond(double rs) const {
+  return rigorous_ ? BoundBeyond<Interval>(data_, rs) : BoundBeyond(data_, rs);
+}
 
 double MeasuredRelaxation::Scale() const { return data_.WeightedTarget().cwiseAbs().maxCoeff(); }
 

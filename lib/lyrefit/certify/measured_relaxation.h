@@ -15,6 +15,7 @@ class MeasuredRelaxation : public Relaxation {
   MixturePtr At(const std::vector<Window>& windows, double rs, const std::vector<Atom>& start,
                 Incumbent* incumbent) const override;
   void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const override;
+  double Beyond(double rs) const override;
   bool SplitsWindows(const BranchPart& part, double enough) const override {
     return part.ends < enough || !(part.rs1 > part.rs0);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -33,8 +34,11 @@ struct Incumbent {
   std::vector<Window> box;    // one for each of them, which it fits then
   double tolerance = 1e-10;   // relative gap of the sums of squares aimed at
   std::int64_t solved = 0;    // convex problems
+  // What a model near a mixture with too many diodes reaches; may be empty. Asked now and then.
+  std::function<double(const Mixture&)> polish;
+  std::int64_t next_polish = 0;
 
-  // Takes note of a mixture whose half sum of squares is `value`.
+  // Takes note of a mixture whose half sum of squares is `value`, or of a model near it.
   void Note(const Mixture& mixture, double value);
 };
 
@@ -49,6 +53,8 @@ class Relaxation {
   // Fills what the part proves. Ends that are missing are solved for, from those of its parent, if
   // there is one.
   virtual void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const = 0;
+  // What the order of the points proves of everything with this Rs or more.
+  virtual double Beyond(double rs) const = 0;
   // Whether a part that does not prove `enough` is to have its windows halved, rather than its range
   // of Rs.
   virtual bool SplitsWindows(const BranchPart& part, double enough) const = 0;

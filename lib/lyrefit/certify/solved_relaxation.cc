@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/certify/beyond.h"
 #include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/certify/solved_part.h"
 
@@ -222,6 +223,8 @@ void SolvedRelaxation::Bound(const BranchPart* parent, BranchPart* part,
     part->lower = std::max(part->lower, far.bound.lower);
   }
 }
+
+double SolvedRelaxation::Beyond(double rs) const { return BoundBeyondSolved(data_, rs); }
 
 // It is the ends that lie too low, or the slopes that are known too badly, where the windows are
 // relatively wider than the range of Rs.

@@ -249,11 +249,11 @@ std::string CertificateText(const Certificate& certificate) {
 }
 
 std::string BriefCertificate(const Certificate& certificate) {
-  std::string text =
-      fmt::format("{}: floor {} A measured-current (gap {}, {}, n in [{:g}, {:g}])",
-                  certificate.curve.name, Scientific(certificate.floor.rmse_A, kProvedDigits),
-                  GapText(certificate.floor.gap), Plural(certificate.floor.diodes.size(), "diode"),
-                  certificate.options.n_lower, certificate.options.n_upper);
+  std::string text = fmt::format(
+      "{}: floor {} A {} (gap {}, {}, n in [{:g}, {:g}])", certificate.curve.name,
+      Scientific(certificate.floor.rmse_A, kProvedDigits), ToText(certificate.options.objective),
+      GapText(certificate.floor.gap), Plural(certificate.floor.diodes.size(), "diode"),
+      certificate.options.n_lower, certificate.options.n_upper);
   for (const ModelCertificate& model : certificate.models) {
     text += fmt::format(", {} {} A (gap {}{})", ToText(model.model),
                         Scientific(model.rmse_A, kProvedDigits), GapText(model.gap),

@@ -1,5 +1,6 @@
 #include "lyrefit/fit/floor.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,6 +46,20 @@ TEST(Floor, IsOfTheObjectiveThatIsFitted) {
   ASSERT_TRUE(two.has_value() && two->floor.has_value());
   EXPECT_EQ(two->floor->above, 0) << "the answer is no worse than any mixture that was met";
   EXPECT_LE(two->floor->gap, 1e-6);
+}
+
+TEST(Floor, IsNotLookedForBelowAFitThatIsNotUsable) {
+  IvCurve curve = RtcCell();
+  for (std::size_t k = 0; k < curve.size(); k += 2) curve.current_A[k] *= 0.5;
+  FitOptions options;
+  options.intervals = Intervals::kNone;
+  options.floor = true;
+  const auto report = Fit(curve, options);
+  ASSERT_TRUE(report.has_value());
+  EXPECT_FALSE(report->usable);
+  EXPECT_FALSE(report->floor.has_value());
+  EXPECT_THAT(report->warnings,
+              ::testing::Contains(::testing::HasSubstr("No floor was looked for")));
 }
 
 TEST(Floor, FollowsTheBoundsOfTheFit) {

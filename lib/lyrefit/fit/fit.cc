@@ -113,6 +113,10 @@ void FillResults(const FitJob& job, FitReport* report) {
 // How far the answer lies above what any number of diodes could reach.
 void FindFloor(FitJob* job, FitReport* report) {
   if (!job->options.floor || job->watch.Stop()) return;
+  if (!report->usable) {
+    report->warnings.emplace_back("No floor was looked for: the fit is not usable.");
+    return;
+  }
   const FitOptions& options = job->options;
   const double refined_A =
       BothRmse(report->device, report->refined, job->curve).Of(options.objective);

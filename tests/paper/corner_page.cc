@@ -95,9 +95,10 @@ Section ProofSection(const CornerStudy& study) {
           "{:.4g}: Is = {} A, which carries {} A at {:.2f} V. Its exponent there is {:.0f}. "
           "Programs cut exponents somewhere, lyrefit's law at {:.0f}; of such a diode the "
           "cut makes a step, here at {:.2f} V, which fits anything and is no diode. So a "
-          "figure below the floor shows a step among the diodes, and its solved-current "
-          "error means nothing either; `lyrefit fit` begins n where no reading comes to "
-          "the cut, here at {:.4g}, and says so.",
+          "measured-current figure below this floor is that of a step among the diodes, not of "
+          "diodes; `lyrefit fit` begins n where no reading comes to the cut, here at {:.4g}, and "
+          "says so. The solved current has a floor of its own, and other diodes reach it "
+          "([tables](../README.md#certified-optima)).",
           steepest.n, Significant(steepest.saturation_current_A, 3),
           Significant(steepest.current_A, 2), proof.reference_voltage_V,
           proof.reference_voltage_V / (steepest.n * proof.module_thermal_voltage_V),
@@ -257,8 +258,9 @@ Section PhysicsSection(const CornerStudy& study) {
           "that one diode and a straight Rs do not bend, and Rs grows from {} to {} ohm to make "
           "room for it. Whatever bends it, it is no junction; the readings ask for it all the same "
           "(AICc {:.1f} against {:.1f}, the lower the better, errors taken as independent). Fitted "
-          "to the solved current two diodes end in the same corner, n = {}, {} A "
-          "(solved-current, not certified).",
+          "to the solved current, two diodes end in the same corner: n = {}, {} A; what is proved "
+          "of "
+          "that stands among the [certified optima](../README.md#certified-optima).",
           1e3 * decade_V, 1e3 * decade_V / n, Significant(study.one.refined[kRs], 4),
           Significant(two.refined[kRs], 4), two.criteria.aicc, study.one.criteria.aicc,
           Significant(solved.refined[IdealityIndex(Steep(solved))], 4),

@@ -94,7 +94,7 @@ TEST(Pwp201Page, RefusesAnotherName) {
   const AppResult result = RunApp("'" + DataFolder("paper") + "' --only stm6");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err,
-              HasSubstr("--only: expected readme, pwp201, proofs or sound, found 'stm6'"));
+              HasSubstr("--only: expected readme, pwp201, proofs, sound or wide, found 'stm6'"));
 }
 
 }  // namespace

@@ -129,6 +129,7 @@ Table BoundsTable(const SoundStudy& study) {
         Choose(study, [&](const HeldCertificate& held) { return held.objective == objective; });
     for (int m = 0; m <= MostDiodes(study); ++m) {
       const std::vector<HeldBound> bounds = BoundsOf(chosen, m);
+      if (bounds.empty()) continue;
       int violated = 0;
       double highest = -kInfinity;
       for (const HeldBound& bound : bounds) {

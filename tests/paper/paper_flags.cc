@@ -22,11 +22,11 @@ constexpr char kUsage[] =
     "  --out DIR        folder to write into (default FOLDER)\n"
     "  --update FILE    a page whose blocks, between <!-- NAME --> and <!-- end of NAME -->, are\n"
     "                   written anew: certified, ranked, budget, proofs, proofs-short,\n"
-    "                   proofs-measured; once for each\n"
+    "                   proofs-measured, proofs-wide; once for each\n"
     "  --resume FILE    a journal: every finished run is added to it, and none "
     "that stands in it is\n"
     "                   done again; begun where there is none\n"
-    "  --only NAME      readme, pwp201, proofs or sound: that part alone\n"
+    "  --only NAME      readme, pwp201, proofs, sound or wide: that part alone\n"
     "  --measured DIR   a folder of measured curves and their labels.csv, for proofs-measured\n"
     "  --peers LIST     pagmo2 algorithms to rank as well\n"
     "                   (default de1220,sade,cmaes,pso,gwo,bee_colony)\n"
@@ -87,10 +87,10 @@ Expected<void> TakeFlag(const std::string& flag, const std::string& text,
   } else if (flag == "--resume") {
     arguments->options.journal = text;
   } else if (flag == "--only") {
-    constexpr const char* kParts[] = {"readme", "pwp201", "proofs", "sound"};
+    constexpr const char* kParts[] = {"readme", "pwp201", "proofs", "sound", "wide"};
     if (std::find(std::begin(kParts), std::end(kParts), text) == std::end(kParts)) {
       return Fail(
-          fmt::format("--only: expected readme, pwp201, proofs or sound, found '{}'", text));
+          fmt::format("--only: expected readme, pwp201, proofs, sound or wide, found '{}'", text));
     }
     arguments->only = text;
   } else if (flag == "--measured") {

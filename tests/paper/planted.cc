@@ -295,4 +295,31 @@ MadeProblem MakeProblem(std::uint64_t seed, int number) {
   return made;
 }
 
+MadeProblem MakeWideProblem(std::uint64_t seed, int number) {
+  constexpr int kFewestPoints = 8;
+  MadeProblem made = MakeProblem(seed, number);
+  RandomStream random(seed, 1000000 + static_cast<std::uint64_t>(number));
+  IvCurve& curve = made.curve;
+  const auto largest = [](const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+  };
+  if (number % 3 == 1) {
+    const double last = (0.75 + 0.25 * random.Uniform()) * largest(curve.voltage_V);
+    IvCurve part = curve;
+    part.voltage_V.clear();
+    part.current_A.clear();
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      if (curve.voltage_V[k] > last) continue;
+      part.voltage_V.push_back(curve.voltage_V[k]);
+      part.current_A.push_back(curve.current_A[k]);
+    }
+    if (part.size() >= kFewestPoints) curve = part;
+  }
+  const double reach = 0.9 + 0.8 * random.Uniform();
+  made.planted = Planted::kNothing;
+  made.ranges.rs_lower_ohm = 0;
+  made.ranges.rs_upper_ohm = reach * largest(curve.voltage_V) / largest(curve.current_A);
+  return made;
+}
+
 }  // namespace lyrefit

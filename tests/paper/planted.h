@@ -47,4 +47,8 @@ struct MadeProblem {
 // random errors. A third of the problems have ranges of Iph, Is and Rsh too.
 MadeProblem MakeProblem(std::uint64_t seed, int number);
 
+// The same with Rs from 0 to 0.9 to 1.7 times the largest voltage over the largest current. Every third
+// curve ends before its open circuit, so that the order of its points says little of large Rs.
+MadeProblem MakeWideProblem(std::uint64_t seed, int number);
+
 }  // namespace lyrefit

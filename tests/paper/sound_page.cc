@@ -91,6 +91,21 @@ std::string SoundPage(const SoundStudy& made) {
   return DrawMarkdown(page, Texts::kMarkdown);
 }
 
+std::string WithWide(std::string page, const SoundStudy& study) {
+  const std::vector<block::Any> blocks = {
+      block::Sentence{fmt::format(
+          "{} made problems with Rs from 0 to 0.9 to 1.7 times the largest voltage over the "
+          "largest "
+          "current, a third of them ending before their open circuit (`build/tests/paper/"
+          "lyrefit_paper data/paper --only wide --update lib/lyrefit/certify/README.md`, seed {}, "
+          "effort {}): {} bounds, {} of them above what is attained.",
+          study.held.size(), study.options.seed, study.options.effort, BoundsHeld(study),
+          Violations(study))},
+      BoundsTable(study)};
+  return ReplaceBlock(page, "proofs-wide",
+                      DrawMarkdown({{}, {"", blocks}}, Texts::kMarkdown) + "\n");
+}
+
 std::string WithMeasured(std::string page, const SoundStudy& study) {
   const std::string drawn = DrawMarkdown({{}, {"", MeasuredBlocks(study)}}, Texts::kMarkdown);
   return ReplaceBlock(page, "proofs-measured", drawn + "\n");

@@ -32,7 +32,7 @@ RefineProblem ProblemOf(const Certificate& certificate, Model model) {
   const double resistance = certificate.reference_voltage_V / current;
   std::vector<double> lower(device.size(), 0), upper(device.size(), 10 * current);
   lower[kRs] = ranges.rs_lower_ohm;
-  upper[kRs] = certificate.rs_upper_ohm;
+  upper[kRs] = std::isfinite(ranges.rs_upper_ohm) ? ranges.rs_upper_ohm : certificate.rs_upper_ohm;
   upper[kIph] = std::min(upper[kIph], ranges.iph_upper_A);
   lower[kRsh] = std::max(1e-6 * resistance, ranges.rsh_lower_ohm);
   upper[kRsh] = std::min(1e12 * resistance, ranges.rsh_upper_ohm);
@@ -218,6 +218,14 @@ Expected<SoundStudy> StudyMade(const SoundOptions& options, const Observer& obse
     return HoldMade(made, objective, options, i / 2, inside);
   };
   return RunJobs(2 * options.problems, options, "made problems", observer, job);
+}
+
+Expected<SoundStudy> StudyWide(const SoundOptions& options, const Observer& observer) {
+  const auto job = [&](int i, const Observer& inside) {
+    return HoldMade(MakeWideProblem(options.seed, i), Objective::kMeasuredCurrent, options, i,
+                    inside);
+  };
+  return RunJobs(options.problems, options, "wide ranges of Rs", observer, job);
 }
 
 Expected<SoundStudy> StudyMeasured(const std::string& folder, const SoundOptions& options,

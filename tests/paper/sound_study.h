@@ -67,6 +67,9 @@ Expected<HeldCertificate> HoldCertificate(const IvCurve& curve, const CertifyOpt
 // Made problems, both objectives of each.
 Expected<SoundStudy> StudyMade(const SoundOptions& options, const Observer& observer = {});
 
+// Made problems with wide ranges of Rs, measured-current.
+Expected<SoundStudy> StudyWide(const SoundOptions& options, const Observer& observer = {});
+
 // Every curve of `folder` that its labels.csv names, n in [1, 2], one and two diodes, both objectives;
 // what `fit` reaches is among what is known. Errors: no such table.
 Expected<SoundStudy> StudyMeasured(const std::string& folder, const SoundOptions& options,

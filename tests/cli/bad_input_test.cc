@@ -144,7 +144,7 @@ TEST(BadInput, UnknownNames) {
 }
 
 TEST(BadInput, OptionsOutsideTheirRanges) {
-  ExpectFileRefused(kGood, {"--population", "[4, 100000]"}, "--population 2");
+  ExpectFileRefused(kGood, {"--population", "[4, 20000]"}, "--population 2");
   ExpectFileRefused(kGood, {"--memory-rate", "[0, 1]"}, "--memory-rate 1.5");
   ExpectFileRefused(kGood, {"--iterations"}, "--iterations abc");
   ExpectFileRefused(kGood, {"--seed"}, "--seed -1");

@@ -170,7 +170,7 @@ TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
       {"--models sd,sd", "the model sd is named twice"},
       {"--runs 0", "runs = 0 is outside"},
       {"--runs many", "--runs"},
-      {"--population 2", "population = 2 is outside [4, 100000]"},
+      {"--population 2", "population = 2 is outside [4, 20000]"},
       {"--target-gap 0", "target-gap"},
       {"--bounds nowhere.json", "there is no file 'nowhere.json'"},
       {"--bound Rs", "--bound"},

@@ -105,7 +105,7 @@ TEST(TranslateVerb, SaysWhatTheSensorReadAndWhatTheCellsHave) {
   const AppResult result = RunApp(back);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("33.0 C by a sensor on the back"));
-  EXPECT_THAT(result.out, HasSubstr("cells +2.50 K (1.5 K, k = 2): 35.5 C used"));
+  EXPECT_THAT(result.out, HasSubstr("cells +2.50 K (1.5 K, k = 2): 35.5 C"));
   const json corrected = json::parse(RunApp(back + "--json -").out, nullptr, false);
   ASSERT_TRUE(corrected.is_object());
   EXPECT_DOUBLE_EQ(corrected["read_temperature_C"].get<double>(), 33);

@@ -23,7 +23,7 @@ std::string ErrorOf(const IvCurve& curve, const FitOptions& options) {
 TEST(Fit, SaysWhatIsWrongWithOptions) {
   FitOptions options;
   options.search.population = 1;
-  EXPECT_EQ(ErrorOf(Rtc(), options), "population = 1 is outside [4, 100000]");
+  EXPECT_EQ(ErrorOf(Rtc(), options), "population = 1 is outside [4, 20000]");
   options = {};
   options.fixed["n2"] = 2;
   EXPECT_EQ(ErrorOf(Rtc(), options), "cannot fix 'n2': this model has no such parameter");

@@ -277,7 +277,7 @@ TEST(Compare, RefusesBadContenders) {
   EXPECT_EQ(Refusal({RtcFrance()}, nameless, options), "an algorithm has no name");
   std::vector<Contender> tiny = SmallContenders();
   tiny[1].search.population = 2;
-  EXPECT_EQ(Refusal({RtcFrance()}, tiny, options), "de: population = 2 is outside [4, 100000]");
+  EXPECT_EQ(Refusal({RtcFrance()}, tiny, options), "de: population = 2 is outside [4, 20000]");
 }
 
 TEST(Compare, RefusesBadOptions) {

@@ -111,7 +111,7 @@ TEST(Engine, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(error(Ask("fit", kRtc, {{"threads", "2"}})), HasSubstr("no option 'threads'"));
   EXPECT_THAT(error(Ask("fit", kRtc, {{"population", "ten"}})),
               HasSubstr("population: expected a number, found 'ten'"));
-  EXPECT_THAT(error(Ask("fit", kRtc, {{"population", "1"}})), HasSubstr("is outside [4, 100000]"));
+  EXPECT_THAT(error(Ask("fit", kRtc, {{"population", "1"}})), HasSubstr("is outside [4, 20000]"));
   EXPECT_THAT(error(Ask("fit", kRtc, {{"temperature-C", "300"}})), HasSubstr("looks like kelvin"));
   EXPECT_THAT(error(Ask("fit", kRtc, {{"bounds", "paper"}})), HasSubstr("physical or wide"));
   EXPECT_THAT(error(Ask("diagnose", kRtc, {{"model", "dd"}})), HasSubstr("no option 'model'"));

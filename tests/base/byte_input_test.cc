@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::uintmax_t kLimit = 1 << 20;
+constexpr std::uintmax_t kMostOfInput = 1 << 20;
 
 TEST(ByteInput, ReadsAPipeToItsEndHoweverItComes) {
   const TempFolder folder;
@@ -27,7 +27,7 @@ TEST(ByteInput, ReadsAPipeToItsEndHoweverItComes) {
     std::ofstream pipe(path);  // waits for the reader
     for (int i = 0; i < 1000; ++i) pipe << i << "\n" << std::flush;
   });
-  const auto text = ReadFileBytes(path, kLimit);
+  const auto text = ReadFileBytes(path, kMostOfInput);
   writer.join();
   ASSERT_TRUE(text) << text.error().ToString();
   EXPECT_EQ(text->size(), 10 * 2 + 90 * 3 + 900 * 4U);
@@ -40,7 +40,7 @@ TEST(StoppableReads, EndTheWaitingForAPipe) {
   int asked = 0;
   const StoppableReads outer([&asked] { return ++asked > 3; });
   const StoppableReads inner([] { return false; });
-  const auto text = ReadFileBytes(path, kLimit);
+  const auto text = ReadFileBytes(path, kMostOfInput);
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().message, "stopped before the end of it was read");
   EXPECT_EQ(asked, 4);
@@ -52,10 +52,10 @@ TEST(StoppableReads, EndTheReadingOfAFileAndGoWithTheirLife) {
   {
     int asked = 0;
     const StoppableReads reads([&asked] { return ++asked > 2; });
-    EXPECT_FALSE(ReadFileBytes(path, kLimit));
+    EXPECT_FALSE(ReadFileBytes(path, kMostOfInput));
     EXPECT_EQ(asked, 3) << "of more blocks";
   }
-  EXPECT_TRUE(ReadFileBytes(path, kLimit));
+  EXPECT_TRUE(ReadFileBytes(path, kMostOfInput));
 }
 
 TEST(StoppableReads, AreOfOneThread) {

@@ -147,6 +147,7 @@ LawFit FitBase(const Workbench& bench, const Law& law) {
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
     LawFit fit = FitLaw(bench, law, BaseStart(*bench.readings, law, 1, n, resistance));
     if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
+    if (Stopped(bench.watch)) break;
   }
   return best;
 }

@@ -186,15 +186,16 @@ struct FamilyReport {
   std::optional<WithoutOdd> without_odd;
   std::vector<FamilyCandidate> candidates;  // of auto
   std::vector<Correlation> correlations;    // |value| > 0.9 among shared parameters
+  // How the curves counted in the residuals.
+  FamilyWeights weights = FamilyWeights::kEqual;
+  // Twice what the ln likelihood of the residuals gains by weights relative to Isc over equal ones.
+  // None: nothing to choose; NaN: the residuals are more than noise.
+  std::optional<double> weights_gain;
   // Half width of the shared intervals when whole curves, not points, are taken as independent
   // (delete-one-curve jackknife); in the order of `estimates`, empty where not done.
   std::vector<Interval> jackknife;
   // The same when points are what varies, under the errors found; empty where those are
   // independent.
-  // How the curves counted, and twice what the ln likelihood of the residuals gains by weights
-  // relative to Isc over equal ones. None: nothing to choose; NaN: they are more than noise.
-  FamilyWeights weights = FamilyWeights::kEqual;
-  std::optional<double> weights_gain;
   std::optional<FamilyErrors> errors;
   std::vector<Interval> under_errors;
   SearchOptions search_options;

@@ -225,13 +225,16 @@ TEST(Batch, LosesNothingToAFullDisk) {
     const FileLimit limit(bytes);
     const auto done = RunOn(file, CountTask(), options);
     EXPECT_THAT(MessageOf(done), HasSubstr("cannot write the ")) << bytes;
-    EXPECT_EQ(FileText(options.folder + "/results.part").back(), '\n');
+    // Rows are written in groups, as many at once as are done; where not one group fits, none is kept.
+    const std::string part = options.folder + "/results.part";
+    const bool kept = std::filesystem::exists(part);
+    if (kept) EXPECT_EQ(FileText(part).back(), '\n');
     EXPECT_FALSE(std::filesystem::exists(options.folder + "/results.csv"));
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
       files += entry.is_regular_file() ? 1 : 0;
     }
-    EXPECT_EQ(files, 1) << "nothing is left lying about";
+    EXPECT_EQ(files, kept ? 1 : 0) << "nothing is left lying about";
   }
   const auto done = RunOn(file, CountTask(), options);
   ASSERT_TRUE(done) << done.error().ToString();

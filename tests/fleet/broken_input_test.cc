@@ -123,7 +123,9 @@ TEST(BrokenInput, IsAnErrorOfItsOwn) {
   FleetReadOptions options;
   options.shard = {3, 2};
   EXPECT_THAT(MessageOf(OpenFleet({folder.Path("e")}, options)), HasSubstr("found 3/2"));
-  EXPECT_THAT(ReadFleet({folder.Write("empty.jsonl", "\n\n")}), ::testing::IsEmpty());
+  const auto empty = OpenFleet({folder.Write("empty.jsonl", "\n\n")});
+  ASSERT_TRUE(empty);
+  EXPECT_EQ(MessageOf((*empty)->Next()), "expected at least one curve, found none");
 }
 
 // Cut anywhere, a file gives what is whole and says what is not.

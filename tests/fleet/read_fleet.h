@@ -18,7 +18,8 @@ struct ReadItem {
   FleetCurve curve;
 };
 
-// All items of one shard; what cannot be opened or read on is a failure of the test.
+// All items of one shard; what cannot be opened or read on is a failure of the test. An input
+// without a curve, which ends with an error, has no items.
 inline std::vector<ReadItem> ReadFleet(const std::vector<std::string>& inputs,
                                        const FleetReadOptions& options = {}) {
   std::vector<ReadItem> all;
@@ -27,6 +28,7 @@ inline std::vector<ReadItem> ReadFleet(const std::vector<std::string>& inputs,
   if (!source) return all;
   for (;;) {
     auto item = (*source)->Next();
+    if (all.empty() && MessageOf(item) == "expected at least one curve, found none") return all;
     EXPECT_TRUE(item) << MessageOf(item);
     if (!item || !*item) return all;
     EXPECT_EQ((*item)->place, static_cast<std::int64_t>(all.size()));

@@ -28,7 +28,7 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
                  "refine",          "seconds",       "free_fits",       "options",
                  "rejected",        "assumptions",   "warnings",        "interrupted",
                  "usable",          "curves",        "against",         "in_sample",
-                 "errors"}));
+                 "errors",          "weights",       "weights_gain"}));
   EXPECT_EQ(Keys(j["set"]), (Set{"name", "source"}));
   EXPECT_EQ(Keys(j["parameters"]),
             (Set{"I_L_ref", "I_o_ref", "n", "R_s", "R_sh_ref", "alpha_sc", "EgRef", "dEgdT"}));

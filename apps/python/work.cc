@@ -82,12 +82,12 @@ bool Tell(py::handle progress, const HeardProgress& heard) {
   return answer.ptr() != Py_False;
 }
 
-// Looks for signals and tells the news; what is raised is kept.
+// Looks for signals and tells the news, unless the caller wanted no more; what is raised is kept.
 void Look(py::handle progress, Exchange* exchange, std::optional<py::error_already_set>* raised) {
   if (*raised) return;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (progress.is_none()) return;
+    if (progress.is_none() || exchange->Action() == ObserverAction::kStop) return;
     const std::optional<HeardProgress> news = exchange->News();
     if (news && !Tell(progress, *news)) exchange->Stop();
   } catch (py::error_already_set& error) {

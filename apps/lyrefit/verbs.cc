@@ -3,9 +3,9 @@
 namespace lyrefit {
 
 std::vector<const Verb*> ProgramVerbs() {
-  return {&kFitVerb,         &kSimulateVerb,  &kCertifyVerb,   &kCompareVerb,  &kBudgetVerb,
-          &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb,     &kCoverageVerb, &kDiagnoseVerb,
-          &kTranslateVerb,   &kPackVerb,      &kBatchVerb,     &kMergeVerb,    &kHelpVerb,
+  return {&kFitVerb,         &kSimulateVerb,  &kCertifyVerb, &kCompareVerb,  &kBudgetVerb,
+          &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb,   &kCoverageVerb, &kDiagnoseVerb,
+          &kTranslateVerb,   &kPackVerb,      &kBatchVerb,   &kMergeVerb,    &kHelpVerb,
           &kCompletionVerb,  &kManVerb};
 }
 

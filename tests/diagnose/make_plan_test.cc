@@ -67,7 +67,8 @@ const PlannedMeasurement& Find(const Plan& plan, const std::string& id) {
 }
 
 TEST(PlanTest, ADarkCurveTellsAShuntFromCollection) {
-  const auto diagnosis = Diagnose(CurveOfPoorCollection(), QuickWith({"nonohmic_shunt", "collection"}));
+  const auto diagnosis =
+      Diagnose(CurveOfPoorCollection(), QuickWith({"nonohmic_shunt", "collection"}));
   ASSERT_TRUE(diagnosis);
   ASSERT_TRUE(diagnosis->plan);
   const Plan& plan = *diagnosis->plan;

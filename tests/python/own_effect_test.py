@@ -44,8 +44,8 @@ class OwnEffect(unittest.TestCase):
     def test_repeats_one_of_the_catalogue(self):
         expected = lyrefit.fit(CELL, with_="nonohmic_shunt")
         m = expected.parameters["nonohmic_shunt_shunt_exponent"]
-        # An optimum is flat: where it lies is known to some square roots of a rounding.
-        for effect, tolerance in ((own_shunt(junction_derivatives=shunt_derivatives), 1e-7), (own_shunt(), 1e-7)):
+        tolerance = 1e-7  # an optimum is flat: where it lies is known to some square roots of a rounding
+        for effect in (own_shunt(junction_derivatives=shunt_derivatives), own_shunt()):
             found = lyrefit.fit(CELL, with_=effect)
             self.check_same(expected, found, tolerance)
             self.assertAlmostEqual(found.parameters["own_shunt_m"] / m, 1, delta=tolerance)

@@ -11,6 +11,7 @@ template <typename Value>
 void Keep(const std::vector<int>& kept, std::vector<Value>* values) {
   if (values->empty()) return;
   std::vector<Value> few;
+  few.reserve(kept.size());
   for (const int k : kept) few.push_back((*values)[k]);
   *values = std::move(few);
 }

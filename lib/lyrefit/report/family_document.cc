@@ -119,7 +119,7 @@ std::string Percent(double part) { return Significant(100 * part, 2) + " %"; }
 // How the curves counted, and why.
 std::string WeightsText(const FamilyReport& report) {
   const bool relative = report.weights == FamilyWeights::kIsc;
-  const std::string used = relative ? "relative to the Isc of each curve" : "every point alike";
+  std::string used = relative ? "relative to the Isc of each curve" : "every point alike";
   if (!report.weights_gain) return used;
   if (std::isnan(*report.weights_gain)) return used + ": the residuals are more than noise";
   return fmt::format("{}: the residuals speak for errors {} (2 ln likelihood {:+.1f})", used,

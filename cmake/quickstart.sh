@@ -9,8 +9,8 @@ whole=build/apps/lyrefit/lyrefit
 cat << EOT
 This will
   1. install the Debian packages that are missing (root is asked for only then; a minute or two the first time),
-  2. build the verbs fit and simulate in $LYREFIT_ROOT/build (some three minutes of processor time: two minutes on
-     two cores, one on four),
+  2. build the verbs fit and simulate in $LYREFIT_ROOT/build (nearly four minutes of processor time: two minutes
+     on two cores, one on four),
   3. fit data/rtc_france and draw it into build/rtc_france.svg (a second).
 Nothing outside that folder is touched but the packages. The program will be $LYREFIT_ROOT/$first.
 EOT

@@ -28,7 +28,7 @@ struct Preparation {
 // coefficients, diagnoses (unless the procedures asked for do without).
 // Errors: an unusable curve, readings that are refused (JudgeReadings), no irradiance or temperature known, a dark curve, readings that end
 // before the point of maximum power, coefficients or leads that no device has.
-Expected<Preparation> Prepare(const IvCurve& curve, const TranslateOptions& options,
+Expected<Preparation> Prepare(const IvCurve& read, const TranslateOptions& options,
                               const Observer& observer);
 
 // The single diode of a curve, as fast as a fit goes.

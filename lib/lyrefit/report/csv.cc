@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/diagnose/healthy.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/report/readable.h"
@@ -100,13 +99,8 @@ std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
 
 // Digits with or without a sign, point and exponent.
 bool IsPlainNumber(std::string_view text) {
-  if (text.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return false;
-  if (text.front() == '+' || text.front() == '-') text.remove_prefix(1);
-  if (text.empty() || text.front() == '+' || text.front() == '-') return false;
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  return read.ec != std::errc::invalid_argument && read.ptr == end;
+  return text.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
+         ParseNumber(text).has_value();
 }
 
 // Whether a spreadsheet takes it for a formula; apostrophes before it do not count.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds lyrefit and its Python module with their tests and runs every test. With LYREFIT_FIELD_DATA=FOLDER in
-# the environment the tests on field measurements run as well.
+# Sets the machine up, builds lyrefit and its Python module with their tests and runs every test. With
+# LYREFIT_FIELD_DATA=FOLDER in the environment the tests on field measurements run as well.
+#   cmake/check.sh --nightly     instead the tests that learn rates and those on field measurements, at full size
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
@@ -9,4 +10,8 @@ InstallPackages build test peers pages python reference packages engines slurm
 cd -- "$LYREFIT_ROOT"
 Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build
-RunTests build
+if [[ ${1:-} == --nightly ]]; then
+  LYREFIT_NIGHTLY=1 RunTests build --label-regex '^(nightly|field)$'
+else
+  RunTests build
+fi

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 // Leaves out a test that takes minutes where the sanitizers make all slow, and whose code they see in others.
 #ifdef LYREFIT_SANITIZED
@@ -22,5 +23,10 @@ constexpr bool kSanitized = false;
 
 // How often to repeat what only makes a claim surer: a tenth where the sanitizers make all slow.
 constexpr int Repeats(int often) { return kSanitized ? std::max(1, often / 10) : often; }
+
+// At night (`cmake/check.sh --nightly`, which sets LYREFIT_NIGHTLY) studies run at full size.
+inline bool AtNight() { return std::getenv("LYREFIT_NIGHTLY") != nullptr; }
+
+inline int Repeats(int at_night, int by_day) { return Repeats(AtNight() ? at_night : by_day); }
 
 }  // namespace lyrefit

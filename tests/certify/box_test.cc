@@ -130,7 +130,7 @@ void ExpectSound(const IvCurve& curve, const CertifyOptions& options, RandomStre
 TEST(CertifyBox, NothingInsideUndercutsIt) {
   RandomStream random(31);
   int certified = 0;
-  const int curves = Repeats(40);
+  const int curves = Repeats(20);
   for (int seed = 900; seed < 900 + curves; ++seed) {
     const IvCurve curve = RandomCurve(seed);
     ExpectSound(curve, RandomBox(curve, &random), &random, &certified);

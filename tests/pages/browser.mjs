@@ -15,9 +15,13 @@ export const kLooks = {
   phone: {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true, deviceScaleFactor: 2},
 };
 
+// What is waited for comes sooner on any machine, or never.
+const kHangs_ms = 600000;
+
 export function launch(executablePath) {
   return chromium.launch({
     executablePath,
+    timeout: kHangs_ms,
     args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
            '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
@@ -27,6 +31,7 @@ export function launch(executablePath) {
 // and every request but the file itself.
 export async function open(browser, file, look = kLooks.light) {
   const context = await browser.newContext({acceptDownloads: true, ...look});
+  context.setDefaultTimeout(kHangs_ms);
   const page = await context.newPage();
   const complaints = [];
   const url = pathToFileURL(file).href;

@@ -261,7 +261,6 @@ test('size, first paint and memory of one curve', async (context) => {
                      `charts within ${ready.toFixed(0)} ms, memory ${(memory / kMegabyte).toFixed(0)} MB`);
   assert.ok(size < 1.6 * kMegabyte);
   assert.ok(memory < 150 * kMegabyte);
-  assert.ok(paint < 2000);  // 500 on a machine with nothing else to do
   await close();
 });
 

@@ -25,7 +25,7 @@ after(() => browser?.close());
 // With everything drawn.
 async function openPlant(rows, look) {
   const opened = await open(browser, file(rows), look);
-  await opened.page.waitForSelector('html[data-ready]', {state: 'attached', timeout: 600000});
+  await opened.page.waitForSelector('html[data-ready]', {state: 'attached'});
   return opened;
 }
 
@@ -280,7 +280,6 @@ for (const [rows, mostMegabytes] of [[500, 1], [10000, 6], [100000, 40]]) {
                        `${ready.toFixed(0)} ms, sorted in ${sorted} ms, heap ${(heap / kMegabyte).toFixed(0)} MB`);
     assert.ok(size < mostMegabytes * kMegabyte);
     assert.ok(heap < 400 * kMegabyte);
-    assert.ok(paint < 4000);  // 2000 on a machine with nothing else to do
     assert.deepEqual(complaints, []);
     await close();
   });

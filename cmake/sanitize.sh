@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# Builds with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs the tests
-# there: all but those of rates, which do the same thing many hundred times over, and those of browsers and
-# engines. What takes minutes there and is seen in other tests is skipped by itself (tests/repeats.h).
-# -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report. `sanitize.sh --build` builds alone.
+# Builds with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs the tests there: all but
+# those of rates, browsers and engines. What takes minutes there and is seen in other tests is skipped by itself
+# (tests/repeats.h). -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report.
+#   cmake/sanitize.sh --build       builds alone
+#   cmake/sanitize.sh --nightly     runs the tests on field measurements as well: the same code on other curves
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
-field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
+field_data=
+if [[ ${1:-} == --nightly && -n ${LYREFIT_FIELD_DATA:-} ]]; then
+  field_data=$(realpath -- "$LYREFIT_FIELD_DATA")
+fi
 
 InstallPackages build test clang
 cd -- "$LYREFIT_ROOT"

@@ -213,6 +213,7 @@ CertifyOptions Published(const IvCurve& curve, const std::string& name) {
 }
 
 TEST(CertifyBox, ProvesEveryModelInTheLiteraturesBoxes) {
+  SKIP_IF_SANITIZED();
   const struct {
     const char *curve, *bounds;
     double sd, dd, td;

@@ -40,6 +40,7 @@ struct Known {
 class CertifyShipped : public ::testing::TestWithParam<Known> {};
 
 TEST_P(CertifyShipped, CertifiesOneTwoAndThreeDiodes) {
+  SKIP_IF_SANITIZED();
   const Known& known = GetParam();
   CertifyOptions options;
   options.n_lower = known.n_lower;

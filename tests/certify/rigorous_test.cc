@@ -48,6 +48,7 @@ IvCurve NearlyExact(const std::string& name, double noise, std::uint64_t seed) {
 class RigorousShipped : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RigorousShipped, CertifiesAsTheSearchInDoublesDoes) {
+  SKIP_IF_SANITIZED();
   const IvCurve curve = Shipped(GetParam());
   const auto plain = Certify(curve);
   const auto safe = Certify(curve, Rigorous());

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "repeats.h"
 #include "run_app.h"
 #include "start_app.h"
 
@@ -78,6 +79,7 @@ TEST(CompareVerb, GivesTheSameJsonOnAnyNumberOfThreads) {
 }
 
 TEST(CompareVerb, GoesByTheFlags) {
+  SKIP_IF_SANITIZED();
   const json j = CompareJson(kRtc + " " + DataFolder("pwp201") +
                              " --runs 2 --models dd --algorithms mlo,de --population 12 "
                              "--iterations 15 --memory-rate 0.75 --de-scale 0.6 --seed 9 "

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "repeats.h"
 #include "run_app.h"
 #include "same_curve.h"
 
@@ -86,6 +87,7 @@ TEST(DiagnoseVerb, WritesEveryFileItIsAskedFor) {
 }
 
 TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
+  SKIP_IF_SANITIZED();
   const std::string laboratory =
       "diagnose '" + DataFolder("pwp201") +
       "' --noise white --floor-current 0 --floor-power 0 --draws 200 --no-held-out "
@@ -107,6 +109,7 @@ TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
 
 // In a module whose bypass diodes act no cause without them explains the step.
 TEST(DiagnoseVerb, ProvesWhatCausesCanExplain) {
+  SKIP_IF_SANITIZED();
   const std::string shaded =
       "diagnose '" + DataFolder("diagnosis/shaded_module.csv") + "' --draws 200 --no-held-out ";
   const AppResult result = RunApp(shaded + "--proofs");
@@ -208,6 +211,7 @@ TEST(DiagnoseVerb, RepeatsItself) {
 }
 
 TEST(DiagnoseVerb, WritesTheCausesAsATable) {
+  SKIP_IF_SANITIZED();
   const std::string shaded = DataFolder("diagnosis") + "/shaded_module.csv";
   const AppResult result = RunApp("diagnose '" + shaded + "' --no-held-out --csv -");
   EXPECT_EQ(result.exit_code, 0) << result.err;

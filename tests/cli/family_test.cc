@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -197,6 +198,7 @@ TEST_F(FamilyVerbOnASet, PrintsTheErrorsAgainstAKnownTruth) {
 }
 
 TEST_F(FamilyVerbOnASet, TestsParametersFromElsewhereOnTheSameCurves) {
+  SKIP_IF_SANITIZED();
   const std::string own = folder_.Path("own.json");
   const std::string other = folder_.Write(
       "other.json",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -123,6 +124,7 @@ TEST_F(FitOfManyFiles, GoesOnAfterABrokenOne) {
 }
 
 TEST_F(FitOfManyFiles, IsTheSameOnAnyNumberOfThreads) {
+  SKIP_IF_SANITIZED();
   const auto seconds_apart = [](json list) {
     RemoveSeconds(&list);
     return list;

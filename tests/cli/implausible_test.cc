@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../curve/made_curve.h"
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -136,6 +137,7 @@ TEST(Implausible, CellsNobodyCounted) {
 }
 
 TEST(Implausible, LimitsOfTheInstrument) {
+  SKIP_IF_SANITIZED();
   const IvCurve forward = Changed(MadeCell(), [](double*, double* i) { *i = std::max(*i, -0.05); });
   ExpectDoubted(Csv(forward), "--cells 1", "exactly the same current -0.05 A");
 }

@@ -39,6 +39,7 @@ std::string Columns(const std::string& csv, std::size_t from, std::size_t count)
 }
 
 TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const AppResult result = RunApp(kSmallLandscape + "--json " + folder.Path("a.json") + " --csv " +
                                   folder.Path("a.csv"));

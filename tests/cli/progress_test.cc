@@ -7,6 +7,7 @@
 #include <csignal>
 #include <regex>
 
+#include "repeats.h"
 #include "run_app.h"
 #include "start_app.h"
 
@@ -90,6 +91,7 @@ TEST(Progress, SaysElsewhereOnceThatARunWillTakeLong) {
 
 // On a terminal and elsewhere, when it has done what takes others far beyond their first line.
 TEST(Progress, IsSilentWhereAsked) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const std::string journal = folder.Path("study.jsonl"), out = folder.Path("out");
   std::vector<std::string> quiet = kStudy;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -35,6 +36,7 @@ void PrintTo(const SchemaCase& c, std::ostream* out) { *out << c.name; }
 class Schema : public ::testing::TestWithParam<SchemaCase> {};
 
 TEST_P(Schema, HoldsForWhatIsWritten) {
+  SKIP_IF_SANITIZED();
   const std::string python = Python();
   if (python.empty()) GTEST_SKIP() << "no Python with jsonschema (Debian: python3-jsonschema)";
   const TempFolder folder;

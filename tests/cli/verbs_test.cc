@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -174,6 +175,7 @@ TEST(Verbs, RefuseNumbersThatCountNothing) {
 }
 
 TEST(Verbs, ThatPrintAReportKnowQuiet) {
+  SKIP_IF_SANITIZED();
   for (const char* verb : {"fit", "certify", "diagnose", "compare", "budget", "sensitivity",
                            "datasheet", "audit", "coverage"}) {
     EXPECT_THAT(RunApp(std::string(verb) + " --help").out, HasSubstr("--quiet")) << verb;

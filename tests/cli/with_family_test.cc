@@ -8,6 +8,7 @@
 
 #include "family/made_effects.h"
 #include "lyrefit/curve/write_curve.h"
+#include "repeats.h"
 #include "run_app.h"
 #include "same_curve.h"
 
@@ -112,6 +113,7 @@ TEST_F(WithFamily, CurvesFittedOneByOneAreSimulatedAgain) {
 }
 
 TEST_F(WithFamily, ADiagnosisOfManyCurvesIsSimulatedAgain) {
+  SKIP_IF_SANITIZED();
   const AppResult diagnosed = RunApp("diagnose " + Quoted("set") + kLaboratory +
                                      " --quiet --extend " + Quoted("extended.json"));
   ASSERT_EQ(diagnosed.exit_code, 0) << diagnosed.err;

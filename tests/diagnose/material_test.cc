@@ -112,6 +112,7 @@ Diagnosis DiagnosedInTheField(const IvCurve& curve) {
 }
 
 TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
+  SKIP_IF_SANITIZED();
   const Done done = Do("shading", {0.2, 1.0 / 3, 0.5, 1});
   const Diagnosis d = DiagnosedInTheField(done.curve);
   ASSERT_FALSE(d.verdict.causes.empty());

@@ -21,6 +21,7 @@ DiagnoseOptions WithProofs(DiagnoseOptions options = {}) {
 }
 
 TEST(Proofs, AreThereWhereTheyWereAskedFor) {
+  SKIP_IF_SANITIZED();
   const IvCurve curve = MadeCurve({});
   EXPECT_FALSE(DiagnoseOrFail(curve).proofs);
   const Diagnosis diagnosis = DiagnoseOrFail(curve, WithProofs());

@@ -135,6 +135,7 @@ TEST_F(FamilyEffectsTest, ASecondDiodeFollowsTheTemperature) {
 }
 
 TEST_F(FamilyEffectsTest, AShadedModuleIsFoundWhereOneInsists) {
+  SKIP_IF_SANITIZED();
   Make({UseOf("shading", {{"d", {0.3, 0.3}}, {"w", {1.0 / 3, 1.0 / 3}}, {"Vb", {0.5, 0.5}}})});
   options_.with = {UseOf("shading")};
   EXPECT_THAT(Error(), HasSubstr("shading: acts during one sweep; each curve of a set has its own "

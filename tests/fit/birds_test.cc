@@ -136,6 +136,7 @@ TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameRsAndN) {
 
 // Another minimum may be lower, but only where the place is far from any fit.
 TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameEffectsThatCouldWin) {
+  SKIP_IF_SANITIZED();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
   options.with = Substrings(false);
   int better = 0;

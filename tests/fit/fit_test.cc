@@ -9,6 +9,7 @@
 
 #include "fit/simulated.h"
 #include "lyrefit/curve/read_curve.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -199,6 +200,7 @@ TEST(Fit, WithARobustLossShrugsOffOutliers) {
 }
 
 TEST(Fit, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
+  SKIP_IF_SANITIZED();
   constexpr int kCurves = 300;
   std::vector<int> covered(5);
   for (int seed = 0; seed < kCurves; ++seed) {

@@ -9,6 +9,7 @@
 #include "error_of.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
+#include "repeats.h"
 #include "simulated.h"
 
 namespace lyrefit {
@@ -27,6 +28,7 @@ FitReport FitWith(const IvCurve& curve, const ErrorSpec& errors) {
 const ErrorSpec kField = {ErrorKind::kField, {}, "field"};
 
 TEST(ReadingErrors, IntervalsUnderThemHoldTheTruthWherePlainOnesDoNot) {
+  SKIP_IF_SANITIZED();
   constexpr int kCurves = 100;
   int plain = 0, under = 0, weighed = 0;
   for (int seed = 0; seed < kCurves; ++seed) {
@@ -83,6 +85,7 @@ TEST(ReadingErrors, AreNotLookedForWhereNobodyAsks) {
 }
 
 TEST(ReadingErrors, AFitWeighedByThemIsNotTheLowestButNearerToTheTruth) {
+  SKIP_IF_SANITIZED();
   double plain = 0, weighed = 0;
   for (int seed = 0; seed < 60; ++seed) {
     const IvCurve curve = WanderingCurve(seed);

@@ -9,6 +9,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/search/run.h"
 #include "lyrefit/search/search.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -67,11 +68,13 @@ double Allowance(const Spread& ours, double their_deviation, int seeds) {
 }
 
 TEST(Lyrebird, ReachesThePublishedMeanOfTheOriginal) {
+  SKIP_IF_SANITIZED();
   const Spread lo = OverSeeds(Algorithm::kLo, 20);
   EXPECT_NEAR(lo.mean, 1.0903e-3, Allowance(lo, 7.3e-5, 20));
 }
 
 TEST(Lyrebird, ReachesThePublishedMeanOfTheModification) {
+  SKIP_IF_SANITIZED();
   const Spread mlo = OverSeeds(Algorithm::kMlo, 20);
   EXPECT_NEAR(mlo.mean, 9.8555e-4, Allowance(mlo, 2.8e-6, 20));
 }
@@ -110,6 +113,7 @@ Dispersals CountDispersals(double gamma, int runs) {
 
 // README.md of lib/lyrefit/search has these figures.
 TEST(Lyrebird, HardlyEverDispersesAtThePapersGamma) {
+  SKIP_IF_SANITIZED();
   const Dispersals at_papers = CountDispersals(0.25, 30);
   EXPECT_GT(at_papers.share, 0);
   EXPECT_LT(at_papers.share, 0.005);

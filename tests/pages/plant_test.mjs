@@ -43,13 +43,13 @@ for (const rows of [0, 1, 5, 500]) {
       const {page, complaints, close} = await openPlant(rows, settings);
       await page.screenshot({path: join(OUT, `plant_${rows}_${look}.png`), fullPage: true});
       for (const summary of await page.$$('summary')) await summary.click();
-      assert.deepEqual(await barriers(page), []);
+      assert.deepEqual(await barriers(page, look), []);
       const [width, most] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
       assert.ok(width <= most, `${width} pixels wide, ${most} to see`);
       if (rows > 0) {
         await page.click('#table-body th button');
         await page.waitForSelector('#detail[open]');
-        assert.deepEqual(await barriers(page), []);
+        assert.deepEqual(await barriers(page, look), []);
       }
       assert.deepEqual(complaints, []);
       await close();

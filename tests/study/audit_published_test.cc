@@ -14,7 +14,6 @@
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/study/audit.h"
-#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -46,13 +45,11 @@ const AuditFinding& Claim(const std::string& algorithm, const std::string& devic
 }
 
 TEST(PublishedAudit, ReadsEveryRow) {
-  SKIP_IF_SANITIZED();
   EXPECT_THAT(Published().bad_rows, IsEmpty());
   EXPECT_THAT(Published().findings, SizeIs(18));
 }
 
 TEST(PublishedAudit, ReproducesEveryRowThatHasParameters) {
-  SKIP_IF_SANITIZED();
   for (const AuditFinding& finding : Published().findings) {
     if (finding.stated.parameters.empty()) continue;
     const bool cut = finding.row.algorithm == "interval branch and bound, 24 h";

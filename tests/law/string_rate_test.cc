@@ -262,7 +262,7 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
   const Bench<Pack> bench = MakeBench(law, readings, static_cast<const Pack*>(nullptr));
   double worst = 0;
   int wrong = 0;
-  for (int k = 0; k < Repeats(12500, 2500); ++k) {
+  for (int k = 0; k < Repeats(12500, 500); ++k) {
     const Strings strings(&random);
     const StringLimits limits = LimitsOf(strings.cell());
     StringState state = ColdStart(strings, limits);

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
   SoundOptions options;
-  options.problems = Repeats(12);  // a thousand: lyrefit_paper --only sound
+  options.problems = Repeats(20);  // a thousand: lyrefit_paper --only sound
   options.effort = 200;
   const auto study = StudyMade(options);
   ASSERT_TRUE(study) << study.error().ToString();

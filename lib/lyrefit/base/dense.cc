@@ -4,27 +4,20 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 
 namespace lyrefit {
 
 using Eigen::MatrixXd;
-using Eigen::MatrixXf;
 using Eigen::VectorXd;
-using Eigen::VectorXf;
 
 MatrixXd Times(const MatrixXd& a, const MatrixXd& b) { return a * b; }
 MatrixXd Times(const MatrixXd& a, const RowMatrix& b) { return a * b; }
 MatrixXd Times(const RowMatrix& a, const MatrixXd& b) { return a * b; }
 VectorXd Times(const MatrixXd& a, const VectorXd& x) { return a * x; }
-MatrixXf Times(const MatrixXf& a, const MatrixXf& b) { return a * b; }
-VectorXf Times(const MatrixXf& a, const VectorXf& x) { return a * x; }
 
 MatrixXd TransposedTimes(const MatrixXd& a, const MatrixXd& b) { return a.transpose() * b; }
 VectorXd TransposedTimes(const MatrixXd& a, const VectorXd& x) { return a.transpose() * x; }
 VectorXd TransposedTimes(const RowMatrix& a, const VectorXd& x) { return a.transpose() * x; }
-MatrixXf TransposedTimes(const MatrixXf& a, const MatrixXf& b) { return a.transpose() * b; }
-VectorXf TransposedTimes(const MatrixXf& a, const VectorXf& x) { return a.transpose() * x; }
 
 MatrixXd TimesTransposed(const MatrixXd& a, double scale) { return scale * a * a.transpose(); }
 
@@ -55,18 +48,6 @@ bool PseudoInverse(const MatrixXd& a, MatrixXd* inverse) {
 MatrixXd RankedBasis(const MatrixXd& a) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
   return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
-}
-
-MatrixXf OrthonormalUnder(const MatrixXf& a, const VectorXf& weight) {
-  MatrixXf b = a;
-  for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    for (Eigen::Index i = 0; i < j; ++i) {
-      const float along = (weight.array() * b.col(i).array() * b.col(j).array()).sum();
-      b.col(j) -= along * b.col(i);
-    }
-    b.col(j) /= std::sqrt((weight.array() * b.col(j).array().square()).sum());
-  }
-  return b;
 }
 
 void TakeOut(const MatrixXd& basis, VectorXd* y) { *y -= basis * TransposedTimes(basis, *y); }

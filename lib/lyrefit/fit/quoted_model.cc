@@ -1,6 +1,6 @@
 #include "lyrefit/fit/quoted_model.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>

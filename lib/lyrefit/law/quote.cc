@@ -1,8 +1,9 @@
 #include "lyrefit/law/quote.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 
@@ -77,7 +78,8 @@ Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, c
     below = ReportedValues(effect, below.data(), scale);
     for (int j = 0; j < size; ++j) slopes(j, k) = (above[j] - below[j]) / (2 * step);
   }
-  return slopes.inverse();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(size, size);
+  return LeastSquares(slopes, one);
 }
 
 std::vector<double> Reported(const Device& device, std::vector<double> p) {

@@ -2,7 +2,7 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>

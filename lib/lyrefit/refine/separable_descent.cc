@@ -98,8 +98,9 @@ class Descent {
       for (int r = 0; r < free; ++r) gram(r, c) = linear_.gram(linear_.free[r], linear_.free[c]);
     }
     if (free > 0) {
-      const SmallMatrix inner = a.transpose() * j;
-      j.noalias() -= a * gram.ldlt().solve(inner);
+      const SmallMatrix inner = TransposedTimes(a, j);
+      const Eigen::MatrixXd step = gram.ldlt().solve(inner);
+      j -= Times(a, step);
     }
     return j;
   }

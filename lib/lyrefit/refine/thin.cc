@@ -1,10 +1,11 @@
 #include "lyrefit/refine/thin.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "lyrefit/base/dense.h"
 
 namespace lyrefit {
 namespace {
@@ -141,14 +142,16 @@ double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin,
       next -= basis.leftCols(nodes) * (basis.leftCols(nodes).transpose() * next).eval();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      recurrence.topLeftCorner(nodes, nodes));
-  const Eigen::MatrixXd& vectors = solver.eigenvectors();
-  for (int k = 0; k < nodes; ++k) {
-    const double current =
-        vectors.col(k).dot(along.head(nodes)) / (vectors(0, k) * std::sqrt(m.weight));
-    points->Add(m.voltage + reach * solver.eigenvalues()[k], current,
-                m.weight * vectors(0, k) * vectors(0, k));
+  // The nodes are the eigenvalues of the recurrence. They lie within [-1, 1], so that those of the shifted matrix are
+  // its singular values.
+  constexpr double kShift = 2;
+  recurrence.diagonal().array() += kShift;
+  const RightSingular found = FindRightSingular(recurrence.topLeftCorner(nodes, nodes));
+  for (int k = nodes - 1; k >= 0; --k) {
+    const auto vector = found.vectors.col(k);
+    const double current = vector.dot(along.head(nodes)) / (vector[0] * std::sqrt(m.weight));
+    points->Add(m.voltage + reach * (found.values[k] - kShift), current,
+                m.weight * vector[0] * vector[0]);
   }
   return rest.squaredNorm();
 }

@@ -57,7 +57,7 @@ TEST(ProofsOfRealSweeps, AreUndercutByNoFit) {
     }
   }
   EXPECT_GT(proved, 150 / static_cast<int>(step));
-  EXPECT_GE(close, proved - 2);
+  EXPECT_GE(close, proved - 2 / static_cast<int>(step));
 }
 
 }  // namespace

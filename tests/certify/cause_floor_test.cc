@@ -163,6 +163,7 @@ TEST(CauseFloor, NoDescentUndercutsIt) {
 
 // The right cause comes down to the noise, the others stay above it.
 TEST(CauseFloor, LeavesNoiseToTheRightCauseAlone) {
+  SKIP_IF_SANITIZED();
   constexpr double kNoise = 1e-4;
   Planted planted;
   planted.collection_A_V = 0.03;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "run_app.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -24,6 +25,7 @@ TEST(AuditVerb, AuditsThePaperAndEndsWell) {
 }
 
 TEST(AuditVerb, WritesJsonAloneOnRequest) {
+  SKIP_IF_SANITIZED();
   const json j = json::parse(RunApp("audit '" + kRowsFile + "' --json -").out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
   EXPECT_EQ(j["findings"].size(), 40U);

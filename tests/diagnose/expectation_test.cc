@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -56,6 +57,7 @@ double FalseAlarms(int references, double level, std::uint64_t seed) {
 }
 
 TEST(Differ, RaisesFalseAlarmsAtItsLevel) {
+  SKIP_IF_SANITIZED();
   for (const int references : {4, 8, 14, 30}) {
     const double rate = FalseAlarms(references, 0.05, 10 + references);
     EXPECT_LT(rate, 0.08) << references;

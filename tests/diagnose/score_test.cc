@@ -8,6 +8,7 @@
 #include <string>
 
 #include "made_bench.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -54,6 +55,7 @@ double DistanceFromUniform(std::vector<double> p) {
 }
 
 TEST_F(NullTest, PValuesOfNoiseAreUniform) {
+  SKIP_IF_SANITIZED();
   constexpr int kCurves = 200;
   std::map<std::string, std::vector<double>> by_effect;
   std::vector<double> smallest;

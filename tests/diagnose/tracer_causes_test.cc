@@ -53,6 +53,7 @@ TEST(TracerCauses, AChangeOfRangeInBothSweepsIsNamed) {
 }
 
 TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
+  SKIP_IF_SANITIZED();
   IvCurve curve = ModuleCurve();
   ChangeRange(7.3, 0.05, &curve);
   const std::vector<Cause> causes = CausesOf(curve);
@@ -95,6 +96,7 @@ TEST(TracerCauses, AVoltageAtTheEndOfItsRangeIsALimit) {
 
 // A bell only by chance: clouds come soon and go slowly, or cover for a while.
 TEST(TracerCauses, ADipOfAnyShapeIsOneCause) {
+  SKIP_IF_SANITIZED();
   for (const double skew : {0.5, 0.0}) {
     if (kSanitized && skew == 0) break;
     IvCurve curve = ModuleCurve();

@@ -9,6 +9,7 @@
 #include "lyrefit/report/documents.h"
 #include "made_family.h"
 #include "quick.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -38,6 +39,7 @@ FamilyReport Fit(const CurveSet& set, FamilyWeights weights) {
 }
 
 TEST(SettleWeights, TakesWhatTheResidualsSpeakFor) {
+  SKIP_IF_SANITIZED();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const FamilyReport one_size = Fit(NoisySet(false, seed), FamilyWeights::kAuto);
     EXPECT_EQ(one_size.weights, FamilyWeights::kEqual);

@@ -87,6 +87,7 @@ TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
 }
 
 TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold) {
+  SKIP_IF_SANITIZED();
   constexpr int kCurves = Repeats(40);
   int held = 0;
   double plain = 0, weighed = 0;

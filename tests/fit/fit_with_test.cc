@@ -7,6 +7,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
 #include "module_with.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -86,6 +87,7 @@ TEST(FitWith, HoldsAStrengthThatIsMeasuredByAnotherParameter) {
 }
 
 TEST(FitWith, FitsMoreReadingsThanOthersAreThinnedTo) {
+  SKIP_IF_SANITIZED();
   SimulateOptions options = Module();
   options.with = {{FindEffect("shading"), {{"d", {0.4, 0.4}}, {"w", {1.0 / 3, 1.0 / 3}}}}};
   options.points = 600;

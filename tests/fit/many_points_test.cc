@@ -9,6 +9,7 @@
 #include "fit/simulated.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/refine/refine.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -47,6 +48,7 @@ TEST(ManyPoints, EndAtTheOptimumOfAllOfThem) {
 }
 
 TEST(ManyPoints, StopInEveryStage) {
+  SKIP_IF_SANITIZED();
   const IvCurve curve = ModuleCurve(Model::kDoubleDiode, kDoubleTruth, 3e-3, 5, 100000);
   for (const char* stage : {"search", "polish", "intervals", "held out"}) {
     FitOptions options;

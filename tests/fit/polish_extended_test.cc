@@ -12,6 +12,7 @@
 #include "lyrefit/fit/simulate.h"
 #include "lyrefit/study/landscape.h"
 #include "module_with.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -131,6 +132,7 @@ TEST(PolishExtended, AShadesShareOfCountedSubstringsIsExactAndHasNoInterval) {
 }
 
 TEST(PolishExtended, GivesTheSameBitsOnAnyNumberOfThreads) {
+  SKIP_IF_SANITIZED();
   const LandscapeCase made = Made("strings_3");
   FitOptions options = ByName("substrings");
   options.search.seed = 11;

@@ -39,6 +39,7 @@ const waitForState = (page, text) => page.waitForFunction(
 
 for (const rows of [0, 1, 5, 500]) {
   for (const [look, settings] of Object.entries(kLooks)) {
+    if (rows < 500 && look !== 'phone') continue;  // few rows have the colours of many
     test(`${rows} strings, ${look}: nothing fetched, nothing complained of, no barrier, no overflow`, async () => {
       const {page, complaints, close} = await openPlant(rows, settings);
       await page.screenshot({path: join(OUT, `plant_${rows}_${look}.png`), fullPage: true});

@@ -202,7 +202,7 @@ Expected<int> RunSound(const PaperArguments& arguments) {
 Expected<int> RunWide(const PaperArguments& arguments) {
   if (arguments.only.empty() && arguments.pages.empty()) return 0;
   SoundOptions options;
-  options.problems = 100;
+  options.problems = arguments.options.wide_problems;
   options.seed = arguments.options.seed;
   options.threads = arguments.options.threads;
   TRY(const SoundStudy wide, StudyWide(options, Watch));

@@ -61,8 +61,10 @@ constexpr NumberFlag kNumberFlags[] = {
      &PaperStudyOptions::sound_problems, 1, 1000000},
     {"--sound-effort", "convex problems for each of these proofs", &PaperStudyOptions::sound_effort,
      10, 1000000},
-    {"--proof-effort", "the same for the shipped curves", &PaperStudyOptions::proof_effort, 10,
-     1000000},
+    {"--wide-problems", "made problems with wide ranges of Rs, for proofs-wide",
+     &PaperStudyOptions::wide_problems, 1, 1000000},
+    {"--proof-effort", "convex problems for each proof of a shipped curve",
+     &PaperStudyOptions::proof_effort, 10, 1000000},
     {"--threads", "0: all cores; never changes a result but the seconds",
      &PaperStudyOptions::threads, 0, 1024},
 };

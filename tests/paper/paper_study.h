@@ -29,6 +29,7 @@ struct PaperStudyOptions {
   // Of what is proved (proof_table.h, sound_study.h).
   int sound_problems = 1000;
   int sound_effort = 1000;
+  int wide_problems = 100;
   int proof_effort = 10000;
   std::vector<Contender> peers;  // further algorithms to rank, of another library
   int threads = 0;

@@ -18,7 +18,7 @@ TEST(PaperProgram, WritesThePageItsPicturesAndTheBlocksOfOtherPages) {
       RunApp("'" + DataFolder("paper") + "' --out '" + folder.Path("") + "' --update '" + other +
              "' --batch 2 --batches 2 --sensitivity-batches 2 --ranked-runs 2 --budget-runs 1 "
              "--iterations 30 --peers gwo --pwp201-runs 1 --pwp201-budgets 1 --proof-effort 10 "
-             "--sound-problems 2 --sound-effort 10");
+             "--sound-problems 2 --sound-effort 10 --wide-problems 2");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string page = FileText(folder.Path("README.md"));
   EXPECT_THAT(page, HasSubstr("## Table 12"));

@@ -6,6 +6,7 @@
 #include "cli/run_app.h"
 #include "error_of.h"
 #include "paper/proof_blocks.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -69,6 +70,7 @@ TEST(ProofBlocks, ShowOpenGapsAndOthersProofsWhereTheyBelong) {
 
 // Little effort leaves gaps open, but every bound is below what is attained and every box is there.
 TEST(ProofTable, HasEveryShippedCurveInEveryBox) {
+  SKIP_IF_SANITIZED();
   const auto proofs = ProveShipped(LYREFIT_DATA_DIR, 10, 0);
   ASSERT_TRUE(proofs) << proofs.error().ToString();
   EXPECT_EQ(proofs->rows.size(), 66U);

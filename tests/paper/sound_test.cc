@@ -18,6 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
+  SKIP_IF_SANITIZED();
   SoundOptions options;
   options.problems = Repeats(20);  // a thousand: lyrefit_paper --only sound
   options.effort = 200;

@@ -44,6 +44,7 @@ TEST_F(AuditLowestTest, SaysNothingOfTheOptimumWhereOtherParametersGiveTheClaim)
 }
 
 TEST_F(AuditLowestTest, ProvesOfTheObjectiveOfTheClaim) {
+  SKIP_IF_SANITIZED();
   AuditOptions solved;
   solved.objective = Objective::kSolvedCurrent;
   const AuditFinding finding = Find("pwp201", "1.8431e-3", kPwp, ",,,", solved);
@@ -56,6 +57,7 @@ TEST_F(AuditLowestTest, ProvesOfTheObjectiveOfTheClaim) {
 }
 
 TEST_F(AuditLowestTest, SaysWhereOnlyAWiderRangeOfNMeetsTheClaim) {
+  SKIP_IF_SANITIZED();
   AuditOptions solved;
   solved.objective = Objective::kSolvedCurrent;
   const AuditFinding finding = Find("rtc_france", "7.182306e-4", ",,,,,,", ",,,", solved, "dd");

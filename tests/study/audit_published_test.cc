@@ -14,6 +14,7 @@
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/study/audit.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -174,6 +175,7 @@ double CertifiedSquares(const std::string& folder, Model model, double n_lower) 
 
 // What a run without time to work claims to have proved lies above what is attained.
 TEST(PublishedProofs, HoldButForTheRunsThatOnlyChangedThePrecision) {
+  SKIP_IF_SANITIZED();
   const std::map<std::string, double> least = {
       {"rtc_france sd", CertifiedSquares("rtc_france", Model::kSingleDiode, 1)},
       {"rtc_france dd", CertifiedSquares("rtc_france", Model::kDoubleDiode, 1)},
@@ -198,6 +200,7 @@ TEST(PublishedProofs, HoldButForTheRunsThatOnlyChangedThePrecision) {
 
 // The logs' own points: two diodes on PWP201 go a third lower than thirty runs of the same work.
 TEST(PublishedProofs, FindALowerPointThanThirtyEqualRuns) {
+  SKIP_IF_SANITIZED();
   const double branch = Claim("interval branch and bound, 12 h", "pwp201", Model::kDoubleDiode)
                             .stated.rmse.measured_current_A;
   const double evolved =

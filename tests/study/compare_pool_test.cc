@@ -49,6 +49,7 @@ TEST(ComparePooled, HasNoHardBirdsOfFamilies) {
 }
 
 TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
+  SKIP_IF_SANITIZED();
   const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
   ASSERT_EQ(comparison.problems.size(), 3U);
   const auto pools = PoolProblems(comparison);

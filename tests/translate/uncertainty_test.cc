@@ -8,6 +8,7 @@
 
 #include "../error_of.h"
 #include "lyrefit/base/random.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -77,6 +78,7 @@ TEST(Propagate, IsExactForLinearModels) {
 
 // JCGM 101:2008, 9.2.2, 9.2.3 and 9.2.4; ends with the tolerances that are printed there.
 TEST(Propagate, GivesTheAdditiveExamplesOfJcgm101) {
+  SKIP_IF_SANITIZED();
   const UncertainModel sum = Model(Sum);
   const UncertaintyBudget normal =
       Done(sum, {{Input("1", 0, 1), Input("2", 0, 1), Input("3", 0, 1), Input("4", 0, 1)}},

@@ -14,6 +14,7 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/report/json.h"
+#include "repeats.h"
 
 namespace {
 std::vector<std::string> progress_heard;
@@ -57,6 +58,7 @@ TEST(Engine, FitsAsTheLibraryDoes) {
 }
 
 TEST(Engine, DiagnosesAsTheLibraryDoes) {
+  SKIP_IF_SANITIZED();
   progress_heard.clear();
   const json answer = Ask("diagnose", kShaded, {{"draws", "400"}, {"no-held-out", "yes"}});
   ASSERT_FALSE(answer.contains("error")) << answer["error"];

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs the tests there: all but
-# those of rates, browsers and engines. What takes minutes there and is seen in other tests is skipped by itself
+# those of rates, browsers, engines, pages and packages. What takes long there and is seen in other tests is skipped by itself
 # (tests/repeats.h). -O1 keeps the long tests bearable; -g1 is enough for line numbers in a report.
 #   cmake/sanitize.sh --build       builds alone
 #   cmake/sanitize.sh --nightly     runs the tests on field measurements as well: the same code on other curves

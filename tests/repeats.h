@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-// Leaves out a test that takes minutes where the sanitizers make all slow, and whose code they see in others.
+// Leaves out a test that takes long where the sanitizers make all slow, and whose code they see in others.
 #ifdef LYREFIT_SANITIZED
 #define SKIP_IF_SANITIZED() \
-  GTEST_SKIP() << "takes minutes under sanitizers, which see its code in other tests"
+  GTEST_SKIP() << "takes long under sanitizers, which see its code in other tests"
 #else
 #define SKIP_IF_SANITIZED() static_cast<void>(0)
 #endif

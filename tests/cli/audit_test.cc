@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "run_app.h"
 #include "repeats.h"
+#include "run_app.h"
 
 namespace lyrefit {
 namespace {

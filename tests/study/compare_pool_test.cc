@@ -11,7 +11,6 @@
 #include "lyrefit/study/pool.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "pooled_study.h"
-#include "repeats.h"
 
 namespace lyrefit {
 namespace {

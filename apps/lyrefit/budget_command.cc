@@ -69,12 +69,12 @@ Expected<std::vector<Contender>> BudgetContenders(const StudyFlags& study,
   std::vector<Contender> contenders;
   for (const std::string& name : names) {
     if (name == ToText(ContenderKind::kShape) || name == ToText(ContenderKind::kDefault)) {
-      contenders.push_back(*ParseContender(name, study.search, study.birds));  // has no budget
+      contenders.push_back(*ParseContender(name, study.search, study.candidates));  // has no budget
       continue;
     }
     for (const std::int64_t budget : budgets) {
       TRY(Contender contender,
-          ParseContender(name, BudgetSearch(budget, study.search), study.birds));
+          ParseContender(name, BudgetSearch(budget, study.search), study.candidates));
       contender.name = fmt::format("{}@{}", name, budget);
       contender.budget = budget;
       contenders.push_back(std::move(contender));

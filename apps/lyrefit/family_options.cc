@@ -12,7 +12,7 @@ constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
 // Flags that a joint fit does not have.
 constexpr const char* kOneCurve[] = {
     "--floor", "--bounds", "--loss",      "--loss-scale",    "--kernel",
-    "--curve", "--birds",  "--no-polish", "--temperature-C", "--irradiance-Wm2"};
+    "--curve", "--candidates",  "--no-polish", "--temperature-C", "--irradiance-Wm2"};
 // Flags about what the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",

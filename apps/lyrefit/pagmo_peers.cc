@@ -24,7 +24,7 @@ namespace {
 
 constexpr unsigned kNever = std::numeric_limits<unsigned>::max();
 
-// The temperature falls from the level of the first birds by four decades in ten steps; ten changes
+// The temperature falls from the level of the first candidates by four decades in ten steps; ten changes
 // of range in each; the rest of the budget goes into the length of a step.
 pagmo::algorithm MakeAnnealing(const PagmoPlan& plan) {
   constexpr std::int64_t kSteps = 10, kRanges = 10;

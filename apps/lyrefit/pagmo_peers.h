@@ -11,14 +11,14 @@ struct PagmoPlan {
   unsigned generations = 1;
   unsigned seed = 0;
   unsigned population = 0;
-  std::int64_t evaluations = 0;  // after the first birds
+  std::int64_t evaluations = 0;  // after the first candidates
   int dimensions = 0;
-  double level = 1;  // objective of the best first bird
+  double level = 1;  // objective of the best first candidate
 };
 
 struct PagmoPeer {
   const char* name;
-  int per_bird;  // evaluations of a generation: so many a bird ...
+  int per_candidate;  // evaluations of a generation: so many a candidate ...
   int fixed;     // ... and so many on top
   pagmo::algorithm (*make)(const PagmoPlan&);
 };

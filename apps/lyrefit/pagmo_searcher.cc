@@ -40,15 +40,15 @@ std::string Complaint(const std::exception& error) {
   return text.substr(0, text.find('\n'));
 }
 
-// Draws the first birds as our own searches do and lets them evolve until the budget is used up.
+// Draws the first candidates as our own searches do and lets them evolve until the budget is used up.
 void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recorder) {
   RandomStream random(options.seed, options.run);
-  std::vector<pagmo::vector_double> birds;
+  std::vector<pagmo::vector_double> candidates;
   std::vector<double> values;
   for (int i = 0; i < options.population; ++i) {
-    birds.emplace_back();
-    for (int j = 0; j < recorder->dimensions(); ++j) birds.back().push_back(random.Uniform());
-    values.push_back(std::min(recorder->Evaluate(birds.back().data()), 1e100));
+    candidates.emplace_back();
+    for (int j = 0; j < recorder->dimensions(); ++j) candidates.back().push_back(random.Uniform());
+    values.push_back(std::min(recorder->Evaluate(candidates.back().data()), 1e100));
   }
   PagmoPlan plan;
   plan.population = static_cast<unsigned>(options.population);
@@ -56,9 +56,9 @@ void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recor
   plan.level = *std::min_element(values.begin(), values.end());
   pagmo::population population(pagmo::problem(UnitBox{recorder}), 0U,
                                static_cast<unsigned>(random.Bits() >> 32));
-  for (std::size_t i = 0; i < birds.size(); ++i) population.push_back(birds[i], {values[i]});
+  for (std::size_t i = 0; i < candidates.size(); ++i) population.push_back(candidates[i], {values[i]});
   const std::int64_t cost =
-      static_cast<std::int64_t>(peer.per_bird) * options.population + peer.fixed;
+      static_cast<std::int64_t>(peer.per_candidate) * options.population + peer.fixed;
   // Once is enough for most; an algorithm that ends early goes on with what it has.
   for (std::int64_t before = -1; recorder->evaluations() > before;) {
     before = recorder->evaluations();

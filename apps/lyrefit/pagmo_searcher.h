@@ -7,7 +7,7 @@
 namespace lyrefit {
 
 // Algorithms of pagmo2 (Biscani and Izzo 2020, doi:10.21105/joss.02338) as contenders, on lyrefit's
-// terms: the unit box of the same search space, the same first birds as ours from (seed, run), and
+// terms: the unit box of the same search space, the same first candidates as ours from (seed, run), and
 // exactly population x (iterations + 1) evaluations or `max_evaluations`, whichever is less.
 // pagmo's own settings are its defaults, but for stopping early, which is switched off. The elites
 // are the best distinct points that were evaluated. `target`, `patience` and `time_limit_s` do not

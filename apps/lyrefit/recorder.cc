@@ -80,12 +80,12 @@ void Recorder::EndIteration() {
 
 SearchSummary Recorder::Finish() {
   for (const Elite& elite : elites_) {
-    Bird bird;
+    Candidate candidate;
     for (std::size_t j = 0; j < x_.size(); ++j) {
-      bird.x.push_back(box_.lower[j] + elite.unit[j] * (box_.upper[j] - box_.lower[j]));
+      candidate.x.push_back(box_.lower[j] + elite.unit[j] * (box_.upper[j] - box_.lower[j]));
     }
-    bird.objective = elite.value;
-    summary_.elites.push_back(std::move(bird));
+    candidate.objective = elite.value;
+    summary_.elites.push_back(std::move(candidate));
   }
   summary_.best = summary_.elites.front();
   if (summary_.trace.empty() || summary_.trace.back().evaluations < summary_.evaluations) {

@@ -41,7 +41,7 @@ void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {
                       pagmo + " (default " + flags->algorithms + ")")
       .Type("LIST")
       .Group("Search");
-  AddNamedFlags(verb, kStudyFlagTable, {"birds"}, flags);
+  AddNamedFlags(verb, kStudyFlagTable, {"candidates"}, flags);
 }
 
 void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags) {
@@ -70,14 +70,14 @@ Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::s
 }
 
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
-                                   Birds birds) {
+                                   SearchVariables candidates) {
   for (const ContenderKind kind : {ContenderKind::kShape, ContenderKind::kDefault}) {
     if (name == ToText(kind)) return OwnContender(kind);
   }
   const std::string pagmo = "pagmo:";
   if (name.rfind(pagmo, 0) == 0) {
     auto peer = PagmoContender(name.substr(pagmo.size()), search);
-    if (peer) peer->birds = birds;
+    if (peer) peer->candidates = candidates;
     return peer;
   }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
@@ -87,7 +87,7 @@ Expected<Contender> ParseContender(const std::string& name, const SearchOptions&
                     AllTexts<Algorithm>(), name));
   }
   Contender contender = PlainContenders({*algorithm}, search)[0];
-  contender.birds = birds;
+  contender.candidates = candidates;
   return contender;
 }
 
@@ -95,7 +95,7 @@ Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags) {
   TRY(const auto names, ParseList("--algorithms", flags.algorithms));
   std::vector<Contender> contenders;
   for (const std::string& name : names) {
-    TRY(Contender contender, ParseContender(name, flags.search, flags.birds));
+    TRY(Contender contender, ParseContender(name, flags.search, flags.candidates));
     contenders.push_back(std::move(contender));
   }
   return contenders;

@@ -24,7 +24,7 @@ struct StudyFlags {
   ConditionOptions conditions;
   CompareOptions options;
   SearchOptions search;
-  Birds birds = Birds::kAll;  // of --algorithms that are searches
+  SearchVariables candidates = SearchVariables::kAll;  // of --algorithms that are searches
   std::string landscape;      // made problems instead of curves: "strings_2,strings_3", "all"
   int devices = 50;           // of each
   ReportFlags output;
@@ -42,7 +42,7 @@ inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&StudyFlags::ranges>(), OptionTrait::kNoFlag},
     OptionRow<StudyFlags>("Search"),
-    {"birds", "NAME", kBirdsDoc, EnumOption<&StudyFlags::birds>(), OptionTrait::kNoFlag},
+    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&StudyFlags::candidates>(), OptionTrait::kNoFlag},
 };
 
 // Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves
@@ -78,7 +78,7 @@ Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // One algorithm by its name, and those of --algorithms, with these settings.
 Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
-                                   Birds birds);
+                                   SearchVariables candidates);
 Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags);
 
 // One file to write when all is done.

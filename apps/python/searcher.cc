@@ -42,23 +42,23 @@ class Run {
     return one ? py::object(py::float_(values.data()[0])) : py::object(values);
   }
 
-  SearchSummary Summary(const Points& birds) {
+  SearchSummary Summary(const Points& candidates) {
     SearchSummary summary;
-    const auto last = birds.ndim() == 0 ? 0 : birds.shape(birds.ndim() - 1);
-    const py::ssize_t count = birds.ndim() == 1 ? 1 : birds.ndim() == 2 ? birds.shape(0) : 0;
+    const auto last = candidates.ndim() == 0 ? 0 : candidates.shape(candidates.ndim() - 1);
+    const py::ssize_t count = candidates.ndim() == 1 ? 1 : candidates.ndim() == 2 ? candidates.shape(0) : 0;
     if (count == 0 || static_cast<std::size_t>(last) != sides_) {
       Raise({"a search has to return its best point, shape (" + std::to_string(sides_) +
                  ",), or several, best first, (m, " + std::to_string(sides_) + ")",
              {}});
     }
     for (py::ssize_t k = 0; k < count && k < options_.elites; ++k) {
-      Bird bird;
-      bird.x.assign(birds.data() + k * last, birds.data() + (k + 1) * last);
-      bird.objective = objective_(bird.x.data());
-      summary.elites.push_back(std::move(bird));
+      Candidate candidate;
+      candidate.x.assign(candidates.data() + k * last, candidates.data() + (k + 1) * last);
+      candidate.objective = objective_(candidate.x.data());
+      summary.elites.push_back(std::move(candidate));
     }
     std::stable_sort(summary.elites.begin(), summary.elites.end(),
-                     [](const Bird& a, const Bird& b) { return a.objective < b.objective; });
+                     [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
     summary.best = summary.elites.front();
     summary.evaluations = evaluations_;
     summary.iterations = evaluations_ / options_.population;
@@ -142,8 +142,8 @@ SearchSummary Searched(const py::object& search, const ObjectiveFunction& object
     }
   });
   try {
-    const py::object birds = search(at, SideOf(box.lower), SideOf(box.upper), OptionsOf(options));
-    return run->Summary(Points::ensure(birds));
+    const py::object candidates = search(at, SideOf(box.lower), SideOf(box.upper), OptionsOf(options));
+    return run->Summary(Points::ensure(candidates));
   } catch (const py::error_already_set&) {
     if (!stopped) throw;
     return Ended(objective, box);

@@ -48,7 +48,7 @@ class CompareResult : public Result {
 struct CompareAsked {
   CompareOptions options;
   SearchOptions search;
-  Birds birds = Birds::kAll;
+  SearchVariables candidates = SearchVariables::kAll;
   std::vector<Contender> contenders;
   std::string bounds = "physical";
   BoundsSpec box;
@@ -68,7 +68,7 @@ Contender NamedContender(const std::string& name, const CompareAsked& asked) {
            {}});
   }
   Contender contender = PlainContenders({*algorithm}, asked.search).front();
-  contender.birds = asked.birds;
+  contender.candidates = asked.candidates;
   return contender;
 }
 
@@ -78,7 +78,7 @@ Contender OwnSearch(const std::string& name, py::handle search, CompareAsked* as
   contender.name = name;
   contender.search = asked->search;
   contender.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault);
-  contender.birds = asked->birds;
+  contender.candidates = asked->candidates;
   asked->faults.Add(std::move(fault));
   return contender;
 }
@@ -129,12 +129,12 @@ CompareAsked ReadCompareKeywords(Keywords* keywords) {
   asked.search.iterations = 1000;
   const py::object algorithms =
       keywords->Take("algorithms").value_or(py::str("lo,lo+mblss,lo+dmlss,mlo,de,random"));
-  if (const auto birds = keywords->Take("birds")) {
-    const std::string text = TextOf("birds", *birds);
-    const auto found = FromText<Birds>(text);
+  if (const auto candidates = keywords->Take("candidates")) {
+    const std::string text = TextOf("candidates", *candidates);
+    const auto found = FromText<SearchVariables>(text);
     if (!found)
-      Raise({"birds: expected one of " + AllTexts<Birds>() + ", found '" + text + "'", {}});
-    asked.birds = *found;
+      Raise({"candidates: expected one of " + AllTexts<SearchVariables>() + ", found '" + text + "'", {}});
+    asked.candidates = *found;
   }
   if (const auto journal = keywords->Take("resume")) options.journal = TextOf("resume", *journal);
   if (const auto with = keywords->Take("with_")) {
@@ -262,7 +262,7 @@ std::vector<KeywordNote> CompareNotes() {
   notes.push_back({"bounds", "str | PathLike[str] | Mapping[str, tuple[float, float]]",
                    "'physical'", "Model", ""});
   notes.push_back({"bound", "Mapping[str, tuple[float, float]]", "None", "Model", ""});
-  notes.push_back({"birds", "str", "'all'", "Search", kBirdsDoc});
+  notes.push_back({"candidates", "str", "'all'", "Search", kSearchVariablesDoc});
   notes.push_back({"resume", "str | PathLike[str]", "None", "Runs", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kCompareOptionTable, CompareOptions(), &notes);

@@ -4,32 +4,32 @@
 
 namespace lyrefit {
 
-enum class Bird { kLyrebird, kEmu };
+enum class Candidate { kLyrebird, kEmu };
 
 template <>
-struct EnumTable<Bird> {
-  static constexpr EnumText<Bird> kRows[] = {{Bird::kLyrebird, "lyrebird"}, {Bird::kEmu, "emu"}};
+struct EnumTable<Candidate> {
+  static constexpr EnumText<Candidate> kRows[] = {{Candidate::kLyrebird, "lyrebird"}, {Candidate::kEmu, "emu"}};
 };
 
 namespace {
 
 TEST(EnumTextTest, TextAndValueGoBothWays) {
-  for (const auto& row : EnumTable<Bird>::kRows) {
+  for (const auto& row : EnumTable<Candidate>::kRows) {
     EXPECT_EQ(ToText(row.value), row.text);
-    EXPECT_EQ(FromText<Bird>(row.text), row.value);
+    EXPECT_EQ(FromText<Candidate>(row.text), row.value);
   }
 }
 
 TEST(EnumTextTest, UnknownTextIsNoValue) {
-  EXPECT_FALSE(FromText<Bird>("Emu"));
-  EXPECT_FALSE(FromText<Bird>(""));
+  EXPECT_FALSE(FromText<Candidate>("Emu"));
+  EXPECT_FALSE(FromText<Candidate>(""));
 }
 
 TEST(EnumTextTest, ValueOutsideTheTableIsAQuestionMark) {
-  EXPECT_EQ(ToText(static_cast<Bird>(99)), "?");
+  EXPECT_EQ(ToText(static_cast<Candidate>(99)), "?");
 }
 
-TEST(EnumTextTest, ListsAllTextsInOrder) { EXPECT_EQ(AllTexts<Bird>(), "lyrebird, emu"); }
+TEST(EnumTextTest, ListsAllTextsInOrder) { EXPECT_EQ(AllTexts<Candidate>(), "lyrebird, emu"); }
 
 }  // namespace
 }  // namespace lyrefit

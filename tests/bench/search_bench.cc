@@ -1,4 +1,4 @@
-// Complete searches of 100 birds x 1000 iterations on the MSX-60's triple-diode model as the
+// Complete searches of 100 candidates x 1000 iterations on the MSX-60's triple-diode model as the
 // modified-lyrebird paper ran it (75 C, its bounds and constants), against the bare evaluations.
 
 #include <benchmark/benchmark.h>

@@ -86,7 +86,7 @@ TEST(Fit, JsonKeepsTheContract) {
     EXPECT_TRUE(p["identifiable"].is_boolean());
   }
   EXPECT_TRUE(j["nNsVth"].is_number());
-  for (const char* stage : {"random_baseline", "searched", "best_bird_polished", "refined"}) {
+  for (const char* stage : {"random_baseline", "searched", "refined_best_candidate", "refined"}) {
     EXPECT_TRUE(j["rmse"][stage]["measured_current_A"].is_number()) << stage;
     EXPECT_TRUE(j["rmse"][stage]["solved_current_A"].is_number()) << stage;
   }

@@ -16,9 +16,9 @@ class FamilySearchTest : public FamilyFixture {
   FamilySearchTest() : FamilyFixture(/*points=*/30, /*noise_A=*/1e-3) {}
 };
 
-TEST_F(FamilySearchTest, TakesASearchOfTheUsersOwnAndFollowsItsBirdAlone) {
+TEST_F(FamilySearchTest, TakesASearchOfTheUsersOwnAndFollowsItsCandidateAlone) {
   const FamilyReport usual = Fit();
-  EXPECT_TRUE(std::isnan(usual.rmse.best_bird_polished.solved_current_A)) << "not asked for";
+  EXPECT_TRUE(std::isnan(usual.rmse.refined_best_candidate.solved_current_A)) << "not asked for";
   int asked = 0;
   options_.searcher = [&](const ObjectiveFunction& objective, const Box& box, const SearchOptions&,
                           const Observer&) {
@@ -35,15 +35,15 @@ TEST_F(FamilySearchTest, TakesASearchOfTheUsersOwnAndFollowsItsBirdAlone) {
   EXPECT_EQ(asked, 1);
   const double searched = report.rmse.searched_all.solved_current_A;
   EXPECT_LE(report.rmse.plain_polished.solved_current_A, searched);
-  EXPECT_LE(report.rmse.best_bird_polished.solved_current_A, searched);
-  EXPECT_EQ(report.best_bird_polished.size(), report.refined.size());
-  EXPECT_GE(report.best_bird_seconds, 0);
+  EXPECT_LE(report.rmse.refined_best_candidate.solved_current_A, searched);
+  EXPECT_EQ(report.refined_best_candidate.size(), report.refined.size());
+  EXPECT_GE(report.best_candidate_seconds, 0);
   EXPECT_NEAR(report.rmse.refined.solved_current_A / usual.rmse.refined.solved_current_A, 1, 1e-6);
   options_.starts = StartsFrom::kSearch;
   const FamilyReport alone = Fit();
-  EXPECT_NEAR(alone.rmse.refined.solved_current_A / alone.rmse.best_bird_polished.solved_current_A,
+  EXPECT_NEAR(alone.rmse.refined.solved_current_A / alone.rmse.refined_best_candidate.solved_current_A,
               1, 1e-9)
-      << "the joint fit from that bird alone";
+      << "the joint fit from that candidate alone";
   options_.starts = StartsFrom::kShape;
   EXPECT_NEAR(Fit().rmse.refined.solved_current_A / usual.rmse.refined.solved_current_A, 1, 1e-6);
 }
@@ -56,7 +56,7 @@ TEST_F(FamilySearchTest, RefusesASearchThatLeavesItsBox) {
     return summary;
   };
   EXPECT_THAT(MessageOf(FitFamily(set_, options_)),
-              HasSubstr("the searcher's best bird is 1e+300"));
+              HasSubstr("the searcher's best candidate is 1e+300"));
 }
 
 }  // namespace

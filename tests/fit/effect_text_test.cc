@@ -44,7 +44,7 @@ TEST(FitOptionTable, EchoesWhatIsNotUsual) {
             (std::vector<std::string>{"bound Rs=0:0.5", "fix n1=1.5", "polish no", "loss huber"}));
 }
 
-TEST(FitOptionTable, WithEffectsTheSmallFlockIsUsual) {
+TEST(FitOptionTable, WithEffectsTheSmallPopulationIsUsual) {
   FitOptions options;
   options.with = {*ReadEffectUse("shading:d=0.3")};
   options.search = FitOptions::SearchBesideShapes();

@@ -46,17 +46,17 @@ TEST(Fit, SaysWhatIsWrongWithOptions) {
 // Puts all its evaluations on one point.
 SearchSummary StandStill(const ObjectiveFunction& objective, const Box& box,
                          const SearchOptions& options, const Observer& /*observer*/) {
-  Bird bird;
+  Candidate candidate;
   for (std::size_t j = 0; j < box.lower.size(); ++j) {
-    bird.x.push_back(0.5 * (box.lower[j] + box.upper[j]));
+    candidate.x.push_back(0.5 * (box.lower[j] + box.upper[j]));
   }
-  bird.objective = objective(bird.x.data());
+  candidate.objective = objective(candidate.x.data());
   SearchSummary summary;
   summary.termination = SearchTermination::kEvaluations;
-  summary.best = bird;
-  summary.elites = {bird};
+  summary.best = candidate;
+  summary.elites = {candidate};
   summary.evaluations = 1;
-  summary.trace = {{0, 1, bird.objective}};
+  summary.trace = {{0, 1, candidate.objective}};
   EXPECT_EQ(options.seed, 7U);
   return summary;
 }
@@ -102,17 +102,17 @@ TEST(Fit, RefusesCurvesWithNaN) {
   EXPECT_NE(ErrorOf(curve, {}), "no error");
 }
 
-TEST(Fit, FillsAllFourRmsesAndNeverEndsAboveTheBestBird) {
+TEST(Fit, FillsAllFourRmsesAndNeverEndsAboveTheBestCandidate) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     FitOptions options;
     options.objective = objective;
     const FitReport report = *Fit(Rtc(), options);
     EXPECT_LE(report.rmse.refined.Of(objective),
-              report.rmse.best_bird_polished.Of(objective) * (1 + 1e-9));
-    EXPECT_LE(report.rmse.best_bird_polished.Of(objective), report.rmse.searched.Of(objective));
+              report.rmse.refined_best_candidate.Of(objective) * (1 + 1e-9));
+    EXPECT_LE(report.rmse.refined_best_candidate.Of(objective), report.rmse.searched.Of(objective));
     EXPECT_NEAR(report.search.best.objective / report.rmse.searched.Of(objective), 1, 1e-12);
     for (const RmsePair& pair :
-         {report.rmse.searched, report.rmse.best_bird_polished, report.rmse.refined}) {
+         {report.rmse.searched, report.rmse.refined_best_candidate, report.rmse.refined}) {
       EXPECT_GT(pair.measured_current_A, 0);
       EXPECT_GT(pair.solved_current_A, 0);
     }
@@ -134,7 +134,7 @@ TEST(Fit, HasTheSameBitsOnAnyNumberOfThreadsAndOnEveryKernel) {
     const FitReport again = *Fit(Rtc(), other);
     EXPECT_EQ(again.searched, one.searched);
     EXPECT_EQ(again.refined, one.refined);
-    EXPECT_EQ(again.best_bird_polished, one.best_bird_polished);
+    EXPECT_EQ(again.refined_best_candidate, one.refined_best_candidate);
     EXPECT_EQ(again.model_current_A, one.model_current_A);
     for (std::size_t i = 0; i < one.estimates.size(); ++i) {
       EXPECT_EQ(again.estimates[i].low_95, one.estimates[i].low_95);
@@ -158,7 +158,7 @@ TEST(Fit, KeepsFixedParametersAndSaysSo) {
   EXPECT_EQ(report.criteria.parameters, 5);
 }
 
-TEST(Fit, WithoutPolishReportsTheBirdAlone) {
+TEST(Fit, WithoutPolishReportsTheCandidateAlone) {
   FitOptions options;
   options.polish = false;
   const FitReport report = *Fit(Rtc(), options);
@@ -300,13 +300,13 @@ IvCurve Clipped(int points = 83, double limit_A = -0.05) {
   return curve;
 }
 
-TEST(Fit, NeverPolishesABirdIntoSomethingWorse) {
+TEST(Fit, NeverPolishesACandidateIntoSomethingWorse) {
   for (int seed = 0; seed < 4; ++seed) {
     FitOptions options;
     options.search.seed = seed;
     options.intervals = Intervals::kNone;
     const RmseTable rmse = Fit(Clipped(), options)->rmse;
-    EXPECT_LE(rmse.best_bird_polished.solved_current_A,
+    EXPECT_LE(rmse.refined_best_candidate.solved_current_A,
               rmse.searched.solved_current_A * (1 + 1e-9));
   }
 }

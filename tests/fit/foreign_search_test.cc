@@ -51,11 +51,11 @@ TEST(ForeignSearch, MayLeaveTheBestToTheElites) {
             "no error");
 }
 
-TEST(ForeignSearch, IsToldWhatIsWrongWithItsBirds) {
+TEST(ForeignSearch, IsToldWhatIsWrongWithItsCandidates) {
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) { summary->best = {}; }),
-            "the searcher came back without a best bird: set `best` to the best point it met");
+            "the searcher came back without a best candidate: set `best` to the best point it met");
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) { summary->best.x.pop_back(); }),
-            "the searcher's best bird has 4 coordinates, expected 5: one for each side of the box");
+            "the searcher's best candidate has 4 coordinates, expected 5: one for each side of the box");
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) {
               summary->elites = {summary->best, summary->best};
               summary->elites[1].x.push_back(0);
@@ -64,9 +64,9 @@ TEST(ForeignSearch, IsToldWhatIsWrongWithItsBirds) {
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) {
               summary->best.x[2] = std::numeric_limits<double>::quiet_NaN();
             }),
-            "the searcher's best bird is nan in coordinate 3, expected a number in [1, 2]");
+            "the searcher's best candidate is nan in coordinate 3, expected a number in [1, 2]");
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) { summary->best.x[2] = 2.5; }),
-            "the searcher's best bird is 2.5 in coordinate 3, expected a number in [1, 2]");
+            "the searcher's best candidate is 2.5 in coordinate 3, expected a number in [1, 2]");
   EXPECT_EQ(ErrorOf([](const Box& box, SearchSummary* summary) {
               summary->best.x[2] = std::nextafter(box.upper[2], 3.0);
             }),

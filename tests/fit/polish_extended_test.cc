@@ -167,15 +167,15 @@ TEST(PolishExtended, BeginsWhereItIsToldTo) {
     return list;
   };
   const std::string all = origins(StartsFrom::kAll);
-  EXPECT_THAT(all, StartsWith("best bird\n"));
+  EXPECT_THAT(all, StartsWith("best candidate\n"));
   EXPECT_THAT(all, HasSubstr("shape 1\n"));
   const std::string shape = origins(StartsFrom::kShape);
   EXPECT_THAT(shape, StartsWith("shape 1\n"));
-  for (const char* other : {"bird", "elite", "random"}) {
+  for (const char* other : {"candidate", "elite", "random"}) {
     EXPECT_THAT(shape, Not(HasSubstr(other)));
   }
   const std::string search = origins(StartsFrom::kSearch);
-  EXPECT_THAT(search, StartsWith("best bird\n"));
+  EXPECT_THAT(search, StartsWith("best candidate\n"));
   for (const char* other : {"shape", "probe"}) EXPECT_THAT(search, Not(HasSubstr(other)));
 }
 

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/birds.h"
+#include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/simulate.h"
 #include "module_with.h"
 

@@ -106,18 +106,18 @@ std::string RowName(const ::testing::TestParamInfo<Row>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Data, CertifiedOptimum, ::testing::ValuesIn(ExpectedRows()), RowName);
 
-// What the search contributes to the certified optimum of the RTC France cell: the best bird with
+// What the search contributes to the certified optimum of the RTC France cell: the best candidate with
 // its own polish alone, and the whole set of starts, for MLO, for differential evolution and for
 // random points.
 TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
   const IvCurve curve = DataSet("rtc_france");
-  std::printf("hits of %d: best bird's own polish / all starts\n", kSeeds);
+  std::printf("hits of %d: best candidate's own polish / all starts\n", kSeeds);
   for (const Algorithm algorithm : {Algorithm::kMlo, Algorithm::kDe, Algorithm::kRandom}) {
     std::printf("%-7s", ToText(algorithm).c_str());
     for (const auto& [model, optimum] : {std::pair(Model::kSingleDiode, 7.730062689942e-4),
                                          std::pair(Model::kDoubleDiode, 7.326480808687e-4),
                                          std::pair(Model::kTripleDiode, 7.326480808687e-4)}) {
-      int bird = 0, all = 0;
+      int candidate = 0, all = 0;
       for (int seed = 0; seed < kSeeds; ++seed) {
         FitOptions options;
         options.model = model;
@@ -125,10 +125,10 @@ TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
         options.search.seed = seed;
         options.intervals = Intervals::kNone;
         const FitReport report = *Fit(curve, options);
-        bird += report.rmse.best_bird_polished.solved_current_A <= optimum * (1 + 1e-9);
+        candidate += report.rmse.refined_best_candidate.solved_current_A <= optimum * (1 + 1e-9);
         all += report.rmse.refined.solved_current_A <= optimum * (1 + 1e-9);
       }
-      std::printf("  %s %2d / %2d", ToText(model).c_str(), bird, all);
+      std::printf("  %s %2d / %2d", ToText(model).c_str(), candidate, all);
       EXPECT_EQ(all, kSeeds) << ToText(algorithm) << ' ' << ToText(model);
     }
     std::printf("\n");

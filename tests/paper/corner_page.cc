@@ -118,7 +118,7 @@ struct Level {
 };
 constexpr Level kLevels[] = {{"search alone", &RunRecord::searched_A},
                              {"and one bounded solve", &RunRecord::plain_polished_A},
-                             {"and the best bird's polish", &RunRecord::own_polished_A},
+                             {"and the best candidate's polish", &RunRecord::own_polished_A},
                              {"and all starts", &RunRecord::polished_A}};
 
 // Of random points, of the searches that search, or of both.
@@ -165,7 +165,7 @@ void AddVerdict(const CornerStudy& study, Section* section) {
       fmt::format(
           "One bounded solve from the best point reaches it in {} of {} runs behind random "
           "points, in {} of {} behind the searches: what has converged to one diode gives "
-          "the solve nothing to go on. The best bird's own polish reaches it in {} of {}, "
+          "the solve nothing to go on. The best candidate's own polish reaches it in {} of {}, "
           "all starts in {} of {}: with Rs and n given the currents are solved for exactly, "
           "and where a diode has none, all n are looked through for one that the "
           "residuals ask for.",
@@ -181,7 +181,7 @@ Section EndsSection(const CornerStudy& study) {
                   "counts the runs that end at the optimum / "
                   "between it and the literature's figure / at that figure / above it; \"at\" is "
                   "within 1e-6 of it. One bounded solve is one least-squares solve from the best "
-                  "point, the best bird's polish and all starts are lyrefit's "
+                  "point, the best candidate's polish and all starts are lyrefit's "
                   "([how](../../lib/lyrefit/fit/README.md)). The last search has the settings of "
                   "the study above.",
                   study.options.runs, study.two.steepest_n),

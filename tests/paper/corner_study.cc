@@ -23,8 +23,8 @@ Contender QuotedDe() {
   quoted.search.iterations = 1600;
   quoted.search.de_scale = 0.6;
   quoted.search.de_crossover = 0.9;
-  quoted.name = "de, F 0.6, 50 birds@80050";
-  quoted.algorithm = "de, F 0.6, 50 birds";
+  quoted.name = "de, F 0.6, 50 candidates@80050";
+  quoted.algorithm = "de, F 0.6, 50 candidates";
   return quoted;
 }
 

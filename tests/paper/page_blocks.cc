@@ -13,7 +13,7 @@ namespace {
 block::Table BudgetSummary(const PaperStudy& study) {
   block::Table table = {"llrrrr",
                         {{"model", "search", "search alone", "and one plain solve",
-                          "and the best bird's polish", "and all starts"}}};
+                          "and the best candidate's polish", "and all starts"}}};
   for (const ProblemResult& problem : study.budget.problems) {
     std::vector<block::Table::Row> rows;
     for (const ContenderResult& contender : problem.contenders) {

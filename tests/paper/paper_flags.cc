@@ -41,7 +41,7 @@ struct NumberFlag {
 };
 
 constexpr NumberFlag kNumberFlags[] = {
-    {"--population", "birds of every search; the paper's 100", &PaperStudyOptions::population, 10,
+    {"--population", "candidates of every search; the paper's 100", &PaperStudyOptions::population, 10,
      10000},
     {"--iterations", "iterations of every search; the paper's 1000", &PaperStudyOptions::iterations,
      1, 1000000},

@@ -213,7 +213,7 @@ Section Introduction(const PaperStudy& study) {
           "A statistic of {} runs depends on chance, so ours come as {} batches of {} runs each "
           "(grid of Pm and gamma, S75: {} batches): `ours` is their geometric mean, and a printed "
           "figure counts as reproduced if it lies in the range that one more batch would fall into "
-          "99 times of 100. {} birds x {} iterations, seed {}; every RMSE is of the "
+          "99 times of 100. {} candidates x {} iterations, seed {}; every RMSE is of the "
           "measured-current residual, in A; constants of the literature. lyrefit {}.",
           options.batch, options.batches, options.batch, options.sensitivity_batches,
           options.population, options.iterations, options.seed, study.version),

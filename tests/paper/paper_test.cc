@@ -53,7 +53,7 @@ TEST(PaperProgram, RefusesWhatItDoesNotKnow) {
       {paper + "--threads -3", "--threads: expected a whole number from 0 to 1024, found '-3'"},
       {paper + "--batch 2.5", "--batch: expected a whole number from 2 to 1000000, found '2.5'"},
       {paper + "--batch", "--batch: expected a value behind it"},
-      {paper + "--birds 3", "unknown flag --birds"},
+      {paper + "--candidates 3", "unknown flag --candidates"},
       {paper + "more", "expected one folder, found 'more' as well"},
       {"--batch 3", "expected the paper's folder"},
   };

@@ -64,7 +64,7 @@ class Verbs(unittest.TestCase):
                 lyrefit.fit_datasheet(**dict(sheet, cells_in_series=60) | wrong)
 
     def test_a_search_of_ones_own(self):
-        """The fit goes on from its birds; what it raises is raised."""
+        """The fit goes on from its candidates; what it raises is raised."""
         seen = []
 
         def mine(objective, lower, upper, options):

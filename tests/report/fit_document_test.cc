@@ -113,7 +113,7 @@ TEST(FullReport, SaysWhereThereWasNoPolish) {
   EXPECT_THAT(text, HasSubstr("No polish was done"));
   EXPECT_THAT(LineWith(text, "  polish "), HasSubstr("none"));
   EXPECT_THAT(LineWith(text, "refined (best"), Not(HasSubstr("e-04")));
-  EXPECT_THAT(LineWith(text, "best bird polished"), Not(HasSubstr("e-04")));
+  EXPECT_THAT(LineWith(text, "best candidate polished"), Not(HasSubstr("e-04")));
 }
 
 TEST(FullReport, StartsWithInterrupted) {
@@ -184,7 +184,7 @@ TEST(FullReport, JudgesResidualsInWords) {
 TEST(FullReport, ShowsHowItWasFound) {
   const std::string text = FullReport(SampleReport());
   EXPECT_THAT(LineWith(text, "  search "),
-              HasSubstr("mlo, seed 7, 30 birds x 40 iterations, 1200 evaluations"));
+              HasSubstr("mlo, seed 7, 30 candidates x 40 iterations, 1200 evaluations"));
   EXPECT_THAT(text,
               HasSubstr("2 of 3 came to the same curve; the best end came from start 2: elite 2"));
   EXPECT_THAT(text, HasSubstr("seed = 7 (default 0)"));

@@ -174,7 +174,7 @@ TEST(JsonReport, WritesNullForRefinedWithoutAPolish) {
   const json j = Parsed(report);
   EXPECT_TRUE(j["parameters"]["n"]["refined"].is_null());
   EXPECT_TRUE(j["rmse"]["refined"]["solved_current_A"].is_null());
-  EXPECT_TRUE(j["rmse"]["best_bird_polished"]["measured_current_A"].is_null());
+  EXPECT_TRUE(j["rmse"]["refined_best_candidate"]["measured_current_A"].is_null());
   EXPECT_TRUE(j["rmse"]["searched"]["solved_current_A"].is_number());
   EXPECT_TRUE(j["singlediode"]["photocurrent"].is_number());
 }

@@ -21,7 +21,7 @@ inline FitReport SampleReport() {
   report.refined = {0.76078796653915, 3.1068454826343e-07, 1.47726777077893, 0.03654694602088,
                     52.88978737881768};
   report.searched = {0.7608, 3.2e-07, 1.48, 0.0363, 53.7};
-  report.best_bird_polished = report.refined;
+  report.refined_best_candidate = report.refined;
   report.polished = true;
   for (int i = 0; i < 26; ++i) report.curve.voltage_V.push_back(-0.2 + 0.79 * i / 25);
   report.model_current_A =
@@ -45,7 +45,7 @@ inline FitReport SampleReport() {
   report.nNsVth = report.refined[2] * report.device.module_thermal_voltage_V;
   report.rmse.searched = {9.871e-4, 7.76e-4};
   report.rmse.random_baseline = {3.1e-2, 2.9e-2};
-  report.rmse.best_bird_polished = {9.891e-4, 7.731e-4};
+  report.rmse.refined_best_candidate = {9.891e-4, 7.731e-4};
   report.rmse.refined = {9.8912345678e-4, 7.7300626899e-4};
   report.measured = {0.7605, 0.5727, 0.4507, 0.6894, 0.31072, 0.7134};
   report.simulated = {0.7603, 0.5728, 0.4501, 0.6902, 0.31066, 0.7133};
@@ -59,7 +59,7 @@ inline FitReport SampleReport() {
   report.search.seconds = 0.0041;
   report.search.elites.resize(4);
   report.refine.termination = "converged";
-  report.refine.starts = {{"best bird", 7.76e-4, 7.731e-4, false},
+  report.refine.starts = {{"best candidate", 7.76e-4, 7.731e-4, false},
                           {"elite 2", 8.1e-4, 7.7300626899e-4, true},
                           {"grid n = 1.25; Rs = 0.036 ohm", 9e-4, 7.7300626899e-4, true}};
   report.refine.winner = 1;

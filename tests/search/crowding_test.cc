@@ -23,43 +23,43 @@ double Distance(const std::vector<double>& unit, int d, int a, int b) {
 }
 
 TEST(Crowding, AgreesWithThePlainDefinitionAfterManyMoves) {
-  constexpr int kBirds = 13, kDimensions = 5;
+  constexpr int kCandidates = 13, kDimensions = 5;
   RandomStream random(4);
-  std::vector<double> unit(kBirds * kDimensions);
+  std::vector<double> unit(kCandidates * kDimensions);
   for (double& x : unit) x = random.Uniform();
-  Crowding crowding(kBirds, kDimensions, unit);
+  Crowding crowding(kCandidates, kDimensions, unit);
   for (int move = 0; move < 2000; ++move) {
-    const int bird = static_cast<int>(random.Index(kBirds));
-    for (int j = 0; j < kDimensions; ++j) unit[bird * kDimensions + j] = random.Uniform();
-    crowding.Move(bird, &unit[bird * kDimensions]);
+    const int candidate = static_cast<int>(random.Index(kCandidates));
+    for (int j = 0; j < kDimensions; ++j) unit[candidate * kDimensions + j] = random.Uniform();
+    crowding.Move(candidate, &unit[candidate * kDimensions]);
     double largest = 0;
-    for (int a = 0; a < kBirds; ++a) {
+    for (int a = 0; a < kCandidates; ++a) {
       double sum = 0;
-      for (int b = 0; b < kBirds; ++b) sum += Distance(unit, kDimensions, a, b);
-      EXPECT_NEAR(crowding.MeanDistance(a), sum / (kBirds - 1), 1e-12);
+      for (int b = 0; b < kCandidates; ++b) sum += Distance(unit, kDimensions, a, b);
+      EXPECT_NEAR(crowding.MeanDistance(a), sum / (kCandidates - 1), 1e-12);
       for (int b = 0; b < a; ++b) largest = std::max(largest, Distance(unit, kDimensions, a, b));
     }
     ASSERT_NEAR(crowding.LargestDistance(), largest, 1e-15) << "move " << move;
   }
 }
 
-TEST(Crowding, FindsTheLargestDistanceOfManyBirdsInLittleMemory) {
+TEST(Crowding, FindsTheLargestDistanceOfManyCandidatesInLittleMemory) {
   SKIP_IF_SANITIZED();
-  constexpr int kBirds = 20000;
+  constexpr int kCandidates = 20000;
   RandomStream random(5);
-  std::vector<double> unit(kBirds);
+  std::vector<double> unit(kCandidates);
   for (double& x : unit) x = random.Uniform();
   // A table of all distances would have 3.2 GB.
   const auto in_little_memory = [&] {
     const rlimit limit = {1U << 30, 1U << 30};
     if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(1);
-    Crowding crowding(kBirds, 1, unit);
+    Crowding crowding(kCandidates, 1, unit);
     const auto largest = [&] {
       const auto ends = std::minmax_element(unit.begin(), unit.end());
       return *ends.second - *ends.first;
     };
     if (crowding.LargestDistance() != largest()) std::_Exit(2);
-    for (int move = 0; move < 20; ++move) {  // the outermost bird to the middle
+    for (int move = 0; move < 20; ++move) {  // the outermost candidate to the middle
       const auto end = std::max_element(unit.begin(), unit.end());
       *end = 0.5;
       crowding.Move(static_cast<int>(end - unit.begin()), &*end);

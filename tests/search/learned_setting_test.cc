@@ -40,7 +40,7 @@ TEST(LearnedSetting, RemembersTheMeanOfWhatGainedWeightedByTheGain) {
 TEST(LearnedSetting, KeepsWhatItKnowsWhereNothingGained) {
   LearnedSetting setting(0.4);
   setting.EndIteration();
-  setting.Gained(1, std::numeric_limits<double>::infinity());  // its bird had no value before
+  setting.Gained(1, std::numeric_limits<double>::infinity());  // its candidate had no value before
   setting.EndIteration();
   EXPECT_EQ(MeanDraw(setting), MeanDraw(LearnedSetting(0.4)));
 }

@@ -212,30 +212,30 @@ TEST(Knees, WithoutASuggestionIsMloToTheBit) {
   ExpectSame(Search(Sphere, kBox, options), mlo);
 }
 
-TEST(Knees, SitInAtMostAQuarterOfTheFirstFlockAndTheRestIsThatOfMlo) {
-  const auto first_flock = [](Algorithm algorithm, const Box& box) {
-    std::vector<std::vector<double>> birds;
+TEST(Knees, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
+  const auto first_population = [](Algorithm algorithm, const Box& box) {
+    std::vector<std::vector<double>> candidates;
     SearchOptions options;
     options.algorithm = algorithm;
     options.max_evaluations = options.population;
     Search(
         [&](const double* x) {
-          birds.emplace_back(x, x + 3);
+          candidates.emplace_back(x, x + 3);
           return Sphere(x);
         },
         box, options);
-    return birds;
+    return candidates;
   };
   Box box = kBox;
   box.suggested.assign(9, {1, 9, -9});  // out of the box: at its walls
-  const auto mlo = first_flock(Algorithm::kMlo, box);
-  const auto knees = first_flock(Algorithm::kMloKnees, box);
+  const auto mlo = first_population(Algorithm::kMlo, box);
+  const auto knees = first_population(Algorithm::kMloKnees, box);
   ASSERT_EQ(knees.size(), 20U);
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(knees[i], i < 5 ? (std::vector<double>{1, 3, -2}) : mlo[i]) << i;
   }
   box.suggested.resize(2);
-  const auto two = first_flock(Algorithm::kMloKnees, box);
+  const auto two = first_population(Algorithm::kMloKnees, box);
   EXPECT_EQ(two[1], knees[1]);
   EXPECT_EQ(two[2], mlo[2]);
 }

@@ -39,12 +39,12 @@ std::vector<CompareCurve> StringsAndFamilies() {
   return subjects;
 }
 
-TEST(ComparePooled, HasNoHardBirdsOfFamilies) {
+TEST(ComparePooled, HasNoHardCandidatesOfFamilies) {
   std::vector<Contender> contenders = PooledContenders();
-  contenders[0].birds = Birds::kHard;
+  contenders[0].candidates = SearchVariables::kHard;
   const auto comparison = Compare(StringsAndFamilies(), contenders, PooledOptions());
   ASSERT_FALSE(comparison);
-  EXPECT_THAT(comparison.error().ToString(), HasSubstr("birds hard is for curves"));
+  EXPECT_THAT(comparison.error().ToString(), HasSubstr("candidates hard is for curves"));
 }
 
 TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {

@@ -77,7 +77,7 @@ TEST(Compare, RunsEachContenderAsAFitOfItsOwnWould) {
   ASSERT_TRUE(report);
   const RunRecord& run = comparison.problems[1].contenders[1].runs[2];
   EXPECT_EQ(run.searched_A, report->rmse.searched.measured_current_A);
-  EXPECT_EQ(run.own_polished_A, report->rmse.best_bird_polished.measured_current_A);
+  EXPECT_EQ(run.own_polished_A, report->rmse.refined_best_candidate.measured_current_A);
   EXPECT_EQ(run.polished_A, report->rmse.refined.measured_current_A);
   EXPECT_TRUE(std::isnan(run.plain_polished_A));
 }

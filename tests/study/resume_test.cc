@@ -42,20 +42,20 @@ class ResumeTest : public testing::Test {
   std::int64_t first_ = -1;  // runs done when the observer first heard
 };
 
-TEST_F(ResumeTest, KnowsWhatHardBirdsCost) {
+TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {
   std::vector<Contender> contenders = SmallContenders();
   const auto run = [&](std::int64_t stop_after) {
     return Compare({RtcFrance()}, contenders, options_, [&](const Progress& progress) {
       return progress.iteration >= stop_after ? ObserverAction::kStop : ObserverAction::kContinue;
     });
   };
-  contenders[0].birds = Birds::kHard;
+  contenders[0].candidates = SearchVariables::kHard;
   ASSERT_TRUE(run(7));
   const auto whole = run(1 << 20);
   ASSERT_TRUE(whole) << whole.error().ToString();
   for (const ContenderResult& contender : whole->problems.at(0).contenders) {
     const bool hard = contender.name == contenders[0].name;
-    EXPECT_EQ(contender.birds, hard ? Birds::kHard : Birds::kAll);
+    EXPECT_EQ(contender.candidates, hard ? SearchVariables::kHard : SearchVariables::kAll);
     for (const RunRecord& record : contender.runs) {
       if (hard) {
         EXPECT_GE(record.curve_evaluations, 2 * record.evaluations);
@@ -64,10 +64,10 @@ TEST_F(ResumeTest, KnowsWhatHardBirdsCost) {
       }
     }
   }
-  contenders[0].birds = Birds::kAll;
+  contenders[0].candidates = SearchVariables::kAll;
   const auto other = run(1 << 20);
   ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().ToString(), HasSubstr("hard birds"));
+  EXPECT_THAT(other.error().ToString(), HasSubstr("hard candidates"));
 }
 
 TEST_F(ResumeTest, EndsWithTheBitsOfAStudyThatWasNeverInterrupted) {

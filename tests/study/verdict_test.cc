@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// Ten runs, so many of which hit by the best bird's own polish and with all starts.
+// Ten runs, so many of which hit by the best candidate's own polish and with all starts.
 ContenderResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
                      double search_ms = 10) {
   std::vector<MadeRun> runs;

@@ -39,7 +39,7 @@ Expected<std::unique_ptr<AppendLog>> AppendLog::Open(const std::string& path, co
 }
 
 Expected<void> AppendLog::Lock() {
-  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
+  if (population(file_.number(), LOCK_EX | LOCK_NB) != 0) {
     return Fail(fmt::format("another process is writing {}", kind_.these), path_);
   }
   struct stat held = {};

@@ -144,7 +144,7 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
   }
   report->refined = refined;
   report->searched = searched.empty() ? refined : searched;
-  report->best_bird_polished = report->refined;
+  report->refined_best_candidate = report->refined;
 }
 
 IvCurve AllPoints(const CurveSet& set) {
@@ -239,7 +239,7 @@ void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& 
   report->device = std::move(*device);
   report->refined = Inner(report->device, report->refined);
   report->searched = Inner(report->device, report->searched);
-  report->best_bird_polished = report->refined;
+  report->refined_best_candidate = report->refined;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace lyrefit {
 
 // The extended law as a FitReport: base parameters in pvlib's units, then those of the causes.
 // With `search` the modified lyrebird optimizer searches the whole law's box first and its best
-// bird is polished too, beside a random baseline of the same budget.
+// candidate is polished too, beside a random baseline of the same budget.
 FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
                          bool search, std::uint64_t seed, const Observer& observer);
 

@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-// Where birds look for the base parameters, around what is known of every curve.
+// Where candidates look for the base parameters, around what is known of every curve.
 Box SearchBox(const Selection& selection) {
   const Law& law = selection.extended.law;
   const std::vector<double>& p = selection.extended.p;
@@ -38,7 +38,7 @@ LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observ
   const Readings& readings = *bench.readings;
   const Law& law = selection.extended.law;
   std::vector<double> current(readings.points.size());
-  // From a fresh start each time: the value must not hang on the bird before.
+  // From a fresh start each time: the value must not hang on the candidate before.
   const std::vector<ReadingBlock> blocks = BlocksOf(readings);
   LawWorkspace workspace(blocks);
   const auto rmse = [&](const double* p) {
@@ -59,7 +59,7 @@ LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observ
       Search(rmse, box, random, observer).best.objective;
   const LawFit polished = FitLaw(bench, law, searched.best);
   if (polished.usable) {
-    searched.rmse.best_bird_polished.solved_current_A = RmseOf(bench, polished.current);
+    searched.rmse.refined_best_candidate.solved_current_A = RmseOf(bench, polished.current);
   }
   return searched;
 }

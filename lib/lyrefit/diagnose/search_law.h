@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// What birds make of the extended law, as a fit would have tried them. What is searched there on a
+// What candidates make of the extended law, as a fit would have tried them. What is searched there on a
 // grid stays where the selection found it.
 struct LawSearch {
   RmseTable rmse;

@@ -179,14 +179,14 @@ std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOp
                                      std::vector<JointPoint> starts, std::ptrdiff_t elites,
                                      const Observer& observer) {
   const auto others = starts.begin() + elites;
-  std::vector<JointPoint> birds(starts.begin(), others);
-  if (options.starts == StartsFrom::kSearch) return birds;
+  std::vector<JointPoint> candidates(starts.begin(), others);
+  if (options.starts == StartsFrom::kSearch) return candidates;
   if (options.starts == StartsFrom::kShape && others != starts.end()) {
     starts.erase(starts.begin(), others);
-    birds.clear();
+    candidates.clear();
   }
   if (!family.translation.extended) return starts;
-  return FamilyEffectStarts(family, options, search_curves, birds, std::move(starts), observer);
+  return FamilyEffectStarts(family, options, search_curves, candidates, std::move(starts), observer);
 }
 
 QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,

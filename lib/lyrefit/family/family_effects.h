@@ -12,7 +12,7 @@ namespace lyrefit {
 Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
                                 FamilyProblem* family);
 
-// Starts of a joint fit with effects: the best bird and further elites as they are, then the best
+// Starts of a joint fit with effects: the best candidate and further elites as they are, then the best
 // fit that leaves the effects at what is usual, found from all `starts`, with each of their probes
 // beside it, the best by their error on the curves of the search.
 std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,

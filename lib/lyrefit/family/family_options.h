@@ -58,9 +58,9 @@ struct FamilyOptions {
   FamilyWeights weights = FamilyWeights::kAuto;
   SearchOptions search = FamilySearch();
   SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
-  // Where the joint fit begins: kShape leaves out the search's birds, kSearch all but these.
+  // Where the joint fit begins: kShape leaves out the search's candidates, kSearch all but these.
   StartsFrom starts = StartsFrom::kAll;
-  bool plain_polish = false;  // what becomes of the best bird by itself, as in FitOptions
+  bool plain_polish = false;  // what becomes of the best candidate by itself, as in FitOptions
   int search_curves = 6;      // the search sees so many well-spread curves
   int fit_curves = 0;  // the joint fit sees so many well-spread curves, the others are held out
                        // and tested; 0: all

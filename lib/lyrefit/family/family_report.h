@@ -77,11 +77,11 @@ struct FamilyCurve {
 struct FamilyRmseTable {
   RmsePair random_baseline;  // on the curves of the search
   RmsePair searched;         // on the curves of the search
-  RmsePair searched_all;     // the same bird on all fitted curves
-  // On all fitted curves that bird after one bounded solve and after its own joint fit, if asked
+  RmsePair searched_all;     // the same candidate on all fitted curves
+  // On all fitted curves that candidate after one bounded solve and after its own joint fit, if asked
   // for.
   RmsePair plain_polished;
-  RmsePair best_bird_polished;
+  RmsePair refined_best_candidate;
   RmsePair refined;  // on all fitted curves
 };
 
@@ -169,7 +169,7 @@ struct FamilyReport {
   // estimates, jackknife and all else quote them in the units of people.
   std::vector<double> searched;
   std::vector<double> refined;
-  std::vector<double> best_bird_polished;  // in the units of reports; empty: not asked for
+  std::vector<double> refined_best_candidate;  // in the units of reports; empty: not asked for
   std::vector<Estimate> estimates;         // shared parameters, same order
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN where not asked for
   Interval temperature_offset_K;
@@ -205,8 +205,8 @@ struct FamilyReport {
   double seconds = 0;
   double free_seconds = 0;              // of the fits one by one
   double joint_seconds = 0;             // of the joint fit, from all its starts
-  double plain_seconds = kUnknown;      // of the best bird's plain solve
-  double best_bird_seconds = kUnknown;  // and of its own joint fit
+  double plain_seconds = kUnknown;      // of the best candidate's plain solve
+  double best_candidate_seconds = kUnknown;  // and of its own joint fit
   // Effects beside the diodes, and the curves as they were taken, in which they act.
   std::vector<EffectUse> with;
   std::shared_ptr<const CurveSet> taken;  // none: no effects

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/fit/check_birds.h"
+#include "lyrefit/fit/check_candidates.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/kernel.h"
@@ -73,11 +73,11 @@ Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const Family
   FamilySearchEnd end;
   if (options.searcher) {
     end.summary = options.searcher(objective, shared.box(), options.search, observer);
-    TRY(CheckBirds(objective, shared.box(), &end.summary));
+    TRY(CheckCandidates(objective, shared.box(), &end.summary));
   } else {
     end.summary = Search(objective, shared.box(), options.search, observer);
   }
-  for (const Bird& bird : end.summary.elites) end.elites.push_back(shared.Point(bird.x.data()));
+  for (const Candidate& candidate : end.summary.elites) end.elites.push_back(shared.Point(candidate.x.data()));
   const bool stopped = end.summary.termination == SearchTermination::kInterrupted;
   if (options.random_baseline && !stopped && options.search.algorithm != Algorithm::kRandom) {
     SearchOptions random = options.search;

@@ -14,7 +14,7 @@ struct FamilySearchEnd {
   bool has_random = false;
 };
 
-// Error: a search of the user's own came back with what is no bird of the box.
+// Error: a search of the user's own came back with what is no candidate of the box.
 Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const FamilyOptions& options,
                                        const std::vector<int>& curves, const Observer& observer);
 

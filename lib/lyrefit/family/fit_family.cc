@@ -117,18 +117,18 @@ Expected<void> SearchShared(Job* job, FamilyReport* report) {
   return {};
 }
 
-// What becomes of the best bird by itself.
-void FollowBird(Job* job, const JointProblem& problem, FamilyReport* report) {
-  const BirdEnds ends = PolishBird(job->family, job->options, job->search_curves, job->searched,
+// What becomes of the best candidate by itself.
+void FollowCandidate(Job* job, const JointProblem& problem, FamilyReport* report) {
+  const CandidateEnds ends = PolishCandidate(job->family, job->options, job->search_curves, job->searched,
                                    job->observer, problem);
   report->rmse.plain_polished = FamilyRmse(problem, ends.plain.point);
-  report->rmse.best_bird_polished = FamilyRmse(problem, ends.own.point);
+  report->rmse.refined_best_candidate = FamilyRmse(problem, ends.own.point);
   const Translation& at = job->family.translation;
-  report->best_bird_polished =
+  report->refined_best_candidate =
       at.extended ? ReportedShared(at, ends.own.point.shared) : ends.own.point.shared;
-  report->best_bird_polished.resize(at.size());
+  report->refined_best_candidate.resize(at.size());
   report->plain_seconds = ends.plain_seconds;
-  report->best_bird_seconds = ends.own_seconds;
+  report->best_candidate_seconds = ends.own_seconds;
   job->stopped = job->stopped || ends.plain.stopped || ends.own.stopped;
 }
 
@@ -242,10 +242,10 @@ void SettleWhole(const std::vector<double>& shared, FamilyProblem* family) {
 
 void Refine(Job* job, FamilyReport* report) {
   JointProblem problem = JointProblemOn(job->family, job->options, job->family.curves.fitted);
-  JointPoint bird = job->searched;
-  bird.local.assign(problem.curves.size(), {0, 0});
-  report->rmse.searched_all = FamilyRmse(problem, bird);
-  if (job->options.plain_polish) FollowBird(job, problem, report);
+  JointPoint candidate = job->searched;
+  candidate.local.assign(problem.curves.size(), {0, 0});
+  report->rmse.searched_all = FamilyRmse(problem, candidate);
+  if (job->options.plain_polish) FollowCandidate(job, problem, report);
   const Instant begin = Now();
   job->starts = ChooseStarts(job->family, job->options, job->search_curves, std::move(job->starts),
                              job->elites, job->observer);

@@ -87,11 +87,11 @@ void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProb
   }
 }
 
-BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
-                    const std::vector<int>& search_curves, const JointPoint& bird,
+CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const JointPoint& candidate,
                     const Observer& observer, JointProblem problem) {
-  BirdEnds ends;
-  JointPoint start = bird;
+  CandidateEnds ends;
+  JointPoint start = candidate;
   start.local.assign(problem.curves.size(), {0, 0});
   SharedObserver watch(observer, "joint fit", 0);
   JointOptions how;
@@ -100,7 +100,7 @@ BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
   ends.plain = RefineJointlyPlainly(problem, start, how);
   ends.plain_seconds = SecondsSince(begin);
   begin = Now();
-  ends.own = FitJointly(family, options, search_curves, {bird}, observer, &problem);
+  ends.own = FitJointly(family, options, search_curves, {candidate}, observer, &problem);
   ends.own_seconds = SecondsSince(begin);
   return ends;
 }

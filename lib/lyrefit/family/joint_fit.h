@@ -22,16 +22,16 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
 void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProblem* problem,
                  JointEnd* end);
 
-// What becomes of the search's best bird by itself: after one bounded solve of all curves, and
+// What becomes of the search's best candidate by itself: after one bounded solve of all curves, and
 // after a joint fit that begins at it alone.
-struct BirdEnds {
+struct CandidateEnds {
   JointEnd plain;
   JointEnd own;
   double plain_seconds = 0;
   double own_seconds = 0;
 };
-BirdEnds PolishBird(const FamilyProblem& family, const FamilyOptions& options,
-                    const std::vector<int>& search_curves, const JointPoint& bird,
+CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& options,
+                    const std::vector<int>& search_curves, const JointPoint& candidate,
                     const Observer& observer, JointProblem problem);
 
 // A start from a curve's own fit: its parameters brought to the reference by the usual

@@ -8,8 +8,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/fit/basin_starts.h"
-#include "lyrefit/fit/birds.h"
-#include "lyrefit/fit/check_birds.h"
+#include "lyrefit/fit/search_candidates.h"
+#include "lyrefit/fit/check_candidates.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/form_problem.h"
@@ -35,7 +35,7 @@ namespace {
 constexpr int kGridStarts = 4;
 
 // The best of as many random points as the search evaluated.
-void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlaces* places,
+void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, SearchCandidates* places,
                        FitReport* report) {
   SearchOptions random = job->options.search;
   random.algorithm = Algorithm::kRandom;
@@ -51,7 +51,7 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, BirdPlac
 // Runs the search; returns the elites.
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   const Instant begin = Now();
-  BirdPlaces few(*job, job->few), all(*job, job->problem);
+  SearchCandidates few(*job, job->few), all(*job, job->problem);
   TRY(few.Check());
   if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
   const double getting_ready = SecondsSince(begin);
@@ -64,7 +64,7 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   report->curve_evaluations = few.evaluations();
   if (searcher || job->few.points.size < job->problem.points.size) {
     const auto valid =
-        CheckBirds([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
+        CheckCandidates([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
     if (!valid) return tl::unexpected(valid.error());
   }
   if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
@@ -73,9 +73,9 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
     RunRandomBaseline(job, objective, &few, report);
   }
   std::vector<PolishStart> elites;
-  for (const Bird& bird : report->search.elites) {
-    elites.push_back({elites.empty() ? "best bird" : fmt::format("elite {}", elites.size() + 1),
-                      all.DeviceAt(bird.x.data()), all.FormAt(bird.x.data())});
+  for (const Candidate& candidate : report->search.elites) {
+    elites.push_back({elites.empty() ? "best candidate" : fmt::format("elite {}", elites.size() + 1),
+                      all.DeviceAt(candidate.x.data()), all.FormAt(candidate.x.data())});
   }
   return elites;
 }
@@ -94,8 +94,8 @@ void FillResults(const FitJob& job, FitReport* report) {
   const Device& device = report->device;
   report->rmse.searched = BothRmse(device, report->searched, curve);
   if (report->polished) {
-    const std::vector<double>& bird = report->best_bird_polished;
-    if (!bird.empty()) report->rmse.best_bird_polished = BothRmse(device, bird, curve);
+    const std::vector<double>& candidate = report->refined_best_candidate;
+    if (!candidate.empty()) report->rmse.refined_best_candidate = BothRmse(device, candidate, curve);
     report->rmse.refined = BothRmse(device, report->refined, curve);
   }
   const std::vector<double>& p = report->refined;
@@ -147,23 +147,23 @@ void FindFloor(FitJob* job, FitReport* report) {
   report->floor = *floor;
 }
 
-// What one bounded solve makes of the best bird, and what its own polish does.
-void PolishPlainly(const PolishStart& bird, FitJob* job, FitReport* report) {
+// What one bounded solve makes of the best candidate, and what its own polish does.
+void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report) {
   const bool extended = !job->forms.empty();
   const RefineProblem problem =
-      extended ? InForm(job->problem, job->forms[bird.form], bird.p) : job->problem;
+      extended ? InForm(job->problem, job->forms[candidate.form], candidate.p) : job->problem;
   RefineOptions how;
   how.stop = job->watch.stop();
   how.impatient = true;
   Instant begin = Now();
-  const RefineEnd plain = RefinePlainly(problem, bird.p, how);
+  const RefineEnd plain = RefinePlainly(problem, candidate.p, how);
   report->plain_seconds = SecondsSince(begin);
   report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
   begin = Now();
-  report->best_bird_polished = extended
-                                   ? Refine(problem, bird.p, how).p
-                                   : PolishStarts(problem, job->few, {bird}, &job->watch).first.p;
-  report->refine.best_bird_seconds = SecondsSince(begin);
+  report->refined_best_candidate = extended
+                                   ? Refine(problem, candidate.p, how).p
+                                   : PolishStarts(problem, job->few, {candidate}, &job->watch).first.p;
+  report->refine.best_candidate_seconds = SecondsSince(begin);
 }
 
 std::string TooFewReadings(const FitJob& job) {
@@ -181,13 +181,13 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
                : PolishStarts(job->problem, job->few, CollectStarts(job->few, elites, kGridStarts),
                               &job->watch);
   report->polished = true;
-  const double best_bird_seconds = report->refine.best_bird_seconds;
+  const double best_candidate_seconds = report->refine.best_candidate_seconds;
   report->refine = polish.report;
-  report->refine.best_bird_seconds = best_bird_seconds;
-  const bool of_bird = !extended || options.starts != StartsFrom::kShape;
-  if (report->best_bird_polished.empty() && of_bird) report->best_bird_polished = polish.first.p;
-  if (!report->best_bird_polished.empty()) {
-    OrderAlike(report->device, job->bounds, &report->best_bird_polished, nullptr);
+  report->refine.best_candidate_seconds = best_candidate_seconds;
+  const bool of_candidate = !extended || options.starts != StartsFrom::kShape;
+  if (report->refined_best_candidate.empty() && of_candidate) report->refined_best_candidate = polish.first.p;
+  if (!report->refined_best_candidate.empty()) {
+    OrderAlike(report->device, job->bounds, &report->refined_best_candidate, nullptr);
   }
   RefineEnd end = polish.best;
   if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
@@ -246,15 +246,15 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   report.non_default_options = NonDefaults(options, kFitOptionTable);
 
-  TRY(const auto birds, RunSearch(&job, &report));
-  const PolishStart& best = birds.front();
+  TRY(const auto candidates, RunSearch(&job, &report));
+  const PolishStart& best = candidates.front();
   report.searched = report.refined = best.p;
   OrderAlike(report.device, job.bounds, &report.searched, nullptr);
   const bool extended = !job.forms.empty();
-  if (extended) report.best_bird_price = FormPrice(job, best.form);
+  if (extended) report.best_candidate_penalty = FormPrice(job, best.form);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, birds, CompleteSpace(job), &report);
+    PolishAndJudge(&job, candidates, CompleteSpace(job), &report);
   } else {
     if (extended) SettleForm(best.form, best.p, &job, &report);
     report.refined = report.searched;

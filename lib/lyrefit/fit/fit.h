@@ -9,7 +9,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The hybrid estimator: search the bounds, polish the best bird, further elites and a separable
+// The hybrid estimator: search the bounds, polish the best candidate, further elites and a separable
 // grid by bounded least squares, and say what is known and how well. Errors: an unusable curve,
 // options outside their ranges, reversed or impossible bounds, fewer points than free parameters.
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options = {},

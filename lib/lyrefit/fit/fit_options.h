@@ -38,7 +38,7 @@ struct EnumTable<Loss> {
 // Where the polish of a model with effects begins.
 enum class StartsFrom {
   kAll,
-  kSearch,  // the birds of the search alone
+  kSearch,  // the candidates of the search alone
   kShape,   // places that the shape of the curve suggests (plateaus, shoulders), without the search
 };
 
@@ -48,20 +48,20 @@ struct EnumTable<StartsFrom> {
       {StartsFrom::kAll, "all"}, {StartsFrom::kSearch, "search"}, {StartsFrom::kShape, "shape"}};
 };
 
-// What a bird of the search stands for.
-enum class Birds {
+// What a candidate of the search stands for.
+enum class SearchVariables {
   kAll,   // a complete device
-  kHard,  // its hard parameters alone: Rs, the n and the effects; see fit/birds.h
+  kHard,  // its hard parameters alone: Rs, the n and the effects; see fit/candidates.h
 };
 
 template <>
-struct EnumTable<Birds> {
-  static constexpr EnumText<Birds> kRows[] = {{Birds::kAll, "all"}, {Birds::kHard, "hard"}};
+struct EnumTable<SearchVariables> {
+  static constexpr EnumText<SearchVariables> kRows[] = {{SearchVariables::kAll, "all"}, {SearchVariables::kHard, "hard"}};
 };
 
 // What --help says of them.
-inline constexpr char kBirdsDoc[] =
-    "a bird is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
+inline constexpr char kSearchVariablesDoc[] =
+    "a candidate is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
     "Is and Rsh are solved for";
 
 enum class Intervals { kNone, kSymmetric, kProfile };  // Which intervals a fit works out.
@@ -85,13 +85,13 @@ struct FitOptions {
   std::vector<EffectUse> with;
   bool force_effects = false;  // also those that data of this kind cannot show
   SearchOptions search;
-  Birds birds = Birds::kAll;
+  SearchVariables candidates = SearchVariables::kAll;
   SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
   bool random_baseline =
       true;  // print the best of as many random points beside the search's figure
   bool polish = true;
-  bool plain_polish = false;  // also try one bounded least-squares solve from the best bird, and
-                              // nothing more, and polish that bird by itself to its end
+  bool plain_polish = false;  // also try one bounded least-squares solve from the best candidate, and
+                              // nothing more, and polish that candidate by itself to its end
   StartsFrom starts = StartsFrom::kAll;
   bool floor = false;  // also prove how low the RMSE of the objective can go within the bounds
   // What the polish and the intervals take the errors of the readings for. kWhite: the estimates
@@ -101,14 +101,14 @@ struct FitOptions {
   // Whether kWhite looks for an error model in the residuals and for intervals under it, a sixth of
   // the time of a fit.
   bool find_errors = true;
-  Loss loss = Loss::kSquared;  // of the polish; the search always ranks birds by squares
+  Loss loss = Loss::kSquared;  // of the polish; the search always ranks candidates by squares
   double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
   Intervals intervals =
       Intervals::kProfile;         // kProfile: profile only where symmetric would be false
   int threads = 0;                 // 0: all cores; never changes a result
   const Kernel* kernel = nullptr;  // nullptr: the fastest
 
-  // For a model with effects: a small flock, as the shape of the curve and the basins that its
+  // For a model with effects: a small population, as the shape of the curve and the basins that its
   // polish comes to say more about where to look.
   static SearchOptions SearchBesideShapes() {
     SearchOptions search;
@@ -143,11 +143,11 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
                               return {options.searcher ? "custom" : ""};
                             }},
      OptionTrait::kNoFlag},
-    {"plain-polish", "", "also one bounded least-squares solve from the best bird",
+    {"plain-polish", "", "also one bounded least-squares solve from the best candidate",
      &FitOptions::plain_polish, OptionTrait::kNoFlag},
     {"algorithm", "NAME", "how to search",
      EnumOption<&FitOptions::search, &SearchOptions::algorithm>()},
-    {"birds", "NAME", kBirdsDoc, EnumOption<&FitOptions::birds>()},
+    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&FitOptions::candidates>()},
     {"search", "", "the search's own options",
      OptionNest<FitOptions>{[](const FitOptions& options, const FitOptions& defaults,
                                std::vector<OptionEcho>* echoes) {
@@ -160,7 +160,7 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
     {"starts", "NAME", "where the polish of a model with effects begins",
      EnumOption<&FitOptions::starts>(), OptionTrait::kNoFlag | OptionTrait::kNoEcho},
     OptionRow<FitOptions>("Polish"),
-    {"polish", "", "answer with the search's best bird", &FitOptions::polish},
+    {"polish", "", "answer with the search's best candidate", &FitOptions::polish},
     {"floor", "", "also prove how low the RMSE of the objective can go within the bounds",
      &FitOptions::floor},
     {"noise", "NAME|FILE",

@@ -75,11 +75,11 @@ struct RmsePair {
 // The errors of one fit on its way: by search alone, polished, and best of all.
 struct RmseTable {
   RmsePair random_baseline;  // best of as many uniform random points as the search evaluated
-  RmsePair searched;         // the metaheuristic's best bird as it is
-  RmsePair plain_polished;   // that bird after one bounded solve in all parameters, if asked for
-  // That bird after its own polish; with effects as far as that was worth it, unless it was asked
+  RmsePair searched;         // the metaheuristic's best candidate as it is
+  RmsePair plain_polished;   // that candidate after one bounded solve in all parameters, if asked for
+  // That candidate after its own polish; with effects as far as that was worth it, unless it was asked
   // for (FitOptions::plain_polish).
-  RmsePair best_bird_polished;
+  RmsePair refined_best_candidate;
   RmsePair refined;  // the best end of all starts
 };
 
@@ -100,7 +100,7 @@ struct FloorReport {
 // One start of the polish and where it ended. Starts whose descents come to the same curve, to a
 // thousandth of its RMSE, are polished once and share that end.
 struct StartReport {
-  std::string origin;  // "best bird", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
+  std::string origin;  // "best candidate", "elite 2", "grid n = 1.25, 2; Rs = 0.036 ohm", ...
   double start_rmse_A = kUnknown;  // both of the objective that was fitted
   double end_rmse_A = kUnknown;
   bool agrees = false;  // shares the best end, or its own is within 1e-9 relative of it
@@ -148,7 +148,7 @@ struct RefineReport {
   double projected_gradient = kUnknown;
   double condition = kUnknown;  // of the scaled Jacobian in the free parameters
   double seconds = 0;
-  double best_bird_seconds = kUnknown;  // of the best bird's own polish, where it was asked for
+  double best_candidate_seconds = kUnknown;  // of the best candidate's own polish, where it was asked for
   std::optional<BasinCount> basins;     // of a model with effects
 };
 
@@ -220,7 +220,7 @@ struct FitReport {
   double steepest_n = kUnknown;
   Device device;
   std::vector<double> searched;            // parameter vectors in the device's order
-  std::vector<double> best_bird_polished;  // after its own polish; empty: not asked for
+  std::vector<double> refined_best_candidate;  // after its own polish; empty: not asked for
   std::vector<double> refined;             // equal to `searched` where there was no polish
   bool polished = false;
   std::vector<Estimate> estimates;    // in the device's order
@@ -241,17 +241,17 @@ struct FitReport {
   SearchOptions search_options;           // as the search had them
   SearchSummary search;                   // how the search went
   // Evaluations of the whole curve, with or without derivatives, that the search cost: as many as
-  // its own, unless each bird solves for parameters (FitOptions::birds).
+  // its own, unless each candidate solves for parameters (FitOptions::candidates).
   std::int64_t curve_evaluations = 0;
   RefineReport refine;
   // What the RMSE is multiplied by where forms are weighed against each other as BIC does it:
   // points ^ (free parameters beyond those of the smallest form / 2 points). Of the answer, and of
-  // the best bird and its own polish; 1 where there is one form.
+  // the best candidate and its own polish; 1 where there is one form.
   double form_price = 1;
-  double best_bird_price = 1;
+  double best_candidate_penalty = 1;
   std::vector<FormReport> forms;      // of effects that have several; one is chosen
   double interval_seconds = 0;        // of profiles and intervals
-  double plain_seconds = kUnknown;    // of the best bird's plain solve
+  double plain_seconds = kUnknown;    // of the best candidate's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for
   std::optional<ModelChoice> choice;  // of `auto`
   // Of an extended model: ids of the effects beside the diodes, and how many curves under

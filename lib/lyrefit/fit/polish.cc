@@ -183,10 +183,10 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
 }
 
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
-                                       const std::vector<PolishStart>& birds, int grid) {
-  std::vector<PolishStart> starts = {birds.at(0)};
-  std::vector<SeparableStart> separable = SeparableStarts(problem, birds[0].p[kRs], grid);
-  const std::size_t rounds = std::max(separable.size(), birds.size());
+                                       const std::vector<PolishStart>& candidates, int grid) {
+  std::vector<PolishStart> starts = {candidates.at(0)};
+  std::vector<SeparableStart> separable = SeparableStarts(problem, candidates[0].p[kRs], grid);
+  const std::size_t rounds = std::max(separable.size(), candidates.size());
   for (std::size_t k = 0; k < rounds; ++k) {
     if (k < separable.size()) {
       starts.push_back({std::move(separable[k].origin), std::move(separable[k].p)});
@@ -194,7 +194,7 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
     if (k == 0 && DiodeCount(problem.device) > 1) {
       starts.push_back({"single diode", SingleDiodeStart(problem)});
     }
-    if (k + 1 < birds.size()) starts.push_back(birds[k + 1]);
+    if (k + 1 < candidates.size()) starts.push_back(candidates[k + 1]);
   }
   return starts;
 }

@@ -18,7 +18,7 @@ struct PolishStart {
   bool beside = false;  // begins at an earlier end, changed a little
 };
 
-// All starts polished: the first start is the best bird, whose own end is kept apart.
+// All starts polished: the first start is the best candidate, whose own end is kept apart.
 struct PolishResult {
   RefineEnd best;
   RefineEnd first;
@@ -42,9 +42,9 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
                           const std::vector<PolishStart>& starts, FitWatch* watch);
 
-// The best bird first, then by turns the separable grid and further elites; for more than one diode
+// The best candidate first, then by turns the separable grid and further elites; for more than one diode
 // also the best single-diode curve, so that a richer model never ends above a poorer one.
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
-                                       const std::vector<PolishStart>& birds, int grid);
+                                       const std::vector<PolishStart>& candidates, int grid);
 
 }  // namespace lyrefit

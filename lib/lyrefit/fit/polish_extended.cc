@@ -14,7 +14,7 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kProbes = 4;
-constexpr std::size_t kBirds = 3;
+constexpr std::size_t kCandidates = 3;
 constexpr std::size_t kShapes = 3;
 constexpr int kFurther = 3;  // of random places, and of probes beside the best
 constexpr int kAgain = 2;    // ends in the best basin that make further rounds needless
@@ -111,20 +111,20 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* 
   }
 }
 
-void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, const FitJob& job,
+void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& space, const FitJob& job,
                Basins* basins) {
   const StartsFrom from = job.options.starts;
   const std::vector<bool> shapeless = Shapeless(job);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
   const bool all = std::find(shapeless.begin(), shapeless.end(), false) == shapeless.end();
-  const std::size_t first = from == StartsFrom::kAll ? 1 : kBirds;
-  const auto birds_between = [&](std::size_t begin, std::size_t end) {
+  const std::size_t first = from == StartsFrom::kAll ? 1 : kCandidates;
+  const auto candidates_between = [&](std::size_t begin, std::size_t end) {
     return std::vector<PolishStart>(
-        birds.begin() + static_cast<std::ptrdiff_t>(std::min(begin, birds.size())),
-        birds.begin() + static_cast<std::ptrdiff_t>(std::min(end, birds.size())));
+        candidates.begin() + static_cast<std::ptrdiff_t>(std::min(begin, candidates.size())),
+        candidates.begin() + static_cast<std::ptrdiff_t>(std::min(end, candidates.size())));
   };
   std::vector<PolishStart> starts;
-  if (from != StartsFrom::kShape) starts = birds_between(0, first);
+  if (from != StartsFrom::kShape) starts = candidates_between(0, first);
   if (from != StartsFrom::kSearch) {
     std::vector<PolishStart> more = ShapeStarts(job);
     if (more.empty()) {
@@ -136,7 +136,7 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
   if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, basins);
   if (from == StartsFrom::kShape) return;
   if (from == StartsFrom::kAll && LeavesNoise(job, *basins)) return;
-  if (basins->visits() < kAgain) basins->Descend(birds_between(first, kBirds));
+  if (basins->visits() < kAgain) basins->Descend(candidates_between(first, kCandidates));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
   for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
     if (basins->visits() >= kAgain && LeavesNoise(job, *basins)) return;
@@ -146,12 +146,12 @@ void TryStarts(const std::vector<PolishStart>& birds, const SearchSpace& space, 
 
 }  // namespace
 
-PolishResult PolishExtended(const std::vector<PolishStart>& birds, const SearchSpace& space,
+PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const SearchSpace& space,
                             FitJob* job, FitReport* report) {
   const Instant begin = Now();
   job->watch.Begin("polish", 0);
   Basins basins(job->problem, job->forms, &job->watch);
-  TryStarts(birds, space, *job, &basins);
+  TryStarts(candidates, space, *job, &basins);
   ClimbSettings(*job, &basins);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;

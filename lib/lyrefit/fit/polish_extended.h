@@ -10,11 +10,11 @@
 namespace lyrefit {
 
 // The hybrid over the basins of a device with effects. It begins where the shape of the curve
-// suggests, at the best bird and at probes of what shows in no shape; goes on from further elites
+// suggests, at the best candidate and at probes of what shows in no shape; goes on from further elites
 // where the best basin was reached once, and from random places where that is still so or where
 // its residuals are no noise; and last tries what is next to the best end: other whole numbers,
 // other settings, single parameters elsewhere. Settles for the form of the best end.
-PolishResult PolishExtended(const std::vector<PolishStart>& birds, const SearchSpace& space,
+PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const SearchSpace& space,
                             FitJob* job, FitReport* report);
 
 }  // namespace lyrefit

@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// Where fits of a device with effects begin besides the birds of a search, in one of its forms.
+// Where fits of a device with effects begin besides the candidates of a search, in one of its forms.
 
 // The base device polished by itself, with the effects' probes that tell most of what it leaves. Of
 // an effect with few settings of what does not descend, one start each. Best first, `count` at most

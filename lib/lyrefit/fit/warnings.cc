@@ -23,7 +23,7 @@ void WarnOfStops(const FitReport& report, Sentences* out) {
     out->push_back("the polish stopped before it converged; do not trust the last digits");
   }
   if (!report.polished && !report.interrupted) {
-    out->push_back("not polished: the parameters are those of the search's best bird");
+    out->push_back("not polished: the parameters are those of the search's best candidate");
   }
 }
 

@@ -117,7 +117,7 @@ FleetTask FitTask(const FitOptions& asked, bool auto_model) {
     // Nobody's clock is in a page.
     report->search.seconds = report->refine.seconds = kUnknown;
     report->interval_seconds = report->plain_seconds = kUnknown;
-    report->refine.best_bird_seconds = kUnknown;
+    report->refine.best_candidate_seconds = kUnknown;
     TaskResult result{report->usable ? RowStatus::kFine : RowStatus::kNotUsable,
                       report->not_usable_because, FitCells(*report, parameters),
                       report->interrupted};

@@ -257,8 +257,8 @@ Section FamilyRmseSection(const FamilyReport& report) {
   const std::string all =
       fmt::format("all {} fitted", Plural(Count(report, CurveRole::kFitted), "curve"));
   add("random points, as many", report.rmse.random_baseline, seen);
-  add("searched (best bird)", report.rmse.searched, seen);
-  add("searched (best bird)", report.rmse.searched_all, all);
+  add("searched (best candidate)", report.rmse.searched, seen);
+  add("searched (best candidate)", report.rmse.searched_all, all);
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A)) {

@@ -232,8 +232,8 @@ Section RmseSection(const FitReport& report) {
                           Scientific(shown.solved_current_A, kRmseDigits)});
   };
   add("random points, as many", report.rmse.random_baseline, true);
-  add("searched (best bird)", report.rmse.searched, true);
-  add("best bird polished", report.rmse.best_bird_polished, report.polished);
+  add("searched (best candidate)", report.rmse.searched, true);
+  add("best candidate polished", report.rmse.refined_best_candidate, report.polished);
   const bool weighed = report.errors && report.errors->weighed;
   if (weighed) add("least squares", report.errors->least_squares, true);
   add(weighed ? "weighed by the errors" : "refined (best of all starts)", report.rmse.refined,

@@ -77,7 +77,7 @@ Json FitRmseJson(const FitReport& report) {
           {"searched", rmse.searched},
           {"plain_polished", rmse.plain_polished},
           {"least_squares", report.errors ? report.errors->least_squares : unknown},
-          {"best_bird_polished", report.polished ? rmse.best_bird_polished : unknown},
+          {"refined_best_candidate", report.polished ? rmse.refined_best_candidate : unknown},
           {"refined", report.polished ? rmse.refined : unknown}};
 }
 

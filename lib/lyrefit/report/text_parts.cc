@@ -115,7 +115,7 @@ std::string SearchText(const SearchOptions& options, const SearchSummary& search
     of_curve = fmt::format(" ({} of the curve)", curve_evaluations);
   }
   std::string text = fmt::format(
-      "{}: {}, seed {}, {} birds x {} iterations, {} evaluations{}; ended by: {}",
+      "{}: {}, seed {}, {} candidates x {} iterations, {} evaluations{}; ended by: {}",
       Duration(search.seconds), ToText(options.algorithm), options.seed, options.population,
       search.iterations, search.evaluations, of_curve, ToText(search.termination));
   if (search.termination != SearchTermination::kIterations && !search.message.empty()) {

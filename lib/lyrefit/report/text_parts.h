@@ -50,7 +50,7 @@ std::string EstimateMarks(const Estimate& estimate);
 // "Is1-n1 +0.9999, ..."
 std::string CorrelationsText(const std::vector<Correlation>& correlations);
 
-// "4.1 ms: mlo, seed 0, 20 birds x 20 iterations, 420 evaluations; ended by: iterations"
+// "4.1 ms: mlo, seed 0, 20 candidates x 20 iterations, 420 evaluations; ended by: iterations"
 std::string SearchText(const SearchOptions& options, const SearchSummary& search,
                        std::int64_t curve_evaluations);
 

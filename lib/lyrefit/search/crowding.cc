@@ -27,7 +27,7 @@ LYREFIT_CLONES void Distances(const double* coordinate, int stride, int dimensio
   for (int k = 0; k < stride; ++k) distance[k] = std::sqrt(distance[k]);
 }
 
-// The sums and the bounds of the largest distance, after one bird has moved: its distances to the
+// The sums and the bounds of the largest distance, after one candidate has moved: its distances to the
 // others were `past` and are `fresh`.
 LYREFIT_CLONES void UpdateOthers(const double* past, const double* fresh, int stride, double* sum,
                                  double* bound) {
@@ -57,23 +57,23 @@ double SumOf(const double* row, int stride) {
 
 }  // namespace
 
-Crowding::Crowding(int birds, int dimensions, const std::vector<double>& unit)
-    : birds_(birds),
+Crowding::Crowding(int candidates, int dimensions, const std::vector<double>& unit)
+    : candidates_(candidates),
       dimensions_(dimensions),
-      stride_((birds + kLanes - 1) / kLanes * kLanes),
+      stride_((candidates + kLanes - 1) / kLanes * kLanes),
       coordinate_(static_cast<std::size_t>(dimensions) * stride_),
       point_(dimensions),
       sum_(stride_),
       bound_(stride_),
       past_(stride_),
       fresh_(stride_) {
-  for (int i = 0; i < birds; ++i) {
+  for (int i = 0; i < candidates; ++i) {
     for (int j = 0; j < dimensions; ++j) {
       coordinate_[static_cast<std::size_t>(j) * stride_ + i] =
           unit[static_cast<std::size_t>(i) * dimensions + j];
     }
   }
-  for (int i = 0; i < birds; ++i) {
+  for (int i = 0; i < candidates; ++i) {
     FindDistances(i, &fresh_);
     sum_[i] = SumOf(fresh_.data(), stride_);
     bound_[i] = LargestOf(fresh_.data(), stride_);
@@ -86,7 +86,7 @@ void Crowding::FindDistances(int i, std::vector<double>* distance) {
     point_[j] = coordinate_[static_cast<std::size_t>(j) * stride_ + i];
   }
   Distances(coordinate_.data(), stride_, dimensions_, point_.data(), distance->data());
-  std::fill(distance->begin() + birds_, distance->end(), 0.0);
+  std::fill(distance->begin() + candidates_, distance->end(), 0.0);
 }
 
 void Crowding::Move(int i, const double* unit) {
@@ -107,7 +107,7 @@ void Crowding::Move(int i, const double* unit) {
   }
 }
 
-// The greatest bound is the answer once it is attained; one that is not is lowered to what its bird
+// The greatest bound is the answer once it is attained; one that is not is lowered to what its candidate
 // attains.
 void Crowding::FindLargest() {
   while (true) {

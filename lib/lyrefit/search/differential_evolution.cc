@@ -9,13 +9,13 @@
 namespace lyrefit {
 namespace {
 
-// Three different birds, none of them `bird`.
-void DrawThree(RandomStream* random, int population, int bird, int (&three)[3]) {
+// Three different candidates, none of them `candidate`.
+void DrawThree(RandomStream* random, int population, int candidate, int (&three)[3]) {
   for (int k = 0; k < 3; ++k) {
     bool taken;
     do {
       three[k] = static_cast<int>(random->Index(population));
-      taken = three[k] == bird || std::find(three, three + k, three[k]) != three + k;
+      taken = three[k] == candidate || std::find(three, three + k, three[k]) != three + k;
     } while (taken);
   }
 }

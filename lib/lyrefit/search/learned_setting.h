@@ -17,7 +17,7 @@ class LearnedSetting {
 
   double Draw(RandomStream* random);
 
-  // The move that used `value` made its bird better by `gain`; what is not finite is passed over.
+  // The move that used `value` made its candidate better by `gain`; what is not finite is passed over.
   void Gained(double value, double gain);
 
   void EndIteration();

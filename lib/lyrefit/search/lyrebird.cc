@@ -3,8 +3,8 @@
 // four settings: LO has Pm = gamma = 0. What the paper prints, what LO's own paper says and what is
 // chosen here, with the evidence, stands in README.md beside this file.
 //
-// Chosen here, in short: in Eq. 20 the memory is that of a random bird and z is one number a move,
-// where the paper prints the bird's own memory and a vector (kMloVector has the vector); Eq. 23 and
+// Chosen here, in short: in Eq. 20 the memory is that of a random candidate and z is one number a move,
+// where the paper prints the candidate's own memory and a vector (kMloVector has the vector); Eq. 23 and
 // 24 are lost in print, and their form is a reconstruction.
 //
 // Under a name of its own, and of no paper, is tuning during the run: each move draws its Pm or
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/search/bird_order.h"
+#include "lyrefit/search/candidate_order.h"
 #include "lyrefit/search/crowding.h"
 #include "lyrefit/search/learned_setting.h"
 #include "lyrefit/search/run.h"
@@ -36,13 +36,13 @@ double GammaOf(const SearchOptions& options) {
   return a == Algorithm::kLo || a == Algorithm::kLoMblss ? 0 : options.distance_coefficient;
 }
 
-// The moves of a flock of lyrebirds, which are the birds of a run.
+// The moves of a population of lyrebirds, which are the candidates of a run.
 class Lyrebird {
  public:
-  // The birds have been drawn.
+  // The candidates have been drawn.
   Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random);
 
-  // Iteration `t` of `planned`: every bird moves, until the run stops.
+  // Iteration `t` of `planned`: every candidate moves, until the run stops.
   void Move(double t, double planned);
 
  private:
@@ -72,7 +72,7 @@ class Lyrebird {
   const bool vector_;  // a z for each coordinate in Eq. 20
   std::vector<double> candidate_;
   std::vector<double> unit_;
-  BirdOrder order_;
+  CandidateOrder order_;
   std::optional<Crowding> crowding_;
   std::optional<Learned> learned_;
   bool escaped_ = false;  // the move at hand
@@ -111,7 +111,7 @@ double Lyrebird::MemoryRate() {
 
 double Lyrebird::Gamma() { return learned_ ? drawn_ = learned_->gamma.Draw(random_) : gamma_; }
 
-// Fills candidate_; false where the bird stays.
+// Fills candidate_; false where the candidate stays.
 bool Lyrebird::Propose(int i, double t, double planned) {
   escaped_ = random_->Uniform() < 0.5;
   if (!escaped_) run_->CountHide();
@@ -135,7 +135,7 @@ bool Lyrebird::Propose(int i, double t, double planned) {
   return true;
 }
 
-// Eq. 18, 19: x' = x + r (s - J x), s a random better bird, J in {1, 2}.
+// Eq. 18, 19: x' = x + r (s - J x), s a random better candidate, J in {1, 2}.
 bool Lyrebird::Escape(int i) {
   const int better = order_.Better(i);
   if (better == 0) return false;
@@ -150,7 +150,7 @@ bool Lyrebird::Escape(int i) {
 }
 
 // MBLSS, Eq. 20, 21: x' = b + z (m_k - x). Acceptance is greedy and memories follow improvements,
-// so a bird's memory is its position and needs no array of its own.
+// so a candidate's memory is its position and needs no array of its own.
 void Lyrebird::Imitate(int i) {
   const double* memory = run_->x(random_->Index(n_));
   const double* best = run_->x(run_->best());
@@ -171,7 +171,7 @@ void Lyrebird::Hide(int i, double t) {
   }
 }
 
-// DMLSS in place of Eq. 23, which is lost in print: a crowded bird moves towards a random other one.
+// DMLSS in place of Eq. 23, which is lost in print: a crowded candidate moves towards a random other one.
 void Lyrebird::Disperse(int i) {
   int other = static_cast<int>(random_->Index(n_ - 1));
   if (other >= i) ++other;
@@ -215,9 +215,9 @@ void RunLyrebird(SearchRun* run, const SearchOptions& options) {
   RandomStream random(options.seed, options.run);
   DrawPopulation(run, &random, options.iterations, options.algorithm == Algorithm::kMloKnees);
   if (run->stopped()) return;
-  Lyrebird flock(run, options, &random);
+  Lyrebird population(run, options, &random);
   for (std::int64_t t = 1; !run->stopped(); ++t) {
-    flock.Move(static_cast<double>(t), options.iterations);
+    population.Move(static_cast<double>(t), options.iterations);
     run->EndIteration(t, options.iterations);
   }
 }

@@ -16,8 +16,8 @@ class SearchRun {
   int dimensions() const { return dimensions_; }
   int population() const { return static_cast<int>(f_.size()); }
   const Box& box() const { return box_; }
-  double* x(int bird) { return &x_[static_cast<std::size_t>(bird) * dimensions_]; }
-  double f(int bird) const { return f_[bird]; }
+  double* x(int candidate) { return &x_[static_cast<std::size_t>(candidate) * dimensions_]; }
+  double f(int candidate) const { return f_[candidate]; }
   int best() const { return best_; }
   bool stopped() const { return summary_.termination != SearchTermination::kNotRun; }
 
@@ -35,7 +35,7 @@ class SearchRun {
   std::int64_t hides() const { return hides_; }
   std::int64_t dispersals() const { return dispersals_; }
 
-  void Replace(int bird, const double* x, double f);
+  void Replace(int candidate, const double* x, double f);
 
   // Ends iteration `t` of `planned`: adds to the trace, asks the observer, looks at the clock.
   void EndIteration(std::int64_t t, std::int64_t planned);

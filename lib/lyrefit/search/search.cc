@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// Birds closer than this in every coordinate of the unit box count as one elite.
+// Candidates closer than this in every coordinate of the unit box count as one elite.
 constexpr double kDistinct = 0.01;
 
 constexpr std::size_t kLongestTrace = 65537;
@@ -52,10 +52,10 @@ SearchRun::SearchRun(const ObjectiveFunction& objective, const Box& box,
 
 double SearchRun::Seconds() const { return SecondsSince(begin_); }
 
-void SearchRun::Replace(int bird, const double* x, double f) {
-  std::copy(x, x + dimensions_, this->x(bird));
-  f_[bird] = f;
-  if (f < f_[best_]) best_ = bird;
+void SearchRun::Replace(int candidate, const double* x, double f) {
+  std::copy(x, x + dimensions_, this->x(candidate));
+  f_[candidate] = f;
+  if (f < f_[best_]) best_ = candidate;
 }
 
 // A trace that is full loses every second point, and takes every second one from then on.
@@ -98,7 +98,7 @@ void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
 void SearchRun::AddElite(const double* candidate, double f) {
   if (static_cast<int>(summary_.elites.size()) == options_.elites) return;
   const bool distinct =
-      std::all_of(summary_.elites.begin(), summary_.elites.end(), [&](const Bird& taken) {
+      std::all_of(summary_.elites.begin(), summary_.elites.end(), [&](const Candidate& taken) {
         for (int j = 0; j < dimensions_; ++j) {
           const double side = box_.upper[j] - box_.lower[j];
           if (std::fabs(candidate[j] - taken.x[j]) > kDistinct * side) return true;
@@ -112,7 +112,7 @@ void SearchRun::CollectElites() {
   std::vector<int> order(population());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return f_[a] < f_[b]; });
-  for (const int bird : order) AddElite(x(bird), f_[bird]);
+  for (const int candidate : order) AddElite(x(candidate), f_[candidate]);
   summary_.best = summary_.elites.front();
 }
 

@@ -17,7 +17,7 @@ enum class Algorithm {
   kLoMblss,    // with the memory-based learn search strategy only
   kLoDmlss,    // with the diversity-maintenance learn search strategy only
   kMloTuned,   // mlo that learns Pm and gamma from the moves that gained
-  kMloKnees,   // mlo whose first flock sits partly where the problem suggests
+  kMloKnees,   // mlo whose first population sits partly where the problem suggests
   kRandom,     // uniform random points: the baseline every figure is printed beside
   kDe,         // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
   kMloVector,  // mlo whose Eq. 20 draws a number for each coordinate, as the paper prints it
@@ -43,8 +43,8 @@ struct SearchOptions {
   Algorithm algorithm = Algorithm::kMlo;
   std::uint64_t seed = 0;
   std::uint64_t run = 0;               // number of the run: seed and run together name the stream
-  int population = 20;                 // birds
-  int iterations = 20;                 // one evaluation a bird each
+  int population = 20;                 // candidates
+  int iterations = 20;                 // one evaluation a candidate each
   double memory_rate = 0.5;            // Pm of MBLSS; 0 switches it off
   double distance_coefficient = 0.25;  // gamma of DMLSS; 0 switches it off
   double de_scale = 0.5;               // F of differential evolution
@@ -53,7 +53,7 @@ struct SearchOptions {
   double target = -kInfinity;  // stop at or below this objective value
   double time_limit_s = kInfinity;
   int patience = 0;  // stop after so many iterations without a better best; 0: never
-  int elites = 4;    // how many distinct birds to return, the best included
+  int elites = 4;    // how many distinct candidates to return, the best included
 };
 
 // The algorithm has its row where these options are part of others.
@@ -61,8 +61,8 @@ inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     OptionRow<SearchOptions>("Search"),
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},
     {"run", "", "number of the run under that seed", &SearchOptions::run, 0, 1e15},
-    {"population", "birds", "number of birds", &SearchOptions::population, 4, 20000},
-    {"iterations", "", "iterations, one evaluation a bird each", &SearchOptions::iterations, 1,
+    {"population", "candidates", "number of candidates", &SearchOptions::population, 4, 20000},
+    {"iterations", "", "iterations, one evaluation a candidate each", &SearchOptions::iterations, 1,
      1e8},
     {"memory-rate", "", "Pm: rate of the memory-based strategy", &SearchOptions::memory_rate, 0, 1},
     {"distance-coefficient", "", "gamma: reach of the diversity strategy",
@@ -76,7 +76,7 @@ inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     {"time-limit", "s", "stop after so many seconds", &SearchOptions::time_limit_s, 0, kInfinity},
     {"patience", "iterations", "stop after so many iterations without gain; 0: never",
      &SearchOptions::patience, 0, 1e8},
-    {"elites", "birds", "distinct birds handed to the polish", &SearchOptions::elites, 1, 1000},
+    {"elites", "candidates", "distinct candidates handed to the polish", &SearchOptions::elites, 1, 1000},
 };
 
 }  // namespace lyrefit

@@ -38,12 +38,12 @@ struct EnumTable<SearchTermination> {
 };
 
 // A point of the box and its objective value.
-struct Bird {
+struct Candidate {
   std::vector<double> x;         // as many as the box has sides
   double objective = kInfinity;  // at x; infinite where there is none
 };
 
-// The best so far after an iteration (iteration 0: the first random birds).
+// The best so far after an iteration (iteration 0: the first random candidates).
 struct TracePoint {
   std::int64_t iteration = 0;  // from 0
   std::int64_t evaluations = 0;
@@ -54,8 +54,8 @@ struct TracePoint {
 struct SearchSummary {
   SearchTermination termination = SearchTermination::kNotRun;
   std::string message;
-  Bird best;
-  std::vector<Bird> elites;  // distinct birds, best first; the first one is `best`
+  Candidate best;
+  std::vector<Candidate> elites;  // distinct candidates, best first; the first one is `best`
   std::int64_t evaluations = 0;
   std::int64_t iterations = 0;  // that were done
   double seconds = 0;

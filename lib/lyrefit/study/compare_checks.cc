@@ -58,10 +58,10 @@ Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
                                const CompareOptions& options) {
   if (auto checked = CheckContenders(contenders); !checked) return checked;
   const bool hard = std::any_of(contenders.begin(), contenders.end(),
-                                [](const Contender& c) { return c.birds != Birds::kAll; });
+                                [](const Contender& c) { return c.candidates != SearchVariables::kAll; });
   const bool family = std::any_of(curves.begin(), curves.end(),
                                   [](const CompareCurve& curve) { return curve.set.has_value(); });
-  if (hard && family) return Fail("birds hard is for curves: families are searched completely");
+  if (hard && family) return Fail("candidates hard is for curves: families are searched completely");
   return CheckOptions(curves.size(), contenders.size(), options);
 }
 

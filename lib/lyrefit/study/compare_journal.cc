@@ -69,7 +69,7 @@ std::string SettingsText(const Contender& contender) {
   AppendNonDefaults(contender.search, kSearchOptionTable, &echoes);
   std::string text =
       contender.searcher ? "a search of its own" : ToText(contender.search.algorithm);
-  if (contender.birds != Birds::kAll) text += ", " + ToText(contender.birds) + " birds";
+  if (contender.candidates != SearchVariables::kAll) text += ", " + ToText(contender.candidates) + " candidates";
   if (contender.kind != ContenderKind::kSearch) text = ToText(contender.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;
@@ -126,18 +126,18 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
                       {"seed", options.seed},
                       {"searched_A", ExactNumber(record.searched_A)},
                       {"plain_polished_A", ExactNumber(record.plain_polished_A)},
-                      {"best_bird_polished_A", ExactNumber(record.own_polished_A)},
+                      {"refined_best_candidate_A", ExactNumber(record.own_polished_A)},
                       {"refined_A", ExactNumber(record.polished_A)},
                       {"evaluations", record.evaluations},
                       {"search_seconds", ExactNumber(record.search_seconds)},
                       {"refine_seconds", ExactNumber(record.polish_seconds)},
                       {"parameters", ExactNumbers(outcome.parameters)},
                       {"trace", std::move(gains)}};
-  if (contender.birds != Birds::kAll) line["curve_evaluations"] = record.curve_evaluations;
+  if (contender.candidates != SearchVariables::kAll) line["curve_evaluations"] = record.curve_evaluations;
   if (problem.problem.empty()) return line;
   line["plain_seconds"] = ExactNumber(record.plain_seconds);
-  line["best_bird_seconds"] = ExactNumber(record.own_seconds);
-  line["best_bird_parameters"] = ExactNumbers(outcome.own_parameters);
+  line["best_candidate_seconds"] = ExactNumber(record.own_seconds);
+  line["best_candidate_parameters"] = ExactNumbers(outcome.own_parameters);
   return line;
 }
 
@@ -151,7 +151,7 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   r.run = run.place.run;
   r.searched_A = read.Number("searched_A");
   r.plain_polished_A = read.Number("plain_polished_A");
-  r.own_polished_A = read.Number("best_bird_polished_A");
+  r.own_polished_A = read.Number("refined_best_candidate_A");
   r.polished_A = read.Number("refined_A");
   r.evaluations = r.curve_evaluations = read.Whole("evaluations");
   if (record.json.contains("curve_evaluations")) {
@@ -160,10 +160,10 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   r.search_seconds = read.Number("search_seconds");
   r.polish_seconds = read.Number("refine_seconds");
   run.outcome.parameters = read.Numbers("parameters");
-  if (record.json.contains("best_bird_parameters")) {
+  if (record.json.contains("best_candidate_parameters")) {
     r.plain_seconds = read.Number("plain_seconds");
-    r.own_seconds = read.Number("best_bird_seconds");
-    run.outcome.own_parameters = read.Numbers("best_bird_parameters");
+    r.own_seconds = read.Number("best_candidate_seconds");
+    run.outcome.own_parameters = read.Numbers("best_candidate_parameters");
   }
   bool sound = true;
   for (const std::vector<double>& row : read.Rows("trace")) {

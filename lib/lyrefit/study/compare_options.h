@@ -23,7 +23,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // What of the hybrid a contender is about.
 enum class ContenderKind {
-  kSearch,   // a search; what becomes of its birds is looked at by how far they are polished
+  kSearch,   // a search; what becomes of its candidates is looked at by how far they are polished
   kShape,    // the places that the curve's shape suggests; its search is a token
   kDefault,  // the fit with its default settings, as it is
 };
@@ -36,7 +36,7 @@ struct EnumTable<ContenderKind> {
 };
 
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
-// run r all of ours start from the same first birds.
+// run r all of ours start from the same first candidates.
 struct Contender {
   std::string name;         // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
   std::string algorithm;    // without its setting, "mlo"; empty: the name
@@ -44,7 +44,7 @@ struct Contender {
   SearchFunction searcher;  // empty: Search()
   ContenderKind kind = ContenderKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
-  Birds birds = Birds::kAll;             // the same; kHard is for curves, not for families
+  SearchVariables candidates = SearchVariables::kAll;             // the same; kHard is for curves, not for families
   std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
 };
 
@@ -116,7 +116,7 @@ inline constexpr OptionRow<CompareOptions> kCompareOptionTable[] = {
     OptionRow<CompareOptions>("Polish"),
     {"polish", "", "the search alone", &CompareOptions::polish},
     {"plain-polish", "",
-     "also one bounded least-squares solve from the best bird, and nothing more",
+     "also one bounded least-squares solve from the best candidate, and nothing more",
      &CompareOptions::plain_polish},
 };
 

@@ -56,11 +56,11 @@ void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
   outcome->record.search_seconds = search.seconds;
 }
 
-// The best bird's own polish, also where nothing else was polished.
+// The best candidate's own polish, also where nothing else was polished.
 double OwnPolish(const FitReport& report, const ProblemResult& problem) {
-  const std::vector<double>& p = report.best_bird_polished;
+  const std::vector<double>& p = report.refined_best_candidate;
   if (report.polished || problem.problem.empty() || p.empty()) {
-    return report.rmse.best_bird_polished.Of(problem.objective);
+    return report.rmse.refined_best_candidate.Of(problem.objective);
   }
   return Rmse(report.device, problem.objective, p.data(), report.curve.voltage_V,
               report.curve.current_A);
@@ -72,14 +72,14 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   FillSearch(report.search, run, &outcome);
   RunRecord& record = outcome.record;
   record.curve_evaluations = report.curve_evaluations;
-  const double bird = report.best_bird_price;
-  record.searched_A = report.rmse.searched.Of(objective) * bird;
-  record.plain_polished_A = report.rmse.plain_polished.Of(objective) * bird;
-  record.own_polished_A = OwnPolish(report, problem) * bird;
+  const double candidate = report.best_candidate_penalty;
+  record.searched_A = report.rmse.searched.Of(objective) * candidate;
+  record.plain_polished_A = report.rmse.plain_polished.Of(objective) * candidate;
+  record.own_polished_A = OwnPolish(report, problem) * candidate;
   record.polished_A = report.rmse.refined.Of(objective) * report.form_price;
   record.polish_seconds = report.refine.seconds;
   record.plain_seconds = report.plain_seconds;
-  record.own_seconds = report.refine.best_bird_seconds;
+  record.own_seconds = report.refine.best_candidate_seconds;
   outcome.gains = KeepGains(report.search.trace);
   if (outcome.gains.empty()) {  // a search of the user's own that keeps no trace
     outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
@@ -87,8 +87,8 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   for (const Estimate& e : report.estimates) {
     outcome.parameters.push_back(report.polished ? e.refined : e.searched);
   }
-  if (!problem.problem.empty() && !report.best_bird_polished.empty()) {
-    outcome.own_parameters = Reported(report.device, report.best_bird_polished);
+  if (!problem.problem.empty() && !report.refined_best_candidate.empty()) {
+    outcome.own_parameters = Reported(report.device, report.refined_best_candidate);
   }
   return outcome;
 }
@@ -100,15 +100,15 @@ RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, i
   RunRecord& record = outcome.record;
   record.searched_A = report.rmse.searched_all.Of(objective);
   record.plain_polished_A = report.rmse.plain_polished.Of(objective);
-  record.own_polished_A = report.rmse.best_bird_polished.Of(objective);
+  record.own_polished_A = report.rmse.refined_best_candidate.Of(objective);
   record.polished_A = report.rmse.refined.Of(objective);
   record.polish_seconds = report.free_seconds + report.joint_seconds;
   record.plain_seconds = report.plain_seconds;
-  record.own_seconds = report.best_bird_seconds;
+  record.own_seconds = report.best_candidate_seconds;
   // The search saw some of the curves only: of its course nothing compares with the reference.
   outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
   for (const Estimate& e : report.estimates) outcome.parameters.push_back(e.refined);
-  outcome.own_parameters = report.best_bird_polished;
+  outcome.own_parameters = report.refined_best_candidate;
   return outcome;
 }
 
@@ -185,7 +185,7 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
   }
   FitOptions fit = FitOptionsOf(subject, problem, options);
   if (!problem.with.empty()) fit.search = FitOptions::SearchBesideShapes();
-  fit.birds = contender.birds;
+  fit.candidates = contender.candidates;
   SetContender(contender, options, run, &fit);
   const auto report = Fit(subject.curve, fit, observer);
   if (!report) return tl::unexpected(report.error());

@@ -16,8 +16,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct RunRecord {
   int run = 0;  // number of the run, which with the seed names its random stream
   double searched_A = kUnknown;
-  double plain_polished_A = kUnknown;  // one bounded solve from the best bird
-  double own_polished_A = kUnknown;    // the best bird's own polish
+  double plain_polished_A = kUnknown;  // one bounded solve from the best candidate
+  double own_polished_A = kUnknown;    // the best candidate's own polish
   double polished_A = kUnknown;        // the hybrid: best of all starts
   std::int64_t evaluations = 0;
   std::int64_t curve_evaluations = 0;  // that those cost; see FitReport
@@ -25,9 +25,9 @@ struct RunRecord {
   std::int64_t evaluations_to_target = -1;
   double search_seconds = 0;        // of the search alone
   double polish_seconds = 0;        // from all starts
-  double plain_seconds = kUnknown;  // of the best bird's plain solve
-  double own_seconds = kUnknown;    // of the best bird's own polish
-  // Of problems that are pooled: where the best bird's own polish and the hybrid ended, in the
+  double plain_seconds = kUnknown;  // of the best candidate's plain solve
+  double own_seconds = kUnknown;    // of the best candidate's own polish
+  // Of problems that are pooled: where the best candidate's own polish and the hybrid ended, in the
   // order of Reference::parameters. Empty: not kept.
   std::vector<double> own_parameters;
   std::vector<double> parameters;
@@ -56,7 +56,7 @@ struct ContenderResult {
   std::string algorithm;
   SearchOptions search;  // as the runs had them
   ContenderKind kind = ContenderKind::kSearch;
-  Birds birds = Birds::kAll;
+  SearchVariables candidates = SearchVariables::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   RunSpread searched;

@@ -15,8 +15,8 @@ namespace lyrefit {
 // How far a run is taken.
 enum class PolishLevel {
   kSearch,  // not beyond the search
-  kPlain,   // one bounded solve from the best bird
-  kOwn,     // the best bird's own polish
+  kPlain,   // one bounded solve from the best candidate
+  kOwn,     // the best candidate's own polish
   kHybrid,  // all starts
 };
 
@@ -24,7 +24,7 @@ template <>
 struct EnumTable<PolishLevel> {
   static constexpr EnumText<PolishLevel> kRows[] = {{PolishLevel::kSearch, "search alone"},
                                                     {PolishLevel::kPlain, "plain solve"},
-                                                    {PolishLevel::kOwn, "best bird"},
+                                                    {PolishLevel::kOwn, "best candidate"},
                                                     {PolishLevel::kHybrid, "all starts"}};
 };
 // All of them, the least polished first.

@@ -15,7 +15,7 @@ struct PooledRanking {
   std::int64_t budget = 0;
   std::vector<std::string> names;  // of the algorithms, as the ranks count them
   Ranking searched;                // of the search alone
-  Ranking own;                     // of the best bird's own polish
+  Ranking own;                     // of the best candidate's own polish
 };
 
 // By rising budget: first of all problems together, where there are several, then of each in turn.

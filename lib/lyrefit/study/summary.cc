@@ -169,7 +169,7 @@ ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* o
   result.algorithm = contender.algorithm.empty() ? contender.name : contender.algorithm;
   result.search = contender.search;
   result.kind = contender.kind;
-  result.birds = contender.birds;
+  result.candidates = contender.candidates;
   result.budget = contender.budget;
   for (RunOutcome& outcome : *outcomes) {
     outcome.record.evaluations_to_target =

@@ -12,7 +12,7 @@ struct RunOutcome {
   RunRecord record;
   std::vector<TracePoint> gains;   // the trace without the points that brought nothing; never empty
   std::vector<double> parameters;  // of the run's answer
-  std::vector<double> own_parameters;  // of the best bird's own polish; empty: not kept
+  std::vector<double> own_parameters;  // of the best candidate's own polish; empty: not kept
 };
 
 // The points of `trace` where the best became better, and the last one.

@@ -41,7 +41,7 @@ SearchVerdict JudgePool(const PooledProblem& pool);
 // the share of those that did; infinite without a hit.
 double TimeToBeSure(const Way& way);
 
-// The fit with its default settings against pagmo2's algorithms with the best bird's own polish,
+// The fit with its default settings against pagmo2's algorithms with the best candidate's own polish,
 // each run as often as it takes to be sure.
 struct PeerRatio {
   Way self;

@@ -25,7 +25,7 @@ TEST(CompareCsv, HasOneRowARun) {
   ASSERT_EQ(lines.size(), 1U + 2 * 3 * 4);
   EXPECT_EQ(lines[0],
             "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-            "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+            "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
             "search_seconds,"
             "refine_seconds");
   EXPECT_THAT(lines[1], StartsWith("sample_cell,sd,measured-current,literature,mlo,0,7,"

@@ -103,7 +103,7 @@ TEST(CompareText, NeedsNoOverviewOfOneCurve) {
 TEST(CompareText, SaysWhatWasCompared) {
   const std::string text = CompareText(SampleComparison());
   EXPECT_THAT(text, StartsWith("lyrefit 1.2.3: 3 algorithms, 4 runs each, on 2 problems\n"));
-  EXPECT_THAT(text, HasSubstr("10 birds x 100 iterations: 1010 evaluations at most a run"));
+  EXPECT_THAT(text, HasSubstr("10 candidates x 100 iterations: 1010 evaluations at most a run"));
   EXPECT_THAT(text, HasSubstr("0 to 3 of seed 7"));
   EXPECT_THAT(text, HasSubstr("sample_cell, double-diode model, bounds literature"));
   EXPECT_THAT(text, HasSubstr("9.860218779e-04 A measured-current, best of all runs; not proved"));
@@ -196,7 +196,7 @@ TEST(CompareText, LeavesOutWhatWasNotDone) {
   const std::string text = CompareText(comparison);
   EXPECT_THAT(text, Not(HasSubstr("Search and polish")));
   EXPECT_THAT(text, Not(HasSubstr("After the polish")));
-  EXPECT_THAT(text, Not(HasSubstr("best bird")));
+  EXPECT_THAT(text, Not(HasSubstr("best candidate")));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
@@ -246,7 +246,7 @@ Comparison BudgetComparison(int missed) {
 TEST(BudgetText, ShowsHitsByAlgorithmAndBudget) {
   const std::string text = BudgetText(BudgetComparison(0));
   ExpectFitsTheTerminal(text);
-  EXPECT_THAT(Between(text, "  The best bird's own polish", "\n\n"),
+  EXPECT_THAT(Between(text, "  The best candidate's own polish", "\n\n"),
               HasSubstr("  algorithm  10  100  1000\n  mlo         3    4     4\n"
                         "  random      4    4     4"));
   EXPECT_THAT(Between(text, "  Evaluations from which on", "\n\n"),

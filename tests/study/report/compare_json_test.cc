@@ -32,7 +32,7 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   const json& contender = problem["contenders"][0];
   EXPECT_EQ(Keys(contender),
             (Set{"name", "algorithm", "settings", "searched", "plain_polished",
-                 "best_bird_polished", "refined", "evaluations", "curve_evaluations", "birds",
+                 "refined_best_candidate", "refined", "evaluations", "curve_evaluations", "candidates",
                  "target", "search", "refine", "median_trace", "runs"}));
   EXPECT_EQ(Keys(contender["settings"]),
             (Set{"population", "iterations", "memory_rate", "distance_coefficient", "de_scale",
@@ -40,7 +40,7 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(contender["searched"]),
             (Set{"min_A", "mean_A", "median_A", "max_A", "std_A", "within_1e9", "within_1e6"}));
   EXPECT_EQ(Keys(contender["runs"][0]),
-            (Set{"run", "searched_A", "plain_polished_A", "best_bird_polished_A", "refined_A",
+            (Set{"run", "searched_A", "plain_polished_A", "refined_best_candidate_A", "refined_A",
                  "evaluations", "curve_evaluations", "evaluations_to_target", "search", "refine"}));
   EXPECT_EQ(Keys(problem["ranking"]), (Set{"searched", "refined"}));
   const json& ranking = problem["ranking"]["searched"];

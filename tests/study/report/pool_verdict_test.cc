@@ -42,7 +42,7 @@ TEST(VerdictText, SaysThatNoSearchIsNeeded) {
                       {"random", 100, 30, 50, 5},
                       {"random", 1000, 48, 50, 305}}),
             "x: no search is needed: starts from the curve's shape alone hit 50 of 50 (30 ms); of "
-            "the searches random reaches 48 of 50 with the best bird's own polish from 1000 "
+            "the searches random reaches 48 of 50 with the best candidate's own polish from 1000 "
             "evaluations (310 ms)");
 }
 
@@ -53,7 +53,7 @@ TEST(VerdictText, NamesTheSearchThatWillDo) {
                       {"random", 100, 30, 44, 5},
                       {"random", 1000, 47, 50, 50}}),
             "x: mlo will do: starts from the curve's shape alone hit 12 of 50 (30 ms); of the "
-            "searches mlo reaches 49 of 50 with the best bird's own polish from 1000 evaluations "
+            "searches mlo reaches 49 of 50 with the best candidate's own polish from 1000 evaluations "
             "(55 ms); random points reach 50 of 50 with all starts from 1000 evaluations (80 ms)");
 }
 

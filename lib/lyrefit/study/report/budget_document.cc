@@ -24,9 +24,9 @@ struct Level {
 constexpr Level kLevels[] = {
     {"Search alone, runs of {} within 1e-6", "search alone", &ContenderResult::searched,
      &RunSpread::within_1e6},
-    {"One plain solve from the best bird, runs of {} within 1e-9", "plain solve",
+    {"One plain solve from the best candidate, runs of {} within 1e-9", "plain solve",
      &ContenderResult::plain_polished, &RunSpread::within_1e9},
-    {"The best bird's own polish, runs of {} within 1e-9", "best bird",
+    {"The best candidate's own polish, runs of {} within 1e-9", "best candidate",
      &ContenderResult::own_polished, &RunSpread::within_1e9},
     {"All starts (hybrid), runs of {} within 1e-9", "all starts", &ContenderResult::polished,
      &RunSpread::within_1e9},

@@ -17,7 +17,7 @@ struct DrawnLevel {
 constexpr std::array<DrawnLevel, 4> kDrawnLevels = {
     {{"search alone", &ContenderResult::searched, &RunSpread::within_1e6},
      {"one plain solve", &ContenderResult::plain_polished, &RunSpread::within_1e9},
-     {"best bird's polish", &ContenderResult::own_polished, &RunSpread::within_1e9},
+     {"best candidate's polish", &ContenderResult::own_polished, &RunSpread::within_1e9},
      {"all starts", &ContenderResult::polished, &RunSpread::within_1e9}}};
 
 std::vector<std::string> Algorithms(const ProblemResult& problem) {

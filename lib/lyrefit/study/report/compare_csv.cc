@@ -12,11 +12,11 @@ namespace lyrefit {
 std::string CompareCsv(const Comparison& comparison) {
   std::string csv =
       "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-      "best_bird_polished_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+      "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
       "search_seconds,refine_seconds";
   const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
                                   [](const auto& problem) { return !problem.problem.empty(); });
-  csv += pooled ? ",problem,reference_A,plain_seconds,best_bird_seconds\n" : "\n";
+  csv += pooled ? ",problem,reference_A,plain_seconds,best_candidate_seconds\n" : "\n";
   for (const ProblemResult& problem : comparison.problems) {
     const std::string begin =
         fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),

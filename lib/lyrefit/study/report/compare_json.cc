@@ -59,7 +59,7 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
     list.push_back({{"run", run.run},
                     {"searched_A", run.searched_A},
                     {"plain_polished_A", run.plain_polished_A},
-                    {"best_bird_polished_A", run.own_polished_A},
+                    {"refined_best_candidate_A", run.own_polished_A},
                     {"refined_A", run.polished_A},
                     {"evaluations", run.evaluations},
                     {"curve_evaluations", run.curve_evaluations},
@@ -69,8 +69,8 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
     if (!pooled) continue;
     Json& json = list.back();
     json["plain"] = Seconds(run.plain_seconds);
-    json["best_bird"] = Seconds(run.own_seconds);
-    json["best_bird_parameters"] = run.own_parameters;
+    json["best_candidate"] = Seconds(run.own_seconds);
+    json["best_candidate_parameters"] = run.own_parameters;
     json["refined_parameters"] = run.parameters;
   }
   return list;
@@ -86,10 +86,10 @@ Json ContenderJson(const ContenderResult& contender, bool pooled) {
       {"name", contender.name},
       {"algorithm", contender.algorithm},
       {"settings", contender.search},
-      {"birds", contender.birds},
+      {"candidates", contender.candidates},
       {"searched", contender.searched},
       {"plain_polished", contender.plain_polished},
-      {"best_bird_polished", contender.own_polished},
+      {"refined_best_candidate", contender.own_polished},
       {"refined", contender.polished},
       {"evaluations", contender.evaluations},
       {"curve_evaluations", contender.curve_evaluations},

@@ -151,7 +151,7 @@ Section PoolSection(const PooledProblem& pool) {
                                  Plural(pool.devices.size(), "device"), EffectsOfPool(pool))};
   AddField("objective", ToText(first.objective), &section);
   if (first.family) {
-    AddField("search", "sees some of the curves; its figures are of its best bird on all",
+    AddField("search", "sees some of the curves; its figures are of its best candidate on all",
              &section);
   }
   AddField("reference", ReferenceText(pool), &section);
@@ -196,13 +196,13 @@ block::Table RankTable(const std::vector<PooledRanking>& rankings) {
   return table;
 }
 
-// Which are better than others beyond chance, by the best bird's polish and by the search alone.
+// Which are better than others beyond chance, by the best candidate's polish and by the search alone.
 void AddPairs(const PooledRanking& ranking, Section* section) {
   for (const bool own : {false, true}) {
     std::vector<std::string> winners =
         WinnerSentences(ranking.names, own ? ranking.own : ranking.searched);
     const std::string title = fmt::format("{} evaluations, {}:{}", ranking.budget,
-                                          own ? "best bird's polish" : "search alone",
+                                          own ? "best candidate's polish" : "search alone",
                                           winners.empty() ? " no pair is told apart" : "");
     section->blocks.push_back(block::Entry{title, std::move(winners)});
   }
@@ -227,7 +227,7 @@ std::vector<Section> RankingSections(const std::vector<PooledProblem>& pools) {
   if (rankings.empty()) return {};
   std::vector<Section> sections = {
       {"",
-       {block::Legend{"Mean ranks of RMSE / reference, search alone / best bird's polish, and p of "
+       {block::Legend{"Mean ranks of RMSE / reference, search alone / best candidate's polish, and p of "
                       "Friedman's test; blocks are device and run, figures within 1e-6 of each "
                       "other equal; pairs by Wilcoxon's test, Holm-corrected"}}}};
   const PooledRanking* const end = rankings.data() + rankings.size();
@@ -248,7 +248,7 @@ Section PeerSection(const std::vector<PooledProblem>& pools) {
     if (peer.empty()) continue;
     if (section.blocks.empty()) {
       section.blocks.push_back(block::Legend{fmt::format(
-          "The default fit against the best peer of equal success: by pagmo2, with the best bird's "
+          "The default fit against the best peer of equal success: by pagmo2, with the best candidate's "
           "own polish, run as often as it takes to hit with a probability of {} %",
           100 * kEnoughShare)});
     }

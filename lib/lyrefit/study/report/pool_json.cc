@@ -44,7 +44,7 @@ void to_json(Json& j, const PooledContender& contender) {
        {"curve_evaluations", contender.curve_evaluations},
        {"searched", contender.At(PolishLevel::kSearch)},
        {"plain_polished", contender.At(PolishLevel::kPlain)},
-       {"best_bird_polished", contender.At(PolishLevel::kOwn)},
+       {"refined_best_candidate", contender.At(PolishLevel::kOwn)},
        {"refined", contender.At(PolishLevel::kHybrid)}};
 }
 
@@ -69,7 +69,7 @@ Json RankingsJson(const std::vector<PooledProblem>& pools) {
                     {"budget", ranking.budget},
                     {"algorithms", ranking.names},
                     {"searched", RankingJson(ranking.names, ranking.searched)},
-                    {"best_bird_polished", RankingJson(ranking.names, ranking.own)}});
+                    {"refined_best_candidate", RankingJson(ranking.names, ranking.own)}});
   }
   return list;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kFewRows = 4;  // more of them are lower each
 
-constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best bird's polish",
+constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best candidate's polish",
                                      "all starts"};
 
 // Of all problems, in the order they come: the searches first, then what has no budget.

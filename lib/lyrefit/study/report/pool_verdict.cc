@@ -16,7 +16,7 @@ std::string LevelPhrase(PolishLevel level) {
     case PolishLevel::kPlain:
       return "with one plain solve";
     case PolishLevel::kOwn:
-      return "with the best bird's own polish";
+      return "with the best candidate's own polish";
     case PolishLevel::kHybrid:
       return "with all starts";
   }
@@ -28,7 +28,7 @@ std::string HitsText(const Way& way) {
   return fmt::format("{} of {}", way.figures().hits, way.figures().runs);
 }
 
-// "with the best bird's own polish from 1000 evaluations (310 ms)"
+// "with the best candidate's own polish from 1000 evaluations (310 ms)"
 std::string HowText(const Way& way, const char* from) {
   return fmt::format("{} {} {} evaluations ({})", LevelPhrase(way.level), from,
                      way.contender->budget, Duration(way.figures().seconds));

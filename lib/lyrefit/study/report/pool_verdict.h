@@ -11,7 +11,7 @@ namespace lyrefit {
 // What the figures of a problem say, in one sentence without a full stop; no word of it stands
 // anywhere but in the rule:
 // "strings_4: no search is needed: starts from the curve's shape alone hit 50 of 50 (8 ms); of the
-// searches random reaches 48 of 50 with the best bird's own polish from 1000 evaluations (310 ms)"
+// searches random reaches 48 of 50 with the best candidate's own polish from 1000 evaluations (310 ms)"
 std::string VerdictText(const PooledProblem& pool);
 
 // A line a problem: hits and median time of a run of the starts from the shape alone, of the

@@ -1,4 +1,4 @@
-#include "lyrefit/fit/birds.h"
+#include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/fit.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kCertified_A = 9.860218778918e-4;  // data/rtc_france/expected.json
 
-// A fit made ready, and its birds.
+// A fit made ready, and its candidates.
 struct Nest {
   Nest(const IvCurve& curve, FitOptions how)
       : options(std::move(how)), job{curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}} {
@@ -33,7 +33,7 @@ FitOptions Hard(Model model, Objective objective) {
   FitOptions options;
   options.model = model;
   options.objective = objective;
-  options.birds = Birds::kHard;
+  options.candidates = SearchVariables::kHard;
   options.intervals = Intervals::kNone;
   options.threads = 1;
   return options;
@@ -70,21 +70,21 @@ IvCurve String() {
   return *curve;
 }
 
-TEST(HardBirds, HaveTheCertifiedOptimumWhereItsRsAndNAre) {
+TEST(HardCandidates, HaveTheCertifiedOptimumWhereItsRsAndNAre) {
   const IvCurve curve = RtcFrance();
   const Nest nest(curve, Hard(Model::kSingleDiode, Objective::kMeasuredCurrent));
   FitOptions full = nest.options;
-  full.birds = Birds::kAll;
+  full.candidates = SearchVariables::kAll;
   const auto report = Fit(curve, full);
   ASSERT_TRUE(report);
-  BirdPlaces places(nest.job, nest.job.problem);
+  SearchCandidates places(nest.job, nest.job.problem);
   ASSERT_EQ(places.box().lower.size(), 2U);  // n and Rs
   const std::vector<double> x = {report->refined[IdealityIndex(0)], report->refined[kRs]};
   ASSERT_EQ(places.DeviceAt(x.data())[kRs], x[1]);
   EXPECT_NEAR(places.RmseAt(x.data()) / kCertified_A, 1, 1e-9);
 }
 
-// A random hard bird, and the lowest of many complete ones of the same hard parameters.
+// A random hard candidate, and the lowest of many complete ones of the same hard parameters.
 struct Pair {
   double hard = 0;
   double complete = HUGE_VAL;
@@ -92,7 +92,7 @@ struct Pair {
 
 std::vector<Pair> RandomPairs(const IvCurve& curve, const FitOptions& options) {
   const Nest nest(curve, options);
-  BirdPlaces hard(nest.job, nest.job.problem);
+  SearchCandidates hard(nest.job, nest.job.problem);
   const SearchSpace space = CompleteSpace(nest.job);
   RandomStream random(7, 0);
   std::vector<Pair> pairs;
@@ -122,7 +122,7 @@ std::vector<Pair> RandomPairs(const IvCurve& curve, const FitOptions& options) {
   return pairs;
 }
 
-TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameRsAndN) {
+TEST(HardCandidates, AreNoWorseThanAnyCompleteCandidateOfTheSameRsAndN) {
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     for (const Pair& pair : RandomPairs(RtcFrance(), Hard(model, Objective::kMeasuredCurrent))) {
       EXPECT_LE(pair.hard, pair.complete * (1 + 1e-12));
@@ -135,7 +135,7 @@ TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameRsAndN) {
 }
 
 // Another minimum may be lower, but only where the place is far from any fit.
-TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameEffectsThatCouldWin) {
+TEST(HardCandidates, AreNoWorseThanAnyCompleteCandidateOfTheSameEffectsThatCouldWin) {
   SKIP_IF_SANITIZED();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
   options.with = Substrings(false);
@@ -148,13 +148,13 @@ TEST(HardBirds, AreNoWorseThanAnyCompleteBirdOfTheSameEffectsThatCouldWin) {
   EXPECT_LE(better, 4);
 }
 
-TEST(HardBirds, ComeToTheNoiseWhereTheEffectsAreTrue) {
+TEST(HardCandidates, ComeToTheNoiseWhereTheEffectsAreTrue) {
   SKIP_IF_SANITIZED();
   const IvCurve curve = String();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
   options.with = Substrings(false);
   const Nest nest(curve, options);
-  BirdPlaces places(nest.job, nest.job.problem);
+  SearchCandidates places(nest.job, nest.job.problem);
   ASSERT_EQ(places.box().lower.size(), 5U);  // n, Rs, two lights, Vb
   const auto best = Fit(curve, options);
   ASSERT_TRUE(best);
@@ -164,11 +164,11 @@ TEST(HardBirds, ComeToTheNoiseWhereTheEffectsAreTrue) {
   EXPECT_NEAR(places.RmseAt(truth.data()) / best->rmse.refined.solved_current_A, 1, 0.03);
 }
 
-TEST(HardBirds, CountWhatTheyCostTheCurve) {
+TEST(HardCandidates, CountWhatTheyCostTheCurve) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     FitOptions options = Hard(Model::kDoubleDiode, objective);
     const auto hard = Fit(RtcFrance(), options), again = Fit(RtcFrance(), options);
-    options.birds = Birds::kAll;
+    options.candidates = SearchVariables::kAll;
     const auto all = Fit(RtcFrance(), options);
     ASSERT_TRUE(hard && again && all);
     EXPECT_EQ(all->curve_evaluations, all->search.evaluations);
@@ -183,7 +183,7 @@ TEST(HardBirds, CountWhatTheyCostTheCurve) {
   }
 }
 
-TEST(HardBirds, KeepWhatIsFixed) {
+TEST(HardCandidates, KeepWhatIsFixed) {
   FitOptions options = Hard(Model::kDoubleDiode, Objective::kSolvedCurrent);
   options.fixed = {{"n2", 2}, {"Rsh", 60}};
   const auto report = Fit(RtcFrance(), options);
@@ -194,10 +194,10 @@ TEST(HardBirds, KeepWhatIsFixed) {
   options.fixed = {{"n1", 1.2}, {"n2", 2}, {"Rs", 0.03}};
   const auto none = Fit(RtcFrance(), options);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().message, "birds hard leaves nothing to search: Rs and every n are fixed");
+  EXPECT_EQ(none.error().message, "candidates hard leaves nothing to search: Rs and every n are fixed");
 }
 
-TEST(HardBirds, OfManyPointsAreSolvedOnAllOfThem) {
+TEST(HardCandidates, OfManyPointsAreSolvedOnAllOfThem) {
   const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3, 1, 3000);
   const auto report = Fit(curve, Hard(Model::kSingleDiode, Objective::kSolvedCurrent));
   ASSERT_TRUE(report);
@@ -207,7 +207,7 @@ TEST(HardBirds, OfManyPointsAreSolvedOnAllOfThem) {
 TEST(Knees, StandInTheBoxOfTheSearchThatAsksForThem) {
   const IvCurve curve = String();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
-  options.birds = Birds::kAll;
+  options.candidates = SearchVariables::kAll;
   options.with = Substrings(false);
   const auto plain = Fit(curve, options);
   options.search.algorithm = Algorithm::kMloKnees;
@@ -217,7 +217,7 @@ TEST(Knees, StandInTheBoxOfTheSearchThatAsksForThem) {
   EXPECT_GT(knees->curve_evaluations, knees->search.evaluations);
   EXPECT_LE(knees->search.trace[0].best, plain->search.trace[0].best);
   const Nest nest(curve, options);
-  BirdPlaces places(nest.job, nest.job.problem);
+  SearchCandidates places(nest.job, nest.job.problem);
   places.Suggest({{"one", plain->refined, 0}});
   ASSERT_EQ(places.box().suggested.size(), 1U);
   EXPECT_NEAR(

@@ -10,9 +10,9 @@
 
 namespace lyrefit {
 
-// What the birds of a fit's search stand for, on one set of points.
+// What the candidates of a fit's search stand for, on one set of points.
 //
-// A hard bird (Birds::kHard) is a place in Rs, the n and the effects' parameters. Iph, the
+// A hard candidate (Candidates::kHard) is a place in Rs, the n and the effects' parameters. Iph, the
 // saturation currents and 1/Rsh, which the law is linear in or nearly so, are solved for between
 // their bounds within each evaluation, so its value depends on the place alone:
 //   measured current   by bounded linear least squares, exactly
@@ -22,10 +22,10 @@ namespace lyrefit {
 // With effects the rest may have several minima where the place is far from any fit; the one that
 // the typical device leads to counts.
 // This is variable projection (Golub and Pereyra 1973, doi:10.1137/0710036).
-class BirdPlaces {
+class SearchCandidates {
  public:
   // Of the points of `problem`: those of the job, or the few that stand for them.
-  BirdPlaces(const FitJob& job, const RefineProblem& problem);
+  SearchCandidates(const FitJob& job, const RefineProblem& problem);
 
   // Puts places into the box that a search may begin from: the best of each form first, then the
   // second of each. One evaluation each.
@@ -35,7 +35,7 @@ class BirdPlaces {
   const Box& box() const { return box_; }
   int FormAt(const double* x) const { return space_.FormAt(x); }
 
-  // The complete device of a bird, and its RMSE in the objective of the fit.
+  // The complete device of a candidate, and its RMSE in the objective of the fit.
   std::vector<double> DeviceAt(const double* x);
   double RmseAt(const double* x);
   // Evaluations of all points so far, with or without derivatives.
@@ -50,7 +50,7 @@ class BirdPlaces {
   SearchSpace space_;
   Box box_;
   int effects_ = 0;     // parameters of effects
-  RefineProblem easy_;  // of hard birds: all others held
+  RefineProblem easy_;  // of hard candidates: all others held
   std::vector<double> p_;
   std::int64_t evaluations_ = 0;
 };

@@ -1,4 +1,4 @@
-#include "lyrefit/fit/check_birds.h"
+#include "lyrefit/fit/check_candidates.h"
 
 #include <fmt/format.h>
 
@@ -10,18 +10,18 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a side: a bird so little outside is moved inside
+constexpr double kRounding = 1e-9;  // of a side: a candidate so little outside is moved inside
 
-Expected<void> CheckBird(const std::string& name, const Box& box, Bird* bird) {
-  if (bird->x.size() != box.lower.size()) {
+Expected<void> CheckCandidate(const std::string& name, const Box& box, Candidate* candidate) {
+  if (candidate->x.size() != box.lower.size()) {
     return Fail(
         fmt::format("the searcher's {} has {} coordinates, expected {}: one for each side "
                     "of the box",
-                    name, bird->x.size(), box.lower.size()));
+                    name, candidate->x.size(), box.lower.size()));
   }
   for (std::size_t j = 0; j < box.lower.size(); ++j) {
     const double slack = kRounding * (box.upper[j] - box.lower[j]);
-    double& x = bird->x[j];
+    double& x = candidate->x[j];
     if (!(x >= box.lower[j] - slack && x <= box.upper[j] + slack)) {
       return Fail(
           fmt::format("the searcher's {} is {:g} in coordinate {}, expected a number in "
@@ -35,17 +35,17 @@ Expected<void> CheckBird(const std::string& name, const Box& box, Bird* bird) {
 
 }  // namespace
 
-Expected<void> CheckBirds(const ObjectiveFunction& objective, const Box& box,
+Expected<void> CheckCandidates(const ObjectiveFunction& objective, const Box& box,
                           SearchSummary* summary) {
   if (summary->best.x.empty() && summary->elites.empty()) {
-    return Fail("the searcher came back without a best bird: set `best` to the best point it met");
+    return Fail("the searcher came back without a best candidate: set `best` to the best point it met");
   }
   if (summary->best.x.empty()) summary->best = summary->elites.front();
   if (summary->elites.empty()) summary->elites = {summary->best};
-  TRY(CheckBird("best bird", box, &summary->best));
+  TRY(CheckCandidate("best candidate", box, &summary->best));
   for (std::size_t e = 0; e < summary->elites.size(); ++e) {
     const std::string name = fmt::format("elite {}", e + 1);
-    TRY(CheckBird(name, box, &summary->elites[e]));
+    TRY(CheckCandidate(name, box, &summary->elites[e]));
     summary->elites[e].objective = objective(summary->elites[e].x.data());
   }
   summary->best.objective = objective(summary->best.x.data());

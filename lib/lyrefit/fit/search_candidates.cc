@@ -1,4 +1,4 @@
-#include "lyrefit/fit/birds.h"
+#include "lyrefit/fit/search_candidates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +50,9 @@ SearchSpace SpaceOf(const FitJob& job, std::vector<double> fixed) {
 }
 
 // Those that are solved for are no sides; what stands in their place is never read.
-SearchSpace SpaceOfBirds(const FitJob& job) {
+SearchSpace SpaceOfCandidates(const FitJob& job) {
   std::vector<double> fixed = job.fixed;
-  if (job.options.birds == Birds::kHard) {
+  if (job.options.candidates == SearchVariables::kHard) {
     for (const int i : EasyParameters(job.problem.device)) fixed[i] = 0;
   }
   return SpaceOf(job, std::move(fixed));
@@ -62,10 +62,10 @@ SearchSpace SpaceOfBirds(const FitJob& job) {
 
 SearchSpace CompleteSpace(const FitJob& job) { return SpaceOf(job, job.fixed); }
 
-BirdPlaces::BirdPlaces(const FitJob& job, const RefineProblem& problem)
+SearchCandidates::SearchCandidates(const FitJob& job, const RefineProblem& problem)
     : problem_(problem),
-      hard_(job.options.birds == Birds::kHard),
-      space_(SpaceOfBirds(job)),
+      hard_(job.options.candidates == SearchVariables::kHard),
+      space_(SpaceOfCandidates(job)),
       box_(space_.box()),
       effects_(job.effects()),
       p_(problem.device.size()) {
@@ -80,7 +80,7 @@ BirdPlaces::BirdPlaces(const FitJob& job, const RefineProblem& problem)
   }
 }
 
-void BirdPlaces::Suggest(const std::vector<PolishStart>& starts) {
+void SearchCandidates::Suggest(const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
     double mean_square;
@@ -103,18 +103,18 @@ void BirdPlaces::Suggest(const std::vector<PolishStart>& starts) {
   }
 }
 
-Expected<void> BirdPlaces::Check() const {
+Expected<void> SearchCandidates::Check() const {
   if (!box_.lower.empty()) return {};
-  return Fail("birds hard leaves nothing to search: Rs and every n are fixed");
+  return Fail("candidates hard leaves nothing to search: Rs and every n are fixed");
 }
 
-std::vector<double> BirdPlaces::DeviceAt(const double* x) {
+std::vector<double> SearchCandidates::DeviceAt(const double* x) {
   space_.ToParameters(x, p_.data());
   if (hard_) SolveEasy();
   return p_;
 }
 
-double BirdPlaces::RmseAt(const double* x) {
+double SearchCandidates::RmseAt(const double* x) {
   space_.ToParameters(x, p_.data());
   if (hard_) return std::sqrt(SolveEasy());
   ++evaluations_;
@@ -122,7 +122,7 @@ double BirdPlaces::RmseAt(const double* x) {
 }
 
 // Mean square with the best values of what is solved for at the rest of `p_`.
-double BirdPlaces::SolveEasy() {
+double SearchCandidates::SolveEasy() {
   std::vector<double> idealities;
   idealities.reserve(DiodeCount(problem_.device));
   for (int d = 0; d < DiodeCount(problem_.device); ++d) {
@@ -160,7 +160,7 @@ double BirdPlaces::SolveEasy() {
 }
 
 // From `p_`, in what is solved for.
-double BirdPlaces::Descend() {
+double SearchCandidates::Descend() {
   const CountedCurve curve(easy_, &evaluations_);
   std::vector<bool> held;
   for (std::size_t i = 0; i < p_.size(); ++i) {

@@ -8,10 +8,10 @@
 
 namespace lyrefit {
 
-// Birds by rising objective value, so that "a random bird better than i" needs no scan.
-class BirdOrder {
+// Candidates by rising objective value, so that "a random candidate better than i" needs no scan.
+class CandidateOrder {
  public:
-  explicit BirdOrder(const SearchRun& run)
+  explicit CandidateOrder(const SearchRun& run)
       : run_(run), order_(run.population()), rank_(order_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(),
@@ -19,24 +19,24 @@ class BirdOrder {
     for (std::size_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = static_cast<int>(r);
   }
 
-  // How many birds are strictly better: they are order_[0 .. count - 1], the safe set S_i of
+  // How many candidates are strictly better: they are order_[0 .. count - 1], the safe set S_i of
   // Eq. 18.
-  int Better(int bird) const {
-    int count = rank_[bird];
-    while (count > 0 && run_.f(order_[count - 1]) == run_.f(bird)) --count;
+  int Better(int candidate) const {
+    int count = rank_[candidate];
+    while (count > 0 && run_.f(order_[count - 1]) == run_.f(candidate)) --count;
     return count;
   }
   int At(int rank) const { return order_[rank]; }
 
-  // Bird has become better: let it rise to its place.
-  void Improved(int bird) {
-    int r = rank_[bird];
-    for (; r > 0 && run_.f(order_[r - 1]) > run_.f(bird); --r) {
+  // Candidate has become better: let it rise to its place.
+  void Improved(int candidate) {
+    int r = rank_[candidate];
+    for (; r > 0 && run_.f(order_[r - 1]) > run_.f(candidate); --r) {
       order_[r] = order_[r - 1];
       rank_[order_[r]] = r;
     }
-    order_[r] = bird;
-    rank_[bird] = r;
+    order_[r] = candidate;
+    rank_[candidate] = r;
   }
 
  private:

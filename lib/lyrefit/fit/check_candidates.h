@@ -7,9 +7,9 @@ namespace lyrefit {
 
 // Makes what a search of the user's own came back with fit for the polish: `best` stands in for
 // missing elites and the first elite for a missing `best`, objective values are computed anew.
-// Error: no bird at all, a bird with another number of coordinates than the box has sides, one that
+// Error: no candidate at all, a candidate with another number of coordinates than the box has sides, one that
 // is not finite or outside the box.
-Expected<void> CheckBirds(const ObjectiveFunction& objective, const Box& box,
+Expected<void> CheckCandidates(const ObjectiveFunction& objective, const Box& box,
                           SearchSummary* summary);
 
 }  // namespace lyrefit

@@ -7,7 +7,7 @@ set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 # here includes must stand here too: the test `package` compiles each one alone from the installed tree, where the
 # others are not.
 set(LYREFIT_PUBLIC_HEADERS
-  # doors
+  # public headers
   lyrefit.h
   certify/cause_floor.h
   certify/certify.h

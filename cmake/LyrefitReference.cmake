@@ -15,8 +15,8 @@ endif()
 
 set(LYREFIT_REFERENCE_DIR "${PROJECT_BINARY_DIR}/reference")
 set(REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/README.md")
-foreach(room base curve law search refine certify effects fit family diagnose translate report study fleet)
-  list(APPEND REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${room}/README.md")
+foreach(module base curve law search refine certify effects fit family diagnose translate report study fleet)
+  list(APPEND REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${module}/README.md")
 endforeach()
 set(REFERENCE_HEADERS ${LYREFIT_PUBLIC_HEADERS} ${LYREFIT_STUDY_PUBLIC_HEADERS} ${LYREFIT_FLEET_PUBLIC_HEADERS})
 list(FILTER REFERENCE_HEADERS INCLUDE REGEX "\\.h$")
@@ -36,6 +36,6 @@ add_custom_target(reference
 if(LYREFIT_BUILD_TESTS)
   add_test(NAME reference COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target reference)
   add_test(NAME reference_sees_what_has_no_words COMMAND ${CMAKE_COMMAND} -DPYTHON=${LYREFIT_PYTHON} -DDOXYGEN=${DOXYGEN}
-           -DREFERENCE=${PROJECT_SOURCE_DIR}/cmake/reference -DWORK=${PROJECT_BINARY_DIR}/tests/house/reference
-           -P ${PROJECT_SOURCE_DIR}/tests/house/reference_test.cmake)
+           -DREFERENCE=${PROJECT_SOURCE_DIR}/cmake/reference -DWORK=${PROJECT_BINARY_DIR}/tests/project/reference
+           -P ${PROJECT_SOURCE_DIR}/tests/project/reference_test.cmake)
 endif()

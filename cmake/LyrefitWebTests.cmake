@@ -1,9 +1,9 @@
-# The tests that run under Node.js: of rooms whose arithmetic decides a result, one program for all, since each would
+# The tests that run under Node.js: of modules whose arithmetic decides a result, one program for all, since each would
 # be linked for seconds. They read the files of the machine. Not among them: what starts threads and processes.
-set(WEB_TEST_ROOMS base law search refine)
+set(WEB_TEST_MODULES base law search refine)
 set(WEB_TEST_SOURCES)
-foreach(room IN LISTS WEB_TEST_ROOMS)
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${room}/*_test.cc")
+foreach(module IN LISTS WEB_TEST_MODULES)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${module}/*_test.cc")
   list(FILTER sources EXCLUDE REGEX "_(rate|field)_test\\.cc$")
   list(APPEND WEB_TEST_SOURCES ${sources})
 endforeach()
@@ -21,8 +21,8 @@ target_compile_definitions(web_tests PRIVATE LYREFIT_DATA_DIR="${PROJECT_SOURCE_
 target_link_libraries(web_tests PRIVATE lyrefit GTest::gmock GTest::gtest GTest::gtest_main fmt::fmt Eigen3::Eigen Boost::boost)
 target_precompile_headers(web_tests PRIVATE shared_headers.h)
 target_link_options(web_tests PRIVATE -sNODERAWFS=1 -sALLOW_MEMORY_GROWTH=1 -sEXIT_RUNTIME=1 -O1)
-add_test(NAME web/rooms COMMAND web_tests)
-set_tests_properties(web/rooms PROPERTIES TIMEOUT 600)
+add_test(NAME web/modules COMMAND web_tests)
+set_tests_properties(web/modules PROPERTIES TIMEOUT 600)
 
 # The rest needs the native command to compare with.
 if(NOT EXISTS "${LYREFIT_NATIVE}")

@@ -52,7 +52,7 @@ if [[ ${1:-} == --modules ]]; then
   RunTests "$FOLDER"
 else
   Build "$FOLDER" --target lyrefit_page
-  [[ ${1:-} == --build ]] || RunTests "$FOLDER" --exclude-regex '^web/rooms$'
+  [[ ${1:-} == --build ]] || RunTests "$FOLDER" --exclude-regex '^web/modules$'
 fi
 page=$FOLDER/apps/web/lyrefit.html
 Say "$(stat -c %s "$page") bytes: $page"

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-// What the module offers, room by room: each of these adds the functions and types of one room of
+// What the module offers, module by module: each of these adds the functions and types of one module of
 // the library to the module, and stands in ROOM_bindings.cc.
 namespace lyrefit::python {
 

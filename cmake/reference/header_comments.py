@@ -6,7 +6,7 @@ Headers stay as people read them in an editor; what they say of what is told by 
   - one behind a declaration, and on in the same column below, is its own;
   - what is indented by two further blanks is shown as it stands, unless it is a list;
   - a value of an enumeration is shown with its text in flags and JSON (EnumTable);
-  - what a room's header declares stands in the room's topic.
+  - what a module's header declares stands in the module's topic.
 Of a field of which its header says nothing is said, in this order: what the table of options says of it, the first
 sentence of its type, the meaning that its name has everywhere (names.txt), the unit that its name ends in.
 A comment beside no declaration is the file's; comments in functions stay what they are.
@@ -19,7 +19,7 @@ UNITS = {
     "eV": "electron volt", "per_K": "1/K", "A_per_K": "A/K", "V_per_K": "V/K", "V_K": "V/K", "A_K": "A/K", "1_K": "1/K",
     "percent_K": "percent per kelvin", "s": "seconds", "cm2": "cm2", "ohm": "ohm", "S": "siemens", "percent": "percent",
 }
-ROOM = re.compile(r"lib/lyrefit/([a-z]+)/")
+MODULE = re.compile(r"lib/lyrefit/([a-z]+)/")
 COMMENT = re.compile(r"^\s*//( |$)")
 NO_WORDS = re.compile(r"^\s*//\s*(NOLINT|clang-format)")
 
@@ -161,8 +161,8 @@ class Header:
         self.out = []
         self.scopes = Scopes()
         self.owners = [""]   # beside the scopes: the name of a type, "" for others
-        room = ROOM.search(path)
-        self.room = room.group(1) if room else ""
+        module = MODULE.search(path)
+        self.module = module.group(1) if module else ""
         self.spelled = dict(re.findall(r'\{\s*([\w:]*k\w+),\s*"([^"]*)"', text))
         self.said = []       # beside the scopes: the comments above the types that are open
         self.above = []      # the comment above, which holds for the declarations that follow
@@ -266,7 +266,7 @@ class Header:
         texts = texts + ([behind] if behind else [])
         if texts:
             members = "class" in scopes or "enum" in scopes
-            topic = [f"\\ingroup {self.room}"] if self.room and not members else []
+            topic = [f"\\ingroup {self.module}"] if self.module and not members else []
             self.out.insert(self.begun, block(texts, topic))
         self.own = False
 

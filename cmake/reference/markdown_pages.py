@@ -1,9 +1,9 @@
-"""Pages of Markdown as Doxygen's: the first is the main page, a room's is its topic, others are pages."""
+"""Pages of Markdown as Doxygen's: the first is the main page, a module's is its topic, others are pages."""
 
 import posixpath
 import re
 
-ROOM = re.compile(r"lib/lyrefit/([a-z]+)/README\.md$")
+MODULE = re.compile(r"lib/lyrefit/([a-z]+)/README\.md$")
 
 
 class Pages:
@@ -14,8 +14,8 @@ class Pages:
         self.names = {path: self.name_of(path) for path in paths}
 
     def name_of(self, path):
-        room = ROOM.search(path)
-        return room.group(1) if room else "page_" + re.sub(r"\W", "_", path)
+        module = MODULE.search(path)
+        return module.group(1) if module else "page_" + re.sub(r"\W", "_", path)
 
     def link(self, path, text, target):
         if re.match(r"\w+:", target):
@@ -35,13 +35,13 @@ class Pages:
         title = lines[0].strip("# /")
         head = f"\\mainpage {title}"
         if path != self.main:
-            head = f"\\{'defgroup' if ROOM.search(path) else 'page'} {self.names[path]} {title}"
+            head = f"\\{'defgroup' if MODULE.search(path) else 'page'} {self.names[path]} {title}"
         out, code = [head], False
         for line in lines[1:]:
             if line.startswith("```"):
                 code = not code
             elif not code and not line.startswith("    "):
-                if path == self.main:  # its sections would stand in the menu, above the rooms
+                if path == self.main:  # its sections would stand in the menu, above the modules
                     line = re.sub(r"^##+ (.*)", r"<h2>\1</h2>", line)
                 line = re.sub(r"!\[([^\]]*)\]\((?:[^)/]*/)*([^)]*)\)", self.picture if path == self.main else "", line)
                 line = re.sub(r"\[([^\]]*)\]\(([^)\s]*)\)", lambda m: self.link(path, m.group(1), m.group(2)), line)
@@ -49,4 +49,4 @@ class Pages:
                                for p in re.split(r"(`[^`]*`)", line))
             out.append(line)
         page = "/**\n" + "\n".join(out) + "\n*/\n"
-        return page + "/** \\namespace lyrefit\nAll of lyrefit: its rooms are the topics. */\n" * (path == self.main)
+        return page + "/** \\namespace lyrefit\nAll of lyrefit: its modules are the topics. */\n" * (path == self.main)

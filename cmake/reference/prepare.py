@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Doxygen reads: the public headers with their comments as its own, and the pages of the rooms as its topics.
+"""What Doxygen reads: the public headers with their comments as its own, and the pages of the modules as its topics.
 
     prepare.py --root PROJECT --out FOLDER LIST
 

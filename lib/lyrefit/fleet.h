@@ -1,6 +1,6 @@
 #pragma once
 
-// The door to many curves: lyrefit::fleet. OpenFleet reads them one by one from a plant's folder or
+// The public header for many curves: lyrefit::fleet. OpenFleet reads them one by one from a plant's folder or
 // a table, RunBatch fits or diagnoses each and writes a row of it, MergeShards puts together what
 // several machines did. As in lyrefit.h nothing throws or prints.
 //

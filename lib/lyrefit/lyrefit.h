@@ -1,6 +1,6 @@
 #pragma once
 
-// The beginner's door to lyrefit: what reading, fitting, simulating, certifying and diagnosing I-V
+// The public header of lyrefit: what reading, fitting, simulating, certifying and diagnosing I-V
 // curves takes, and how to write what came out.
 //
 //   #include <iostream>

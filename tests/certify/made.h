@@ -15,7 +15,7 @@ inline IvCurve Shipped(const std::string& name) {
   return *ReadCurve(std::string(LYREFIT_DATA_DIR) + "/" + name);
 }
 
-// The data of a curve as the rooms below Certify() take it.
+// The data of a curve as the modules below Certify() take it.
 inline MixtureData DataOf(const IvCurve& curve) {
   return CurveData(curve.voltage_V, curve.current_A);
 }

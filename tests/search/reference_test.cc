@@ -22,7 +22,7 @@ constexpr double kCurrent[] = {0.764, 0.762,  0.7605, 0.7605, 0.76,   0.759,  0.
                                0.754, 0.7505, 0.7465, 0.7385, 0.728,  0.7065, 0.6755, 0.632, 0.573,
                                0.499, 0.413,  0.3165, 0.212,  0.1035, -0.01,  -0.123, -0.21};
 
-// Written here from the equation, so that this room stays free of photovoltaics.
+// Written here from the equation, so that this module stays free of photovoltaics.
 double Rmse(const double* x) {
   const double vt = 1.380649e-23 * 306.15 / 1.602176634e-19;
   double sum = 0;

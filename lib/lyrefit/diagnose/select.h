@@ -65,7 +65,7 @@ struct Selection {
   Imprints imprints;  // of the laws met on the way
 };
 
-// Extend-and-repeat with a backward step and exchanges, as described in the README of this room.
+// Extend-and-repeat with a backward step and exchanges, as described in the README of this module.
 // `used` marks readings that may be looked at.
 Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
                        double correlation, const SelectOptions& options);

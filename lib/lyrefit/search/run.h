@@ -6,7 +6,7 @@
 
 namespace lyrefit {
 
-// What every algorithm of this room shares: the population, the count of evaluations, the trace and
+// What every algorithm of this module shares: the population, the count of evaluations, the trace and
 // the reasons to stop. An algorithm is a function that moves the population until `stopped()`.
 class SearchRun {
  public:

@@ -14,7 +14,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // How a curve measured at (G1, T1) is carried to (G2, T2). Equations in procedures.cc and
-// model_procedures.cc, clauses in the room's README.
+// model_procedures.cc, clauses in the module's README.
 enum class Procedure {
   kIec1,      // IEC 60891:2021 procedure 1: alpha, beta, kappa and Rs, points moved
   kIec2,      // procedure 2: relative coefficients, logarithm of the light in Voc

@@ -14,7 +14,7 @@ struct Recommendation {
 };
 
 // Which of the results to believe, by rules that follow from what each procedure assumes and from
-// how they did on measured curves (README of the room):
+// how they did on measured curves (README of the module):
 //   1. a cause is in the curve, or its shunt leaks more than healthy ones: the extended model, the
 //      only one that knows
 //   2. further curves, the target between them: procedure 3, which assumes nothing

@@ -11,7 +11,7 @@ struct ErrorRow {
 };
 
 // Isc, Voc, Imp, Vmp and FF by the first set alone, Pmax by all of them: what a procedure does to one
-// module says little of the next one. README of the room has the sizes of each set.
+// module says little of the next one. README of the module has the sizes of each set.
 constexpr char kMeasured[] =
     "Pmax: of pairs of outdoor sweeps of two crystalline silicon modules (Sandia, 200 to 1200 "
     "W/m2, "

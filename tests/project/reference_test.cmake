@@ -9,7 +9,7 @@ function(pages_of text)
   file(REMOVE_RECURSE "${WORK}")
   file(WRITE "${WORK}/lib/lyrefit/fit/made.h" "${text}")
   file(WRITE "${WORK}/README.md" "# made\n\nA page.\n")
-  file(WRITE "${WORK}/lib/lyrefit/fit/README.md" "# fit\n\nA room.\n")
+  file(WRITE "${WORK}/lib/lyrefit/fit/README.md" "# fit\n\nA module.\n")
   file(WRITE "${WORK}/files.txt" "${WORK}/README.md\n${WORK}/lib/lyrefit/fit/README.md\n${WORK}/lib/lyrefit/fit/made.h\n")
   execute_process(COMMAND ${PYTHON} -B ${REFERENCE}/prepare.py --root ${WORK} --out ${WORK}/input ${WORK}/files.txt
                   COMMAND_ERROR_IS_FATAL ANY)

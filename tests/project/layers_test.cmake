@@ -1,5 +1,5 @@
-# Shows that CheckRooms.cmake sees what it is there to see: small trees with one include each.
-#   cmake -DCHECKER=<CheckRooms.cmake> -DWORK=<scratch folder> -P rooms_test.cmake
+# Shows that CheckLayers.cmake sees what it is there to see: small trees with one include each.
+#   cmake -DCHECKER=<CheckLayers.cmake> -DWORK=<scratch folder> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(FAILURES 0)
@@ -31,21 +31,21 @@ expect(apps/lyrefit/main.cc "#include \"lyrefit/report/plots.h\"" "")
 expect(apps/lyrefit/main.cc "#include \"lyrefit/base/try.h\"" "")
 expect(apps/lyrefit/main.cc "#include \"lyrefit/curve/column.h\"" "the command must not include the closed header")
 
-expect(lib/lyrefit/curve/a.h "#include \"lyrefit/law/term.h\"" "room curve must not include room law")
-expect(lib/lyrefit/search/a.cc "#include \"lyrefit/curve/iv_curve.h\"" "room search must not include room curve")
-expect(lib/lyrefit/law/a.cc "  #  include <lyrefit/fit/fit.h>" "room law must not include room fit")
-expect(lib/lyrefit/report/a.cc "#include \"lyrefit/refine/refine.h\"" "room report must not include room refine")
-expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/documents.h\"" "room report must not include room study")
-expect(lib/lyrefit/study/report/a.cc "#include \"lyrefit/diagnose/diagnose.h\"" "room study must not include room diagnose")
+expect(lib/lyrefit/curve/a.h "#include \"lyrefit/law/term.h\"" "module curve must not include module law")
+expect(lib/lyrefit/search/a.cc "#include \"lyrefit/curve/iv_curve.h\"" "module search must not include module curve")
+expect(lib/lyrefit/law/a.cc "  #  include <lyrefit/fit/fit.h>" "module law must not include module fit")
+expect(lib/lyrefit/report/a.cc "#include \"lyrefit/refine/refine.h\"" "module report must not include module refine")
+expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/documents.h\"" "module report must not include module study")
+expect(lib/lyrefit/study/report/a.cc "#include \"lyrefit/diagnose/diagnose.h\"" "module study must not include module diagnose")
 expect(lib/lyrefit/lyrefit.h "#include \"lyrefit/study/compare.h\"" "the core knows nothing of the studies")
 expect(lib/lyrefit/study.h "#include \"lyrefit/study/compare.h\"" "")
 expect(lib/lyrefit/fit/a.cc "#include \"../report/plots.h\"" "includes start with")
-expect(lib/lyrefit/fit/a.cc "#include \"lyrefit/lyrefit.h\"" "which includes every room")
+expect(lib/lyrefit/fit/a.cc "#include \"lyrefit/lyrefit.h\"" "which includes every module")
 expect(lib/lyrefit/refine/a.cc "#include <ceres/jet.h>" "only refine/solve.cc and refine/least_squares.cc include Ceres")
 expect(apps/lyrefit/main.cc "#include <ceres/ceres.h>" "only refine/solve.cc and refine/least_squares.cc include Ceres")
 expect(lib/lyrefit/base/a.h "#include <iostream>" "the library prints nothing")
 expect(lib/lyrefit/report/a.cc "#include <CLI/CLI.hpp>" "without the app's dependencies")
-expect(lib/lyrefit/attic/a.cc "#include <cmath>" "is no room of the house")
+expect(lib/lyrefit/attic/a.cc "#include <cmath>" "is no module of the library")
 
 expect(lib/lyrefit/fit/a.h "struct End {\n};\nnamespace block {\nstruct End {\n};\n}  // namespace block\nstruct Start;\nstruct Start {" "")
 expect(lib/lyrefit/fit/a.h "struct End {\n};\nclass End : Start {" "lyrefit::End is the name of another type in lib/lyrefit/fit/a.h")

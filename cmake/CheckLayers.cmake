@@ -1,11 +1,11 @@
-# The house rules, as a test: a room includes only rooms above it, the command only what is installed, what is
+# The order of the layers, as a test: a module includes only modules above it, the command only what is installed, what is
 # installed is what the shared library shows, and no two headers give one name to two types, of which a linker would
 # keep one destructor for both.
-#   cmake -DROOT=<folder with lib/ and apps/> -P CheckRooms.cmake
+#   cmake -DROOT=<folder with lib/ and apps/> -P CheckLayers.cmake
 # Lists everything that breaks a rule and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
-# room -> the rooms of lib/lyrefit that its files may include, besides itself
+# module -> the modules of lib/lyrefit that its files may include, besides itself
 set(ALLOWED_base)
 set(ALLOWED_curve base)
 set(ALLOWED_law base curve)
@@ -22,7 +22,7 @@ set(ALLOWED_report base curve law search certify fit family diagnose translate) 
 set(ALLOWED_study base curve law search refine certify fit family effects report)
 # Another: many curves, their rows and their page.
 set(ALLOWED_fleet base curve law fit effects family diagnose translate report)
-set(ROOMS base curve law search refine certify effects fit family diagnose translate report study fleet)
+set(MODULES base curve law search refine certify effects fit family diagnose translate report study fleet)
 
 set(PUBLIC)  # the headers that are installed
 if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
@@ -37,16 +37,16 @@ macro(complain text)
 endmacro()
 
 # An include among the project's own headers, `quoted` as it stands between the quotation marks.
-function(check_own_include room quoted)
+function(check_own_include module quoted)
   if(NOT quoted MATCHES "^lyrefit/(.+)$")
     complain("includes \"${quoted}\"; inside lib/ includes start with \"lyrefit/\"")
   elseif(CMAKE_MATCH_1 MATCHES "^([^/]+)/")
     set(other "${CMAKE_MATCH_1}")
-    if(NOT other STREQUAL room AND NOT other IN_LIST ALLOWED_${room})
-      complain("room ${room} must not include room ${other} (\"${quoted}\")")
+    if(NOT other STREQUAL module AND NOT other IN_LIST ALLOWED_${module})
+      complain("module ${module} must not include module ${other} (\"${quoted}\")")
     endif()
   else()
-    complain("room ${room} must not include \"${quoted}\", which includes every room")
+    complain("module ${module} must not include \"${quoted}\", which includes every module")
   endif()
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
@@ -60,7 +60,7 @@ function(check_public_include header)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-function(check_file room)
+function(check_file module)
   file(STRINGS "${ROOT}/${FILE}" lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
     if(NOT line MATCHES "include[ \t]*([<\"])([^>\"]+)[>\"]")
@@ -71,7 +71,7 @@ function(check_file room)
     if(header MATCHES "^ceres/" AND NOT FILE MATCHES "/refine/(solve|least_squares)\\.cc$")
       complain("only refine/solve.cc and refine/least_squares.cc include Ceres (<${header}>)")
     endif()
-    if(room STREQUAL "apps")
+    if(module STREQUAL "apps")
       check_public_include("${header}")
       continue()
     endif()
@@ -83,8 +83,8 @@ function(check_file room)
     if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|fleet)[/.]")
       complain("the core knows nothing of the studies and of fleets (\"${header}\")")
     endif()
-    if(room IN_LIST ROOMS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
-      check_own_include(${room} "${header}")
+    if(module IN_LIST MODULES AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
+      check_own_include(${module} "${header}")
     endif()
   endforeach()
   set(BROKEN ${BROKEN} PARENT_SCOPE)
@@ -139,13 +139,13 @@ foreach(FILE IN LISTS files)
   if(FILE MATCHES "^apps/")
     check_file(apps)
   elseif(FILE MATCHES "^lib/lyrefit/([^/]+)/")
-    set(room "${CMAKE_MATCH_1}")
-    if(NOT room IN_LIST ROOMS)
-      complain("lib/lyrefit/${room} is no room of the house")
+    set(module "${CMAKE_MATCH_1}")
+    if(NOT module IN_LIST MODULES)
+      complain("lib/lyrefit/${module} is no module of the library")
     endif()
-    check_file(${room})
+    check_file(${module})
   else()
-    check_file(top)  # lyrefit.h, study.h and fleet.h, the doors to every room
+    check_file(top)  # lyrefit.h, study.h and fleet.h, the headers of every module
   endif()
 endforeach()
 
@@ -153,6 +153,6 @@ list(LENGTH files count)
 if(count EQUAL 0)
   message(FATAL_ERROR "no source files under ${ROOT}")
 elseif(BROKEN)
-  message(FATAL_ERROR "${BROKEN} remarks: ${count} files do not keep the order of the rooms")
+  message(FATAL_ERROR "${BROKEN} remarks: ${count} files do not keep the order of the layers")
 endif()
-message(NOTICE "${count} files keep the order of the rooms")
+message(NOTICE "${count} files keep the order of the layers")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes what stands in data/landscapes anew: which search reaches the best known optimum of problems with many basins,
+# Writes what stands in data/landscapes anew: which search reaches the best known optimum of problems with many local optima,
 # from which budget. Takes an hour on four cores; what was done when it was interrupted is not done again
 # (build/landscapes.journal). With LYREFIT_FIELD_DATA, a folder of measured curves (its field/single), these too.
 set -euo pipefail

@@ -2,7 +2,7 @@
 
 // The public header of the studies, lyrefit::study, a library on top of lyrefit::lyrefit: what repeated fits
 // say together. Compare runs searches, yours as well, against each other on measured curves or on
-// made ones with many basins (MakeLandscape). Audit checks published parameters. Coverage counts
+// made ones with many local optima (MakeLandscape). Audit checks published parameters. Coverage counts
 // how often the intervals of joint fits hold the truth, and CompareTruth holds a fit against
 // parameters that are known. As in lyrefit.h nothing throws or prints.
 

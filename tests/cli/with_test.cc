@@ -54,10 +54,10 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   EXPECT_TRUE(share["low_95"].is_null());
   EXPECT_FALSE(share["fixed"].get<bool>());
   EXPECT_THAT(fit.out, HasSubstr("whole number, settled by trying"));
-  const json& basins = report["refine"]["basins"];
-  EXPECT_GE(basins["ends"], basins["basins"]);
-  EXPECT_GE(basins["best_visits"], 1);
-  EXPECT_LE(basins["ends"], report["refine"]["start_list"].size());
+  const json& local_optima = report["refine"]["local_optima"];
+  EXPECT_GE(local_optima["ends"], local_optima["local_optima"]);
+  EXPECT_GE(local_optima["best_visits"], 1);
+  EXPECT_LE(local_optima["ends"], report["refine"]["start_list"].size());
   ExpectSameCurve(file, report);
 }
 

@@ -46,16 +46,16 @@ TEST(PolishExtended, FindsAWeakCellAndItsReverseLaw) {
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_NEAR(report->rmse.refined.solved_current_A / made.noise_A, 1, 0.2);
   ExpectNear(*report, "weak_cell.d", made.truth.at("weak_cell.d"));
-  ASSERT_EQ(report->forms.size(), 6u);
+  ASSERT_EQ(report->variants.size(), 6u);
   int chosen = 0;
-  for (const FormReport& form : report->forms) {
-    EXPECT_GE(form.bic_above, 0) << form.what;
-    if (!form.chosen) continue;
+  for (const VariantReport& variant : report->variants) {
+    EXPECT_GE(variant.bic_above, 0) << variant.what;
+    if (!variant.chosen) continue;
     ++chosen;
-    EXPECT_EQ(form.bic_above, 0);
-    EXPECT_TRUE(form.finished);
-    EXPECT_NEAR(form.rmse_A / report->rmse.refined.solved_current_A, 1, 1e-9);
-    EXPECT_THAT(form.what, HasSubstr("A free"));  // the soft law
+    EXPECT_EQ(variant.bic_above, 0);
+    EXPECT_TRUE(variant.finished);
+    EXPECT_NEAR(variant.rmse_A / report->rmse.refined.solved_current_A, 1, 1e-9);
+    EXPECT_THAT(variant.what, HasSubstr("A free"));  // the soft law
   }
   EXPECT_EQ(chosen, 1);
   EXPECT_TRUE(Find(*report, "weak_cell.a").fixed);
@@ -110,7 +110,7 @@ TEST(PolishExtended, TriesSharesOfWholeSubstrings) {
   EXPECT_DOUBLE_EQ(share.refined, 0.4);
   EXPECT_DOUBLE_EQ(share.bounds.whole, 0.2);
   ExpectNear(*report, "substrings.d1", 0.45);
-  EXPECT_TRUE(report->forms.empty());  // ranges leave one
+  EXPECT_TRUE(report->variants.empty());  // ranges leave one
 }
 
 TEST(PolishExtended, AShadesShareOfCountedSubstringsIsExactAndHasNoInterval) {

@@ -159,7 +159,7 @@ TEST(HardCandidates, ComeToTheNoiseWhereTheEffectsAreTrue) {
   const auto best = Fit(curve, options);
   ASSERT_TRUE(best);
   EXPECT_LT(best->rmse.searched.solved_current_A, 0.2);
-  const std::vector<double> truth = {1.15, 0.25, 0.5, 0.25, nest.job.forms[0].usual[8]};
+  const std::vector<double> truth = {1.15, 0.25, 0.5, 0.25, nest.job.variants[0].usual[8]};
   EXPECT_NEAR(places.RmseAt(truth.data()) / 0.004, 1, 0.15);
   EXPECT_NEAR(places.RmseAt(truth.data()) / best->rmse.refined.solved_current_A, 1, 0.03);
 }

@@ -62,27 +62,27 @@ Device ModuleWith(const char* effect) {
   return *device;
 }
 
-TEST(SearchSpace, HasASideForTheFormsOfEffects) {
+TEST(SearchSpace, HasASideForTheVariantsOfEffects) {
   const Device device = ModuleWith("weak_cell");
   const Extension& extension = *device.extension;
-  const std::vector<Form> forms = FormsOf(extension);
-  ASSERT_GT(forms.size(), 2u);
+  const std::vector<Variant> variants = VariantsOf(extension);
+  ASSERT_GT(variants.size(), 2u);
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
-  const SearchSpace space(base, std::vector<double>(5, std::nan("")), extension, forms);
-  // Five of the diode, all that is free in some form (d, Vb, a, Vbr, m, A), and the form.
+  const SearchSpace space(base, std::vector<double>(5, std::nan("")), extension, variants);
+  // Five of the diode, all that is free in some variant (d, Vb, a, Vbr, m, A), and the variant.
   ASSERT_EQ(space.dimensions(), 12);
-  EXPECT_EQ(space.box().upper.back(), static_cast<double>(forms.size()));
+  EXPECT_EQ(space.box().upper.back(), static_cast<double>(variants.size()));
   std::vector<double> x, p(device.size());
   for (int j = 0; j < space.dimensions(); ++j) {
     x.push_back(0.5 * (space.box().lower[j] + space.box().upper[j]));
   }
-  for (std::size_t f = 0; f < forms.size(); ++f) {
+  for (std::size_t f = 0; f < variants.size(); ++f) {
     x.back() = static_cast<double>(f) + 0.5;
-    ASSERT_EQ(space.FormAt(x.data()), static_cast<int>(f));
+    ASSERT_EQ(space.VariantAt(x.data()), static_cast<int>(f));
     space.ToParameters(x.data(), p.data());
     for (int i = 0; i < 5; ++i) EXPECT_EQ(p[i], 0.5);
-    for (std::size_t k = 0; k < forms[f].bounds.size(); ++k) {
-      const ParameterBounds& own = forms[f].bounds[k];
+    for (std::size_t k = 0; k < variants[f].bounds.size(); ++k) {
+      const ParameterBounds& own = variants[f].bounds[k];
       EXPECT_EQ(p[5 + k], WithinBounds(own, p[5 + k])) << k;
       if (own.lower == own.upper) continue;
       EXPECT_DOUBLE_EQ(p[5 + k], 0.5 * (own.lower + own.upper)) << k;
@@ -94,8 +94,8 @@ TEST(SearchSpace, SharesOfSubstringsAreSearchedAsWholeNumbersOfThem) {
   const Device device = ModuleWith("shading");
   const Extension& extension = *device.extension;
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
-  const SearchSpace space(base, std::vector<double>(5, 0.5), extension, FormsOf(extension));
-  ASSERT_EQ(space.dimensions(), 5);  // d, w, Vb, c and the form
+  const SearchSpace space(base, std::vector<double>(5, 0.5), extension, VariantsOf(extension));
+  ASSERT_EQ(space.dimensions(), 5);  // d, w, Vb, c and the variant
   EXPECT_EQ(space.box().lower[1], 0);
   EXPECT_EQ(space.box().upper[1], 2);
   std::vector<double> x = {0.5, 0, 0.5, 0.5, 0.5}, p(device.size());
@@ -127,8 +127,8 @@ TEST(SearchSpace, LeadsBackFromParameters) {
   EXPECT_EQ(space.FromParameters(outside, 0), (std::vector<double>{3, 0, 5}));
 }
 
-// A weak cell by its name alone: several forms, whole numbers, shares that leave a rest.
-TEST(SearchSpace, LeadsBackFromTheParametersOfEveryForm) {
+// A weak cell by its name alone: several variants, whole numbers, shares that leave a rest.
+TEST(SearchSpace, LeadsBackFromTheParametersOfEveryVariant) {
   SimulateOptions made;
   made.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};
   made.conditions.cells_in_series = 60;
@@ -145,7 +145,7 @@ TEST(SearchSpace, LeadsBackFromTheParametersOfEveryForm) {
     const SearchSpace space = CompleteSpace(job);
     RandomStream random(2, 0);
     std::vector<double> p(report.device.size()), again(p.size());
-    std::vector<int> forms(job.forms.size(), 0);
+    std::vector<int> variants(job.variants.size(), 0);
     for (int k = 0; k < 300; ++k) {
       std::vector<double> x;
       for (int j = 0; j < space.dimensions(); ++j) {
@@ -153,16 +153,16 @@ TEST(SearchSpace, LeadsBackFromTheParametersOfEveryForm) {
                     random.Uniform() * (space.box().upper[j] - space.box().lower[j]));
       }
       space.ToParameters(x.data(), p.data());
-      const int form = space.FormAt(x.data());
-      ++forms[form];
-      const std::vector<double> back = space.FromParameters(p.data(), form);
-      EXPECT_EQ(space.FormAt(back.data()), form);
+      const int variant = space.VariantAt(x.data());
+      ++variants[variant];
+      const std::vector<double> back = space.FromParameters(p.data(), variant);
+      EXPECT_EQ(space.VariantAt(back.data()), variant);
       space.ToParameters(back.data(), again.data());
       for (std::size_t i = 0; i < p.size(); ++i) {
         EXPECT_NEAR(again[i], p[i], 1e-12 * std::fabs(p[i])) << effect << " " << i;
       }
     }
-    for (const int met : forms) EXPECT_GT(met, 0);
+    for (const int met : variants) EXPECT_GT(met, 0);
   }
 }
 

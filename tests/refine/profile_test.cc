@@ -15,9 +15,9 @@ namespace lyrefit {
 namespace {
 
 // One residual x, or (x - 1/2) / 2 where the setting behind x is 1: what descends stays in either.
-class TwoValleys : public FitModel {
+class TwoOptima : public FitModel {
  public:
-  TwoValleys() : FitModel(Shape()) {}
+  TwoOptima() : FitModel(Shape()) {}
 
   bool Evaluate(int /*block*/, const double* p, const double* /*local*/, double* residuals,
                 double* slopes, double* /*local_slopes*/) const override {
@@ -41,8 +41,8 @@ class TwoValleys : public FitModel {
   }
 };
 
-TEST(FindProfileSide, ReachesOverTheOtherValleysToo) {
-  const TwoValleys model;
+TEST(FindProfileSide, ReachesOverTheOtherOptimaToo) {
+  const TwoOptima model;
   ProfileRefits refits;
   refits.refit = [&](double value, FitPoint start, double, double) {
     start.p[0] = value;
@@ -53,9 +53,9 @@ TEST(FindProfileSide, ReachesOverTheOtherValleysToo) {
   };
   RefineEnd best;
   best.p = {0, 0};
-  const auto limit = [&](bool upper, std::vector<FitPoint> valleys) {
+  const auto limit = [&](bool upper, std::vector<FitPoint> local_optima) {
     const ProfileSide side =
-        FindProfileSide(model, best, {0, upper, 2, 1, 0.5, false, std::move(valleys)}, refits);
+        FindProfileSide(model, best, {0, upper, 2, 1, 0.5, false, std::move(local_optima)}, refits);
     EXPECT_TRUE(side.settled);
     return side.value;
   };

@@ -38,7 +38,7 @@ TEST(FullReport, FitsATerminalOf100Columns) {
   report.warnings = {
       "a warning of many words that goes on and on, longer than any terminal is wide, "
       "because the matter is not simple and wants to be explained in plain words"};
-  report.forms = {
+  report.variants = {
       {"shading.d, shading.w, shading.Vb, shading.c, irr_step.s, irr_step.x0 free; "
        "irr_step.shape = 2",
        6, 1e-3, 0, true, true},
@@ -207,53 +207,53 @@ TEST(FullReport, ShowsTheChoiceOfTheModel) {
   EXPECT_THAT(text, HasSubstr("A second diode does not pay."));
 }
 
-TEST(FullReport, CountsTheBasinsOfAModelWithEffects) {
+TEST(FullReport, CountsTheOptimaOfAModelWithEffects) {
   FitReport report = SampleReport();
   report.refine.starts.resize(49, {"random", 9e-4, 7.8e-4, false});
-  report.refine.basins = BasinCount{14, 3, 6, {14, 3, 6, 2, 0}, 1};
+  report.refine.local_optima = OptimumCount{14, 3, 6, {14, 3, 6, 2, 0}, 1};
   const std::string text = FullReport(report);
-  EXPECT_THAT(text, HasSubstr("14 of 49 went to their end, in 3 basins, the best of them reached 6 "
+  EXPECT_THAT(text, HasSubstr("14 of 49 went to their end, in 3 local optima, the best of them reached 6 "
                               "times; the other"));
   EXPECT_THAT(text, HasSubstr("35 were given up"));
   EXPECT_THAT(text, HasSubstr("the best end came from start 2: elite 2"));
   EXPECT_THAT(text, Not(HasSubstr("came to the same curve")));
-  EXPECT_THAT(LineWith(text, "  basins "),
+  EXPECT_THAT(LineWith(text, "  local optima "),
               HasSubstr("by Chao's estimate (doi:10.2307/2531532) 1.0 more were probably not"));
-  EXPECT_THAT(text, HasSubstr("basins were reached just once\n"));
+  EXPECT_THAT(text, HasSubstr("local optima were reached just once\n"));
   EXPECT_THAT(text, Not(HasSubstr("beside an earlier end")));
-  report.refine.basins = BasinCount{14, 3, 6, {9, 2, 4, 1, 0}, 0};
-  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
+  report.refine.local_optima = OptimumCount{14, 3, 6, {9, 2, 4, 1, 0}, 0};
+  EXPECT_THAT(LineWith(FullReport(report), "  local optima "),
               HasSubstr("9 of the 14 ends did not begin beside an earlier end, 4 of those in the"));
   EXPECT_THAT(FullReport(report), HasSubstr("none was left unseen: only one"));
-  report.refine.basins = BasinCount{5, 1, 5, {2, 1, 0, 0, 1}, kUnknown};
-  EXPECT_THAT(LineWith(FullReport(report), "  basins "), HasSubstr("none of those in the"));
+  report.refine.local_optima = OptimumCount{5, 1, 5, {2, 1, 0, 0, 1}, kUnknown};
+  EXPECT_THAT(LineWith(FullReport(report), "  local optima "), HasSubstr("none of those in the"));
   EXPECT_THAT(FullReport(report),
-              HasSubstr("few descents to estimate how many basins were not seen"));
-  report.refine.basins = BasinCount{5, 1, 0, {5, 1, 0, 0, 0}, 0};  // interrupted
-  EXPECT_THAT(FullReport(report), HasSubstr("in 1 basin, none of them the best"));
+              HasSubstr("few descents to estimate how many local optima were not seen"));
+  report.refine.local_optima = OptimumCount{5, 1, 0, {5, 1, 0, 0, 0}, 0};  // interrupted
+  EXPECT_THAT(FullReport(report), HasSubstr("in 1 local optimum, none of them the best"));
   EXPECT_EQ(text.find("random "), text.rfind("random "));  // the baseline: no line for each start
   report.refine.starts.resize(14);
-  report.refine.basins = BasinCount{14, 1, 14, {14, 1, 14, 0, 0}, 0};
+  report.refine.local_optima = OptimumCount{14, 1, 14, {14, 1, 14, 0, 0}, 0};
   EXPECT_THAT(
       LineWith(FullReport(report), "  starts "),
-      HasSubstr("14 of 14 went to their end, in 1 basin, the best of them reached 14 times"));
+      HasSubstr("14 of 14 went to their end, in 1 local optimum, the best of them reached 14 times"));
   EXPECT_THAT(FullReport(report), Not(HasSubstr("given up")));
-  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
+  EXPECT_THAT(LineWith(FullReport(report), "  local optima "),
               HasSubstr("none was left unseen: none was reached"));
-  report.refine.basins = BasinCount{1, 1, 1, {1, 1, 1, 1, 0}, kUnknown};
+  report.refine.local_optima = OptimumCount{1, 1, 1, {1, 1, 1, 1, 0}, kUnknown};
   EXPECT_THAT(FullReport(report),
-              HasSubstr("1 of 14 went to its end, in 1 basin, the best of them reached once"));
-  EXPECT_THAT(LineWith(FullReport(report), "  basins "),
-              HasSubstr("too few descents to estimate how many basins were not seen"));
-  report.refine.basins = BasinCount{};  // interrupted
+              HasSubstr("1 of 14 went to its end, in 1 local optimum, the best of them reached once"));
+  EXPECT_THAT(LineWith(FullReport(report), "  local optima "),
+              HasSubstr("too few descents to estimate how many local optima were not seen"));
+  report.refine.local_optima = OptimumCount{};  // interrupted
   EXPECT_THAT(FullReport(report), HasSubstr("none of 14 went to its end"));
-  EXPECT_EQ(LineWith(FullReport(report), "  basins "), "");
+  EXPECT_EQ(LineWith(FullReport(report), "  local optima "), "");
 }
 
-TEST(FullReport, ShowsTheFormsThatEffectsCanHave) {
+TEST(FullReport, ShowsTheVariantsThatEffectsCanHave) {
   FitReport report = SampleReport();
-  EXPECT_THAT(FullReport(report), Not(HasSubstr("Choice of the form")));
-  report.forms = {{"d, Vb, m, A free", 4, 7.73e-4, 0, true, true},
+  EXPECT_THAT(FullReport(report), Not(HasSubstr("Choice of the variant")));
+  report.variants = {{"d, Vb, m, A free", 4, 7.73e-4, 0, true, true},
                   {"d, Vb free; a = 0", 2, 1.2e-3, 87.654, false, false}};
   const std::string text = FullReport(report);
   EXPECT_THAT(LineWith(text, "d, Vb, m, A free <-"), HasSubstr("7.73000e-04"));

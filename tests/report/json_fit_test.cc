@@ -24,7 +24,7 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
       "key_points",      "information", "residuals", "correlations",
       "search",          "refine",      "intervals", "model_choice",
       "options",         "interrupted", "usable",    "not_usable_because",
-      "warnings",        "data",        "errors",    "forms"};
+      "warnings",        "data",        "errors",    "variants"};
   EXPECT_EQ(Keys(j), top);
   const std::set<std::string> search = {
       "algorithm",         "seed",        "run",     "population", "iterations", "evaluations",
@@ -32,7 +32,7 @@ TEST(JsonReport, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["search"]), search);
   const std::set<std::string> refine = {
       "termination",        "message",   "starts",  "agreeing",   "winner",
-      "projected_gradient", "condition", "seconds", "start_list", "basins"};
+      "projected_gradient", "condition", "seconds", "start_list", "local_optima"};
   EXPECT_EQ(Keys(j["refine"]), refine);
 }
 
@@ -52,33 +52,33 @@ TEST(JsonReport, TellsTheFloorWhereItWasAskedFor) {
   EXPECT_EQ(floor["refined_above"], 0.01);
 }
 
-TEST(JsonReport, CountsBasinsAndListsFormsOfAModelWithEffects) {
+TEST(JsonReport, CountsOptimaAndListsVariantsOfAModelWithEffects) {
   FitReport report = SampleReport();
-  EXPECT_TRUE(Parsed(report)["refine"]["basins"].is_null());
-  EXPECT_TRUE(Parsed(report)["forms"].is_null());
+  EXPECT_TRUE(Parsed(report)["refine"]["local_optima"].is_null());
+  EXPECT_TRUE(Parsed(report)["variants"].is_null());
   EXPECT_TRUE(Parsed(report)["parameters"]["n"]["whole"].is_null());
   report.refine.starts.resize(49);
-  report.refine.basins = BasinCount{14, 5, 6, {12, 4, 5, 3, 1}, 1.5};
-  report.forms = {{"d, Vb free; a = 0", 2, 1.2e-3, 87.5, false, false},
+  report.refine.local_optima = OptimumCount{14, 5, 6, {12, 4, 5, 3, 1}, 1.5};
+  report.variants = {{"d, Vb free; a = 0", 2, 1.2e-3, 87.5, false, false},
                   {"d, Vb, m, A free", 4, 7.73e-4, 0, true, true}};
   report.estimates[2].bounds.whole = 0.25;
   const json j = Parsed(report);
   EXPECT_EQ(j["refine"]["start_list"].size(), 49u);
-  EXPECT_EQ(j["refine"]["basins"],
+  EXPECT_EQ(j["refine"]["local_optima"],
             (json{{"ends", 14},
-                  {"basins", 5},
+                  {"local_optima", 5},
                   {"best_visits", 6},
                   {"independent",
-                   {{"ends", 12}, {"basins", 4}, {"best_visits", 5}, {"once", 3}, {"twice", 1}}},
+                   {{"ends", 12}, {"local_optima", 4}, {"best_visits", 5}, {"once", 3}, {"twice", 1}}},
                   {"unseen", 1.5}}));
-  ASSERT_EQ(j["forms"].size(), 2u);
-  EXPECT_EQ(j["forms"][0], (json{{"what", "d, Vb free; a = 0"},
+  ASSERT_EQ(j["variants"].size(), 2u);
+  EXPECT_EQ(j["variants"][0], (json{{"what", "d, Vb free; a = 0"},
                                  {"free", 2},
                                  {"solved_current_rmse_A", 1.2e-3},
                                  {"bic_above", 87.5},
                                  {"finished", false},
                                  {"chosen", false}}));
-  EXPECT_EQ(j["forms"][1]["chosen"], true);
+  EXPECT_EQ(j["variants"][1]["chosen"], true);
   EXPECT_EQ(j["parameters"]["n"]["whole"], 0.25);
   EXPECT_EQ(j["parameters"]["n"]["fixed"], false);
 }

@@ -195,7 +195,7 @@ TEST(Lyrebird, WithoutMemoryOneNumberAMoveAndOneACoordinateAreTheSame) {
   EXPECT_NE(Search(Sphere, kBox, options).best.x, vector.best.x);
 }
 
-// Two basins of one width; the lower one, at the second corner, 0.1 below.
+// Two local optima of one width; the lower one, at the second corner, 0.1 below.
 double TwoBowls(const double* x) {
   double first = 0, second = -0.1;
   for (int j = 0; j < 3; ++j) {
@@ -240,7 +240,7 @@ TEST(Knees, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
   EXPECT_EQ(two[2], mlo[2]);
 }
 
-TEST(Knees, FindTheBasinThatIsSuggested) {
+TEST(Knees, FindTheOptimumThatIsSuggested) {
   Box box = kBox;
   box.suggested = {{2.1, 1.9, 2}};
   SearchOptions options;

@@ -58,8 +58,8 @@ TEST(PoolProblems, HasNoTimeWhereARunHasNone) {
   EXPECT_FALSE(pools[0].contenders[0].At(PolishLevel::kPlain)) << "not every run was taken there";
 }
 
-// Ends of five runs on one device and two on another: wrong basins at 1.5 (twice, to 1e-7) and 3,
-// and at 1.5 on the other device, which is another basin.
+// Ends of five runs on one device and two on another: wrong local optima at 1.5 (twice, to 1e-7) and 3,
+// and at 1.5 on the other device, which is another local optimum.
 TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const double near = 1.5 * (1 + 1e-7);
   Comparison comparison = MadeComparison(
@@ -77,7 +77,7 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const auto pools = PoolProblems(comparison);
   const Failures& failures = pools[0].contenders[0].At(PolishLevel::kOwn)->failures;
   EXPECT_EQ(failures.runs, 4);
-  EXPECT_EQ(failures.basins, 3);
+  EXPECT_EQ(failures.local_optima, 3);
   EXPECT_EQ(failures.commonest, 2);
   EXPECT_EQ(failures.commonest_device, "x 0");
   EXPECT_NEAR(failures.commonest_excess, 0.5, 1e-12);

@@ -110,13 +110,13 @@ std::vector<Way> GoOn(const Workbench& bench, const std::vector<Way>& ways, int 
 }
 
 // The best end of those that the curve's shape suggests. All of them from a healthy module: a base
-// fit that had to bend to the fault leads to the wrong valley. All take some steps, the better ones
-// some more; those that are ahead then, each in a valley of its own, go on to their end.
+// fit that had to bend to the fault leads to the wrong local optimum. All take some steps, the better ones
+// some more; those that are ahead then, each in a local optimum of its own, go on to their end.
 void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
   constexpr std::size_t kBetter = 16, kAhead = 8;
   constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
-  constexpr double kSameValley = 1e-3;  // relative, of what is paid
+  constexpr double kSameLocalOptimum = 1e-3;  // relative, of what is paid
   const Readings& readings = *bench.readings;
   const CurveShape shape = ShapeOf(readings);
   const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
@@ -146,7 +146,7 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
   std::size_t ahead = 0;
   for (const Way& way : ways) {
     if (ahead == kAhead) return;
-    if (way.paid < (1 + kSameValley) * last) continue;
+    if (way.paid < (1 + kSameLocalOptimum) * last) continue;
     last = way.paid;
     ++ahead;
     LeastSquaresOptions on = UpTo(kToTheEnd, 1e-5);

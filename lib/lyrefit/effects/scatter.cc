@@ -99,7 +99,7 @@ std::vector<ShapeStart> ScatterStarts(const CurveShape& shape) {
   std::vector<ShapeStart> starts;
   constexpr double kLeastHalfway = 0.85;
   if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
-  // The dimmest cell decides where the current bends: each side of its place is a valley of its
+  // The dimmest cell decides where the current bends: each side of its place is a local optimum of its
   // own, and so are cells that conduct in reverse and cells that do not.
   for (const double lopsided : {0.0, 1.0}) {
     for (const double width : {0.015, 0.04}) {

@@ -163,12 +163,12 @@ ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> 
   return {std::min(a, b), std::max(a, b), std::min(a, b), std::max(a, b), bounds.scale};
 }
 
-std::vector<FitPoint> OtherValleys(const FamilyProblem& family, const JointProblem& problem,
+std::vector<FitPoint> MoreOptima(const FamilyProblem& family, const JointProblem& problem,
                                    const JointEnd& end, const Observer& observer) {
   SharedObserver watch(observer, "other optima", 0);
   watch.Begin();
   const double degrees = JointDegrees(problem, family.free_parameters, 0);
-  return FindValleys(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
+  return FindOtherOptima(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
                      watch.Proceed());
 }
 
@@ -196,8 +196,8 @@ QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
   if (!at.extended) return quoted;
   quoted.problem.quoted = true;
   quoted.end.point.shared = ReportedShared(at, end.point.shared);
-  if (options.intervals) quoted.valleys = OtherValleys(family, problem, end, observer);
-  for (FitPoint& valley : quoted.valleys) valley.p = ReportedShared(at, valley.p);
+  if (options.intervals) quoted.local_optima = MoreOptima(family, problem, end, observer);
+  for (FitPoint& local_optimum : quoted.local_optima) local_optimum.p = ReportedShared(at, local_optimum.p);
   int first = at.first_effect;
   for (const EffectUse& use : ExtensionOf(at).uses) {
     const int size = use.effect->size();

@@ -35,7 +35,7 @@ struct QuotedFit {
   FamilyProblem family;
   JointProblem problem;
   JointEnd end;
-  std::vector<FitPoint> valleys;  // other optima, which the data allow as well
+  std::vector<FitPoint> local_optima;  // other optima, which the data allow as well
 };
 QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
                 const JointProblem& problem, const JointEnd& end, const Observer& observer);

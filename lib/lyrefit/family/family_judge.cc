@@ -116,7 +116,7 @@ bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {
   if (e.fixed || (KindOf(judged, i) == ParameterKind::kSaturation && judged.fit.end.held[i]) ||
       i == judged.fit.family.translation.n_2)
     return false;
-  if (!judged.fit.valleys.empty() || BendsWithOthers(judged, i)) return true;
+  if (!judged.fit.local_optima.empty() || BendsWithOthers(judged, i)) return true;
   // An ideality and what goes with it are exact in their own coordinates.
   if (e.at_bound != BoundSide::kNone) return true;
   if (e.interval == IntervalMethod::kNone) return false;
@@ -134,7 +134,7 @@ bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
     if (!NeedsProfile(judged, i, (*estimates)[i])) continue;
     for (const bool upper : {false, true}) {
       queries.push_back({i, upper, judged.t, judged.variance, (*estimates)[i].standard_error, false,
-                         judged.fit.valleys});
+                         judged.fit.local_optima});
     }
   }
   std::vector<ProfileSide> sides(queries.size());

@@ -7,12 +7,12 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/descent_starts.h"
 #include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/check_candidates.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
-#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/fit/judge_fit.h"
 #include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/polish.h"
@@ -75,7 +75,7 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   std::vector<PolishStart> elites;
   for (const Candidate& candidate : report->search.elites) {
     elites.push_back({elites.empty() ? "best candidate" : fmt::format("elite {}", elites.size() + 1),
-                      all.DeviceAt(candidate.x.data()), all.FormAt(candidate.x.data())});
+                      all.DeviceAt(candidate.x.data()), all.VariantAt(candidate.x.data())});
   }
   return elites;
 }
@@ -149,9 +149,9 @@ void FindFloor(FitJob* job, FitReport* report) {
 
 // What one bounded solve makes of the best candidate, and what its own polish does.
 void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report) {
-  const bool extended = !job->forms.empty();
+  const bool extended = !job->variants.empty();
   const RefineProblem problem =
-      extended ? InForm(job->problem, job->forms[candidate.form], candidate.p) : job->problem;
+      extended ? InVariant(job->problem, job->variants[candidate.variant], candidate.p) : job->problem;
   RefineOptions how;
   how.stop = job->watch.stop();
   how.impatient = true;
@@ -175,7 +175,7 @@ std::string TooFewReadings(const FitJob& job) {
 void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const SearchSpace& space,
                     FitReport* report) {
   const FitOptions& options = job->options;
-  const bool extended = !job->forms.empty();
+  const bool extended = !job->variants.empty();
   PolishResult polish =
       extended ? PolishExtended(elites, space, job, report)
                : PolishStarts(job->problem, job->few, CollectStarts(job->few, elites, kGridStarts),
@@ -250,13 +250,13 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   const PolishStart& best = candidates.front();
   report.searched = report.refined = best.p;
   OrderAlike(report.device, job.bounds, &report.searched, nullptr);
-  const bool extended = !job.forms.empty();
-  if (extended) report.best_candidate_penalty = FormPrice(job, best.form);
+  const bool extended = !job.variants.empty();
+  if (extended) report.best_candidate_penalty = VariantPenaltyOf(job, best.variant);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
     PolishAndJudge(&job, candidates, CompleteSpace(job), &report);
   } else {
-    if (extended) SettleForm(best.form, best.p, &job, &report);
+    if (extended) SelectVariant(best.variant, best.p, &job, &report);
     report.refined = report.searched;
     report.estimates = EstimatesOf(job, report);
     FillResults(job, &report);

@@ -10,7 +10,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/distinct_readings.h"
 #include "lyrefit/fit/fixed_values.h"
-#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
@@ -37,11 +37,11 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
                           options.with, options.force_effects));
   TRY(CheckFitRanges(*device.extension));
   report->device = std::move(device);
-  job->forms = FormsOf(*report->device.extension);
-  // The freest form asks for the most points.
-  const Form& freest =
-      *std::max_element(job->forms.begin(), job->forms.end(),
-                        [](const Form& a, const Form& b) { return a.free < b.free; });
+  job->variants = VariantsOf(*report->device.extension);
+  // The freest variant asks for the most points.
+  const Variant& freest =
+      *std::max_element(job->variants.begin(), job->variants.end(),
+                        [](const Variant& a, const Variant& b) { return a.free < b.free; });
   for (const ParameterBounds& bounds : freest.bounds) {
     job->bounds.push_back(bounds);
     job->fixed.push_back(kUnknown);
@@ -148,7 +148,7 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   const IvCurve& fitted = job->fitted();
   std::vector<double> weights;
   for (const double sigma : fitted.sigma_A) weights.push_back(1 / (sigma * sigma));
-  if (job->forms.empty() && !distinct.copies.empty()) {
+  if (job->variants.empty() && !distinct.copies.empty()) {
     weights.resize(fitted.size(), 1.0);
     for (std::size_t k = 0; k < weights.size(); ++k) weights[k] *= distinct.copies[k];
   }
@@ -160,17 +160,17 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   return {};
 }
 
-double FormPrice(const FitJob& job, int form) {
-  const double price = FormFactor(job.problem, job.forms[form]);
+double VariantPenaltyOf(const FitJob& job, int variant) {
+  const double price = VariantPenalty(job.problem, job.variants[variant]);
   double lowest = price;
-  for (const Form& other : job.forms) lowest = std::min(lowest, FormFactor(job.problem, other));
+  for (const Variant& other : job.variants) lowest = std::min(lowest, VariantPenalty(job.problem, other));
   return price / lowest;
 }
 
-void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report) {
-  const Form& own = job->forms[form];
+void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitReport* report) {
+  const Variant& own = job->variants[variant];
   const int first = job->base_size();
-  job->problem = InForm(job->problem, own, p);
+  job->problem = InVariant(job->problem, own, p);
   auto extension = std::make_shared<Extension>(*report->device.extension);
   for (int k = 0; k < job->effects(); ++k) {
     const ParameterBounds& bounds = own.bounds[k];
@@ -184,7 +184,7 @@ void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* 
   extension->usual = own.usual;
   job->free_parameters = own.free;
   for (int i = 0; i < first; ++i) job->free_parameters += std::isnan(job->fixed[i]) ? 1 : 0;
-  report->form_price = FormPrice(*job, form);
+  report->variant_penalty = VariantPenaltyOf(*job, variant);
   report->device.extension = std::move(extension);
   job->problem.device = report->device;
   job->few = Thin(job->problem);

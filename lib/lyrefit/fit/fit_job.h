@@ -6,7 +6,7 @@
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
-#include "lyrefit/law/forms.h"
+#include "lyrefit/law/variants.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -22,17 +22,17 @@ struct FitJob {
   RefineProblem problem;  // on the distinct readings, or on all of a device with effects
   RefineProblem few;      // the same problem or, of many points, what stands for it in the search
   FitWatch watch;
-  std::vector<Form> forms = {};  // of a device with effects
+  std::vector<Variant> variants = {};  // of a device with effects
   IvCurve distinct = {};         // the curve with each reading once: what counts as evidence
 
   int readings() const { return static_cast<int>(distinct.size()); }
 
   // The rows of `problem`.
-  const IvCurve& fitted() const { return forms.empty() ? distinct : curve; }
+  const IvCurve& fitted() const { return variants.empty() ? distinct : curve; }
 
   // Of its base, which come first.
   int base_size() const { return problem.device.size() - effects(); }
-  int effects() const { return forms.empty() ? 0 : static_cast<int>(forms[0].bounds.size()); }
+  int effects() const { return variants.empty() ? 0 : static_cast<int>(variants[0].bounds.size()); }
 };
 
 // Beside effects the measured current is refused.
@@ -41,12 +41,12 @@ Expected<void> CheckObjectiveOfEffects(Objective objective);
 // Checks the curve and the options; the device, bounds and the problem to solve.
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
 
-// See FitReport::form_price.
-double FormPrice(const FitJob& job, int form);
+// See FitReport::variant_penalty.
+double VariantPenaltyOf(const FitJob& job, int variant);
 
-// Settles for one of the forms, what is a whole number at what `p` says: bounds, problem and the
+// Settles for one of the variants, what is a whole number at what `p` says: bounds, problem and the
 // effects of the device that is reported.
-void SettleForm(int form, const std::vector<double>& p, FitJob* job, FitReport* report);
+void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitReport* report);
 
 RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve);
 

@@ -108,7 +108,7 @@ struct FitOptions {
   int threads = 0;                 // 0: all cores; never changes a result
   const Kernel* kernel = nullptr;  // nullptr: the fastest
 
-  // For a model with effects: a small population, as the shape of the curve and the basins that its
+  // For a model with effects: a small population, as the shape of the curve and the local optima that its
   // polish comes to say more about where to look.
   static SearchOptions SearchBesideShapes() {
     SearchOptions search;

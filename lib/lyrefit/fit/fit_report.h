@@ -106,18 +106,18 @@ struct StartReport {
   bool agrees = false;  // shares the best end, or its own is within 1e-9 relative of it
 };
 
-// Of the starts of one polish that went to their end: in how many basins, and how many there may be
-// besides. A start beside an earlier end (one cell more, the next setting) comes back to its basin
+// Of the starts of one polish that went to their end: in how many local optima, and how many there may be
+// besides. A start beside an earlier end (one cell more, the next setting) comes back to its local optimum
 // sooner than another, and is in no estimate.
-struct BasinCount {
+struct OptimumCount {
   int ends = 0;  // starts that came to one
-  int basins = 0;
+  int local_optima = 0;
   int best_visits = 0;  // ends in the best one
   struct Independent {  // of the starts that were not beside an earlier end
     int ends = 0;       // starts that came to one
-    int basins = 0;
+    int local_optima = 0;
     int best_visits = 0;  // ends in the best one
-    int once = 0;         // basins with one end
+    int once = 0;         // local optima with one end
     int twice = 0;        // with two
   };
   Independent independent;  // starts that did not begin beside an earlier end
@@ -126,14 +126,14 @@ struct BasinCount {
   double unseen = kUnknown;
 };
 
-// The best fit in one of several forms that effects can have (law/forms.h).
-struct FormReport {
+// The best fit in one of several variants that effects can have (law/variants.h).
+struct VariantReport {
   std::string what;          // "d, Vb, m, A free; chains = 2"
   int free = 0;              // parameters of the effects
   double rmse_A = kUnknown;  // solved-current
   double bic_above = 0;      // Bayesian information criterion, above the chosen one's
   bool finished = false;     // false: given up as out of reach; its figures are upper limits
-  bool chosen = false;       // the answer has this form
+  bool chosen = false;       // the answer has this variant
 };
 
 // How the polish went.
@@ -149,7 +149,7 @@ struct RefineReport {
   double condition = kUnknown;  // of the scaled Jacobian in the free parameters
   double seconds = 0;
   double best_candidate_seconds = kUnknown;  // of the best candidate's own polish, where it was asked for
-  std::optional<BasinCount> basins;     // of a model with effects
+  std::optional<OptimumCount> local_optima;     // of a model with effects
 };
 
 // Two parameters that the data hardly tell apart.
@@ -244,12 +244,12 @@ struct FitReport {
   // its own, unless each candidate solves for parameters (FitOptions::candidates).
   std::int64_t curve_evaluations = 0;
   RefineReport refine;
-  // What the RMSE is multiplied by where forms are weighed against each other as BIC does it:
-  // points ^ (free parameters beyond those of the smallest form / 2 points). Of the answer, and of
-  // the best candidate and its own polish; 1 where there is one form.
-  double form_price = 1;
+  // What the RMSE is multiplied by where variants are weighed against each other as BIC does it:
+  // points ^ (free parameters beyond those of the smallest variant / 2 points). Of the answer, and of
+  // the best candidate and its own polish; 1 where there is one variant.
+  double variant_penalty = 1;
   double best_candidate_penalty = 1;
-  std::vector<FormReport> forms;      // of effects that have several; one is chosen
+  std::vector<VariantReport> variants;      // of effects that have several; one is chosen
   double interval_seconds = 0;        // of profiles and intervals
   double plain_seconds = kUnknown;    // of the best candidate's plain solve
   std::string no_intervals_because;   // empty: they are there, or were not asked for

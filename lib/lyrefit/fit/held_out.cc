@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostBlocks = 10;
 constexpr int kSmallestBlock = 2;
 
-// Of one refit: diodes that take each other's place leave valleys along which a solve creeps
+// Of one refit: diodes that take each other's place leave local optima along which a solve creeps
 // without end, and without a figure of the error changing.
 constexpr double kTolerance = 1e-10;
 constexpr int kMaxIterations = 100;

@@ -47,7 +47,7 @@ struct IntervalWork {
   std::vector<double> stretch = {};  // of t, by the errors
   RefineProblem few = {};
   RefineEnd few_end = {};
-  std::vector<FitPoint> valleys = {};  // what fits as well
+  std::vector<FitPoint> local_optima = {};  // what fits as well
   std::vector<double> better = {};
 };
 
@@ -166,16 +166,16 @@ void TakeIfBetter(IntervalWork* work, const std::vector<double>& p) {
   if (end.mean_square < lowest) work->better = end.p;
 }
 
-void FindOtherValleys(IntervalWork* work) {
+void FindMoreOptima(IntervalWork* work) {
   if (work->input.problem.device.extension == nullptr) return;
   const double points = static_cast<double>(work->input.problem.voltage_V.size());
   double reach = 0;
   for (int i = 0; i < work->size; ++i) reach = std::max(reach, work->t[i] * work->stretch[i]);
   const double rise =
       reach * reach * VarianceOf(work->degrees, work->input.problem, work->input.end) / points;
-  work->valleys = FindValleys(work->input.problem, work->input.end, work->input.ends,
+  work->local_optima = FindOtherOptima(work->input.problem, work->input.end, work->input.ends,
                               work->input.end.mean_square + rise, work->input.watch->stop());
-  for (const FitPoint& valley : work->valleys) TakeIfBetter(work, valley.p);
+  for (const FitPoint& local_optimum : work->local_optima) TakeIfBetter(work, local_optimum.p);
 }
 
 bool OfEffect(const IntervalInput& input, int i) {
@@ -197,7 +197,7 @@ bool NeedsProfile(const IntervalWork& work, int i) {
                   [](const Estimate& other) { return other.at_bound != BoundSide::kNone; });
   if (any_at_bound || e.interval == IntervalMethod::kNone || BendsWithOthers(work.input, i))
     return true;
-  if (!work.valleys.empty()) return true;
+  if (!work.local_optima.empty()) return true;
   if (e.low_95 <= e.bounds.lower || e.high_95 >= e.bounds.upper) return true;
   return work.t[i] * e.standard_error > kLinearReach * std::fabs(work.quoted[i]);
 }
@@ -212,7 +212,7 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
       queries.push_back(
           {i, upper, work.t[i] * work.stretch[i], VarianceOf(work.degrees, work.few, work.few_end),
            work.estimates[i].standard_error / work.stretch[i],
-           /*end_at_better=*/!work.input.final && !Thinned(work.input, work.few), work.valleys});
+           /*end_at_better=*/!work.input.final && !Thinned(work.input, work.few), work.local_optima});
     }
   }
   return queries;
@@ -343,7 +343,7 @@ std::vector<double> FindAll(IntervalWork* work, std::vector<Correlation>* correl
   FindStretch(work);
   FindCorrelations(work, spread, correlations);
   if (work->input.method == Intervals::kProfile && ResidualsAreNoise(work->input)) {
-    FindOtherValleys(work);
+    FindMoreOptima(work);
     ProfileWhereNeeded(work, /*saturation_currents=*/true);
     MarkAbsentDiodes(work);
     ProfileWhereNeeded(work, /*saturation_currents=*/false);

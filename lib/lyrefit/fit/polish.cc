@@ -101,7 +101,7 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   return p;
 }
 
-// A valley of nearly equal diodes can outlast the solver's patience: try the end again, and with
+// A local optimum of nearly equal diodes can outlast the solver's patience: try the end again, and with
 // each diode taken out, as long as that helps.
 RefineEnd SecondWind(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
   constexpr int kAttempts = 3;

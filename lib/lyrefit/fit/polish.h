@@ -14,7 +14,7 @@ namespace lyrefit {
 struct PolishStart {
   std::string origin;
   std::vector<double> p;
-  int form = 0;         // which of the forms its effects have
+  int variant = 0;         // which of the variants its effects have
   bool beside = false;  // begins at an earlier end, changed a little
 };
 

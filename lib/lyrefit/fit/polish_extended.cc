@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/descent_starts.h"
 #include "lyrefit/fit/probe_starts.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -17,7 +17,7 @@ constexpr std::size_t kProbes = 4;
 constexpr std::size_t kCandidates = 3;
 constexpr std::size_t kShapes = 3;
 constexpr int kFurther = 3;  // of random places, and of probes beside the best
-constexpr int kAgain = 2;    // ends in the best basin that make further rounds needless
+constexpr int kAgain = 2;    // ends in the best local optimum that make further rounds needless
 constexpr int kSteps = 6;    // of whole numbers and settings
 
 // Of each effect whether no shape of the curve shows where it is.
@@ -30,61 +30,61 @@ std::vector<bool> Shapeless(const FitJob& job) {
 }
 
 // Whether the residuals of the best end are like noise (Durbin and Watson 1950,
-// doi:10.1093/biomet/37.3-4.409): a better basin has nothing left to explain.
-bool LeavesNoise(const FitJob& job, const Basins& basins) {
+// doi:10.1093/biomet/37.3-4.409): a better local optimum has nothing left to explain.
+bool LeavesNoise(const FitJob& job, const Descents& descents) {
   constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
   std::vector<double> residuals(job.problem.voltage_V.size());
-  Residuals(job.problem, basins.ends()[basins.best()].end.p.data(), residuals.data(), nullptr);
+  Residuals(job.problem, descents.ends()[descents.best()].end.p.data(), residuals.data(), nullptr);
   return FindResidualStatistics(job.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
-void ClimbSettings(const FitJob& job, Basins* basins) {
+void ClimbSettings(const FitJob& job, Descents* descents) {
   for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
-    const int before = basins->best();
-    std::vector<PolishStart> neighbours = Neighbours(job, basins->ends()[before]);
+    const int before = descents->best();
+    std::vector<PolishStart> neighbours = Neighbours(job, descents->ends()[before]);
     // Forms are told apart by less than noise.
-    if (job.forms.size() > 1 || !LeavesNoise(job, *basins)) {
-      std::vector<PolishStart> elsewhere = Elsewhere(job, basins->ends()[before]);
+    if (job.variants.size() > 1 || !LeavesNoise(job, *descents)) {
+      std::vector<PolishStart> elsewhere = Elsewhere(job, descents->ends()[before]);
       std::move(elsewhere.begin(), elsewhere.end(), std::back_inserter(neighbours));
     }
     if (neighbours.empty()) return;
-    basins->Descend(std::move(neighbours));
-    if (basins->best() == before) return;
+    descents->Descend(std::move(neighbours));
+    if (descents->best() == before) return;
   }
 }
 
-// The best end of each form that has one.
-std::vector<FormReport> ReportForms(const FitJob& job, const Basins& basins) {
-  std::vector<FormReport> reports;
-  if (job.forms.size() < 2) return reports;
-  const BasinEnd& best = basins.ends()[basins.best()];
+// The best end of each variant that has one.
+std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& descents) {
+  std::vector<VariantReport> reports;
+  if (job.variants.size() < 2) return reports;
+  const DescentEnd& best = descents.ends()[descents.best()];
   const double points = static_cast<double>(job.problem.voltage_V.size());
-  for (std::size_t f = 0; f < job.forms.size(); ++f) {
-    const BasinEnd* lowest = nullptr;
-    for (const BasinEnd& end : basins.ends()) {
-      const bool own = end.start.form == static_cast<int>(f);
-      if (own && (lowest == nullptr || end.paid < lowest->paid)) lowest = &end;
+  for (std::size_t f = 0; f < job.variants.size(); ++f) {
+    const DescentEnd* lowest = nullptr;
+    for (const DescentEnd& end : descents.ends()) {
+      const bool own = end.start.variant == static_cast<int>(f);
+      if (own && (lowest == nullptr || end.penalised < lowest->penalised)) lowest = &end;
     }
     if (lowest == nullptr) continue;
-    // Two ends of one basin may differ by the rounding of one evaluation or another.
-    const bool chosen = best.start.form == static_cast<int>(f);
+    // Two ends of one local optimum may differ by the rounding of one evaluation or another.
+    const bool chosen = best.start.variant == static_cast<int>(f);
     if (chosen) lowest = &best;
-    reports.push_back({DescribeForm(*job.problem.device.extension, job.forms[f]), job.forms[f].free,
+    reports.push_back({DescribeVariant(*job.problem.device.extension, job.variants[f]), job.variants[f].free,
                        std::sqrt(lowest->end.mean_square),
-                       std::max(0.0, points * std::log(lowest->paid / best.paid)), lowest->finished,
+                       std::max(0.0, points * std::log(lowest->penalised / best.penalised)), lowest->finished,
                        chosen});
   }
   return reports;
 }
 
 // Where the best ends began that a shape suggested.
-std::vector<PolishStart> BestShapes(const Basins& basins) {
-  std::vector<const BasinEnd*> shapes;
-  for (const BasinEnd& end : basins.ends()) {
+std::vector<PolishStart> BestShapes(const Descents& descents) {
+  std::vector<const DescentEnd*> shapes;
+  for (const DescentEnd& end : descents.ends()) {
     if (end.start.origin.rfind(kShapeOrigin, 0) == 0) shapes.push_back(&end);
   }
   std::stable_sort(shapes.begin(), shapes.end(),
-                   [](const BasinEnd* a, const BasinEnd* b) { return a->paid < b->paid; });
+                   [](const DescentEnd* a, const DescentEnd* b) { return a->penalised < b->penalised; });
   std::vector<PolishStart> starts;
   for (std::size_t k = 0; k < std::min(kShapes, shapes.size()); ++k) {
     starts.push_back(shapes[k]->start);
@@ -94,25 +94,25 @@ std::vector<PolishStart> BestShapes(const Basins& basins) {
 
 // Effects that no shape shows: at settings spread over the places that a shape suggests, then
 // beside the best fit so far, again and again as that gets better.
-void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Basins* basins) {
-  for (const PolishStart& shape : BestShapes(*basins)) {
-    basins->Descend(SpreadSettings(job, shape));
+void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents* descents) {
+  for (const PolishStart& shape : BestShapes(*descents)) {
+    descents->Descend(SpreadSettings(job, shape));
   }
   for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
-    const int before = basins->best();
-    const BasinEnd best = basins->ends()[before];
-    const int form = best.start.form;
+    const int before = descents->best();
+    const DescentEnd best = descents->ends()[before];
+    const int variant = best.start.variant;
     std::vector<PolishStart> probes =
-        Named("probe beside", form,
-              ProbesBeside(job.problem, job.forms[form], best.end, shapeless, kProbes));
+        Named("probe beside", variant,
+              ProbesBeside(job.problem, job.variants[variant], best.end, shapeless, kProbes));
     for (PolishStart& probe : probes) probe.beside = true;
-    basins->Descend(std::move(probes));
-    if (basins->best() == before) return;
+    descents->Descend(std::move(probes));
+    if (descents->best() == before) return;
   }
 }
 
 void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& space, const FitJob& job,
-               Basins* basins) {
+               Descents* descents) {
   const StartsFrom from = job.options.starts;
   const std::vector<bool> shapeless = Shapeless(job);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
@@ -128,19 +128,19 @@ void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& sp
   if (from != StartsFrom::kSearch) {
     std::vector<PolishStart> more = ShapeStarts(job);
     if (more.empty()) {
-      more = Named("probe", 0, ProbeStarts(job.problem, job.forms[0], kProbes));
+      more = Named("probe", 0, ProbeStarts(job.problem, job.variants[0], kProbes));
     }
     std::move(more.begin(), more.end(), std::back_inserter(starts));
   }
-  basins->Descend(std::move(starts));
-  if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, basins);
+  descents->Descend(std::move(starts));
+  if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, descents);
   if (from == StartsFrom::kShape) return;
-  if (from == StartsFrom::kAll && LeavesNoise(job, *basins)) return;
-  if (basins->visits() < kAgain) basins->Descend(candidates_between(first, kCandidates));
+  if (from == StartsFrom::kAll && LeavesNoise(job, *descents)) return;
+  if (descents->visits() < kAgain) descents->Descend(candidates_between(first, kCandidates));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
   for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
-    if (basins->visits() >= kAgain && LeavesNoise(job, *basins)) return;
-    basins->Descend(RandomStarts(job, space, basins->ends()[basins->best()].end.p, &random));
+    if (descents->visits() >= kAgain && LeavesNoise(job, *descents)) return;
+    descents->Descend(RandomStarts(job, space, descents->ends()[descents->best()].end.p, &random));
   }
 }
 
@@ -150,23 +150,23 @@ PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const Se
                             FitJob* job, FitReport* report) {
   const Instant begin = Now();
   job->watch.Begin("polish", 0);
-  Basins basins(job->problem, job->forms, &job->watch);
-  TryStarts(candidates, space, *job, &basins);
-  ClimbSettings(*job, &basins);
+  Descents descents(job->problem, job->variants, &job->watch);
+  TryStarts(candidates, space, *job, &descents);
+  ClimbSettings(*job, &descents);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
-  for (const BasinEnd& end : basins.ends()) {
+  for (const DescentEnd& end : descents.ends()) {
     starts.push_back(end.start);
     ends.push_back(end.end);
   }
   const std::vector<FitPoint> all(ends.begin(), ends.end());
-  const BasinEnd best = basins.ends()[basins.best()];
+  const DescentEnd best = descents.ends()[descents.best()];
   PolishResult result =
-      ReportEnds(job->problem, starts, std::move(ends), basins.best(), job->watch.stopped(), begin);
+      ReportEnds(job->problem, starts, std::move(ends), descents.best(), job->watch.stopped(), begin);
   result.ends = all;
-  result.report.basins = basins.Count();
-  report->forms = ReportForms(*job, basins);
-  SettleForm(best.start.form, best.end.p, job, report);
+  result.report.descents = descents.Count();
+  report->variants = ReportVariants(*job, descents);
+  SelectVariant(best.start.variant, best.end.p, job, report);
   return result;
 }
 

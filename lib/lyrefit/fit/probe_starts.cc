@@ -6,7 +6,7 @@
 #include <set>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/refine/curve_model.h"
@@ -93,12 +93,12 @@ void AskStrength(const Unexplained& unexplained, const Effect& effect,
 
 // All probes of one effect, the others as at `p`. What they leave is counted as it stands where
 // nothing is said to be explained.
-void TryProbes(const RefineProblem& problem, const Form& form, const Unexplained* unexplained,
+void TryProbes(const RefineProblem& problem, const Variant& variant, const Unexplained* unexplained,
                const std::vector<double>& p, std::size_t use, std::vector<Trial>* trials) {
   const Extension& extension = *problem.device.extension;
   const Effect& effect = *extension.uses[use].effect;
   const int first = extension.law.Offset(static_cast<int>(use));
-  const ParameterBounds* const bounds = &form.bounds[first - extension.law.base_size()];
+  const ParameterBounds* const bounds = &variant.bounds[first - extension.law.base_size()];
   std::vector<Probe> probes = {{}};  // as usual
   if (effect.probes != nullptr) probes = effect.probes(extension.readings.traits);
   for (const Probe& probe : probes) {
@@ -123,11 +123,11 @@ void BestFirst(std::vector<Trial>* trials) {
 }
 
 // All probes of all effects at a base device, one effect at a time, the others at what is usual.
-std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Form& form,
+std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Variant& variant,
                                 const Unexplained* unexplained, const std::vector<double>& p) {
   std::vector<Trial> trials;
   for (std::size_t use = 0; use < problem.device.extension->uses.size(); ++use) {
-    TryProbes(problem, form, unexplained, p, use, &trials);
+    TryProbes(problem, variant, unexplained, p, use, &trials);
   }
   BestFirst(&trials);
   return trials;
@@ -189,32 +189,32 @@ std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vecto
   return p;
 }
 
-std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Form& form,
+std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Variant& variant,
                                              std::size_t count) {
   const Extension& extension = *problem.device.extension;
   const RefineProblem alone = BaseAlone(problem);
   const RefineEnd base = RefineFrom(alone, SeparableStarts(alone, 0, 1).at(0).p);
   std::vector<double> usual = base.p;
-  usual.insert(usual.end(), form.usual.begin(), form.usual.end());
+  usual.insert(usual.end(), variant.usual.begin(), variant.usual.end());
   const Unexplained unexplained(problem, alone, base, base.held, usual);
-  std::vector<Trial> trials = TryAllProbes(problem, form, &unexplained, usual);
+  std::vector<Trial> trials = TryAllProbes(problem, variant, &unexplained, usual);
   KeepBest(count, &trials);
   const bool unlike = std::any_of(extension.uses.begin(), extension.uses.end(),
                                   [](const EffectUse& use) { return use.effect->groups; });
   if (unlike) {
     std::vector<Trial> typical =
-        TryAllProbes(problem, form, nullptr, TypicalDevice(problem, form.usual));
+        TryAllProbes(problem, variant, nullptr, TypicalDevice(problem, variant.usual));
     KeepBest(count / 2, &typical);
     trials.insert(trials.end(), typical.begin(), typical.end());
   }
   return PlacesOf(std::move(trials));
 }
 
-std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Form& form,
+std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Variant& variant,
                                               const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count) {
   const Extension& extension = *problem.device.extension;
-  const RefineProblem own = InForm(problem, form, fitted.p);
+  const RefineProblem own = InVariant(problem, variant, fitted.p);
   std::vector<double> without = fitted.p;
   std::vector<bool> held = fitted.held;
   for (std::size_t use = 0; use < others.size(); ++use) {
@@ -227,7 +227,7 @@ std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, cons
   const Unexplained unexplained(problem, own, fitted, held, without);
   std::vector<Trial> trials;
   for (std::size_t use = 0; use < others.size(); ++use) {
-    if (others[use]) TryProbes(problem, form, &unexplained, without, use, &trials);
+    if (others[use]) TryProbes(problem, variant, &unexplained, without, use, &trials);
   }
   BestFirst(&trials);
   KeepBest(count, &trials);

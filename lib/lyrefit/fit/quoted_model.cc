@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/law/quote.h"
-#include "lyrefit/refine/valleys.h"
+#include "lyrefit/refine/other_optima.h"
 
 namespace lyrefit {
 namespace {
@@ -77,7 +77,7 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
   RefineEnd quoted = best;
   quoted.p = Reported(problem.device, best.p);
   ProfileQuery quoted_query = query;
-  for (FitPoint& valley : quoted_query.valleys) valley.p = Reported(problem.device, valley.p);
+  for (FitPoint& local_optimum : quoted_query.local_optima) local_optimum.p = Reported(problem.device, local_optimum.p);
   RefineOptions how = BrieflySmall(stop);
   const auto refit = [&](double value, FitPoint start, double enough, double tolerance) {
     held.Fix(query.parameter, value);
@@ -91,13 +91,13 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
   return side;
 }
 
-std::vector<FitPoint> FindValleys(const RefineProblem& problem, const RefineEnd& best,
+std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                   std::vector<FitPoint> ends, double highest,
                                   const std::function<bool()>& stop) {
   const Extension& extension = *problem.device.extension;
-  ValleyQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
+  OptimumQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
   query.how.to_beat = highest;
-  return FindValleys(CurveModel(problem), extension, best, std::move(ends), query);
+  return FindOtherOptima(CurveModel(problem), extension, best, std::move(ends), query);
 }
 
 std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<double>& quoted) {

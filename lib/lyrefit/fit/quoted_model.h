@@ -25,12 +25,12 @@ class QuotedModel : public FitModel {
   CurveModel own_;
 };
 
-// FindProfileSide of an effect's parameter, all in these numbers but `best` and the valleys.
+// FindProfileSide of an effect's parameter, all in these numbers but `best` and the local optima.
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
                            const ProfileQuery& query, const std::function<bool()>& stop);
 
-// FindValleys of one curve. None of it is in these numbers.
-std::vector<FitPoint> FindValleys(const RefineProblem& problem, const RefineEnd& best,
+// FindOtherOptima of one curve. None of it is in these numbers.
+std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                   std::vector<FitPoint> ends, double highest,
                                   const std::function<bool()>& stop);
 

@@ -41,12 +41,12 @@ std::vector<int> EasyParameters(const Device& device) {
 }
 
 SearchSpace SpaceOf(const FitJob& job, std::vector<double> fixed) {
-  if (job.forms.empty()) return {job.bounds, fixed};
+  if (job.variants.empty()) return {job.bounds, fixed};
   fixed.resize(job.base_size());
   return {{job.bounds.begin(), job.bounds.begin() + job.base_size()},
           fixed,
           *job.problem.device.extension,
-          job.forms};
+          job.variants};
 }
 
 // Those that are solved for are no sides; what stands in their place is never read.
@@ -84,7 +84,7 @@ void SearchCandidates::Suggest(const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
     double mean_square;
-    int rank;  // in its form
+    int rank;  // in its variant
   };
   std::vector<Place> places;
   for (const PolishStart& start : starts) {
@@ -94,12 +94,12 @@ void SearchCandidates::Suggest(const std::vector<PolishStart>& starts) {
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.mean_square < b.mean_square; });
-  std::map<int, int> of_form;
-  for (Place& place : places) place.rank = of_form[place.start->form]++;
+  std::map<int, int> of_variant;
+  for (Place& place : places) place.rank = of_variant[place.start->variant]++;
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.rank < b.rank; });
   for (const Place& place : places) {
-    box_.suggested.push_back(space_.FromParameters(place.start->p.data(), place.start->form));
+    box_.suggested.push_back(space_.FromParameters(place.start->p.data(), place.start->variant));
   }
 }
 

@@ -27,13 +27,13 @@ class SearchCandidates {
   // Of the points of `problem`: those of the job, or the few that stand for them.
   SearchCandidates(const FitJob& job, const RefineProblem& problem);
 
-  // Puts places into the box that a search may begin from: the best of each form first, then the
+  // Puts places into the box that a search may begin from: the best of each variant first, then the
   // second of each. One evaluation each.
   void Suggest(const std::vector<PolishStart>& starts);
   // Whether the box has a side.
   Expected<void> Check() const;
   const Box& box() const { return box_; }
-  int FormAt(const double* x) const { return space_.FormAt(x); }
+  int VariantAt(const double* x) const { return space_.VariantAt(x); }
 
   // The complete device of a candidate, and its RMSE in the objective of the fit.
   std::vector<double> DeviceAt(const double* x);

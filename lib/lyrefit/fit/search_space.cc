@@ -24,20 +24,20 @@ SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
 
 SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
                          const std::vector<double>& fixed, const Extension& extension,
-                         std::vector<Form> forms)
+                         std::vector<Variant> variants)
     : SearchSpace(bounds, fixed) {
   extension_ = &extension;
-  forms_ = std::move(forms);
+  variants_ = std::move(variants);
   const std::size_t first = bounds.size();
   for (std::size_t k = 0; k < extension.bounds.size(); ++k) {
-    const auto free = std::find_if(forms_.begin(), forms_.end(), [&](const Form& form) {
-      return form.bounds[k].lower < form.bounds[k].upper;
+    const auto free = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
+      return variant.bounds[k].lower < variant.bounds[k].upper;
     });
-    if (free != forms_.end()) AddSide(static_cast<int>(first + k), free->bounds[k]);
+    if (free != variants_.end()) AddSide(static_cast<int>(first + k), free->bounds[k]);
   }
-  if (forms_.size() < 2) return;
+  if (variants_.size() < 2) return;
   box_.lower.push_back(0);
-  box_.upper.push_back(static_cast<double>(forms_.size()));
+  box_.upper.push_back(static_cast<double>(variants_.size()));
 }
 
 void SearchSpace::AddSide(int parameter, const ParameterBounds& b) {
@@ -70,14 +70,14 @@ void SearchSpace::ToParameters(const double* x, double* p) const {
   }
   if (extension_ == nullptr) return;
   double* const own = p + fixed_.size();
-  const std::vector<ParameterBounds>& bounds = forms_[FormAt(x)].bounds;
+  const std::vector<ParameterBounds>& bounds = variants_[VariantAt(x)].bounds;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     own[k] = bounds[k].lower < bounds[k].upper ? WithinBounds(bounds[k], own[k]) : bounds[k].lower;
   }
   LeaveARest(*extension_, bounds, own);
 }
 
-std::vector<double> SearchSpace::FromParameters(const double* p, int form) const {
+std::vector<double> SearchSpace::FromParameters(const double* p, int variant) const {
   std::vector<double> x;
   for (const Side& side : sides_) {
     const double value = p[side.parameter];
@@ -87,14 +87,14 @@ std::vector<double> SearchSpace::FromParameters(const double* p, int form) const
       x.push_back(side.log_base > 0 ? std::log(value / side.log_base) : value);
     }
   }
-  if (forms_.size() > 1) x.push_back(form + kMiddle);
+  if (variants_.size() > 1) x.push_back(variant + kMiddle);
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = std::clamp(x[k], box_.lower[k], box_.upper[k]);
   return x;
 }
 
-int SearchSpace::FormAt(const double* x) const {
-  const int forms = static_cast<int>(forms_.size());
-  return forms < 2 ? 0 : Stretch(x[sides_.size()], forms);
+int SearchSpace::VariantAt(const double* x) const {
+  const int variants = static_cast<int>(variants_.size());
+  return variants < 2 ? 0 : Stretch(x[sides_.size()], variants);
 }
 
 }  // namespace lyrefit

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/law/forms.h"
+#include "lyrefit/law/variants.h"
 #include "lyrefit/law/parameter.h"
 #include "lyrefit/search/search_summary.h"
 
@@ -11,25 +11,25 @@ namespace lyrefit {
 // The box a search sees: one side for each parameter that is not fixed. A linear parameter is
 // searched as it is, so that published boxes mean what they mean in the literature; a logarithmic
 // one by ln(value / lower end), from 0; of one that is a whole number each value has a stretch of
-// 1; and where effects have several forms these have a side, a stretch of 1 each.
+// 1; and where effects have several variants these have a side, a stretch of 1 each.
 class SearchSpace {
  public:
   // `fixed[i]` is the value of a fixed parameter, NaN for the others.
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed);
-  // Of an extended device: `bounds` and `fixed` are of its base, the effects are as in `forms`. The
+  // Of an extended device: `bounds` and `fixed` are of its base, the effects are as in `variants`. The
   // extension must outlive the space.
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed,
-              const Extension& extension, std::vector<Form> forms);
+              const Extension& extension, std::vector<Variant> variants);
 
   const Box& box() const { return box_; }
   int dimensions() const { return static_cast<int>(box_.lower.size()); }
   // Device parameters of a point of the box, into `p` (as many as the device has).
   void ToParameters(const double* x, double* p) const;
-  // A point of the box that stands for these parameters in a form, as far as its sides know them;
+  // A point of the box that stands for these parameters in a variant, as far as its sides know them;
   // those outside their ranges are moved inside. The middle of its stretch for a whole number.
-  std::vector<double> FromParameters(const double* p, int form) const;
-  // Which of the forms a point is of.
-  int FormAt(const double* x) const;
+  std::vector<double> FromParameters(const double* p, int variant) const;
+  // Which of the variants a point is of.
+  int VariantAt(const double* x) const;
 
  private:
   struct Side {
@@ -44,7 +44,7 @@ class SearchSpace {
   std::vector<double> fixed_;
   std::vector<Side> sides_;
   const Extension* extension_ = nullptr;
-  std::vector<Form> forms_;
+  std::vector<Variant> variants_;
   Box box_;
 };
 

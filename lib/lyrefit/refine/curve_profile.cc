@@ -73,7 +73,7 @@ class CurveRefits {
     return end;
   }
 
-  // Whether a start that needs no luck leads into a valley at or below `enough`.
+  // Whether a start that needs no luck leads into a local optimum at or below `enough`.
   bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
     Ask(value, enough, tolerance);
     RefineOptions reach = how_;
@@ -142,7 +142,7 @@ ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
     return [&, member](auto&&... of) { return (curve.*member)(of...); };
   };
   ProfileRefits refits{bind(&CurveRefits::Refit), bind(&CurveRefits::Elsewhere)};
-  // What a single diode does has one valley.
+  // What a single diode does has one local optimum.
   if (DiodeCount(problem.device) == 1) refits.elsewhere = nullptr;
   return FindProfileSide(CurveModel(problem), best, query, refits);
 }

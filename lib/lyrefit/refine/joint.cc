@@ -8,7 +8,7 @@
 #include "lyrefit/law/quote.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/family_model.h"
-#include "lyrefit/refine/valleys.h"
+#include "lyrefit/refine/other_optima.h"
 
 namespace lyrefit {
 namespace {
@@ -128,14 +128,14 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
   return spread;
 }
 
-std::vector<FitPoint> FindValleys(const JointProblem& problem, const JointEnd& best, double t,
+std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
                                   double variance, const std::function<bool()>& proceed) {
   const FamilyModel model(problem);
   JointOptions options;
   options.proceed = proceed;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindValleys(model, *problem.translation.extended->extension, model.Pack(best.point), {},
+  return FindOtherOptima(model, *problem.translation.extended->extension, model.Pack(best.point), {},
                      {highest, problem.translation.first_effect, HowToRefine(options)});
 }
 

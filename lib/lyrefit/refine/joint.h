@@ -108,9 +108,9 @@ struct JointSpread : Spread {
 };
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
 
-// FindValleys of a joint problem with effects, in numbers of their own, from the end of its fit:
+// FindOtherOptima of a joint problem with effects, in numbers of their own, from the end of its fit:
 // what t and the variance of a point of weight 1 allow.
-std::vector<FitPoint> FindValleys(const JointProblem& problem, const JointEnd& best, double t,
+std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
                                   double variance, const std::function<bool()>& proceed = {});
 
 // FindProfileSide of a shared parameter; `proceed` as in JointOptions.

@@ -86,10 +86,10 @@ class Side {
   // Of the optima that are inside, the one to go on from.
   const FitPoint& Outermost() const {
     const FitPoint* outermost = &best_;
-    for (const FitPoint& valley : query_.valleys) {
-      if (!(RootOfRise(model_.MeanSquare(valley)) < query_.t)) continue;
-      const double value = valley.p[query_.parameter], so_far = outermost->p[query_.parameter];
-      if (query_.upper ? value > so_far : value < so_far) outermost = &valley;
+    for (const FitPoint& local_optimum : query_.local_optima) {
+      if (!(RootOfRise(model_.MeanSquare(local_optimum)) < query_.t)) continue;
+      const double value = local_optimum.p[query_.parameter], so_far = outermost->p[query_.parameter];
+      if (query_.upper ? value > so_far : value < so_far) outermost = &local_optimum;
     }
     return *outermost;
   }
@@ -112,7 +112,7 @@ class Side {
       if (moved == last_moved) (moved > 0 ? near : far).log_rise *= 0.5;
       last_moved = moved;
       side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
-      // Where the refits jump from one valley to another there is no place at the threshold.
+      // Where the refits jump from one local optimum to another there is no place at the threshold.
       if (!side_.settled && Length(near.x, far.x) < kCloseEnough * Length(start, far.x)) {
         if (!std::isfinite(far.log_rise) && BoundIsInside()) return;
         side_.settled = true;
@@ -233,16 +233,16 @@ class Side {
   bool InsideElsewhere(double value) {
     FitPoint there;
     const bool inside = refits_.elsewhere && refits_.elsewhere(value, enough_, tolerance_, &there);
-    if (!inside && !InsideOtherValley(value, &there)) return false;
+    if (!inside && !InsideOtherOptimum(value, &there)) return false;
     const double rise = RootOfRise(model_.MeanSquare(there));
     path_.push_back({Scaled(value), rise, std::move(there)});
     return true;
   }
 
-  bool InsideOtherValley(double value, FitPoint* there) {
-    if (query_.valleys.empty()) return false;
+  bool InsideOtherOptimum(double value, FitPoint* there) {
+    if (query_.local_optima.empty()) return false;
     std::vector<const FitPoint*> optima = {&best_};
-    for (const FitPoint& valley : query_.valleys) optima.push_back(&valley);
+    for (const FitPoint& local_optimum : query_.local_optima) optima.push_back(&local_optimum);
     return std::any_of(optima.begin(), optima.end(), [&](const FitPoint* from) {
       RefineEnd end = refits_.refit(value, *from, enough_, tolerance_);
       const bool inside = end.mean_square <= enough_;

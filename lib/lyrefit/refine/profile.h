@@ -33,7 +33,7 @@ struct ProfileQuery {
   double standard_error = 0;   // first guess of the scale; NaN or 0: none
   bool end_at_better = false;  // a refit below the optimum ends the search for the crossing
   // Other optima, which the data allow as well: the interval is the hull of what all of them allow.
-  std::vector<FitPoint> valleys = {};
+  std::vector<FitPoint> local_optima = {};
 };
 
 // What a profile needs to know of the fits behind it.
@@ -43,7 +43,7 @@ struct ProfileRefits {
   std::function<RefineEnd(double value, const FitPoint& start, double enough, double tolerance)>
       refit;
   // Whether a fit from elsewhere ends at or below `enough`; its place goes to `there`. May be
-  // empty: there is one valley.
+  // empty: there is one local optimum.
   std::function<bool(double value, double enough, double tolerance, FitPoint* there)> elsewhere;
 };
 

@@ -25,7 +25,7 @@ std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double
 
 // Descends from the Rs and n of `start` by a projected Levenberg-Marquardt method on the reduced
 // problem (variable projection; Kaufman 1975, doi:10.1007/BF01932995), which follows the narrow
-// valleys of sums of diodes in a few steps where the full problem needs hundreds. A diode whose
+// local optima of sums of diodes in a few steps where the full problem needs hundreds. A diode whose
 // current comes out 0 is moved to the n where the residuals ask for one, if there is such an n. For
 // the solved-current objective the points are weighted by 1 / (1 - Rs F')^2, which makes both
 // residuals agree to first order, so the end lies next to the optimum, not on it; on a curve that

@@ -99,17 +99,21 @@ std::string PolishText(const RefineReport& refine) {
                             Significant(refine.condition, 2));
 }
 
+std::string Optima(int count) {
+  return fmt::format("{} local {}", count, count == 1 ? "optimum" : "optima");
+}
+
 std::string BestVisits(int count) {
   if (count == 0) return "none of them the best";  // interrupted
   return "the best of them reached " + (count == 1 ? "once" : fmt::format("{} times", count));
 }
 
-// "14 of 49 went to their end, in 3 basins, the best of them reached 6 times; the other 35 were
+// "14 of 49 went to their end, in 3 local optima, the best of them reached 6 times; the other 35 were
 // ..."
-std::string BasinStarts(const BasinCount& count, int starts) {
+std::string DescentStarts(const OptimumCount& count, int starts) {
   if (count.ends == 0) return fmt::format("none of {} went to its end", starts);
   std::string text = fmt::format("{} of {} went to {} end, in {}, {}", count.ends, starts,
-                                 count.ends == 1 ? "its" : "their", Plural(count.basins, "basin"),
+                                 count.ends == 1 ? "its" : "their", Optima(count.local_optima),
                                  BestVisits(count.best_visits));
   const int others = starts - count.ends;
   if (others > 0) {
@@ -121,8 +125,8 @@ std::string BasinStarts(const BasinCount& count, int starts) {
 }
 
 // What may have been missed.
-std::string UnseenText(const BasinCount& count) {
-  const BasinCount::Independent& of = count.independent;
+std::string UnseenText(const OptimumCount& count) {
+  const OptimumCount::Independent& of = count.independent;
   std::string text;
   if (of.ends < count.ends) {
     text = fmt::format(
@@ -130,12 +134,12 @@ std::string UnseenText(const BasinCount& count) {
         Plural(count.ends, "end"), of.best_visits == 0 ? "none" : std::to_string(of.best_visits));
   }
   if (!std::isfinite(count.unseen)) {
-    return text + "too few descents to estimate how many basins were not seen";
+    return text + "too few descents to estimate how many local optima were not seen";
   }
   text += "by Chao's estimate (doi:10.2307/2531532) ";
   if (count.unseen > 0) {
     return text + fmt::format("{} more were probably not seen: {} of {} were reached just once",
-                              Significant(count.unseen, 2), of.once, Plural(of.basins, "basin"));
+                              Significant(count.unseen, 2), of.once, Optima(of.local_optima));
   }
   return text + fmt::format("none was left unseen: {} was reached just once",
                             of.once == 0 ? "none" : "only one");
@@ -143,8 +147,8 @@ std::string UnseenText(const BasinCount& count) {
 
 std::string StartsText(const RefineReport& refine) {
   const int starts = static_cast<int>(refine.starts.size());
-  std::string text = refine.basins
-                         ? BasinStarts(*refine.basins, starts)
+  std::string text = refine.local_optima
+                         ? DescentStarts(*refine.local_optima, starts)
                          : fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
   if (refine.winner >= 0 && refine.winner < starts) {
     text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
@@ -170,15 +174,15 @@ Section ChoiceSection(const FitReport& report) {
 }
 
 // What of the effects is free, where that followed from the shape of the curve.
-Section FormSection(const FitReport& report) {
-  if (report.forms.empty()) return {};
+Section VariantSection(const FitReport& report) {
+  if (report.variants.empty()) return {};
   block::Table table = {"rrw",
                         {{"RMSE in A (solved-current)", "BIC above the best", "of the effects"}}};
-  for (const FormReport& form : report.forms) {
-    const char* mark = form.chosen ? " <-" : form.finished ? "" : " (given up: at most this much)";
-    table.rows.push_back({Scientific(form.rmse_A, 6), Decimals(form.bic_above), form.what + mark});
+  for (const VariantReport& variant : report.variants) {
+    const char* mark = variant.chosen ? " <-" : variant.finished ? "" : " (given up: at most this much)";
+    table.rows.push_back({Scientific(variant.rmse_A, 6), Decimals(variant.bic_above), variant.what + mark});
   }
-  return {"Choice of the form", {table}};
+  return {"Choice of the variant", {table}};
 }
 
 Section ParameterSection(const FitReport& report) {
@@ -301,8 +305,8 @@ Section SearchSection(const FitReport& report) {
            &section);
   AddField("polish", report.polished ? PolishText(report.refine) : "none", &section);
   if (report.polished) AddField("starts", StartsText(report.refine), &section);
-  const bool counted = report.refine.basins && report.refine.basins->ends > 0;
-  if (counted) AddField("basins", UnseenText(*report.refine.basins), &section);
+  const bool counted = report.refine.local_optima && report.refine.local_optima->ends > 0;
+  if (counted) AddField("local optima", UnseenText(*report.refine.local_optima), &section);
   if (report.interval_seconds > 0) {
     AddField("intervals", Duration(report.interval_seconds), &section);
   }
@@ -317,7 +321,7 @@ Document FitDocument(const FitReport& report) {
       Banners(report.interrupted, report.usable, report.not_usable_because, report.doubts),
       FitHead(report)};
   AddSections(
-      {ChoiceSection(report), FormSection(report), ParameterSection(report), ErrorSection(report),
+      {ChoiceSection(report), VariantSection(report), ParameterSection(report), ErrorSection(report),
        RmseSection(report), KeyPointSection(report), ResidualSection(report), SearchSection(report),
        ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
        WarningSection(report.warnings)},

@@ -3,8 +3,8 @@
 namespace lyrefit {
 
 LYREFIT_JSON_FIELDS(StartReport, origin, start_rmse_A, end_rmse_A, agrees)
-LYREFIT_JSON_FIELDS(BasinCount::Independent, ends, basins, best_visits, once, twice)
-LYREFIT_JSON_FIELDS(BasinCount, ends, basins, best_visits, independent, unseen)
+LYREFIT_JSON_FIELDS(OptimumCount::Independent, ends, local_optima, best_visits, once, twice)
+LYREFIT_JSON_FIELDS(OptimumCount, ends, local_optima, best_visits, independent, unseen)
 LYREFIT_JSON_FIELDS(CandidateReport, model, rmse_A, held_out_rmse_A, aicc, f_p_value, identifiable)
 LYREFIT_JSON_FIELDS(ModelChoice, chosen, sentence, candidates)
 LYREFIT_JSON_FIELDS(InformationCriteria, points, parameters, aicc, bic)
@@ -29,17 +29,17 @@ void to_json(Json& j, const RefineReport& refine) {
        {"projected_gradient", refine.projected_gradient},
        {"condition", refine.condition},
        {"seconds", refine.seconds},
-       {"basins", refine.basins},
+       {"local_optima", refine.local_optima},
        {"start_list", refine.starts}};
 }
 
-void to_json(Json& j, const FormReport& form) {
-  j = {{"what", form.what},
-       {"free", form.free},
-       {"solved_current_rmse_A", form.rmse_A},
-       {"bic_above", form.bic_above},
-       {"finished", form.finished},
-       {"chosen", form.chosen}};
+void to_json(Json& j, const VariantReport& variant) {
+  j = {{"what", variant.what},
+       {"free", variant.free},
+       {"solved_current_rmse_A", variant.rmse_A},
+       {"bic_above", variant.bic_above},
+       {"finished", variant.finished},
+       {"chosen", variant.chosen}};
 }
 
 namespace {
@@ -150,7 +150,7 @@ Json FitJson(const FitReport& report, JsonPoints points) {
   j["intervals"] = {{"seconds", report.interval_seconds},
                     {"none_because", report.no_intervals_because}};
   j["model_choice"] = report.choice;
-  j["forms"] = report.forms.empty() ? Json() : Json(report.forms);
+  j["variants"] = report.variants.empty() ? Json() : Json(report.variants);
   j["options"] = report.non_default_options;
   j["interrupted"] = report.interrupted;
   j["usable"] = report.usable;

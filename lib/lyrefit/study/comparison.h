@@ -12,7 +12,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // RMSE in ampere, all of the objective compared. NaN: not asked for. Where effects have several
-// forms (law/forms.h) it is times FitReport::form_price, so that the best form has the lowest.
+// forms (law/variants.h) it is times FitReport::variant_penalty, so that the best form has the lowest.
 struct RunRecord {
   int run = 0;  // number of the run, which with the seed names its random stream
   double searched_A = kUnknown;

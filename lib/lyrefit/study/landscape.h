@@ -16,7 +16,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Made measurements of a kind that has many basins: problems for searches. Everything is drawn from
+// Made measurements of a kind that has many local optima: problems for searches. Everything is drawn from
 // ranges that modules, cells and tracers have, none of it with an eye on any search.
 
 // One device of such a problem. All devices of a problem are fitted with the same laws.
@@ -35,7 +35,7 @@ struct LandscapeCase {
   double noise_A = 0;  // standard deviation of every current's error
 };
 
-// A kind of devices whose fit has many basins.
+// A kind of devices whose fit has many local optima.
 struct LandscapeProblem {
   std::string name;   // "strings_3"
   std::string title;  // "three lights, one of three substrings each"

@@ -26,44 +26,44 @@ const std::vector<double>& ParametersAt(const RunRecord& run, PolishLevel level)
   return level == PolishLevel::kHybrid ? run.parameters : kNone;
 }
 
-// Runs of one device that ended in the same wrong basin.
-struct WrongBasin {
+// Runs of one device that ended in the same wrong local optimum.
+struct WrongOptimum {
   const ProblemResult* device;
   double ratio;  // the lowest of them
   int runs;
 };
 
-std::vector<WrongBasin> GroupByEnd(std::vector<PooledRun> runs, PolishLevel level) {
+std::vector<WrongOptimum> GroupByEnd(std::vector<PooledRun> runs, PolishLevel level) {
   std::stable_sort(runs.begin(), runs.end(), [&](const PooledRun& a, const PooledRun& b) {
     if (a.device != b.device) return a.device < b.device;
     return a.Ratio(level) < b.Ratio(level);
   });
-  std::vector<WrongBasin> basins;
+  std::vector<WrongOptimum> local_optima;
   double last = 0;
   for (const PooledRun& run : runs) {
     const double ratio = run.Ratio(level);
     const bool same =
-        !basins.empty() && basins.back().device == run.device && ratio <= last * (1 + kPoolHit);
+        !local_optima.empty() && local_optima.back().device == run.device && ratio <= last * (1 + kPoolHit);
     if (same) {
-      ++basins.back().runs;
+      ++local_optima.back().runs;
     } else {
-      basins.push_back({run.device, ratio, 1});
+      local_optima.push_back({run.device, ratio, 1});
     }
     last = ratio;
   }
-  return basins;
+  return local_optima;
 }
 
 Failures SumUpFailures(const std::vector<PooledRun>& missed, PolishLevel level) {
   Failures failures;
   failures.runs = static_cast<int>(missed.size());
   if (missed.empty()) return failures;
-  const std::vector<WrongBasin> basins = GroupByEnd(missed, level);
-  failures.basins = static_cast<int>(basins.size());
-  const auto rarer = [](const WrongBasin& a, const WrongBasin& b) {
+  const std::vector<WrongOptimum> local_optima = GroupByEnd(missed, level);
+  failures.local_optima = static_cast<int>(local_optima.size());
+  const auto rarer = [](const WrongOptimum& a, const WrongOptimum& b) {
     return a.runs != b.runs ? a.runs < b.runs : a.ratio > b.ratio;
   };
-  const WrongBasin& commonest = *std::max_element(basins.begin(), basins.end(), rarer);
+  const WrongOptimum& commonest = *std::max_element(local_optima.begin(), local_optima.end(), rarer);
   failures.commonest = commonest.runs;
   failures.commonest_device = commonest.device->curve_name;
   failures.commonest_excess = commonest.ratio - 1;

@@ -8,7 +8,7 @@
 
 #include "lyrefit/study/comparison.h"
 
-// Problems of many basins, where what counts is how often a search ends in the best one and what it
+// Problems of many local optima, where what counts is how often a search ends in the best one and what it
 // costs: all devices of a problem are summed up as one. All of it follows from the runs.
 namespace lyrefit {
 
@@ -31,7 +31,7 @@ struct EnumTable<PolishLevel> {
 constexpr std::array<PolishLevel, 4> kPolishLevels = {PolishLevel::kSearch, PolishLevel::kPlain,
                                                       PolishLevel::kOwn, PolishLevel::kHybrid};
 
-// A hit, and relative to each other two ends in the same basin: of RMSE, relative.
+// A hit, and relative to each other two ends in the same local optimum: of RMSE, relative.
 constexpr double kPoolHit = 1e-6;
 
 // Runs that ended elsewhere than in the best known optimum. Excess: RMSE / reference - 1.
@@ -39,10 +39,10 @@ constexpr double kPoolHit = 1e-6;
 // its value at the reference, relative to that; 1 where that is 0 and the run's is not.
 struct Failures {
   int runs = 0;                        // that ended elsewhere
-  int basins = 0;                      // ends of one device within kPoolHit of each other are one
+  int local_optima = 0;                      // ends of one device within kPoolHit of each other are one
   int commonest = 0;                   // runs in the one that most ended in; of several the lowest
   std::string commonest_device;        // where that happened
-  double commonest_excess = kUnknown;  // of that basin
+  double commonest_excess = kUnknown;  // of that local optimum
   double median_excess = kUnknown;     // over these runs
   double worst_excess = kUnknown;      // over these runs
   double median_deviation = kUnknown;  // NaN of levels whose parameters are not kept

@@ -37,7 +37,7 @@ Section PolishVerdict(const ProblemResult& problem);
 std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
                                          const Ranking& ranking);
 
-// pool_document.cc: problems of many basins; nothing where there are none.
+// pool_document.cc: problems of many local optima; nothing where there are none.
 std::vector<Section> PoolSections(const Comparison& comparison);
 
 }  // namespace lyrefit

@@ -27,7 +27,7 @@ Document CompareDocument(const Comparison& comparison);
 std::string CompareText(const Comparison& comparison);
 
 // Contenders of BudgetContenders(): hits by algorithm and budget, one table a polish level; then
-// problems of many basins, summed up over their devices.
+// problems of many local optima, summed up over their devices.
 Document BudgetDocument(const Comparison& comparison);
 std::string BudgetText(const Comparison& comparison);
 

@@ -96,10 +96,10 @@ bool IsLargest(const PooledProblem& pool, const PooledContender& contender) {
 void AddFailures(const PooledProblem& pool, Section* section) {
   block::Table table = {
       "llrrrrrrrr",
-      {{"contender", "level", "missed", "basins", "most", "% above", "median", "worst", "% wrong",
+      {{"contender", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
         "worst"}},
       {},
-      "Cost of failure, largest budgets: runs that missed, the wrong basins they ended in, runs in "
+      "Cost of failure, largest budgets: runs that missed, the wrong local optima they ended in, runs in "
       "the commonest and how far its RMSE is above the best known one (%); median and worst of "
       "that over all that missed; and median and worst of how far their most deviating parameter "
       "is from its value there (%)"};
@@ -109,7 +109,7 @@ void AddFailures(const PooledProblem& pool, Section* section) {
       if (!contender.At(level) || contender.At(level)->failures.runs == 0) continue;
       const Failures& failures = contender.At(level)->failures;
       table.rows.push_back({contender.name, ToText(level), std::to_string(failures.runs),
-                            std::to_string(failures.basins), std::to_string(failures.commonest),
+                            std::to_string(failures.local_optima), std::to_string(failures.commonest),
                             InPercent(failures.commonest_excess), InPercent(failures.median_excess),
                             InPercent(failures.worst_excess), InPercent(failures.median_deviation),
                             InPercent(failures.worst_deviation)});

@@ -8,7 +8,7 @@ namespace lyrefit {
 
 void to_json(Json& j, const Failures& failures) {
   j = {{"runs", failures.runs},
-       {"basins", failures.basins},
+       {"local_optima", failures.local_optima},
        {"commonest",
         {{"runs", failures.commonest},
          {"device", failures.commonest_device},

@@ -1,4 +1,4 @@
-#include "lyrefit/law/forms.h"
+#include "lyrefit/law/variants.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ std::vector<ParameterBounds> OwnBounds(const Extension& extension, std::size_t u
   return {begin, begin + extension.uses[use].effect->size()};
 }
 
-bool SameBounds(const Form& a, const Form& b) {
+bool SameBounds(const Variant& a, const Variant& b) {
   for (std::size_t k = 0; k < a.bounds.size(); ++k) {
     if (std::fabs(a.bounds[k].lower - b.bounds[k].lower) > kSame) return false;
     if (std::fabs(a.bounds[k].upper - b.bounds[k].upper) > kSame) return false;
@@ -32,53 +32,53 @@ bool SameBounds(const Form& a, const Form& b) {
 }
 
 // As it was asked for, of one effect.
-Form AsAsked(const Extension& extension, std::size_t use) {
-  Form form;
-  form.bounds = OwnBounds(extension, use);
+Variant AsAsked(const Extension& extension, std::size_t use) {
+  Variant variant;
+  variant.bounds = OwnBounds(extension, use);
   const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
   const auto begin = extension.usual.begin() + first;
-  form.usual.assign(begin, begin + static_cast<std::ptrdiff_t>(form.bounds.size()));
-  return form;
+  variant.usual.assign(begin, begin + static_cast<std::ptrdiff_t>(variant.bounds.size()));
+  return variant;
 }
 
 // What a place leaves free: everything that fits do not usually keep, and what it says.
-Form FormOf(const Effect& effect, const ShapeStart& start) {
-  Form form;
-  form.usual = start.p;
+Variant VariantOf(const Effect& effect, const ShapeStart& start) {
+  Variant variant;
+  variant.usual = start.p;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     const bool freed = std::find(start.freed.begin(), start.freed.end(), k) != start.freed.end();
     const double lower = info.held && !freed ? start.p[k] : info.lower;
     const double upper = info.held && !freed ? start.p[k] : info.upper;
-    form.bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
+    variant.bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
   }
-  return form;
+  return variant;
 }
 
-std::vector<Form> OfOneEffect(const Extension& extension, const CurveShape& shape,
+std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& shape,
                               std::size_t use) {
   const EffectUse& asked = extension.uses[use];
-  const Form as_asked = AsAsked(extension, use);
-  std::vector<Form> forms;
+  const Variant as_asked = AsAsked(extension, use);
+  std::vector<Variant> variants;
   if (asked.ranges.empty() && HasShape(extension, *asked.effect)) {
     for (const ShapeStart& start :
          asked.effect->starts(shape, extension.readings.traits, as_asked.bounds)) {
-      Form form = FormOf(*asked.effect, start);
-      for (std::size_t k = 0; k < form.bounds.size(); ++k) {  // whole numbers are known already
-        ParameterBounds& own = form.bounds[k];
+      Variant variant = VariantOf(*asked.effect, start);
+      for (std::size_t k = 0; k < variant.bounds.size(); ++k) {  // whole numbers are known already
+        ParameterBounds& own = variant.bounds[k];
         if (own.lower < own.upper && as_asked.bounds[k].whole > 0) own = as_asked.bounds[k];
       }
-      const bool known = std::any_of(forms.begin(), forms.end(),
-                                     [&](const Form& other) { return SameBounds(form, other); });
-      if (!known) forms.push_back(std::move(form));
+      const bool known = std::any_of(variants.begin(), variants.end(),
+                                     [&](const Variant& other) { return SameBounds(variant, other); });
+      if (!known) variants.push_back(std::move(variant));
     }
   }
-  if (forms.empty()) forms.push_back(as_asked);
-  return forms;
+  if (variants.empty()) variants.push_back(as_asked);
+  return variants;
 }
 
 // Moves a place inside bounds; false where it is another one then: one more substring, and in a
-// form that follows from the shape whatever that form holds.
+// variant that follows from the shape whatever that variant holds.
 bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds, bool as_asked,
                 std::vector<double>* p) {
   constexpr double kTyped = 1e-4;  // shares are typed with few digits
@@ -95,7 +95,7 @@ bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds
   return same;
 }
 
-// Places of one effect; where none is one of this form, all of them as near as it comes.
+// Places of one effect; where none is one of this variant, all of them as near as it comes.
 std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const CurveShape& shape,
                                            std::size_t use,
                                            const std::vector<ParameterBounds>& bounds) {
@@ -113,37 +113,37 @@ std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const Cur
 
 }  // namespace
 
-std::vector<Form> FormsOf(const Extension& extension) {
+std::vector<Variant> VariantsOf(const Extension& extension) {
   const CurveShape shape = ShapeOf(extension.readings);
-  std::vector<Form> forms = {{}};
+  std::vector<Variant> variants = {{}};
   for (std::size_t use = 0; use < extension.uses.size(); ++use) {
-    std::vector<Form> longer;
-    for (const Form& own : OfOneEffect(extension, shape, use)) {
-      for (Form form : forms) {
-        form.bounds.insert(form.bounds.end(), own.bounds.begin(), own.bounds.end());
-        form.usual.insert(form.usual.end(), own.usual.begin(), own.usual.end());
-        longer.push_back(std::move(form));
+    std::vector<Variant> longer;
+    for (const Variant& own : OfOneEffect(extension, shape, use)) {
+      for (Variant variant : variants) {
+        variant.bounds.insert(variant.bounds.end(), own.bounds.begin(), own.bounds.end());
+        variant.usual.insert(variant.usual.end(), own.usual.begin(), own.usual.end());
+        longer.push_back(std::move(variant));
       }
     }
-    forms = std::move(longer);
+    variants = std::move(longer);
   }
-  for (Form& form : forms) {
-    for (const ParameterBounds& own : form.bounds) form.free += own.lower < own.upper ? 1 : 0;
+  for (Variant& variant : variants) {
+    for (const ParameterBounds& own : variant.bounds) variant.free += own.lower < own.upper ? 1 : 0;
   }
-  return forms;
+  return variants;
 }
 
-std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const Form& form) {
+std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const Variant& variant) {
   const CurveShape shape = ShapeOf(extension.readings);
   std::vector<std::vector<double>> places;
   for (std::size_t use = 0; use < extension.uses.size(); ++use) {
     const Effect& effect = *extension.uses[use].effect;
     if (!HasShape(extension, effect)) continue;
     const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
-    const auto begin = form.bounds.begin() + first;
+    const auto begin = variant.bounds.begin() + first;
     for (const std::vector<double>& own :
          OwnPlaces(extension, shape, use, {begin, begin + effect.size()})) {
-      std::vector<double> place = form.usual;
+      std::vector<double> place = variant.usual;
       std::copy(own.begin(), own.end(), place.begin() + first);
       places.push_back(std::move(place));
     }
@@ -179,7 +179,7 @@ void LeaveARest(const Extension& extension, const std::vector<ParameterBounds>& 
   }
 }
 
-std::string DescribeForm(const Extension& extension, const Form& form) {
+std::string DescribeVariant(const Extension& extension, const Variant& variant) {
   std::string free, held;
   const auto add = [](std::string* list, const std::string& text) {
     *list += (list->empty() ? "" : ", ") + text;
@@ -189,10 +189,10 @@ std::string DescribeForm(const Extension& extension, const Form& form) {
     const Effect& effect = *use.effect;
     const std::string prefix = extension.uses.size() > 1 ? std::string(effect.id) + "." : "";
     const std::vector<double> reported =
-        ReportedValues(effect, form.usual.data() + at, extension.readings.scale);
+        ReportedValues(effect, variant.usual.data() + at, extension.readings.scale);
     for (int k = 0; k < effect.size(); ++k, ++at) {
       const EffectParameter& info = effect.parameters[k];
-      const ParameterBounds& own = form.bounds[at];
+      const ParameterBounds& own = variant.bounds[at];
       const std::string symbol = prefix + info.symbol;
       if (own.lower < own.upper) {
         add(&free, symbol);

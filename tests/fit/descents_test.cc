@@ -1,4 +1,4 @@
-#include "lyrefit/fit/basins.h"
+#include "lyrefit/fit/descents.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/descent_starts.h"
 #include "lyrefit/fit/fit_job.h"
-#include "lyrefit/fit/form_problem.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/study/landscape.h"
 
@@ -17,17 +17,17 @@ namespace lyrefit {
 namespace {
 
 // A module of four substrings under a light each, made, and what a fit by name makes ready of it.
-class BasinsTest : public ::testing::Test {
+class DescentsTest : public ::testing::Test {
  protected:
-  BasinsTest() : made_(MakeLandscape("strings_4", 1, 3).value().front()) {
+  DescentsTest() : made_(MakeLandscape("strings_4", 1, 3).value().front()) {
     options_.with = {{FindEffect("substrings"), {}}};
     const auto ready = PrepareFit(&job_, &report_);
     EXPECT_TRUE(ready) << ready.error().ToString();
   }
 
-  // The values it was made with, under the form where shades cover all cells of a substring.
+  // The values it was made with, under the variant where shades cover all cells of a substring.
   PolishStart Truth() const {
-    std::vector<double> p = job_.forms[0].usual;
+    std::vector<double> p = job_.variants[0].usual;
     p.insert(p.begin(), job_.base_size(), 1);
     p = Reported(report_.device, p);
     for (int i = 0; i < report_.device.size(); ++i) {
@@ -51,111 +51,111 @@ class BasinsTest : public ::testing::Test {
   FitReport report_;
 };
 
-TEST_F(BasinsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
+TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
   const PolishStart truth = Truth();
-  const RefineEnd end = Refine(InForm(job_.problem, job_.forms[0], truth.p), truth.p);
+  const RefineEnd end = Refine(InVariant(job_.problem, job_.variants[0], truth.p), truth.p);
   EXPECT_NEAR(std::sqrt(end.mean_square) / made_.noise_A, 1, 0.2);
-  Basins basins(job_.problem, job_.forms, &job_.watch);
-  basins.Descend(ShapeStarts(job_));
-  const BasinEnd& best = basins.ends()[basins.best()];
+  Descents descents(job_.problem, job_.variants, &job_.watch);
+  descents.Descend(ShapeStarts(job_));
+  const DescentEnd& best = descents.ends()[descents.best()];
   EXPECT_TRUE(best.finished);
-  EXPECT_EQ(best.start.form, 0);
+  EXPECT_EQ(best.start.variant, 0);
   EXPECT_NEAR(best.end.mean_square / end.mean_square, 1, 1e-6);
-  for (const BasinEnd& other : basins.ends()) EXPECT_GE(other.paid, best.paid);
+  for (const DescentEnd& other : descents.ends()) EXPECT_GE(other.penalised, best.penalised);
 }
 
-TEST_F(BasinsTest, WhatAFormFreesIsPaidFor) {
-  Basins basins(job_.problem, job_.forms, &job_.watch);
-  basins.Descend(ShapeStarts(job_));
+TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
+  Descents descents(job_.problem, job_.variants, &job_.watch);
+  descents.Descend(ShapeStarts(job_));
   const double points = static_cast<double>(made_.curve.size());
-  for (const BasinEnd& end : basins.ends()) {
-    const double free = job_.forms[end.start.form].free;
-    EXPECT_NEAR(points * std::log(end.paid / end.end.mean_square), free * std::log(points), 1e-6);
+  for (const DescentEnd& end : descents.ends()) {
+    const double free = job_.variants[end.start.variant].free;
+    EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points), 1e-6);
   }
 }
 
-TEST_F(BasinsTest, CountsWhatWasMet) {
-  Basins basins(job_.problem, job_.forms, &job_.watch);
+TEST_F(DescentsTest, CountsWhatWasMet) {
+  Descents descents(job_.problem, job_.variants, &job_.watch);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
-  // Equal groups may change places: the same basin twice.
-  basins.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
-  BasinCount count = basins.Count();
+  // Equal groups may change places: the same local optimum twice.
+  descents.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
+  OptimumCount count = descents.Count();
   EXPECT_EQ(count.ends, 2);
-  EXPECT_EQ(count.basins, 1);
+  EXPECT_EQ(count.descents, 1);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 0);
   EXPECT_EQ(count.independent.twice, 1);
   EXPECT_FALSE(std::isfinite(count.unseen));  // of two
-  EXPECT_EQ(basins.visits(), 2);
+  EXPECT_EQ(descents.visits(), 2);
   // Far away: given up, and in no count.
-  basins.Descend({Changed(0.02, 0.02, 0.02)});
-  ASSERT_EQ(basins.ends().size(), 3u);
-  count = basins.Count();
-  EXPECT_EQ(count.ends, basins.ends()[2].finished ? 3 : 2);
+  descents.Descend({Changed(0.02, 0.02, 0.02)});
+  ASSERT_EQ(descents.ends().size(), 3u);
+  count = descents.Count();
+  EXPECT_EQ(count.ends, descents.ends()[2].finished ? 3 : 2);
 }
 
-TEST_F(BasinsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
-  Basins basins(job_.problem, job_.forms, &job_.watch);
+TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
+  Descents descents(job_.problem, job_.variants, &job_.watch);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
-  basins.Descend({Changed(d1, d2, d3)});
+  descents.Descend({Changed(d1, d2, d3)});
   PolishStart beside = Changed(d3, d1, d2);
   beside.beside = true;
-  basins.Descend({beside});
-  const BasinCount count = basins.Count();
+  descents.Descend({beside});
+  const OptimumCount count = descents.Count();
   EXPECT_EQ(count.ends, 2);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.ends, 1);
-  EXPECT_EQ(count.independent.basins, 1);
+  EXPECT_EQ(count.independent.descents, 1);
   EXPECT_EQ(count.independent.best_visits, 1);
   EXPECT_EQ(count.independent.once, 1);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_FALSE(std::isfinite(count.unseen));
-  for (const PolishStart& start : Neighbours(job_, basins.ends()[basins.best()])) {
+  for (const PolishStart& start : Neighbours(job_, descents.ends()[descents.best()])) {
     EXPECT_TRUE(start.beside) << start.origin;
   }
   for (const PolishStart& start : ShapeStarts(job_)) EXPECT_FALSE(start.beside) << start.origin;
 }
 
-TEST_F(BasinsTest, AnEndIsTriedInEveryOtherForm) {
-  ASSERT_EQ(job_.forms.size(), 2u);
-  Basins basins(job_.problem, job_.forms, &job_.watch);
-  basins.Descend({Truth()});
-  const BasinEnd& end = basins.ends()[0];
+TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
+  ASSERT_EQ(job_.variants.size(), 2u);
+  Descents descents(job_.problem, job_.variants, &job_.watch);
+  descents.Descend({Truth()});
+  const DescentEnd& end = descents.ends()[0];
   int others = 0;
   for (const PolishStart& start : Neighbours(job_, end)) {
-    if (start.form == end.start.form) continue;
+    if (start.variant == end.start.variant) continue;
     ++others;
-    EXPECT_EQ(start.form, 1);
-    EXPECT_EQ(start.origin, "another form");
+    EXPECT_EQ(start.variant, 1);
+    EXPECT_EQ(start.origin, "another variant");
     for (int i = 0; i < job_.base_size(); ++i) EXPECT_EQ(start.p[i], end.end.p[i]);
     for (int k = 0; k < job_.effects(); ++k) {
-      const ParameterBounds& bounds = job_.forms[1].bounds[k];
+      const ParameterBounds& bounds = job_.variants[1].bounds[k];
       const double value = start.p[job_.base_size() + k];
       EXPECT_GE(value, bounds.lower) << k;
       EXPECT_LE(value, bounds.upper) << k;
-      const ParameterBounds& before = job_.forms[0].bounds[k];
+      const ParameterBounds& before = job_.variants[0].bounds[k];
       if (before.lower == before.upper) {
-        EXPECT_EQ(value, job_.forms[1].usual[k]) << k;
+        EXPECT_EQ(value, job_.variants[1].usual[k]) << k;
       }
     }
   }
   EXPECT_EQ(others, 1);
 }
 
-TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
-  std::vector<PolishStart> starts = ShapeStarts(job_);  // two forms
+TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
+  std::vector<PolishStart> starts = ShapeStarts(job_);  // two variants
   for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));
-  // One into each of three basins, by where it ends.
+  // One into each of three local optima, by where it ends.
   std::map<double, PolishStart> into;
   for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
     const PolishStart& start = starts[k];
-    Basins alone(job_.problem, job_.forms, &job_.watch);
+    Descents alone(job_.problem, job_.variants, &job_.watch);
     alone.Descend({start});
-    const double end = alone.ends()[0].paid;
+    const double end = alone.ends()[0].penalised;
     const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
       return std::fabs(other.first / end - 1) < 0.01;
     });
@@ -163,17 +163,17 @@ TEST_F(BasinsTest, EstimatesTheUnseenAsChaoDoes) {
   }
   ASSERT_EQ(into.size(), 3u);
   // The worst first: none is out of reach of what is known by then.
-  Basins basins(job_.problem, job_.forms, &job_.watch);
-  for (auto start = into.rbegin(); start != into.rend(); ++start) basins.Descend({start->second});
-  BasinCount count = basins.Count();
-  EXPECT_EQ(count.basins, 3);
+  Descents descents(job_.problem, job_.variants, &job_.watch);
+  for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
+  OptimumCount count = descents.Count();
+  EXPECT_EQ(count.descents, 3);
   EXPECT_EQ(count.independent.once, 3);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
-  basins.Descend({into.begin()->second});
-  count = basins.Count();
+  descents.Descend({into.begin()->second});
+  count = descents.Count();
   EXPECT_EQ(count.ends, 4);
-  EXPECT_EQ(count.basins, 3);
+  EXPECT_EQ(count.descents, 3);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 2);
   EXPECT_EQ(count.independent.twice, 1);

@@ -1,4 +1,4 @@
-#include "lyrefit/fit/basin_starts.h"
+#include "lyrefit/fit/descent_starts.h"
 
 #include <fmt/format.h>
 
@@ -30,25 +30,25 @@ bool Beside(const Draw& a, const Draw& b, const Box& box) {
   return true;
 }
 
-void AddWholeNumbers(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
-  const Form& form = job.forms[at.start.form];
+void AddWholeNumbers(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
+  const Variant& variant = job.variants[at.start.variant];
   const int first = job.base_size();
   std::vector<std::pair<int, double>> steps;
   for (int k = 0; k < job.effects(); ++k) {
-    if (form.bounds[k].whole == 0) continue;
-    steps.emplace_back(first + k, form.bounds[k].whole);
-    steps.emplace_back(first + k, -form.bounds[k].whole);
+    if (variant.bounds[k].whole == 0) continue;
+    steps.emplace_back(first + k, variant.bounds[k].whole);
+    steps.emplace_back(first + k, -variant.bounds[k].whole);
   }
   const auto add = [&](std::vector<double> p) {
     const std::vector<double> wanted = p;
     for (int k = 0; k < job.effects(); ++k) {
-      p[first + k] = WithinBounds(form.bounds[k], p[first + k]);
+      p[first + k] = WithinBounds(variant.bounds[k], p[first + k]);
     }
-    LeaveARest(*job.problem.device.extension, form.bounds, p.data() + first);
+    LeaveARest(*job.problem.device.extension, variant.bounds, p.data() + first);
     for (const auto& [i, step] : steps) {
       if (std::fabs(p[i] - wanted[i]) > 0.5 * std::fabs(step)) return;
     }
-    starts->push_back({"one more or less", std::move(p), at.start.form, true});
+    starts->push_back({"one more or less", std::move(p), at.start.variant, true});
   };
   for (const auto& [i, step] : steps) {
     std::vector<double> p = at.end.p;
@@ -69,14 +69,14 @@ struct Setting {
   std::set<double> values;
 };
 
-std::vector<Setting> SettingsOf(const FitJob& job, const Form& form) {
+std::vector<Setting> SettingsOf(const FitJob& job, const Variant& variant) {
   const Extension& extension = *job.problem.device.extension;
   std::vector<Setting> settings;
   int first = 0;
   for (const EffectUse& use : extension.uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size() && effect.probes != nullptr; ++k) {
-      const ParameterBounds& bounds = form.bounds[first + k];
+      const ParameterBounds& bounds = variant.bounds[first + k];
       const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
       if (!effect.parameters[k].searched || !free) continue;
       Setting setting{job.base_size() + first + k, {}};
@@ -90,11 +90,11 @@ std::vector<Setting> SettingsOf(const FitJob& job, const Form& form) {
   return settings;
 }
 
-void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
-  for (const Setting& setting : SettingsOf(job, job.forms[at.start.form])) {
+void AddNextSettings(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
+  for (const Setting& setting : SettingsOf(job, job.variants[at.start.variant])) {
     const double here = at.end.p[setting.parameter];
     const auto add = [&](double value) {
-      starts->push_back({"next setting", at.end.p, at.start.form, true});
+      starts->push_back({"next setting", at.end.p, at.start.variant, true});
       starts->back().p[setting.parameter] = value;
     };
     auto above = setting.values.upper_bound(here), below = setting.values.lower_bound(here);
@@ -103,34 +103,34 @@ void AddNextSettings(const FitJob& job, const BasinEnd& at, std::vector<PolishSt
   }
 }
 
-// The same place in every other form, as far as that has it.
-void AddOtherForms(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+// The same place in every other variant, as far as that has it.
+void AddOtherVariants(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
   const int first = job.base_size();
-  for (std::size_t f = 0; f < job.forms.size(); ++f) {
-    if (static_cast<int>(f) == at.start.form) continue;
-    const Form& form = job.forms[f];
+  for (std::size_t f = 0; f < job.variants.size(); ++f) {
+    if (static_cast<int>(f) == at.start.variant) continue;
+    const Variant& variant = job.variants[f];
     std::vector<double> p = at.end.p;
     for (int k = 0; k < job.effects(); ++k) {
-      const ParameterBounds& before = job.forms[at.start.form].bounds[k];
+      const ParameterBounds& before = job.variants[at.start.variant].bounds[k];
       double& value = p[first + k];
-      if (before.lower == before.upper) value = form.usual[k];
-      value = WithinBounds(form.bounds[k], value);
+      if (before.lower == before.upper) value = variant.usual[k];
+      value = WithinBounds(variant.bounds[k], value);
     }
-    LeaveARest(*job.problem.device.extension, form.bounds, p.data() + first);
-    starts->push_back({"another form", std::move(p), static_cast<int>(f), true});
+    LeaveARest(*job.problem.device.extension, variant.bounds, p.data() + first);
+    starts->push_back({"another variant", std::move(p), static_cast<int>(f), true});
   }
 }
 
 // One parameter elsewhere in its range, of those that say how something acts (a bypass diode's
 // drop, a reverse law's exponent) and not how strong it is.
-void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart>* starts) {
+void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
   constexpr double kFar = 0.15;  // of the range
-  const Form& form = job.forms[at.start.form];
+  const Variant& variant = job.variants[at.start.variant];
   int first = 0;
   for (const EffectUse& use : job.problem.device.extension->uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size(); ++k) {
-      const ParameterBounds& bounds = form.bounds[first + k];
+      const ParameterBounds& bounds = variant.bounds[first + k];
       const EffectParameter& info = effect.parameters[k];
       const bool strength = k == 0 || info.scatter > 0;
       const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
@@ -140,7 +140,7 @@ void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart
       for (const double part : {0.15, 0.5, 0.85}) {
         const double value = bounds.lower + part * range;
         if (std::fabs(value - at.end.p[i]) < kFar * range) continue;
-        starts->push_back({"elsewhere", at.end.p, at.start.form, true});
+        starts->push_back({"elsewhere", at.end.p, at.start.variant, true});
         starts->back().p[i] = value;
       }
     }
@@ -152,9 +152,9 @@ void AddElsewhere(const FitJob& job, const BasinEnd& at, std::vector<PolishStart
 
 std::vector<PolishStart> ShapeStarts(const FitJob& job) {
   std::vector<PolishStart> starts;
-  for (std::size_t f = 0; f < job.forms.size(); ++f) {
+  for (std::size_t f = 0; f < job.variants.size(); ++f) {
     for (const std::vector<double>& place :
-         ShapePlaces(*job.problem.device.extension, job.forms[f])) {
+         ShapePlaces(*job.problem.device.extension, job.variants[f])) {
       starts.push_back({fmt::format("{}{}", kShapeOrigin, starts.size() + 1),
                         TypicalDevice(job.problem, place), static_cast<int>(f)});
     }
@@ -187,20 +187,20 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
                                      [&](const Draw* other) { return Beside(draw, *other, box); });
     if (crowded) continue;
     kept.push_back(&draw);
-    starts.push_back({"random", draw.p, space.FormAt(draw.x.data())});
+    starts.push_back({"random", draw.p, space.VariantAt(draw.x.data())});
   }
   return starts;
 }
 
-std::vector<PolishStart> Neighbours(const FitJob& job, const BasinEnd& at) {
+std::vector<PolishStart> Neighbours(const FitJob& job, const DescentEnd& at) {
   std::vector<PolishStart> starts;
   AddWholeNumbers(job, at, &starts);
   AddNextSettings(job, at, &starts);
-  AddOtherForms(job, at, &starts);
+  AddOtherVariants(job, at, &starts);
   return starts;
 }
 
-std::vector<PolishStart> Elsewhere(const FitJob& job, const BasinEnd& at) {
+std::vector<PolishStart> Elsewhere(const FitJob& job, const DescentEnd& at) {
   std::vector<PolishStart> starts;
   AddElsewhere(job, at, &starts);
   return starts;
@@ -208,23 +208,23 @@ std::vector<PolishStart> Elsewhere(const FitJob& job, const BasinEnd& at) {
 
 std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at) {
   std::vector<PolishStart> starts;
-  for (const Setting& setting : SettingsOf(job, job.forms[at.form])) {
+  for (const Setting& setting : SettingsOf(job, job.variants[at.variant])) {
     const std::vector<double> values(setting.values.begin(), setting.values.end());
     const std::size_t count = std::min(kSpread, values.size());
     for (std::size_t k = 0; k < count; ++k) {
-      starts.push_back({"spread setting", at.p, at.form});
+      starts.push_back({"spread setting", at.p, at.variant});
       starts.back().p[setting.parameter] = values[(2 * k + 1) * values.size() / (2 * count)];
     }
   }
   return starts;
 }
 
-std::vector<PolishStart> Named(const std::string& origin, int form,
+std::vector<PolishStart> Named(const std::string& origin, int variant,
                                std::vector<std::vector<double>> places) {
   std::vector<PolishStart> starts;
   starts.reserve(places.size());
   for (std::vector<double>& place : places) {
-    starts.push_back({fmt::format("{} {}", origin, starts.size() + 1), std::move(place), form});
+    starts.push_back({fmt::format("{} {}", origin, starts.size() + 1), std::move(place), variant});
   }
   return starts;
 }

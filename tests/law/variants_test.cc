@@ -1,4 +1,4 @@
-#include "lyrefit/law/forms.h"
+#include "lyrefit/law/variants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,92 +40,92 @@ Extension Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
 
 std::vector<std::string> Descriptions(const Extension& extension) {
   std::vector<std::string> list;
-  for (const Form& form : FormsOf(extension)) list.push_back(DescribeForm(extension, form));
+  for (const Variant& variant : VariantsOf(extension)) list.push_back(DescribeVariant(extension, variant));
   return list;
 }
 
-TEST(Forms, AWeakCellHasOneForEachReverseLawAndNumberOfChains) {
+TEST(Variants, AWeakCellHasOneForEachReverseLawAndNumberOfChains) {
   const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell")});
   EXPECT_THAT(Descriptions(extension),
               UnorderedElementsAre("d, Vb, m, A free", "d, Vb, m, A free; chains = 2",
                                    "d, Vb, a, Vbr free", "d, Vb, a, Vbr free; chains = 2",
                                    "d, Vb free; a = 0", "d, Vb free; a = 0, chains = 2"));
-  for (const Form& form : FormsOf(extension)) {
-    const bool no_law = DescribeForm(extension, form).find("a = 0") != std::string::npos;
-    EXPECT_EQ(form.free, no_law ? 2 : 4);
+  for (const Variant& variant : VariantsOf(extension)) {
+    const bool no_law = DescribeVariant(extension, variant).find("a = 0") != std::string::npos;
+    EXPECT_EQ(variant.free, no_law ? 2 : 4);
   }
 }
 
-class SubstringsForms : public ::testing::TestWithParam<int> {};
+class SubstringsVariants : public ::testing::TestWithParam<int> {};
 
-TEST_P(SubstringsForms, HaveALightForEachThatIsCountedButTheBrightest) {
+TEST_P(SubstringsVariants, HaveALightForEachThatIsCountedButTheBrightest) {
   const int diodes = GetParam();
   const int groups = diodes - 1;
   const Extension extension = Extended(SteppedModule(diodes), {UseOf("substrings")});
-  const std::vector<Form> forms = FormsOf(extension);
+  const std::vector<Variant> variants = VariantsOf(extension);
   // Shades on all of a substring's cells and, where there are few enough groups, on a part of them.
-  ASSERT_EQ(forms.size(), groups < 4 ? 2u : 1u);
-  EXPECT_EQ(forms[0].free, groups + 1);
-  EXPECT_EQ(forms.back().free, groups + (groups < 4 ? 2 : 1));
-  for (const Form& form : forms) {
+  ASSERT_EQ(variants.size(), groups < 4 ? 2u : 1u);
+  EXPECT_EQ(variants[0].free, groups + 1);
+  EXPECT_EQ(variants.back().free, groups + (groups < 4 ? 2 : 1));
+  for (const Variant& variant : variants) {
     for (int k = 0; k < 4; ++k) {
-      const ParameterBounds& light = form.bounds[2 * k];
+      const ParameterBounds& light = variant.bounds[2 * k];
       EXPECT_EQ(light.lower < light.upper, k < groups) << k;
-      EXPECT_DOUBLE_EQ(form.usual[2 * k + 1], k < groups ? 1.0 / diodes : 0) << k;
-      EXPECT_EQ(form.bounds[2 * k + 1].lower, form.bounds[2 * k + 1].upper) << k;
+      EXPECT_DOUBLE_EQ(variant.usual[2 * k + 1], k < groups ? 1.0 / diodes : 0) << k;
+      EXPECT_EQ(variant.bounds[2 * k + 1].lower, variant.bounds[2 * k + 1].upper) << k;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Counted, SubstringsForms, ::testing::Values(2, 3, 4, 5));
+INSTANTIATE_TEST_SUITE_P(Counted, SubstringsVariants, ::testing::Values(2, 3, 4, 5));
 
-TEST(Forms, ASharesWholeSubstringsStayFree) {
+TEST(Variants, ASharesWholeSubstringsStayFree) {
   const Extension extension = Extended(SteppedModule(5), {UseOf("shading")});
-  const std::vector<Form> forms = FormsOf(extension);
+  const std::vector<Variant> variants = VariantsOf(extension);
   EXPECT_THAT(Descriptions(extension), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
-  for (const Form& form : forms) {
-    EXPECT_DOUBLE_EQ(form.bounds[1].lower, 0.2);
-    EXPECT_DOUBLE_EQ(form.bounds[1].upper, 0.8);
-    EXPECT_DOUBLE_EQ(form.bounds[1].whole, 0.2);
+  for (const Variant& variant : variants) {
+    EXPECT_DOUBLE_EQ(variant.bounds[1].lower, 0.2);
+    EXPECT_DOUBLE_EQ(variant.bounds[1].upper, 0.8);
+    EXPECT_DOUBLE_EQ(variant.bounds[1].whole, 0.2);
   }
   // Where nobody has counted the substrings any share will do.
-  for (const Form& form : FormsOf(Extended(SteppedModule(0), {UseOf("shading")}))) {
-    EXPECT_EQ(form.bounds[1].whole, 0);
+  for (const Variant& variant : VariantsOf(Extended(SteppedModule(0), {UseOf("shading")}))) {
+    EXPECT_EQ(variant.bounds[1].whole, 0);
   }
 }
 
-TEST(Forms, RangesLeaveOne) {
+TEST(Variants, RangesLeaveOne) {
   const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
-  const std::vector<Form> forms = FormsOf(extension);
-  ASSERT_EQ(forms.size(), 1u);
-  EXPECT_EQ(forms[0].free, 1);
-  EXPECT_EQ(forms[0].usual, extension.usual);
-  EXPECT_EQ(forms[0].bounds[0].lower, 0.1);
-  EXPECT_EQ(forms[0].bounds[0].upper, 0.9);
+  const std::vector<Variant> variants = VariantsOf(extension);
+  ASSERT_EQ(variants.size(), 1u);
+  EXPECT_EQ(variants[0].free, 1);
+  EXPECT_EQ(variants[0].usual, extension.usual);
+  EXPECT_EQ(variants[0].bounds[0].lower, 0.1);
+  EXPECT_EQ(variants[0].bounds[0].upper, 0.9);
 }
 
-TEST(Forms, OfTwoEffectsAreAllPairs) {
+TEST(Variants, OfTwoEffectsAreAllPairs) {
   const Extension extension =
       Extended(SteppedModule(3), {UseOf("shading"), UseOf("nonohmic_shunt")});
-  EXPECT_EQ(FormsOf(extension).size(), 2u);  // a shunt has no shape, and one form
+  EXPECT_EQ(VariantsOf(extension).size(), 2u);  // a shunt has no shape, and one variant
   for (const std::string& what : Descriptions(extension)) {
     EXPECT_THAT(what, HasSubstr("shading.d, shading.w, shading.Vb"));
     EXPECT_THAT(what, HasSubstr("nonohmic_shunt.k"));
   }
 }
 
-TEST(Forms, PlacesOfAShapeAreInsideTheirBounds) {
+TEST(Variants, PlacesOfAShapeAreInsideTheirBounds) {
   for (const Effect* effect : Catalogue()) {
     if (effect->starts == nullptr) continue;
     for (const int diodes : {0, 3, 4}) {
       const Extension extension = Extended(SteppedModule(diodes), {{effect, {}}});
-      for (const Form& form : FormsOf(extension)) {
-        const std::vector<std::vector<double>> places = ShapePlaces(extension, form);
-        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeForm(extension, form);
+      for (const Variant& variant : VariantsOf(extension)) {
+        const std::vector<std::vector<double>> places = ShapePlaces(extension, variant);
+        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeVariant(extension, variant);
         for (const std::vector<double>& place : places) {
-          ASSERT_EQ(place.size(), form.bounds.size());
+          ASSERT_EQ(place.size(), variant.bounds.size());
           for (std::size_t k = 0; k < place.size(); ++k) {
-            EXPECT_DOUBLE_EQ(place[k], WithinBounds(form.bounds[k], place[k]))
+            EXPECT_DOUBLE_EQ(place[k], WithinBounds(variant.bounds[k], place[k]))
                 << effect->id << "." << effect->parameters[k].symbol;
           }
         }
@@ -134,16 +134,16 @@ TEST(Forms, PlacesOfAShapeAreInsideTheirBounds) {
   }
 }
 
-TEST(Forms, APlaceOfAShapeSeesTheStep) {
+TEST(Variants, APlaceOfAShapeSeesTheStep) {
   const Extension extension = Extended(SteppedModule(2), {UseOf("shading")});
   const std::vector<std::vector<double>> places =
-      ShapePlaces(extension, FormsOf(extension).front());
+      ShapePlaces(extension, VariantsOf(extension).front());
   ASSERT_EQ(places.size(), 1u);
   EXPECT_NEAR(places[0][0], 0.5, 0.03);  // half of the light is missing
   EXPECT_DOUBLE_EQ(places[0][1], 0.5);   // in half of the cells
 }
 
-TEST(Forms, SharesLeaveARest) {
+TEST(Variants, SharesLeaveARest) {
   const Extension extension =
       Extended(SteppedModule(5), {UseOf("substrings", {{"d1", {0, 0.9}},
                                                        {"w1", {0.2, 0.8}},
@@ -166,7 +166,7 @@ TEST(Forms, SharesLeaveARest) {
   EXPECT_THAT(leave(0.4, 0.2, 0.2), ElementsAre(0.4, 0.2, 0.2));
 }
 
-TEST(Forms, SharesThatAreNoWholeNumbersLeaveARestToo) {
+TEST(Variants, SharesThatAreNoWholeNumbersLeaveARestToo) {
   const Extension extension = Extended(
       SteppedModule(0),
       {UseOf("substrings",

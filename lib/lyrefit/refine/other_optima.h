@@ -19,7 +19,7 @@ struct Settings {
 std::vector<Settings> FindSettings(const Extension& extension, int first);
 
 // Optima beside the best that the data may allow as well.
-struct ValleyQuery {
+struct OptimumQuery {
   double highest = 0;  // mean square up to which they do
   int first = 0;       // where the effects' parameters begin
   RefineOptions how;   // of the refits
@@ -27,8 +27,8 @@ struct ValleyQuery {
 
 // Of `ends`, and of refits from `best` with other settings of the effects, those that `highest`
 // allows, each with another curve or other numbers. All in numbers of the effects' own.
-std::vector<FitPoint> FindValleys(const FitModel& model, const Extension& extension,
+std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
                                   const FitPoint& best, std::vector<FitPoint> ends,
-                                  const ValleyQuery& query);
+                                  const OptimumQuery& query);
 
 }  // namespace lyrefit

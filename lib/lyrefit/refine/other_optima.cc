@@ -1,4 +1,4 @@
-#include "lyrefit/refine/valleys.h"
+#include "lyrefit/refine/other_optima.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,9 +109,9 @@ std::vector<Settings> FindSettings(const Extension& extension, int first) {
   return all;
 }
 
-std::vector<FitPoint> FindValleys(const FitModel& model, const Extension& extension,
+std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
                                   const FitPoint& best, std::vector<FitPoint> ends,
-                                  const ValleyQuery& query) {
+                                  const OptimumQuery& query) {
   for (const Settings& settings : FindSettings(extension, query.first)) {
     for (FitPoint& other : WithOthers(model, settings, best)) {
       ends.push_back(RefineModel(model, std::move(other), query.how));
@@ -128,10 +128,10 @@ std::vector<FitPoint> FindValleys(const FitModel& model, const Extension& extens
     }
     optima.push_back(std::move(other));
   }
-  std::vector<FitPoint> valleys;
-  valleys.reserve(optima.size());
-  for (std::size_t k = 1; k < optima.size(); ++k) valleys.push_back(std::move(optima[k].at));
-  return valleys;
+  std::vector<FitPoint> local_optima;
+  local_optima.reserve(optima.size());
+  for (std::size_t k = 1; k < optima.size(); ++k) local_optima.push_back(std::move(optima[k].at));
+  return local_optima;
 }
 
 }  // namespace lyrefit

@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 #include "repeats.h"
 #include "simulated.h"
 

@@ -66,10 +66,10 @@ TEST(ErrorModel, LeavesOutReadingsAsIfTheyHadNotBeenTaken) {
   }
   const Eigen::MatrixXd covariance = Covariance(errors)(kept, kept);
   const RowMatrix rows = Draw(2);
-  const Eigen::MatrixXd few = rows(kept, Eigen::all);
+  const Eigen::MatrixXd coarse = rows(kept, Eigen::all);
   RowMatrix white = rows;
   Whiten(errors, used, white);
-  const Eigen::MatrixXd products = few.transpose() * covariance.ldlt().solve(few);
+  const Eigen::MatrixXd products = coarse.transpose() * covariance.ldlt().solve(coarse);
   EXPECT_LT((white.transpose() * white - products).norm(), 1e-11 * products.norm());
   for (int k = 0; k < kRows; ++k) EXPECT_EQ(white.row(k).norm() == 0, used[k] == 0) << k;
 }

@@ -45,9 +45,9 @@ TEST(FindComeback, FindsTheDiodeThatTheResidualsAskFor) {
     const CurveModel model(problem);
     FitPoint without{kDoubleTruth, {}};
     without.p[5] = 0;
-    const auto few = model.Few();
-    EXPECT_EQ(few != nullptr, points == 2000);
-    const Comeback diode = FindComeback(model, few.get(), without, 5);
+    const auto coarse = model.Coarse();
+    EXPECT_EQ(coarse != nullptr, points == 2000);
+    const Comeback diode = FindComeback(model, coarse.get(), without, 5);
     EXPECT_GT(diode.cosine, 0.9);
     EXPECT_NEAR(diode.n, kDoubleTruth[6], 0.1);
     EXPECT_NEAR(diode.size / kDoubleTruth[5], 1, 0.6);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/law/current.h"
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -149,12 +149,12 @@ RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem&
   Values voltage = Means(first, problem.voltage_V), current = Means(first, distance);
   const Values there = model(voltage, Means(first, problem.current_A));
   for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
-  RefineProblem few = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
+  RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
                                         std::move(current), {}, problem.lower, problem.upper);
-  few.kernel = problem.kernel;
-  few.current_scale_A = problem.current_scale_A;
-  few.voltage_scale_V = problem.voltage_scale_V;
-  return few;
+  coarse.kernel = problem.kernel;
+  coarse.current_scale_A = problem.current_scale_A;
+  coarse.voltage_scale_V = problem.voltage_scale_V;
+  return coarse;
 }
 
 }  // namespace lyrefit

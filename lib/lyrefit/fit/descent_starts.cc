@@ -174,7 +174,7 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
     draw.p.resize(best.size());
     space.ToParameters(draw.x.data(), draw.p.data());
     if (k % 2 == 1) std::copy(best.begin(), best.begin() + job.base_size(), draw.p.begin());
-    draw.mean_square = MeanSquare(job.few, draw.p);
+    draw.mean_square = MeanSquare(job.coarse, draw.p);
     if (std::isfinite(draw.mean_square)) drawn.push_back(std::move(draw));
   }
   std::stable_sort(drawn.begin(), drawn.end(),

@@ -51,18 +51,18 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, SearchCa
 // Runs the search; returns the elites.
 Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   const Instant begin = Now();
-  SearchCandidates few(*job, job->few), all(*job, job->problem);
-  TRY(few.Check());
-  if (job->options.search.algorithm == Algorithm::kMloKnees) few.Suggest(ShapeStarts(*job));
+  SearchCandidates coarse(*job, job->coarse), all(*job, job->problem);
+  TRY(coarse.Check());
+  if (job->options.search.algorithm == Algorithm::kMloKnees) coarse.Suggest(ShapeStarts(*job));
   const double getting_ready = SecondsSince(begin);
-  const Box& box = few.box();
-  const ObjectiveFunction objective = [&](const double* x) { return few.RmseAt(x); };
+  const Box& box = coarse.box();
+  const ObjectiveFunction objective = [&](const double* x) { return coarse.RmseAt(x); };
   const SearchFunction& searcher = job->options.searcher;
   report->search = searcher ? searcher(objective, box, job->options.search, job->observer)
                             : Search(objective, box, job->options.search, job->observer);
   report->search.seconds += getting_ready;
-  report->curve_evaluations = few.evaluations();
-  if (searcher || job->few.points.size < job->problem.points.size) {
+  report->curve_evaluations = coarse.evaluations();
+  if (searcher || job->coarse.points.size < job->problem.points.size) {
     const auto valid =
         CheckCandidates([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
     if (!valid) return tl::unexpected(valid.error());
@@ -70,7 +70,7 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
   if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
-    RunRandomBaseline(job, objective, &few, report);
+    RunRandomBaseline(job, objective, &coarse, report);
   }
   std::vector<PolishStart> elites;
   for (const Candidate& candidate : report->search.elites) {
@@ -162,7 +162,7 @@ void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report)
   begin = Now();
   report->refined_best_candidate = extended
                                    ? Refine(problem, candidate.p, how).p
-                                   : PolishStarts(problem, job->few, {candidate}, &job->watch).first.p;
+                                   : PolishStarts(problem, job->coarse, {candidate}, &job->watch).first.p;
   report->refine.best_candidate_seconds = SecondsSince(begin);
 }
 
@@ -178,7 +178,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   const bool extended = !job->variants.empty();
   PolishResult polish =
       extended ? PolishExtended(elites, space, job, report)
-               : PolishStarts(job->problem, job->few, CollectStarts(job->few, elites, kGridStarts),
+               : PolishStarts(job->problem, job->coarse, CollectStarts(job->coarse, elites, kGridStarts),
                               &job->watch);
   report->polished = true;
   const double best_candidate_seconds = report->refine.best_candidate_seconds;

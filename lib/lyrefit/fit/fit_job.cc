@@ -15,7 +15,7 @@
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/law/term.h"
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 
@@ -156,7 +156,7 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
       MakeRefineProblem(report->device, options.objective, fitted.voltage_V, fitted.current_A,
                         std::move(weights), std::move(lower), std::move(upper));
   if (options.kernel != nullptr) job->problem.kernel = options.kernel;
-  job->few = Thin(job->problem);
+  job->coarse = Coarsen(job->problem);
   return {};
 }
 
@@ -187,7 +187,7 @@ void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitRe
   report->variant_penalty = VariantPenaltyOf(*job, variant);
   report->device.extension = std::move(extension);
   job->problem.device = report->device;
-  job->few = Thin(job->problem);
+  job->coarse = Coarsen(job->problem);
 }
 
 RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve) {

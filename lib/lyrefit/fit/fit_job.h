@@ -20,7 +20,7 @@ struct FitJob {
   std::vector<double> fixed;
   int free_parameters = 0;
   RefineProblem problem;  // on the distinct readings, or on all of a device with effects
-  RefineProblem few;      // the same problem or, of many points, what stands for it in the search
+  RefineProblem coarse;      // the same problem or, of many points, what stands for it in the search
   FitWatch watch;
   std::vector<Variant> variants = {};  // of a device with effects
   IvCurve distinct = {};         // the curve with each reading once: what counts as evidence

@@ -8,7 +8,7 @@
 #include "lyrefit/law/current.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -64,7 +64,7 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
     std::vector<double> weights;
     for (const double sigma : split.kept.sigma_A) weights.push_back(1 / (sigma * sigma));
     const RefineProblem problem =
-        Thin(MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
+        Coarsen(MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
                                split.kept.current_A, std::move(weights), lower, upper));
     RefineOptions how;
     how.function_tolerance = kTolerance;

@@ -14,7 +14,7 @@
 #include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -45,8 +45,8 @@ struct IntervalWork {
   int degrees = 1;
   std::vector<double> t = {};        // Student's, of each estimate
   std::vector<double> stretch = {};  // of t, by the errors
-  RefineProblem few = {};
-  RefineEnd few_end = {};
+  RefineProblem coarse = {};
+  RefineEnd coarse_end = {};
   std::vector<FitPoint> local_optima = {};  // what fits as well
   std::vector<double> better = {};
 };
@@ -142,8 +142,8 @@ void SetSymmetric(IntervalWork* work, int i) {
   e.high_95 = std::min(range.high, e.bounds.upper);
 }
 
-bool Thinned(const IntervalInput& input, const RefineProblem& few) {
-  return few.points.size < input.problem.points.size;
+bool Coarsened(const IntervalInput& input, const RefineProblem& coarse) {
+  return coarse.points.size < input.problem.points.size;
 }
 
 RefineOptions HowToRefine(const IntervalInput& input) {
@@ -159,7 +159,7 @@ void TakeIfBetter(IntervalWork* work, const std::vector<double>& p) {
   RefineEnd end;
   end.p = p;
   end.mean_square = MeanSquare(work->input.problem, p);
-  if (Thinned(work->input, work->few))
+  if (Coarsened(work->input, work->coarse))
     end = Refine(work->input.problem, p, HowToRefine(work->input));
   const double lowest = work->better.empty() ? work->input.end.mean_square * (1 - kLower)
                                              : MeanSquare(work->input.problem, work->better);
@@ -210,9 +210,9 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
     if (work.estimates[i].interval == IntervalMethod::kProfile) continue;
     for (const bool upper : {false, true}) {
       queries.push_back(
-          {i, upper, work.t[i] * work.stretch[i], VarianceOf(work.degrees, work.few, work.few_end),
+          {i, upper, work.t[i] * work.stretch[i], VarianceOf(work.degrees, work.coarse, work.coarse_end),
            work.estimates[i].standard_error / work.stretch[i],
-           /*end_at_better=*/!work.input.final && !Thinned(work.input, work.few), work.local_optima});
+           /*end_at_better=*/!work.input.final && !Coarsened(work.input, work.coarse), work.local_optima});
     }
   }
   return queries;
@@ -221,21 +221,21 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
 ProfileSide SideOf(IntervalWork* work, const ProfileQuery& query) {
   const auto stop = work->input.watch->stop();
   return OfEffect(work->input, query.parameter)
-             ? FindQuotedSide(work->few, work->few_end, query, stop)
-             : FindProfileSide(work->few, work->few_end, query, stop);
+             ? FindQuotedSide(work->coarse, work->coarse_end, query, stop)
+             : FindProfileSide(work->coarse, work->coarse_end, query, stop);
 }
 
 // The few points that stand for many, and the optimum on them.
-void PrepareFew(IntervalWork* work) {
-  if (!work->few_end.p.empty()) return;
-  work->few = Thin(work->input.problem);
-  work->few_end = Thinned(work->input, work->few)
-                      ? Refine(work->few, work->input.end.p, HowToRefine(work->input))
+void PrepareCoarse(IntervalWork* work) {
+  if (!work->coarse_end.p.empty()) return;
+  work->coarse = Coarsen(work->input.problem);
+  work->coarse_end = Coarsened(work->input, work->coarse)
+                      ? Refine(work->coarse, work->input.end.p, HowToRefine(work->input))
                       : work->input.end;
 }
 
 void ProfileWhereNeeded(IntervalWork* work, bool saturation_currents) {
-  PrepareFew(work);
+  PrepareCoarse(work);
   const std::vector<ProfileQuery> queries = Queries(*work, saturation_currents);
   const int count = static_cast<int>(queries.size());
   if (count == 0) return;

@@ -199,34 +199,34 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
   return starts;
 }
 
-PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
+PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coarse,
                           const std::vector<PolishStart>& starts, FitWatch* watch) {
   const Instant begin = Now();
   watch->Begin("polish", static_cast<std::int64_t>(starts.size()));
   RefineOptions how;
   how.stop = watch->stop();
   std::vector<std::vector<double>> descended;
-  Groups groups(few);
+  Groups groups(coarse);
   bool stopped = false;
   for (const PolishStart& start : starts) {
-    descended.push_back(SeparableDescent(few, start.p));
+    descended.push_back(SeparableDescent(coarse, start.p));
     groups.Add(descended.back());
-    if (groups.BestGroupSize() >= Enough(few)) break;
+    if (groups.BestGroupSize() >= Enough(coarse)) break;
     stopped = watch->Next();
     if (stopped) break;
   }
   const int count = static_cast<int>(descended.size());
   std::vector<RefineEnd> ends(count);
   for (int s = 0; s < count; ++s) {
-    if (groups.Leader(s) == s) ends[s] = SecondWind(few, how, Refine(few, descended[s], how));
+    if (groups.Leader(s) == s) ends[s] = SecondWind(coarse, how, Refine(coarse, descended[s], how));
     // Where the descent led astray: the start itself.
-    if (ends[groups.Leader(s)].mean_square <= MeanSquare(few, starts[s].p) * (1 + kAgree)) continue;
-    RefineEnd own = SecondWind(few, how, Refine(few, starts[s].p, how));
+    if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree)) continue;
+    RefineEnd own = SecondWind(coarse, how, Refine(coarse, starts[s].p, how));
     if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;
     groups.LeaveGroup(s, &ends);
     ends[s] = std::move(own);
   }
-  if (few.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
+  if (coarse.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
 
   std::vector<RefineEnd> end_of;
   end_of.reserve(count);

@@ -36,10 +36,10 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
 
 // Separable descent from one start after the other, until three (of a single diode: two) have come
 // to the same best curve or no start is left; then one bounded least-squares solve for each curve
-// that was found, so starts that came to the same curve share an end. All this on `few`, which is
+// that was found, so starts that came to the same curve share an end. All this on `coarse`, which is
 // Thin(problem); where that stands for more points, the ends that may be the best are solved once
 // more on all of them. Starts after the first are skipped when `watch` asks to stop.
-PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& few,
+PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coarse,
                           const std::vector<PolishStart>& starts, FitWatch* watch);
 
 // The best candidate first, then by turns the separable grid and further elites; for more than one diode

@@ -325,8 +325,8 @@ class ActiveSet {
       const FitParameter& is = shape_.parameters[i];
       const bool vanished = is.may_vanish && now_.held[i] && now_.at.p[i] <= 0;
       if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
-      if (few_ == nullptr) few_ = model_.Few();
-      const Comeback diode = FindComeback(model_, few_.get(), now_.at, i);
+      if (coarse_ == nullptr) coarse_ = model_.Coarse();
+      const Comeback diode = FindComeback(model_, coarse_.get(), now_.at, i);
       if (!(diode.cosine > kFlat)) continue;
       ++let_in_;
       const State before = now_;
@@ -360,7 +360,7 @@ class ActiveSet {
   int iterations_ = 0;
   bool stopped_ = false;
   bool hopeless_ = false;          // options_.to_beat is out of reach
-  std::unique_ptr<FitModel> few_;  // filled where needed
+  std::unique_ptr<FitModel> coarse_;  // filled where needed
 };
 
 }  // namespace

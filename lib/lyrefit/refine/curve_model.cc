@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -40,9 +40,9 @@ double CurveModel::MeanSquare(const FitPoint& point) const {
   return lyrefit::MeanSquare(problem_, point.p, kept_.get());
 }
 
-std::unique_ptr<FitModel> CurveModel::Few() const {
-  if (!CanThin(problem_)) return nullptr;
-  return std::unique_ptr<FitModel>(new CurveModel(std::make_unique<RefineProblem>(Thin(problem_))));
+std::unique_ptr<FitModel> CurveModel::Coarse() const {
+  if (!CanCoarsen(problem_)) return nullptr;
+  return std::unique_ptr<FitModel>(new CurveModel(std::make_unique<RefineProblem>(Coarsen(problem_))));
 }
 
 }  // namespace lyrefit

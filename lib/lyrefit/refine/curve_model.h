@@ -21,7 +21,7 @@ class CurveModel : public FitModel {
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
                 double* local_slopes) const override;
   double MeanSquare(const FitPoint& point) const override;
-  std::unique_ptr<FitModel> Few() const override;
+  std::unique_ptr<FitModel> Coarse() const override;
 
  private:
   explicit CurveModel(std::unique_ptr<RefineProblem> own);

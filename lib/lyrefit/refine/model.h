@@ -77,7 +77,7 @@ class FitModel {
 
   // A smaller model with the same parameters that stands for this one when directions are looked
   // for; null: none.
-  virtual std::unique_ptr<FitModel> Few() const { return nullptr; }
+  virtual std::unique_ptr<FitModel> Coarse() const { return nullptr; }
 
  private:
   ModelShape shape_;

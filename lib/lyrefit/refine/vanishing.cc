@@ -56,7 +56,7 @@ bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bo
   return any;
 }
 
-Comeback FindComeback(const FitModel& model, const FitModel* few, const FitPoint& point,
+Comeback FindComeback(const FitModel& model, const FitModel* coarse, const FitPoint& point,
                       int saturation) {
   const ModelShape& shape = model.shape();
   const FitParameter& n = shape.parameters[shape.parameters[saturation].with[0]];
@@ -65,10 +65,10 @@ Comeback FindComeback(const FitModel& model, const FitModel* few, const FitPoint
   for (int step = 0; step <= steps; ++step) {
     const double t = static_cast<double>(step) / kSteps;
     const double trial = n.fixed() ? n.lower : 1 / ((1 - t) / n.lower + t / n.upper);
-    const Comeback one = Try(few != nullptr ? *few : model, point, saturation, trial);
+    const Comeback one = Try(coarse != nullptr ? *coarse : model, point, saturation, trial);
     if (one.cosine > best.cosine) best = one;
   }
-  return few != nullptr && best.n > 0 ? Try(model, point, saturation, best.n) : best;
+  return coarse != nullptr && best.n > 0 ? Try(model, point, saturation, best.n) : best;
 }
 
 }  // namespace lyrefit

@@ -25,8 +25,8 @@ struct Comeback {
 
 // The ideality in the range of parameter `saturation`'s at which the residuals at `point` ask most
 // for it; a cosine of 0: nowhere. Looked for on the few points that stand for many, if there are
-// such (`few`, may be null).
-Comeback FindComeback(const FitModel& model, const FitModel* few, const FitPoint& point,
+// such (`coarse`, may be null).
+Comeback FindComeback(const FitModel& model, const FitModel* coarse, const FitPoint& point,
                       int saturation);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -172,13 +172,13 @@ void AddConstant(double squares, Points* points) {
 }  // namespace
 
 // Effects act on readings, of which no few stand for many; and errors do that hang together.
-bool CanThin(const RefineProblem& problem) {
+bool CanCoarsen(const RefineProblem& problem) {
   return problem.voltage_V.size() > kFewPoints && problem.device.extension == nullptr &&
          problem.errors == nullptr;
 }
 
-RefineProblem Thin(const RefineProblem& problem) {
-  if (!CanThin(problem)) return problem;
+RefineProblem Coarsen(const RefineProblem& problem) {
+  if (!CanCoarsen(problem)) return problem;
   const bool smooth = problem.objective == Objective::kSolvedCurrent;
   const std::vector<int> order = VoltageOrder(problem.voltage_V);
   const std::vector<Iterator> begins =
@@ -192,13 +192,13 @@ RefineProblem Thin(const RefineProblem& problem) {
     if (!smooth) AddScattered(m, &points);
   }
   if (smooth) AddConstant(squares, &points);
-  RefineProblem thin = MakeRefineProblem(problem.device, problem.objective,
+  RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective,
                                          std::move(points.voltage_V), std::move(points.current_A),
                                          std::move(points.weights), problem.lower, problem.upper);
-  thin.kernel = problem.kernel;
-  thin.current_scale_A = problem.current_scale_A;
-  thin.voltage_scale_V = problem.voltage_scale_V;
-  return thin;
+  coarse.kernel = problem.kernel;
+  coarse.current_scale_A = problem.current_scale_A;
+  coarse.voltage_scale_V = problem.voltage_scale_V;
+  return coarse;
 }
 
 }  // namespace lyrefit

@@ -15,9 +15,9 @@ constexpr int kFewPoints = 512;
 // the sum of squares around the optimum is kept to far better than the 1 % a profile is told to.
 // Bounds, scales and kernel stay. A problem of at most kFewPoints comes back as it is, and one of a
 // device with effects or of errors that hang together.
-RefineProblem Thin(const RefineProblem& problem);
+RefineProblem Coarsen(const RefineProblem& problem);
 
 // Whether it would not come back as it is.
-bool CanThin(const RefineProblem& problem);
+bool CanCoarsen(const RefineProblem& problem);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/refine/thin.h"
+#include "lyrefit/refine/coarsen.h"
 
 #include <gtest/gtest.h>
 
@@ -15,28 +15,28 @@ namespace {
 
 constexpr int kMany = 1000;
 
-TEST(Thin, LeavesFewPointsAsTheyAre) {
+TEST(Coarsen, LeavesFewPointsAsTheyAre) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);
-  const RefineProblem thin = Thin(problem);
-  EXPECT_EQ(thin.voltage_V, problem.voltage_V);
-  EXPECT_EQ(thin.current_A, problem.current_A);
+  const RefineProblem coarse = Coarsen(problem);
+  EXPECT_EQ(coarse.voltage_V, problem.voltage_V);
+  EXPECT_EQ(coarse.current_A, problem.current_A);
 }
 
-TEST(Thin, KeepsTheSumOfSquaresAroundTheOptimum) {
+TEST(Coarsen, KeepsTheSumOfSquaresAroundTheOptimum) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
                                                 kDoubleTruth, 3e-3, objective, 1, kMany);
-    const RefineProblem thin = Thin(problem);
-    EXPECT_LE(thin.points.size, 256);
-    EXPECT_EQ(thin.resistance_scale(), problem.resistance_scale());
+    const RefineProblem coarse = Coarsen(problem);
+    EXPECT_LE(coarse.points.size, 256);
+    EXPECT_EQ(coarse.resistance_scale(), problem.resistance_scale());
     const RefineEnd best = Refine(problem, kDoubleTruth);
-    EXPECT_NEAR(MeanSquare(thin, best.p) / best.mean_square, 1, 0.01);
+    EXPECT_NEAR(MeanSquare(coarse, best.p) / best.mean_square, 1, 0.01);
     for (int i = 0; i < problem.device.size(); ++i) {
       std::vector<double> moved = best.p;
       moved[i] *= i == kRsh ? 1.1 : 1.01;
       const double rise = MeanSquare(problem, moved) - best.mean_square;
-      const double thin_rise = MeanSquare(thin, moved) - MeanSquare(thin, best.p);
+      const double thin_rise = MeanSquare(coarse, moved) - MeanSquare(coarse, best.p);
       EXPECT_NEAR(thin_rise, rise, 0.01 * rise + 1e-4 * best.mean_square) << i;
     }
   }
@@ -44,35 +44,35 @@ TEST(Thin, KeepsTheSumOfSquaresAroundTheOptimum) {
 
 // The current at given voltages is smooth along them: quadrature keeps its sum of squares to far
 // better than straight pieces could.
-TEST(Thin, KeepsTheSumOfSquaresOfASmoothCurrent) {
+TEST(Coarsen, KeepsTheSumOfSquaresOfASmoothCurrent) {
   const RefineProblem problem =
       ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 3e-3,
                     Objective::kSolvedCurrent, 1, kMany);
-  const RefineProblem thin = Thin(problem);
-  EXPECT_LE(thin.points.size, 128);
+  const RefineProblem coarse = Coarsen(problem);
+  EXPECT_LE(coarse.points.size, 128);
   for (int i = 0; i < problem.device.size(); ++i) {
     std::vector<double> moved = kDoubleTruth;
     moved[i] *= i == kRsh ? 1.1 : 1.01;
-    EXPECT_NEAR(MeanSquare(thin, moved) / MeanSquare(problem, moved), 1, 1e-4) << i;
+    EXPECT_NEAR(MeanSquare(coarse, moved) / MeanSquare(problem, moved), 1, 1e-4) << i;
   }
 }
 
-TEST(Thin, StandsForReadingsAtAFewVoltages) {
-  const RefineProblem few = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
+TEST(Coarsen, StandsForReadingsAtAFewVoltages) {
+  const RefineProblem sparse = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
                                           3e-3, Objective::kSolvedCurrent, 1, 30);
   std::vector<double> voltage, current;
   for (int k = 0; k < kMany; ++k) {
-    voltage.push_back(few.voltage_V[k % 30]);
-    current.push_back(few.current_A[k % 30] + (k % 7 - 3) * 1e-3);
+    voltage.push_back(sparse.voltage_V[k % 30]);
+    current.push_back(sparse.current_A[k % 30] + (k % 7 - 3) * 1e-3);
   }
   const RefineProblem many =
-      MakeRefineProblem(few.device, few.objective, voltage, current, {}, few.lower, few.upper);
-  const RefineProblem thin = Thin(many);
-  EXPECT_LE(thin.points.size, 128);
-  EXPECT_NEAR(MeanSquare(thin, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);
+      MakeRefineProblem(sparse.device, coarse.objective, voltage, current, {}, coarse.lower, coarse.upper);
+  const RefineProblem coarse = Coarsen(many);
+  EXPECT_LE(sparse.points.size, 128);
+  EXPECT_NEAR(MeanSquare(sparse, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);
 }
 
-TEST(Thin, CountsEveryPointWithItsWeight) {
+TEST(Coarsen, CountsEveryPointWithItsWeight) {
   RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
                                         3e-3, Objective::kSolvedCurrent, 1, kMany);
   std::vector<double> weights(kMany, 1);
@@ -82,9 +82,9 @@ TEST(Thin, CountsEveryPointWithItsWeight) {
       MakeRefineProblem(problem.device, problem.objective, problem.voltage_V, spoiled, weights,
                         problem.lower, problem.upper);
   const RefineEnd all = Refine(weighted, kSingleTruth);
-  const RefineEnd few = Refine(Thin(weighted), kSingleTruth);
-  EXPECT_NEAR(few.p[kIph] / all.p[kIph], 1, 1e-5);
-  EXPECT_NEAR(few.p[2] / all.p[2], 1, 1e-3);
+  const RefineEnd coarse = Refine(Coarsen(weighted), kSingleTruth);
+  EXPECT_NEAR(coarse.p[kIph] / all.p[kIph], 1, 1e-5);
+  EXPECT_NEAR(coarse.p[2] / all.p[2], 1, 1e-3);
 }
 
 struct Case {
@@ -96,7 +96,7 @@ struct Case {
 
 // The interval on the few points is that on all to 1 % of its half width, where the profile ends
 // inside the bounds, and ends at the bound where the other does.
-TEST(Thin, GivesTheProfileOfAllPoints) {
+TEST(Coarsen, GivesTheProfileOfAllPoints) {
   const Case cases[] = {
       {"sd", Model::kSingleDiode, Model::kSingleDiode, kSingleTruth},
       {"dd", Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth},
@@ -112,8 +112,8 @@ TEST(Thin, GivesTheProfileOfAllPoints) {
         start.push_back(i % 2 == 1 ? 1e-8 : 1.5);
       }
       const RefineEnd best = RefineFrom(all, start);
-      const RefineProblem few = Thin(all);
-      const RefineEnd few_best = Refine(few, best.p);
+      const RefineProblem coarse = Coarsen(all);
+      const RefineEnd coarse_best = Refine(coarse, best.p);
       const int degrees = kMany - all.device.size();
       const Spread spread = SpreadOf(all, best, degrees);
       for (const int i : {kIph + 0, kRs + 0, kRsh + 0}) {
@@ -125,11 +125,11 @@ TEST(Thin, GivesTheProfileOfAllPoints) {
             return FindProfileSide(problem, end, {i, upper, 1.962, variance, error});
           };
           const ProfileSide full = side(all, best);
-          const ProfileSide thin = side(few, few_best);
-          EXPECT_TRUE(full.settled && thin.settled) << c.name << ' ' << i;
-          EXPECT_EQ(thin.at_bound, full.at_bound) << c.name << ' ' << i;
+          const ProfileSide of_coarse = side(coarse, coarse_best);
+          EXPECT_TRUE(full.settled && of_coarse.settled) << c.name << ' ' << i;
+          EXPECT_EQ(of_coarse.at_bound, full.at_bound) << c.name << ' ' << i;
           value[0][upper] = full.value;
-          value[1][upper] = thin.value;
+          value[1][upper] = of_coarse.value;
         }
         const double half = 0.5 * (value[0][1] - value[0][0]);
         EXPECT_NEAR(value[1][0], value[0][0], 0.01 * half)

@@ -66,10 +66,10 @@ TEST(Coarsen, StandsForReadingsAtAFewVoltages) {
     current.push_back(sparse.current_A[k % 30] + (k % 7 - 3) * 1e-3);
   }
   const RefineProblem many =
-      MakeRefineProblem(sparse.device, coarse.objective, voltage, current, {}, coarse.lower, coarse.upper);
+      MakeRefineProblem(sparse.device, sparse.objective, voltage, current, {}, sparse.lower, sparse.upper);
   const RefineProblem coarse = Coarsen(many);
-  EXPECT_LE(sparse.points.size, 128);
-  EXPECT_NEAR(MeanSquare(sparse, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);
+  EXPECT_LE(coarse.points.size, 128);
+  EXPECT_NEAR(MeanSquare(coarse, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);
 }
 
 TEST(Coarsen, CountsEveryPointWithItsWeight) {

@@ -232,7 +232,7 @@ TEST(DiagnoseTest, ACurveUnderLittleLightIsFittedAsOneUnderMuch) {
     recipe.noise_A = 2e-6 * irradiance;
     const Diagnosis d = DiagnoseOrFail(MadeCurve(recipe));
     EXPECT_THAT(Ids(d), IsEmpty()) << irradiance << ": " << d.verdict.sentence;
-    EXPECT_LT(d.verdict.departure.value, 5e-4) << irradiance;
+    EXPECT_LT(d.verdict.lack_of_fit.value, 5e-4) << irradiance;
     EXPECT_THAT(d.warnings, IsEmpty()) << irradiance;
     EXPECT_NEAR(d.gain.shifts[0].after, 0.008 * irradiance, 1e-4 * irradiance);
   }
@@ -253,7 +253,7 @@ TEST(DiagnoseTest, ASeriesDownToLittleLightHasNothingToFind) {
   EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_THAT(d.warnings, Not(Contains(HasSubstr("taken as"))));
   for (const DiagnosedCurve& curve : d.curves) EXPECT_FALSE(curve.dark) << curve.name;
-  EXPECT_LT(d.verdict.departure.value, 5e-4);
+  EXPECT_LT(d.verdict.lack_of_fit.value, 5e-4);
 }
 
 TEST(DiagnoseTest, ADarkCurveAloneIsEnough) {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -12,16 +12,16 @@ namespace {
 TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   Recipe recipe;
   recipe.cells = 60;
-  const MadeBench made = OnTheBench(MadeCurve(recipe));
-  const LawFit base = FitBase(made.bench, Law());
+  const SyntheticData made = OnTheData(MadeCurve(recipe));
+  const LawFit base = FitBase(made.weighted, Law());
   const auto candidates = Showable(made.measurement.readings.traits);
   int fitted = 0;
-  for (const Score& score : ScoreEffects(made.bench, base, candidates, 200, 1)) {
+  for (const Score& score : ScoreEffects(made.weighted, base, candidates, 200, 1)) {
     if (!score.testable || score.effect->probes == nullptr) continue;
     // Shares, limits and reverse laws that are tried out have no value at which the effect is
     // not there, and readings in reverse feel a bypass diode where no cell is odd.
     const std::string id = score.effect->id;
-    const LawFit fit = FitEffect(made.bench, base, score);
+    const LawFit fit = FitEffect(made.weighted, base, score);
     ASSERT_TRUE(fit.usable) << id;
     EXPECT_EQ(fit.law.effects.back(), score.effect);
     const bool always_there =
@@ -39,15 +39,15 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
 TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   IvCurve curve = MadeCurve({});
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
-  const MadeBench made = OnTheBench(curve);
-  const LawFit base = FitBase(made.bench, Law());
+  const SyntheticData made = OnTheData(curve);
+  const LawFit base = FitBase(made.weighted, Law());
   const std::vector<Score> scores =
-      ScoreEffects(made.bench, base, {FindEffect("transient")}, 200, 1);
-  const LawFit fit = FitEffect(made.bench, base, scores.front());
+      ScoreEffects(made.weighted, base, {FindEffect("transient")}, 200, 1);
+  const LawFit fit = FitEffect(made.weighted, base, scores.front());
   ASSERT_TRUE(fit.usable);
   EXPECT_LT(fit.sum, 0.5 * base.sum);
   EXPECT_NEAR(fit.p[6], made.measurement.readings.points[21].x, 0.02);
-  const LawFit without = FitWithout(made.bench, fit, 0);
+  const LawFit without = FitWithout(made.weighted, fit, 0);
   EXPECT_TRUE(without.law.effects.empty());
   EXPECT_NEAR(without.sum, base.sum, 1e-3 * base.sum);
 }
@@ -57,13 +57,13 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
 TEST(FitEffectTest, GoesOnFromWhereItEnded) {
   IvCurve curve = MadeCurve({});
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
-  MadeBench made = OnTheBench(curve);
-  const LawFit base = FitBase(made.bench, Law());
+  SyntheticData made = OnTheData(curve);
+  const LawFit base = FitBase(made.weighted, Law());
   const std::vector<Score> scores =
-      ScoreEffects(made.bench, base, {FindEffect("transient")}, 200, 1);
-  const LawFit met = FitEffect(made.bench, base, scores.front());
-  for (std::size_t k = 0; k < made.bench.used.size(); k += 10) made.bench.used[k] = 0;
-  const LawFit fit = FitOnwards(made.bench, met);
+      ScoreEffects(made.weighted, base, {FindEffect("transient")}, 200, 1);
+  const LawFit met = FitEffect(made.weighted, base, scores.front());
+  for (std::size_t k = 0; k < made.weighted.used.size(); k += 10) made.weighted.used[k] = 0;
+  const LawFit fit = FitOnwards(made.weighted, met);
   ASSERT_TRUE(fit.usable);
   EXPECT_LT(fit.sum, met.sum);
   EXPECT_EQ(fit.law.effects, met.law.effects);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 std::set<int> Distinct(const std::vector<int>& folds) { return {folds.begin(), folds.end()}; }
 
 TEST(MakeFoldsTest, SpreadsShortBlocksOverASweep) {
-  const MadeBench made = OnTheBench(MadeCurve({}));  // 60 readings
+  const SyntheticData made = OnTheData(MadeCurve({}));  // 60 readings
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   ASSERT_EQ(folds.size(), 60U);
   EXPECT_EQ(Distinct(folds).size(), 10U);
@@ -34,7 +34,7 @@ TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
     recipe.points = 12;
     curves.push_back(MadeCurve(recipe));
   }
-  const MadeBench made = OnTheBench(SetOf(curves));
+  const SyntheticData made = OnTheData(SetOf(curves));
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   for (std::size_t k = 0; k < folds.size(); ++k) {
     EXPECT_EQ(folds[k], made.measurement.readings.points[k].curve);
@@ -47,11 +47,11 @@ TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
   Recipe recipe;
   recipe.and_back = true;
   IvCurve curve = MadeCurve(recipe);  // up and down: two sweeps
-  EXPECT_FALSE(LeavesSweepsOut(OnTheBench(curve).measurement.readings));
+  EXPECT_FALSE(LeavesSweepsOut(OnTheData(curve).measurement.readings));
   const IvCurve again = curve;
   curve.voltage_V.insert(curve.voltage_V.end(), again.voltage_V.begin(), again.voltage_V.end());
   curve.current_A.insert(curve.current_A.end(), again.current_A.begin(), again.current_A.end());
-  const MadeBench made = OnTheBench(curve);
+  const SyntheticData made = OnTheData(curve);
   const Readings& readings = made.measurement.readings;
   ASSERT_TRUE(LeavesSweepsOut(readings));
   const std::vector<int> folds = MakeFolds(readings, 10);
@@ -62,7 +62,7 @@ TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
 TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
   Recipe recipe;
   recipe.points = 7;
-  const MadeBench made = OnTheBench(MadeCurve(recipe));
+  const SyntheticData made = OnTheData(MadeCurve(recipe));
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   EXPECT_EQ(Distinct(folds).size(), 4U);
   EXPECT_EQ(*std::max_element(folds.begin(), folds.end()), 3);
@@ -72,7 +72,7 @@ TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
 TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
-  const MadeBench made = OnTheBench(curve);
+  const SyntheticData made = OnTheData(curve);
   const Measurement& measurement = made.measurement;
   SelectOptions options;
   options.draws = 300;

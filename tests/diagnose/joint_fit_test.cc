@@ -7,35 +7,35 @@
 #include <vector>
 
 #include "lyrefit/diagnose/choose_base.h"
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
 
-Further Find(const Readings& readings, const std::string& id) {
-  for (Further& further : FurtherMeasurements(readings)) {
-    if (further.id == id) return further;
+FollowUp Find(const Readings& readings, const std::string& id) {
+  for (FollowUp& follow_up : FollowUpMeasurements(readings)) {
+    if (follow_up.id == id) return follow_up;
   }
   ADD_FAILURE() << id;
   return {};
 }
 
 struct Healthy {
-  MadeBench made;
+  SyntheticData made;
   LawFit fit;
 };
 Healthy FitHealthy() {
-  Healthy healthy{OnTheBench(MadeCurve({})), {}};
-  healthy.fit = FitBase(healthy.made.bench,
+  Healthy healthy{OnTheData(MadeCurve({})), {}};
+  healthy.fit = FitBase(healthy.made.weighted,
                         StartingLaw(healthy.made.measurement.readings, Model::kSingleDiode));
   return healthy;
 }
 
 TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
   const Healthy healthy = FitHealthy();
-  const Further further = Find(*healthy.made.bench.readings, "isc_voc");
-  const std::vector<double> unknown(further.unknown.size(), 0.5);
-  const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, unknown);
+  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "isc_voc");
+  const std::vector<double> unknown(follow_up.unknown.size(), 0.5);
+  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, unknown);
   ASSERT_TRUE(joint);
   double before = 1;
   for (std::size_t k = joint->taken; k < joint->readings.points.size(); k += 2) {
@@ -51,22 +51,22 @@ TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
 // The truth itself fits what it gave: what is left are the old readings' residuals.
 TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
   const Healthy healthy = FitHealthy();
-  for (const Further& further : FurtherMeasurements(*healthy.made.bench.readings)) {
-    const std::vector<double> unknown(further.unknown.size(), 0.0);
-    const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, unknown);
-    ASSERT_TRUE(joint) << further.id;
+  for (const FollowUp& follow_up : FollowUpMeasurements(*healthy.made.weighted.readings)) {
+    const std::vector<double> unknown(follow_up.unknown.size(), 0.0);
+    const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, unknown);
+    ASSERT_TRUE(joint) << follow_up.id;
     const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
-    ASSERT_TRUE(end.usable) << further.id;
-    EXPECT_NEAR(end.sum, healthy.fit.sum, 1e-3 * healthy.fit.sum) << further.id;
-    EXPECT_LT(end.after.norm(), 0.1) << further.id;
+    ASSERT_TRUE(end.usable) << follow_up.id;
+    EXPECT_NEAR(end.sum, healthy.fit.sum, 1e-3 * healthy.fit.sum) << follow_up.id;
+    EXPECT_LT(end.after.norm(), 0.1) << follow_up.id;
   }
 }
 
 // A light and a temperature that turned out otherwise cost what they are unlikely, and little more.
 TEST(FitJointTest, FindsWhatWasUnknown) {
   const Healthy healthy = FitHealthy();
-  const Further further = Find(*healthy.made.bench.readings, "second_light");
-  const auto joint = TakeFurther(healthy.made.bench, 1, further, healthy.fit, {2, -1});
+  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "second_light");
+  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, {2, -1});
   ASSERT_TRUE(joint);
   const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
   EXPECT_NEAR(end.sum - healthy.fit.sum, 5, 1.5);
@@ -78,8 +78,8 @@ TEST(FitJointTest, WhatIsNotThereMisfits) {
   LawFit truth = healthy.fit;
   truth.law.effects = {FindEffect("nonohmic_shunt")};
   truth.p.insert(truth.p.end(), {0.5, 2});
-  const Further further = Find(*healthy.made.bench.readings, "dark_curve");
-  const auto joint = TakeFurther(healthy.made.bench, 1, further, truth, {0});
+  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "dark_curve");
+  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, truth, {0});
   ASSERT_TRUE(joint);
   EXPECT_GT(FitJoint(*joint, healthy.fit.law, {healthy.fit.p}).sum, 100 * healthy.fit.sum);
 }

@@ -11,8 +11,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/make_plan.h"
-#include "made_bench.h"
+#include "lyrefit/diagnose/experiment_design.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -74,7 +74,7 @@ struct Outcome {
 // The measurement of a pair, as its cause makes it.
 struct Made {
   LawFit truth;
-  Workbench bench;
+  WeightedData weighted;
 };
 
 Made Make(const Pair& pair, RandomStream* random) {
@@ -86,21 +86,21 @@ Made Make(const Pair& pair, RandomStream* random) {
   }
   Made made;
   Readings readings = MakeMeasurement(SetOf(curves))->readings;
-  made.bench.readings = std::make_shared<const Readings>(readings);
-  made.bench.sigma.assign(readings.points.size(), kNoise);
-  made.bench.used.assign(readings.points.size(), 1);
-  made.bench.path = pair.path;
-  made.truth = FitBase(made.bench, StartingLaw(readings, Model::kSingleDiode));
+  made.weighted.readings = std::make_shared<const Readings>(readings);
+  made.weighted.sigma.assign(readings.points.size(), kNoise);
+  made.weighted.used.assign(readings.points.size(), 1);
+  made.weighted.path = pair.path;
+  made.truth = FitBase(made.weighted, StartingLaw(readings, Model::kSingleDiode));
   made.truth.law.effects.push_back(FindEffect(pair.truth));
   made.truth.p.insert(made.truth.p.end(), pair.p.begin(), pair.p.end());
   LawWorkspace workspace;
   EXPECT_TRUE(EvaluateLaw(made.truth.law, readings, made.truth.p.data(), &workspace,
                           made.truth.current.data(), nullptr));
-  const std::vector<double> errors = DrawErrors(ErrorsOf(made.bench), random);
+  const std::vector<double> errors = DrawErrors(ErrorsOf(made.weighted), random);
   for (std::size_t k = 0; k < errors.size(); ++k) {
     readings.points[k].current = made.truth.current[k] + errors[k];
   }
-  made.bench.readings = std::make_shared<const Readings>(std::move(readings));
+  made.weighted.readings = std::make_shared<const Readings>(std::move(readings));
   return made;
 }
 
@@ -108,14 +108,14 @@ Made Make(const Pair& pair, RandomStream* random) {
 // neither.
 std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
   constexpr double kApart = 6, kFound = 12;
-  const LawFit base = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
+  const LawFit base = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
   std::vector<PlanCandidate> candidates;
   for (const Score& score :
-       ScoreEffects(made.bench, base, {FindEffect(pair.truth), FindEffect(pair.other)}, 300, 1)) {
+       ScoreEffects(made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)}, 300, 1)) {
     if (!score.testable) return {};
-    const LawFit fit = FitEffect(made.bench, base, score);
+    const LawFit fit = FitEffect(made.weighted, base, score);
     if (!fit.usable) return {};
-    candidates.push_back(MakeCandidate(*made.bench.readings, fit, score.charge));
+    candidates.push_back(MakeCandidate(*made.weighted.readings, fit, score.charge));
   }
   if (candidates.front().effect != FindEffect(pair.truth)) std::swap(candidates[0], candidates[1]);
   const double apart =
@@ -165,17 +165,17 @@ Outcome Try(const Pair& pair, int number) {
   const Made made = Make(pair, &random);
   const std::vector<PlanCandidate> candidates = FitPair(pair, made);
   Outcome outcome;
-  for (const Further& further : FurtherMeasurements(*made.bench.readings)) {
-    outcome.foreseen[further.id] =
-        Foresee(made.bench, 1, further, candidates, number).front().probability;
+  for (const FollowUp& follow_up : FollowUpMeasurements(*made.weighted.readings)) {
+    outcome.foreseen[follow_up.id] =
+        Foresee(made.weighted, 1, follow_up, candidates, number).front().probability;
     std::vector<double> unknown;
-    for (std::size_t k = 0; k < further.unknown.size(); ++k) unknown.push_back(random.Normal());
-    auto joint = TakeFurther(made.bench, 1, further, made.truth, unknown);
+    for (std::size_t k = 0; k < follow_up.unknown.size(); ++k) unknown.push_back(random.Normal());
+    auto joint = TakeFurther(made.weighted, 1, follow_up, made.truth, unknown);
     if (!joint) continue;
     Disturb(&random, &*joint);
     const FurtherEnd own = FitJoint(*joint, candidates[0].fit.law, candidates[0].starts);
     const FurtherEnd other = FitJoint(*joint, candidates[1].fit.law, candidates[1].starts);
-    outcome.right[further.id] =
+    outcome.right[follow_up.id] =
         own.usable &&
         (!other.usable || own.sum + candidates[0].charge < other.sum + candidates[1].charge);
   }

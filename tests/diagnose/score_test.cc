@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "made_bench.h"
+#include "synthetic_data.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -22,23 +22,23 @@ class NullTest : public ::testing::Test {
   void SetUp() override {
     Recipe recipe;
     recipe.points = 50;
-    made_ = OnTheBench(MadeCurve(recipe));
-    clean_ = FitBase(made_.bench, Law());
+    made_ = OnTheData(MadeCurve(recipe));
+    clean_ = FitBase(made_.weighted, Law());
   }
 
   std::vector<Score> Draw(int seed) {
     Readings readings = made_.measurement.readings;
     RandomStream random(seed, 5);
     for (std::size_t k = 0; k < readings.points.size(); ++k) {
-      readings.points[k].current = clean_.current[k] + made_.bench.sigma[k] * random.Normal();
+      readings.points[k].current = clean_.current[k] + made_.weighted.sigma[k] * random.Normal();
     }
-    Workbench bench = made_.bench;
-    bench.readings = std::make_shared<const Readings>(std::move(readings));
-    const LawFit fit = FitLaw(bench, Law(), clean_.p);
-    return ScoreEffects(bench, fit, Showable(bench.readings->traits), kDraws, 100 + seed);
+    WeightedData weighted = made_.weighted;
+    weighted.readings = std::make_shared<const Readings>(std::move(readings));
+    const LawFit fit = FitLaw(weighted, Law(), clean_.p);
+    return ScoreEffects(weighted, fit, Showable(weighted.readings->traits), kDraws, 100 + seed);
   }
 
-  MadeBench made_;
+  SyntheticData made_;
   LawFit clean_;
 };
 
@@ -104,8 +104,8 @@ const Score& Of(const std::vector<Score>& scores, const std::string& id) {
 }
 
 std::vector<Score> ScoreCurve(const IvCurve& curve) {
-  const MadeBench made = OnTheBench(curve);
-  return ScoreEffects(made.bench, FitBase(made.bench, Law()),
+  const SyntheticData made = OnTheData(curve);
+  return ScoreEffects(made.weighted, FitBase(made.weighted, Law()),
                       Showable(made.measurement.readings.traits), kDraws, 1);
 }
 
@@ -156,24 +156,24 @@ TEST(CalibrationTest, AnEmptyOneChangesNothing) {
 
 TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
   Calibration calibration;
-  for (int k = 0; k < 200; ++k) calibration.nulls.push_back(-1.3 * std::log(1 - (k + 0.5) / 200));
+  for (int k = 0; k < 200; ++k) calibration.null_statistics.push_back(-1.3 * std::log(1 - (k + 0.5) / 200));
   double last = 0;
   for (const double p : {1e-30, 1e-12, 1e-6, 1e-3, 0.01, 0.05, 0.2, 0.5, 1.0}) {
     const double corrected = calibration.Corrected(p);
     EXPECT_GE(corrected, last);
     EXPECT_LE(corrected, 1);
-    EXPECT_GE(corrected, 0.99 * p);  // these nulls are more extreme than they should be
+    EXPECT_GE(corrected, 0.99 * p);  // these null_statistics are more extreme than they should be
     last = corrected;
   }
 }
 
-TEST(ImprintTest, IsWhatTheProbesDo) {
-  const MadeBench made = OnTheBench(MadeCurve({}));
+TEST(SignatureOfEffectTest, IsWhatTheProbesDo) {
+  const SyntheticData made = OnTheData(MadeCurve({}));
   const Readings& readings = made.measurement.readings;
-  const LawFit fit = FitBase(made.bench, Law());
+  const LawFit fit = FitBase(made.weighted, Law());
   const Effect& drift = *FindEffect("drift");
-  Imprints imprints;
-  const Eigen::MatrixXd moved = FindImprint(made.bench, fit, {&drift}, &imprints)->moved.at(&drift);
+  Signatures signatures;
+  const Eigen::MatrixXd moved = FindSignature(made.weighted, fit, {&drift}, &signatures)->moved.at(&drift);
   const std::vector<Probe> probes = drift.probes(readings.traits);
   ASSERT_EQ(moved.cols(), static_cast<int>(probes.size()));
   Law law;
@@ -187,20 +187,20 @@ TEST(ImprintTest, IsWhatTheProbesDo) {
   }
 }
 
-TEST(ImprintTest, ServesFitsOfTheSameLawWithinTheNoise) {
-  const MadeBench made = OnTheBench(MadeCurve({}));
-  LawFit fit = FitBase(made.bench, Law());
+TEST(SignatureOfEffectTest, ServesFitsOfTheSameLawWithinTheNoise) {
+  const SyntheticData made = OnTheData(MadeCurve({}));
+  LawFit fit = FitBase(made.weighted, Law());
   const Effect *drift = FindEffect("drift"), *step = FindEffect("irr_step");
-  Imprints imprints;
-  const auto first = FindImprint(made.bench, fit, {drift}, &imprints);
-  for (double& current : fit.current) current += 0.5 * made.bench.sigma.front();
-  EXPECT_EQ(FindImprint(made.bench, fit, {drift}, &imprints), first);
-  EXPECT_NE(FindImprint(made.bench, fit, {drift, step}, &imprints), first);
-  for (double& current : fit.current) current += made.bench.sigma.front();
-  EXPECT_NE(FindImprint(made.bench, fit, {drift}, &imprints), first);
+  Signatures signatures;
+  const auto first = FindSignature(made.weighted, fit, {drift}, &signatures);
+  for (double& current : fit.current) current += 0.5 * made.weighted.sigma.front();
+  EXPECT_EQ(FindSignature(made.weighted, fit, {drift}, &signatures), first);
+  EXPECT_NE(FindSignature(made.weighted, fit, {drift, step}, &signatures), first);
+  for (double& current : fit.current) current += made.weighted.sigma.front();
+  EXPECT_NE(FindSignature(made.weighted, fit, {drift}, &signatures), first);
   fit.law.effects = {step};
   fit.p.insert(fit.p.end(), {0.0, 0.0});
-  EXPECT_NE(FindImprint(made.bench, fit, {drift}, &imprints), first);
+  EXPECT_NE(FindSignature(made.weighted, fit, {drift}, &signatures), first);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "diagnose/made_diagnosis.h"
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 struct Selected {
-  MadeBench made;
+  SyntheticData made;
   SelectOptions options;
   Selection selection;
 
@@ -31,7 +31,7 @@ struct Selected {
 
 Selected SelectFor(const IvCurve& curve, SelectOptions options = {}) {
   Selected selected;
-  selected.made = OnTheBench(curve);
+  selected.made = OnTheData(curve);
   const Measurement& measurement = selected.made.measurement;
   options.draws = 600;
   if (options.candidates.empty()) options.candidates = Showable(measurement.readings.traits);
@@ -88,7 +88,7 @@ TEST(SelectCausesTest, LeavesAWrongReadingOut) {
   const Selection selection = SelectFor(curve).selection;
   EXPECT_THAT(selection.outliers, ElementsAre(17));
   EXPECT_THAT(selection.causes, IsEmpty());
-  EXPECT_EQ(selection.bench.used[17], 0);
+  EXPECT_EQ(selection.weighted.used[17], 0);
   EXPECT_LT(selection.outlier_p, 1e-4);
 }
 
@@ -101,13 +101,13 @@ TEST(SelectCausesTest, TakesClippingFromTheValues) {
   EXPECT_NEAR(selected.selection.extended.p[5] * selected.made.measurement.readings.scale.current_A,
               7.9, 1e-9);
   for (const int k : selected.made.measurement.values.clipped)
-    EXPECT_EQ(selected.selection.bench.used[k], 0);
+    EXPECT_EQ(selected.selection.weighted.used[k], 0);
 }
 
 TEST(SelectCausesTest, TriesEveryCandidateOnTheBaseModel) {
   const Selected selected = SelectFor(CurveWithAStep());
   for (const Effect* effect : selected.options.candidates) {
-    const auto of = [&](const Rival& rival) { return rival.score.effect == effect; };
+    const auto of = [&](const FittedCandidate& fitted) { return fitted.score.effect == effect; };
     const auto& trials = selected.selection.trials;
     EXPECT_EQ(std::count_if(trials.begin(), trials.end(), of), 1) << effect->id;
   }
@@ -131,15 +131,15 @@ TEST(SelectCausesTest, NamesNoMoreThanAsked) {
   EXPECT_LE(SelectFor(curve, options).selection.causes.size(), 2U);
 }
 
-TEST(FindRivalsTest, ListsWhoCouldStandInACausesPlace) {
+TEST(FindFittedCandidatesTest, ListsWhoCouldStandInACausesPlace) {
   Selected selected = SelectFor(CurveWithAStep());
-  FindRivals(selected.options, &selected.selection);
+  FindFittedCandidates(selected.options, &selected.selection);
   ASSERT_EQ(selected.selection.without.size(), selected.selection.causes.size());
-  const auto& rivals = selected.selection.causes.front().rivals;
-  ASSERT_FALSE(rivals.empty());
-  EXPECT_STREQ(rivals.front().score.effect->id, "irr_step");
-  for (std::size_t k = 1; k < rivals.size(); ++k) {
-    EXPECT_GE(rivals[k - 1].Charged(), rivals[k].Charged());
+  const auto& fitted_candidates = selected.selection.causes.front().fitted_candidates;
+  ASSERT_FALSE(fitted_candidates.empty());
+  EXPECT_STREQ(fitted_candidates.front().score.effect->id, "irr_step");
+  for (std::size_t k = 1; k < fitted_candidates.size(); ++k) {
+    EXPECT_GE(fitted_candidates[k - 1].Charged(), fitted_candidates[k].Charged());
   }
   EXPECT_NEAR(selected.selection.without.front().sum, selected.selection.base.sum,
               0.5 * selected.selection.base.sum);

@@ -59,7 +59,7 @@ TEST(FitSweep, RefusesWhatIsNoSweepOfAModuleInTheLight) {
 TEST(StateWith, FollowsWhatIsDoneToTheReadings) {
   const auto sweep = FitSweep(MadeCurve(PlainModule()));
   ASSERT_TRUE(sweep) << sweep.error().message;
-  const Readings& readings = *sweep->bench.readings;
+  const Readings& readings = *sweep->weighted.readings;
   std::vector<double> change(readings.points.size(), 0.0);
   EXPECT_NEAR(StateWith(*sweep, change).series_ohm, sweep->state.series_ohm, 1e-6);
   for (std::size_t k = 0; k < change.size(); ++k) {

@@ -45,7 +45,7 @@ inline std::vector<ResultColumn> MadePlantColumns() {
     columns.push_back({name, "", kText, "of the diagnosis"});
   }
   for (const char* name :
-       {"departure_percent", "recoverable_power_W", "Pmax_stc_W", "Pmax_stc_U_W", "rated_power_W",
+       {"lack_of_fit_percent", "recoverable_power_W", "Pmax_stc_W", "Pmax_stc_U_W", "rated_power_W",
         "performance_factor", "wrong_decision_probability", "group_deviation_percent", "past_p"}) {
     columns.push_back({name, "", kNumber, "of the field test"});
   }
@@ -152,7 +152,7 @@ class MadePlantRow {
           fmt::format("{}: {:.1f} % of the power is lost.", cause.title, 100 * loss));
       Set("separate_by", std::string("a second sweep at another light"));
     }
-    Set("departure_percent", 100 * loss + 0.2 * random_.Uniform());
+    Set("lack_of_fit_percent", 100 * loss + 0.2 * random_.Uniform());
     if (ill) Set("recoverable_power_W", loss * rated);
     Set("Pmax_stc_W", stc);
     Set("Pmax_stc_U_W", 0.03 * stc);

@@ -259,14 +259,14 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
   RandomStream random(20260101);
   const Law law;
   const Readings readings;
-  const Bench<Pack> bench = MakeBench(law, readings, static_cast<const Pack*>(nullptr));
+  const EvaluationContext<Pack> context = MakeWeightedData(law, readings, static_cast<const Pack*>(nullptr));
   double worst = 0;
   int wrong = 0;
   for (int k = 0; k < Repeats(12500, 500); ++k) {
     const Strings strings(&random);
     const StringLimits limits = LimitsOf(strings.cell());
     StringState state = ColdStart(strings, limits);
-    const StringRoot root = SolveString(bench, strings.cell(), limits, strings.voltage(), &state);
+    const StringRoot root = SolveString(context, strings.cell(), limits, strings.voltage(), &state);
     for (int lane = 0; lane < kLanes; ++lane) {
       ASSERT_TRUE(std::isfinite(root.current[lane])) << k;
       const double error =

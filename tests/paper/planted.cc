@@ -57,7 +57,7 @@ double DrawIdeality(const CertifyOptions& ranges, RandomStream* random) {
   return end < 0.15 ? ranges.n_lower : n;
 }
 
-Bench DrawBench(const MadeProblem& made, int number, RandomStream* random) {
+Bench DrawWeightedData(const MadeProblem& made, int number, RandomStream* random) {
   Bench bench;
   const Conditions& conditions = made.curve.conditions;
   bench.device = MakeDevice(made.model, conditions);
@@ -280,7 +280,7 @@ MadeProblem MakeProblem(std::uint64_t seed, int number) {
   constexpr int kDevices = 6;
   Bench bench;
   for (int device = 0; device < kDevices; ++device) {
-    bench = DrawBench(made, number / 2, &random);
+    bench = DrawWeightedData(made, number / 2, &random);
     made.parameters = bench.p;
     if (Plant(bench, &made, &random)) {
       if (boxed) DrawBox(bench, &made);

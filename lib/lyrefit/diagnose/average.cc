@@ -113,15 +113,15 @@ void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first
 }
 
 // All readings of a measurement that outlives it, trusted alike but for those at a limit.
-Workbench BenchOf(const Measurement& measurement) {
+WeightedData WeightedDataOf(const Measurement& measurement) {
   const std::size_t count = measurement.readings.points.size();
-  Workbench bench;
-  bench.readings = {std::shared_ptr<const Readings>(), &measurement.readings};
-  bench.sigma.assign(count, 1e-3);
-  bench.used.assign(count, 1);
-  for (const int k : measurement.values.at_lower) bench.used[k] = 0;
-  for (const int k : measurement.values.at_voltage_limit) bench.used[k] = 0;
-  return bench;
+  WeightedData weighted;
+  weighted.readings = {std::shared_ptr<const Readings>(), &measurement.readings};
+  weighted.sigma.assign(count, 1e-3);
+  weighted.used.assign(count, 1);
+  for (const int k : measurement.values.at_lower) weighted.used[k] = 0;
+  for (const int k : measurement.values.at_voltage_limit) weighted.used[k] = 0;
+  return weighted;
 }
 
 // The fit's current at every reading; false where it cannot be had.
@@ -137,9 +137,9 @@ LawFit FitPlainMeans(const Measurement& measurement, const Law& base, Watch* wat
   for (const Reading& r : measurement.readings.points) currents.push_back(r.current);
   const Averaged plain =
       TakeMeans(measurement, GroupStretches(measurement.readings, SetApart(measurement)), currents);
-  Workbench bench = BenchOf(plain.measurement);
-  if (plain.measurement.readings.points.size() > kQuickToFit) bench.watch = watch;
-  return FitBase(bench, base);
+  WeightedData weighted = WeightedDataOf(plain.measurement);
+  if (plain.measurement.readings.points.size() > kQuickToFit) weighted.watch = watch;
+  return FitBase(weighted, base);
 }
 
 }  // namespace
@@ -158,11 +158,11 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) 
     off.push_back(readings.points[k].current - fit.current[k]);
   }
   std::vector<char> alone = SetApart(measurement);
-  Workbench bench = BenchOf(measurement);
-  TakeNoise(measurement, fit, &bench);
-  MarkSudden(readings.points, off, bench.sigma, &alone);
+  WeightedData weighted = WeightedDataOf(measurement);
+  TakeNoise(measurement, fit, &weighted);
+  MarkSudden(readings.points, off, weighted.sigma, &alone);
   Averaged averaged =
-      TakeMeans(measurement, CutAtJumps(GroupStretches(readings, alone), off, bench.sigma), off);
+      TakeMeans(measurement, CutAtJumps(GroupStretches(readings, alone), off, weighted.sigma), off);
   Readings& means = averaged.measurement.readings;
   std::vector<double> model(means.points.size(), 0.0);
   if (known) CurrentsAt(means, fit, &model);
@@ -189,12 +189,12 @@ std::vector<int> AtReadings::Behind(const std::vector<int>& positions) const {
 
 AtReadings AtItsReadings(const Selection& selection) {
   AtReadings at;
-  at.bench = selection.bench;
+  at.weighted = selection.weighted;
   at.noise = selection.noise;
   at.base = selection.base.current;
   at.extended = selection.extended.current;
   at.first = EachAlone(at.base.size());
-  if (!CurrentsAt(*at.bench.readings, WithoutEffects(selection.extended), &at.without)) {
+  if (!CurrentsAt(*at.weighted.readings, WithoutEffects(selection.extended), &at.without)) {
     at.without.assign(at.base.size(), kUnknown);
   }
   return at;
@@ -210,17 +210,17 @@ AtReadings AtItsReadings(const Selection& selection, const Averaged& averaged,
   };
   AtReadings at;
   at.first = averaged.first;
-  at.bench = BenchOf(measurement);
+  at.weighted = WeightedDataOf(measurement);
   for (std::size_t g = 0; g + 1 < at.first.size(); ++g) {
-    std::fill(at.bench.used.begin() + at.first[g], at.bench.used.begin() + at.first[g + 1],
-              selection.bench.used[g]);
+    std::fill(at.weighted.used.begin() + at.first[g], at.weighted.used.begin() + at.first[g + 1],
+              selection.weighted.used[g]);
   }
   LawFit extended = selection.extended;
   extended.current = currents(selection.extended);
   const bool plain = extended.law.effects.empty();
   at.base = plain && selection.base.p == extended.p ? extended.current : currents(selection.base);
   at.without = plain ? extended.current : currents(WithoutEffects(extended));
-  at.noise = TakeNoise(measurement, extended, &at.bench);
+  at.noise = TakeNoise(measurement, extended, &at.weighted);
   at.extended = std::move(extended.current);
   return at;
 }

@@ -25,7 +25,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch);
 
 // The fits of a selection at every reading.
 struct AtReadings {
-  Workbench bench;  // how far each reading is trusted beside the extended model
+  WeightedData weighted;  // how far each reading is trusted beside the extended model
   Noise noise;      // beside the same
   std::vector<double> base, extended, without;  // currents in scales; `without` the causes
   std::vector<int> first;  // reading of every position of the selection, and the end

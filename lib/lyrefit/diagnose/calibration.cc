@@ -2,28 +2,28 @@
 #include <cmath>
 #include <functional>
 
-#include "lyrefit/diagnose/null_law.h"
+#include "lyrefit/diagnose/null_distribution.h"
 #include "lyrefit/diagnose/score.h"
 
 namespace lyrefit {
 
 double Calibration::Corrected(double p) const {
-  if (nulls.empty()) return p;
+  if (null_statistics.empty()) return p;
   // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows; both
-  // are taken a standard error to the safe side, since so many nulls say no more.
+  // are taken a standard error to the safe side, since so many null_statistics say no more.
   constexpr double kPart = 0.2;
   const double x = -std::log(std::max(p, 1e-300));
-  const std::size_t count = nulls.size();
+  const std::size_t count = null_statistics.size();
   const std::size_t edge = count - static_cast<std::size_t>(kPart * static_cast<double>(count)) - 1;
-  if (x > nulls[edge]) {
+  if (x > null_statistics[edge]) {
     double excess = 0;
-    for (std::size_t k = edge + 1; k < count; ++k) excess += nulls[k] - nulls[edge];
+    for (std::size_t k = edge + 1; k < count; ++k) excess += null_statistics[k] - null_statistics[edge];
     const double beyond = static_cast<double>(count - edge - 1);
     excess *= (1 + 1 / std::sqrt(beyond)) / beyond;
     const double part = kPart + std::sqrt(kPart * (1 - kPart) / static_cast<double>(count));
-    return std::min(1.0, std::max(p, part * std::exp(-(x - nulls[edge]) / excess)));
+    return std::min(1.0, std::max(p, part * std::exp(-(x - null_statistics[edge]) / excess)));
   }
-  const auto above = nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), x);
+  const auto above = null_statistics.end() - std::lower_bound(null_statistics.begin(), null_statistics.end(), x);
   return std::max(p, static_cast<double>(above) / static_cast<double>(count));
 }
 

@@ -24,15 +24,15 @@ bool IsTwoSided(const Effect& effect) {
 }
 
 // Smooth waves along every monotone stretch.
-std::vector<Eigen::VectorXd> Waves(const Workbench& bench) {
-  const std::vector<Reading>& points = bench.readings->points;
+std::vector<Eigen::VectorXd> Waves(const WeightedData& weighted) {
+  const std::vector<Reading>& points = weighted.readings->points;
   const int last_segment = points.back().segment;
-  const int most = bench.readings->traits.single ? 7 : 3;
+  const int most = weighted.readings->traits.single ? 7 : 3;
   std::vector<Eigen::VectorXd> waves;
   for (int segment = 0; segment <= last_segment; ++segment) {
     std::vector<int> at;
     for (std::size_t k = 0; k < points.size(); ++k) {
-      if (points[k].segment == segment && bench.used[k] != 0) at.push_back(static_cast<int>(k));
+      if (points[k].segment == segment && weighted.used[k] != 0) at.push_back(static_cast<int>(k));
     }
     const int count = static_cast<int>(at.size());
     for (int w = 0; w < std::min(most, count / 4); ++w) {
@@ -49,15 +49,15 @@ struct Raw {
   int probe;
 };
 
-std::vector<Raw> Signatures(const Workbench& bench, const Effect& effect, const Imprint& imprint) {
+std::vector<Raw> Signatures(const WeightedData& weighted, const Effect& effect, const Signature& signature) {
   std::vector<Raw> raw;
   if (effect.found_by == FoundBy::kWaves) {
-    for (Eigen::VectorXd& wave : Waves(bench)) raw.push_back({std::move(wave), -1});
+    for (Eigen::VectorXd& wave : Waves(weighted)) raw.push_back({std::move(wave), -1});
     return raw;
   }
-  const auto moved = imprint.moved.find(&effect);
-  if (moved == imprint.moved.end()) return raw;
-  const Eigen::MatrixXd signatures = WhitenColumns(bench, moved->second);
+  const auto moved = signature.moved.find(&effect);
+  if (moved == signature.moved.end()) return raw;
+  const Eigen::MatrixXd signatures = WhitenColumns(weighted, moved->second);
   for (int k = 0; k < signatures.cols(); ++k) {
     const auto signature = signatures.col(k);
     if (signature.allFinite() && signature.norm() > 0) raw.push_back({signature, k});
@@ -88,16 +88,16 @@ Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& 
   return moved;
 }
 
-bool Serves(const Workbench& bench, const LawFit& fit, const std::vector<const Effect*>& effects,
-            const Imprint& imprint) {
-  if (imprint.fit.law.effects != fit.law.effects) return false;
+bool Serves(const WeightedData& weighted, const LawFit& fit, const std::vector<const Effect*>& effects,
+            const Signature& signature) {
+  if (signature.fit.law.effects != fit.law.effects) return false;
   for (const Effect* effect : effects) {
-    if (effect->probes != nullptr && imprint.moved.count(effect) == 0) return false;
+    if (effect->probes != nullptr && signature.moved.count(effect) == 0) return false;
   }
   const int count = static_cast<int>(fit.current.size());
   const Eigen::Map<const Eigen::VectorXd> here(fit.current.data(), count),
-      there(imprint.fit.current.data(), count);
-  return Whiten(bench, here - there).squaredNorm() < bench.count();
+      there(signature.fit.current.data(), count);
+  return Whiten(weighted, here - there).squaredNorm() < weighted.count();
 }
 
 // How far from its neutral value a probe's strength may still grow.
@@ -109,15 +109,15 @@ double Headroom(const Effect& effect, const Probe& probe) {
   return used > 0 ? std::max(upper, lower) / used : 1;
 }
 
-Candidate Prepare(const Workbench& bench, const Linearized& linear, const Effect& effect,
-                  const Imprint& imprint) {
+Candidate Prepare(const WeightedData& weighted, const Linearized& linear, const Effect& effect,
+                  const Signature& signature) {
   Candidate candidate;
   candidate.score.effect = &effect;
   candidate.two_sided = IsTwoSided(effect);
   const std::vector<Probe> probes =
-      effect.probes != nullptr ? effect.probes(bench.readings->traits) : std::vector<Probe>();
+      effect.probes != nullptr ? effect.probes(weighted.readings->traits) : std::vector<Probe>();
   std::vector<Eigen::VectorXd> kept;
-  for (const Raw& raw : Signatures(bench, effect, imprint)) {
+  for (const Raw& raw : Signatures(weighted, effect, signature)) {
     Eigen::VectorXd rest = raw.signature;
     TakeOut(linear.basis, &rest);
     Direction direction;
@@ -167,7 +167,7 @@ Candidate Prepare(const Workbench& bench, const Linearized& linear, const Effect
   return candidate;
 }
 
-Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, const Effect& effect) {
+Candidate PrepareOutliers(const WeightedData& weighted, const Linearized& linear, const Effect& effect) {
   Candidate candidate;
   candidate.score.effect = &effect;
   candidate.two_sided = true;
@@ -175,7 +175,7 @@ Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, cons
   candidate.score.kept = 1;
   Direction best;
   for (int k = 0; k < linear.residual.size(); ++k) {
-    if (bench.used[k] == 0) continue;
+    if (weighted.used[k] == 0) continue;
     const double room = 1 - linear.basis.row(k).squaredNorm();
     if (room < 1e-6) continue;
     const double score = std::fabs(linear.residual[k]) / std::sqrt(room);
@@ -190,40 +190,40 @@ Candidate PrepareOutliers(const Workbench& bench, const Linearized& linear, cons
 
 }  // namespace
 
-std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
                                            const std::vector<const Effect*>& effects,
-                                           Imprints* known) {
-  for (const auto& imprint : *known) {
-    if (Serves(bench, fit, effects, *imprint)) return imprint;
+                                           Signatures* known) {
+  for (const auto& signature : *known) {
+    if (Serves(weighted, fit, effects, *signature)) return signature;
   }
-  auto imprint = std::make_shared<Imprint>();
-  imprint->fit = fit;
+  auto signature = std::make_shared<Signature>();
+  signature->fit = fit;
   for (const Effect* effect : effects) {
-    if (Stopped(bench.watch)) break;
+    if (Stopped(weighted.watch)) break;
     if (effect->probes == nullptr) continue;
-    imprint->moved.emplace(effect, Move(*bench.readings, fit, *effect));
+    signature->moved.emplace(effect, Move(*weighted.readings, fit, *effect));
   }
-  known->push_back(imprint);
-  return imprint;
+  known->push_back(signature);
+  return signature;
 }
 
-Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
-                    const std::vector<const Effect*>& effects, Imprints* known) {
-  const std::shared_ptr<const Imprint> imprint = FindImprint(bench, fit, effects, known);
+Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
+                    const std::vector<const Effect*>& effects, Signatures* known) {
+  const std::shared_ptr<const Signature> signature = FindSignature(weighted, fit, effects, known);
   Prepared prepared;
-  prepared.linear = Linearize(bench, fit);
-  prepared.degrees = bench.count() - static_cast<int>(prepared.linear.basis.cols());
+  prepared.linear = Linearize(weighted, fit);
+  prepared.degrees = weighted.count() - static_cast<int>(prepared.linear.basis.cols());
   const double sum = prepared.linear.residual.squaredNorm();
   for (const Effect* effect : effects) {
-    if (Stopped(bench.watch)) break;
+    if (Stopped(weighted.watch)) break;
     const bool single = effect->found_by == FoundBy::kSingleReading;
-    Candidate candidate = single ? PrepareOutliers(bench, prepared.linear, *effect)
-                                 : Prepare(bench, prepared.linear, *effect, *imprint);
+    Candidate candidate = single ? PrepareOutliers(weighted, prepared.linear, *effect)
+                                 : Prepare(weighted, prepared.linear, *effect, *signature);
     if (prepared.degrees < 3) candidate.score.testable = false;
     if (candidate.score.testable) {
       const double best = candidate.score.directions.front().score;
       const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
-      candidate.score.statistic = Statistic(size, sum, prepared.degrees, bench.least_variance);
+      candidate.score.statistic = Statistic(size, sum, prepared.degrees, weighted.least_variance);
     }
     prepared.candidates.push_back(std::move(candidate));
   }

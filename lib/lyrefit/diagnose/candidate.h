@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -26,7 +26,7 @@ struct Score {
   std::string why_not;
   std::vector<Direction> directions;  // the best first
   double statistic = 0;               // F(1, dof - 1) of the best direction
-  double p_value = 1;                 // all its directions counted, by simulated nulls
+  double p_value = 1;                 // all its directions counted, by simulated null_statistics
   double corrected_p = 1;             // the whole catalogue counted
   double charge = 0;                  // 2 ln of its effective number of directions
   double catalogue = 1;               // how many such effects the whole list is worth
@@ -34,7 +34,7 @@ struct Score {
   int outlier = -1;                   // of what is found by single readings: the furthest off
 };
 
-// An effect on its bench: its own part of a score, and how it would show in noise.
+// An effect on weighted data: its own part of a score, and how it would show in noise.
 struct Candidate {
   Score score;
   bool two_sided = false;
@@ -50,21 +50,21 @@ struct Prepared {
 
 // What the probes of effects do to the currents of a fitted law, not whitened: a column a probe, 0
 // where it cannot be had. Other fits of the same law that lie within the noise share it.
-struct Imprint {
+struct Signature {
   LawFit fit;
   std::map<const Effect*, Eigen::MatrixXd> moved;
 };
-using Imprints = std::vector<std::shared_ptr<const Imprint>>;
+using Signatures = std::vector<std::shared_ptr<const Signature>>;
 
 // One of `known` that serves this fit and all of `effects`, else a new one, which is added.
-std::shared_ptr<const Imprint> FindImprint(const Workbench& bench, const LawFit& fit,
+std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
                                            const std::vector<const Effect*>& effects,
-                                           Imprints* known);
+                                           Signatures* known);
 
 // Every effect of `effects` beside the residuals of `fit`, not judged yet, each scored
 // on what it is found by: its probes, smooth waves along each stretch, single readings.
-Prepared PrepareAll(const Workbench& bench, const LawFit& fit,
-                    const std::vector<const Effect*>& effects, Imprints* known);
+Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
+                    const std::vector<const Effect*>& effects, Signatures* known);
 
 // F(1, degrees - 1) of a score that takes its square off a sum of squares.
 double Statistic(double score, double sum, int degrees, double least_variance);

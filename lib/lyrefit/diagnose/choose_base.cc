@@ -14,7 +14,7 @@ LawFit Better(LawFit a, LawFit b) {
 }
 
 // The fit beside a constant shunt, as the catalogue's shunt that grows with light has it.
-LawFit WithConstantShunt(const Workbench& bench, const LawFit& inverse) {
+LawFit WithConstantShunt(const WeightedData& weighted, const LawFit& inverse) {
   LawFit best;
   for (const double law : {0.0, 1.0}) {  // linear and exponential
     Law both = inverse.law;
@@ -25,22 +25,22 @@ LawFit WithConstantShunt(const Workbench& bench, const LawFit& inverse) {
     start[kBaseConductance] = 0.05 * lit;
     start.push_back(0.95 * lit);
     start.push_back(law);
-    best = Better(std::move(best), FitLaw(bench, both, start));
+    best = Better(std::move(best), FitLaw(weighted, both, start));
   }
   return best;
 }
 
-Law ChooseShunt(const Workbench& bench, const Law& law) {
+Law ChooseShunt(const WeightedData& weighted, const Law& law) {
   // Less than this, in units of the noise variance, says nothing for two more parameters.
   constexpr double kNothing = 6;
-  const LawFit constant = FitBase(bench, law);
+  const LawFit constant = FitBase(weighted, law);
   Law proportional = law;
   proportional.shunt = ShuntLaw::kInverse;
-  const LawFit inverse = FitLaw(bench, proportional, constant.p);
+  const LawFit inverse = FitLaw(weighted, proportional, constant.p);
   if (!constant.usable || !inverse.usable || inverse.sum >= constant.sum) return law;
-  const LawFit both = WithConstantShunt(bench, inverse);
+  const LawFit both = WithConstantShunt(weighted, inverse);
   if (!both.usable) return proportional;
-  const double variance = NoiseVariance(bench, both);
+  const double variance = NoiseVariance(weighted, both);
   return inverse.sum - both.sum > kNothing * variance ? law : proportional;
 }
 
@@ -57,18 +57,18 @@ Law StartingLaw(const Readings& readings, Model model) {
   return law;
 }
 
-Law ChooseLaw(const Workbench& bench, const Law& law) {
-  const DataTraits& traits = bench.readings->traits;
+Law ChooseLaw(const WeightedData& weighted, const Law& law) {
+  const DataTraits& traits = weighted.readings->traits;
   Law chosen = law;
-  const bool slope_stated = bench.readings->bandgap_slope_per_K.has_value();
+  const bool slope_stated = weighted.readings->bandgap_slope_per_K.has_value();
   if (traits.temperature_levels > 1 && !law.free_bandgap && !slope_stated) {
     Law level = law;
     level.bandgap_slope_per_K = 0;
-    const LawFit sloping = FitBase(bench, law);
-    const LawFit flat = FitBase(bench, level);
+    const LawFit sloping = FitBase(weighted, law);
+    const LawFit flat = FitBase(weighted, level);
     if (flat.usable && (!sloping.usable || flat.sum < sloping.sum)) chosen = level;
   }
-  return traits.irradiance_levels > 1 ? ChooseShunt(bench, chosen) : chosen;
+  return traits.irradiance_levels > 1 ? ChooseShunt(weighted, chosen) : chosen;
 }
 
 std::string DescribeLaw(const Readings& readings, const Law& law) {

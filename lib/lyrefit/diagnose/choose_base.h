@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -15,7 +15,7 @@ Law StartingLaw(const Readings& readings, Model model);
 
 // `law` as the readings have it. Rsh in inverse proportion only where a constant shunt beside it
 // would add nothing: one that merely grows with light is a finding.
-Law ChooseLaw(const Workbench& bench, const Law& law);
+Law ChooseLaw(const WeightedData& weighted, const Law& law);
 
 // What a base law assumes, in words.
 std::string DescribeLaw(const Readings& readings, const Law& law);

@@ -8,8 +8,8 @@
 
 #include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/material.h"
-#include "lyrefit/diagnose/words.h"
+#include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -24,11 +24,11 @@ std::string Short(double value) {
 }
 
 // Readings at which a cause takes most from the current, or adds to it: above half of the most.
-std::vector<int> WhereItActs(const Workbench& bench, const LawFit& with, int index) {
+std::vector<int> WhereItActs(const WeightedData& weighted, const LawFit& with, int index) {
   const LawFit rest = TakenOut(with, index);
   std::vector<double> current(with.current.size());
   LawWorkspace workspace;
-  if (!EvaluateLaw(rest.law, *bench.readings, rest.p.data(), &workspace, current.data(), nullptr)) {
+  if (!EvaluateLaw(rest.law, *weighted.readings, rest.p.data(), &workspace, current.data(), nullptr)) {
     return {};
   }
   std::vector<double> moves;
@@ -63,12 +63,12 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
 // Standard errors of a fit's parameters as they are told of one effect: what moves with the light
 // takes up what the module departs by, which then seems less than it is, and has a shape of its
 // own.
-std::vector<double> AllowedErrors(const Workbench& bench, const LawFit& fit, const Effect& effect) {
+std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fit, const Effect& effect) {
   constexpr double kUnlike = 3;  // modules are so much more unlike than one sweep of one tells
-  if (bench.path == 0 || effect.where != Where::kSweep) {
-    return StandardErrors(Linearize(bench, fit), fit.law.size());
+  if (weighted.path == 0 || effect.where != Where::kSweep) {
+    return StandardErrors(Linearize(weighted, fit), fit.law.size());
   }
-  Workbench allowed = bench;
+  WeightedData allowed = weighted;
   allowed.path *= kUnlike;
   LawFit freed = fit;
   for (int k = 0; k < effect.size(); ++k) {
@@ -90,16 +90,16 @@ Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) 
   return cause;
 }
 
-double RmseOf(const Workbench& bench, const std::vector<double>& current) {
+double RmseOf(const WeightedData& weighted, const std::vector<double>& current) {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const Reading& reading = bench.readings->points[k];
+    if (weighted.used[k] == 0) continue;
+    const Reading& reading = weighted.readings->points[k];
     const double r = current[k] - reading.current;
     sum += reading.weight * (r * r + reading.scatter);
     count += reading.weight;
   }
-  return bench.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
+  return weighted.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
 }
 
 std::string StrengthText(const CauseParameter& parameter) {
@@ -111,24 +111,24 @@ std::string StrengthText(const CauseParameter& parameter) {
   return text;
 }
 
-std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
+std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,
                                                int index) {
   const Effect& effect = *fit.law.effects[index];
   const int first = fit.law.Offset(index);
-  const std::vector<double> errors = AllowedErrors(bench, fit, effect);
-  const double spread = StudentT95(Degrees(bench, fit.law)) * std::sqrt(NoiseVariance(bench, fit));
+  const std::vector<double> errors = AllowedErrors(weighted, fit, effect);
+  const double spread = StudentT95(Degrees(weighted, fit.law)) * std::sqrt(NoiseVariance(weighted, fit));
   std::vector<CauseParameter> described;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     const double value = fit.p[first + k];
     if (value == info.absent_at) continue;
-    const double factor = info.ReportedFactor(fit.p.data() + first, bench.readings->scale);
+    const double factor = info.ReportedFactor(fit.p.data() + first, weighted.readings->scale);
     CauseParameter parameter{info.symbol, info.name, info.unit, value * factor,
                              kUnknown,    kUnknown,  false};
     const double slack = 1e-6 * (info.upper - info.lower);
     parameter.at_bound = value <= info.lower + slack || value >= info.upper - slack;
     if (errors[first + k] > 0) {
-      const double scatter = bench.path > 0 ? kNormal95 * info.scatter : 0;
+      const double scatter = weighted.path > 0 ? kNormal95 * info.scatter : 0;
       const double half = std::hypot(spread * errors[first + k], scatter);
       const double low = std::max(value - half, info.lower) * factor;
       const double high = std::min(value + half, info.upper) * factor;
@@ -144,10 +144,10 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
                                   const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
                                   const DiagnoseOptions& options) {
-  const Workbench& bench = selection.base_bench;
-  const int points = bench.count();
+  const WeightedData& weighted = selection.base_weighted;
+  const int points = weighted.count();
   const double base_aicc =
-      FindInformation(selection.base.sum / points, points, FreeCount(bench, selection.base.law))
+      FindInformation(selection.base.sum / points, points, FreeCount(weighted, selection.base.law))
           .aicc;
   std::vector<Trial> trials;
   for (const Effect* effect : known) {
@@ -168,23 +168,23 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
     } else if (!allowed) {
       trial.why_not = "part of the base model";
     }
-    for (const Rival& rival : selection.trials) {
-      if (rival.score.effect != effect) continue;
-      trial.kept = rival.score.kept;
-      if (!rival.score.testable) {
-        trial.why_not = rival.score.why_not;
+    for (const FittedCandidate& fitted : selection.trials) {
+      if (fitted.score.effect != effect) continue;
+      trial.kept = fitted.score.kept;
+      if (!fitted.score.testable) {
+        trial.why_not = fitted.score.why_not;
         continue;
       }
       trial.tried = true;
-      trial.p_value = rival.score.p_value;
-      trial.corrected_p = rival.score.corrected_p;
-      trial.misfit = std::sqrt(std::max(rival.statistic, rival.score.statistic));
-      if (!rival.fit.usable) continue;
-      trial.rmse_A = RmseOf(bench, rival.fit.current);
+      trial.p_value = fitted.score.p_value;
+      trial.corrected_p = fitted.score.corrected_p;
+      trial.misfit = std::sqrt(std::max(fitted.statistic, fitted.score.statistic));
+      if (!fitted.fit.usable) continue;
+      trial.rmse_A = RmseOf(weighted, fitted.fit.current);
       trial.delta_aicc =
-          FindInformation(rival.fit.sum / points, points, FreeCount(bench, rival.fit.law)).aicc -
+          FindInformation(fitted.fit.sum / points, points, FreeCount(weighted, fitted.fit.law)).aicc -
           base_aicc;
-      trial.parameters = DescribeParameters(bench, rival.fit, rival.fit.law.effects.size() - 1);
+      trial.parameters = DescribeParameters(weighted, fitted.fit, fitted.fit.law.effects.size() - 1);
     }
     trials.push_back(trial);
   }
@@ -192,35 +192,35 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
 }
 
 // Sizes and what they mean; `without`: the fit without effect `index`.
-void DescribeSize(const Workbench& bench, const LawFit& with, int index, const LawFit& without,
+void DescribeSize(const WeightedData& weighted, const LawFit& with, int index, const LawFit& without,
                   Cause* cause) {
-  cause->strength = DescribeParameters(bench, with, index);
-  cause->in_words = InWords(bench, with, index);
+  cause->strength = DescribeParameters(weighted, with, index);
+  cause->in_words = InWords(weighted, with, index);
   if (!without.usable) return;
-  const EffectSize size = SizeOf(bench, with, index, MakeWithout(bench, without));
+  const EffectSize size = SizeOf(weighted, with, index, MakeWithout(weighted, without));
   const double half = size.current * size.reach;
   cause->current_effect = {size.current, std::max(size.current - half, 0.0), size.current + half};
   cause->power_effect = {size.power, size.power - size.power_error, size.power + size.power_error};
   if (size.recoverable > 0) {
-    cause->recoverable_power_W = size.recoverable * DevicePower(bench, with);
+    cause->recoverable_power_W = size.recoverable * DevicePower(weighted, with);
     cause->in_words.push_back(fmt::format("without it Pmax would be {:.4g} W, {:+.1f} %",
-                                          (1 + size.recoverable) * DevicePower(bench, with),
+                                          (1 + size.recoverable) * DevicePower(weighted, with),
                                           100 * size.recoverable));
   }
 }
 
 std::vector<Cause> DescribeBelow(const Selection& selection) {
   std::vector<Cause> causes;
-  for (const Rival& rival : selection.below) {
-    if (!rival.fit.usable) continue;
-    const Effect& effect = *rival.score.effect;
+  for (const FittedCandidate& fitted : selection.below) {
+    if (!fitted.fit.usable) continue;
+    const Effect& effect = *fitted.score.effect;
     if (!causes.empty()) {
-      if (rival.Charged() < selection.below.front().Charged() - kEquivalenceWidth) continue;
+      if (fitted.Charged() < selection.below.front().Charged() - kEquivalenceWidth) continue;
       causes.front().equivalents.push_back(effect.id);
       continue;
     }
-    Cause cause = MakeCause(effect, "fit", rival.corrected_p);
-    DescribeSize(selection.bench, rival.fit, static_cast<int>(rival.fit.law.effects.size()) - 1,
+    Cause cause = MakeCause(effect, "fit", fitted.corrected_p);
+    DescribeSize(selection.weighted, fitted.fit, static_cast<int>(fitted.fit.law.effects.size()) - 1,
                  selection.extended, &cause);
     cause.in_words.clear();  // nothing to act on
     cause.recoverable_power_W = kUnknown;
@@ -233,17 +233,17 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
                                   const ValueFindings& values) {
   std::vector<Cause> causes;
-  const Workbench& bench = selection.bench;
+  const WeightedData& weighted = selection.weighted;
   for (std::size_t c = 0; c < selection.causes.size(); ++c) {
     const ChosenCause& chosen = selection.causes[c];
     const Effect& effect = *chosen.effect;
     const bool by_values = chosen.in_values;
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.corrected_p);
-    DescribeSize(bench, selection.extended, static_cast<int>(c), selection.without[c], &cause);
-    for (const Rival* rival : EquivalentsOf(chosen)) {
-      cause.equivalents.push_back(rival->score.effect->id);
+    DescribeSize(weighted, selection.extended, static_cast<int>(c), selection.without[c], &cause);
+    for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
+      cause.equivalents.push_back(fitted->score.effect->id);
       AddSeparation(effect, &cause.separate_by);
-      AddSeparation(*rival->score.effect, &cause.separate_by);
+      AddSeparation(*fitted->score.effect, &cause.separate_by);
     }
     if (by_values) {
       cause.points = values.clipped;
@@ -251,12 +251,12 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
         cause.points.insert(cause.points.end(), more->begin(), more->end());
       }
       if (!values.at_voltage_limit.empty()) {
-        const double limit = values.voltage_limit * bench.readings->scale.cells;
+        const double limit = values.voltage_limit * weighted.readings->scale.cells;
         cause.strength.push_back({"Vc", "voltage_limit", "V", limit, limit, limit, false});
       }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
-      cause.points = at.Behind(WhereItActs(bench, selection.extended, static_cast<int>(c)));
+      cause.points = at.Behind(WhereItActs(weighted, selection.extended, static_cast<int>(c)));
     }
     cause.sentence = CauseSentence(cause, effect);
     if (by_values) {
@@ -270,18 +270,18 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     cause.points = at.Behind(selection.outliers);
     std::sort(cause.points.begin(), cause.points.end());
     cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +
-                      std::to_string(at.bench.readings->points.size()) + " readings, left out";
+                      std::to_string(at.weighted.readings->points.size()) + " readings, left out";
     causes.push_back(std::move(cause));
   }
   return causes;
 }
 
 std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
-  const Workbench& bench = selection.bench;
-  const Readings& readings = *bench.readings;
+  const WeightedData& weighted = selection.weighted;
+  const Readings& readings = *weighted.readings;
   const LawFit &before = selection.base, &after = selection.extended;
-  const std::vector<double> errors = StandardErrors(Linearize(bench, after), after.law.size());
-  const double sd = std::sqrt(NoiseVariance(bench, after));
+  const std::vector<double> errors = StandardErrors(Linearize(weighted, after), after.law.size());
+  const double sd = std::sqrt(NoiseVariance(weighted, after));
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
   double brightest = 1;
   if (readings.traits.single && !readings.traits.only_dark) {
@@ -327,9 +327,9 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
       [&](const LawFit& f) { return cells / (f.p[kBaseConductance] * scale); },
       errors[kBaseConductance] * sd * cells / (g * g * scale));
   if (!readings.traits.only_dark) {
-    const PowerAndError now = DevicePowerAndError(bench, after);
+    const PowerAndError now = DevicePowerAndError(weighted, after);
     add(
-        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(bench, f); },
+        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(weighted, f); },
         now.error * now.power_W);
   }
   return shifts;

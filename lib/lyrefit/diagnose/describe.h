@@ -10,7 +10,7 @@
 namespace lyrefit {
 
 // A fit's effect `index` in a person's units, with symmetric 95 % intervals cut at the bounds.
-std::vector<CauseParameter> DescribeParameters(const Workbench& bench, const LawFit& fit,
+std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,
                                                int index);
 
 // One trial for each of the `known` effects, fitted or not.
@@ -35,7 +35,7 @@ std::string StrengthText(const CauseParameter& parameter);
 // Base parameters with and without the causes, and the maximum power of the device.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
 
-// RMSE in ampere over the readings a bench uses, also those behind averages.
-double RmseOf(const Workbench& bench, const std::vector<double>& current);
+// RMSE in ampere over the used readings, also those behind averages.
+double RmseOf(const WeightedData& weighted, const std::vector<double>& current);
 
 }  // namespace lyrefit

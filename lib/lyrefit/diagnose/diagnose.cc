@@ -18,7 +18,7 @@
 #include "lyrefit/diagnose/extended_report.h"
 #include "lyrefit/diagnose/held_out.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/make_plan.h"
+#include "lyrefit/diagnose/experiment_design.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/prove_causes.h"
 #include "lyrefit/diagnose/select.h"
@@ -42,11 +42,11 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptio
   std::vector<double> whitened;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     whitened.push_back((selection->extended.current[k] - readings.points[k].current) /
-                       selection->bench.sigma[k]);
+                       selection->weighted.sigma[k]);
   }
   const Autocorrelation correlation =
-      EstimateAutocorrelation(readings, whitened, selection->bench.used,
-                              FreeCount(selection->bench, selection->extended.law));
+      EstimateAutocorrelation(readings, whitened, selection->weighted.used,
+                              FreeCount(selection->weighted, selection->extended.law));
   const bool coarse = IsCoarse(measurement, selection->noise);
   if (!measurement.has_path() && !coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
@@ -75,7 +75,7 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const A
     point.segment = r.segment;
     point.voltage_V = curve.voltage_V[r.index];
     point.current_A = curve.current_A[r.index];
-    point.sigma_A = at.bench.sigma[k] * scale;
+    point.sigma_A = at.weighted.sigma[k] * scale;
     point.before_A = at.base[k] * scale;
     point.after_A = at.extended[k] * scale;
     point.without_A = at.without[k] * scale;
@@ -90,8 +90,8 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const A
 }
 
 void DescribeGain(const Selection& selection, const AtReadings& at, bool field, Gain* gain) {
-  gain->rmse_before_A = RmseOf(at.bench, at.base);
-  gain->rmse_after_A = RmseOf(at.bench, at.extended);
+  gain->rmse_before_A = RmseOf(at.weighted, at.base);
+  gain->rmse_after_A = RmseOf(at.weighted, at.extended);
   gain->shifts = DescribeShifts(selection);
   gain->gain = gain->folds > 1 && gain->held_out_gain_A2 > gain->held_out_gain_error_A2;
   if (selection.causes.empty() && selection.outliers.empty()) {
@@ -115,7 +115,7 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
   diagnosis->warnings = diagnosis->doubts;
   diagnosis->warnings.insert(diagnosis->warnings.end(), measurement.warnings.begin(),
                              measurement.warnings.end());
-  if (selection.bench.correlation > 0) {
+  if (selection.weighted.correlation > 0) {
     diagnosis->warnings.push_back(
         "the noise of neighbouring readings is correlated; p-values allow for it, but trust them "
         "less");
@@ -196,7 +196,7 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
   Outcome outcome;
   outcome.correlation = SelectWhitened(seen, select, &outcome.found);
   if (!outcome.found.base.usable) return outcome;
-  FindRivals(select, &outcome.found);
+  FindFittedCandidates(select, &outcome.found);
   outcome.at =
       is_long ? AtItsReadings(outcome.found, averaged, measurement) : AtItsReadings(outcome.found);
   diagnosis->trials =
@@ -234,10 +234,10 @@ void DescribeEvidenceAndVerdict(const Measurement& measurement, const Outcome& o
   Evidence& evidence = diagnosis->evidence;
   evidence = DescribeEvidence(found, at, measurement.values, outcome.correlation);
   if (measurement.noise_is_stated()) {
-    evidence.noise_stated_A = UpperMedian(at.bench.sigma) * readings.scale.current_A;
+    evidence.noise_stated_A = UpperMedian(at.weighted.sigma) * readings.scale.current_A;
   }
-  evidence.whiteness_p_value = Whiteness(found.base_bench, found.base);
-  evidence.whiteness_after_p_value = Whiteness(found.bench, found.extended);
+  evidence.whiteness_p_value = Whiteness(found.base_weighted, found.base);
+  evidence.whiteness_after_p_value = Whiteness(found.weighted, found.extended);
   diagnosis->verdict = Decide(measurement, found, at, options, evidence.whiteness_after_p_value);
 }
 

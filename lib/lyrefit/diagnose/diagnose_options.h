@@ -31,7 +31,7 @@ struct DiagnoseOptions {
   // mean square over the curve), in parts of Pmax. What is there below them is said apart.
   double floor_current = 0.0025;
   double floor_power = 0.005;
-  int draws = 2000;        // simulated nulls
+  int draws = 2000;        // simulated null_statistics
   int largest_causes = 4;  // at most so many are named
   bool held_out = true;    // measure the gain on what was not fitted
   int folds = 10;
@@ -41,7 +41,7 @@ struct DiagnoseOptions {
   int threads = 0;
 };
 
-// For readings of little noise at a bench, of a device that is known to follow its model: white
+// For laboratory readings of little noise, of a device that is known to follow its model: white
 // noise, and whatever is there is named.
 inline DiagnoseOptions LaboratoryOptions() {
   DiagnoseOptions options;
@@ -77,13 +77,13 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      OptionTrait::kNoFlag},
     {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
      0.5},
-    {"seed", "", "seed of the simulated nulls and of the search", &DiagnoseOptions::seed, 0,
+    {"seed", "", "seed of the simulated null_statistics and of the search", &DiagnoseOptions::seed, 0,
      1.8446744073709552e19},
     {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",
      &DiagnoseOptions::floor_current, 0, 1},
     {"floor-power", "", "smallest effect that is named, in parts of Pmax",
      &DiagnoseOptions::floor_power, 0, 1},
-    {"draws", "", "simulated nulls that set the level", &DiagnoseOptions::draws, 200, 1e6},
+    {"draws", "", "simulated null_statistics that set the level", &DiagnoseOptions::draws, 200, 1e6},
     {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
     {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,
      100},

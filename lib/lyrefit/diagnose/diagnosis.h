@@ -138,7 +138,7 @@ struct Verdict {
   std::vector<Cause> causes;  // the most certain first
   // There beyond doubt, but too small to act on.
   std::vector<Cause> below_floor;
-  Sized departure;  // of the data from the base model beyond noise, rms in parts of Isc
+  Sized lack_of_fit;  // of the data from the base model beyond noise, rms in parts of Isc
   std::vector<CannotBeExcluded> cannot_be_excluded;  // what the data cannot show
   std::string sentence;
 };

@@ -2,20 +2,20 @@
 
 namespace lyrefit {
 
-const Rival* OwnRival(const ChosenCause& cause) {
-  for (const Rival& rival : cause.rivals) {
-    if (rival.score.effect == cause.effect) return &rival;
+const FittedCandidate* OwnFittedCandidate(const ChosenCause& cause) {
+  for (const FittedCandidate& fitted : cause.fitted_candidates) {
+    if (fitted.score.effect == cause.effect) return &fitted;
   }
   return nullptr;
 }
 
-std::vector<const Rival*> EquivalentsOf(const ChosenCause& cause) {
-  std::vector<const Rival*> equivalents;
+std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
+  std::vector<const FittedCandidate*> equivalents;
   if (cause.in_values) return equivalents;
-  const Rival* own = OwnRival(cause);
+  const FittedCandidate* own = OwnFittedCandidate(cause);
   const double least = (own != nullptr ? own->Charged() : 0) - kEquivalenceWidth;
-  for (const Rival& rival : cause.rivals) {
-    if (&rival != own && rival.Charged() >= least) equivalents.push_back(&rival);
+  for (const FittedCandidate& fitted : cause.fitted_candidates) {
+    if (&fitted != own && fitted.Charged() >= least) equivalents.push_back(&fitted);
   }
   return equivalents;
 }

@@ -10,11 +10,11 @@ namespace lyrefit {
 // what each pays for its freedom).
 constexpr double kEquivalenceWidth = 6;
 
-// The rivals that these data cannot tell from a cause, the best first; none where it shows in the
+// The fitted candidates that these data cannot tell from a cause, the best first; none where it shows in the
 // values themselves.
-std::vector<const Rival*> EquivalentsOf(const ChosenCause& cause);
+std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause);
 
-// The cause's own among its rivals; nullptr if it is not there.
-const Rival* OwnRival(const ChosenCause& cause);
+// The cause's own among the fitted candidates; nullptr if it is not there.
+const FittedCandidate* OwnFittedCandidate(const ChosenCause& cause);
 
 }  // namespace lyrefit

@@ -20,7 +20,7 @@ double MedianSigma(const Noise& noise) { return UpperMedian(noise.sigma); }
 
 // Of what the base model leaves at the readings that `used` marks.
 ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& used) {
-  const Readings& readings = *at.bench.readings;
+  const Readings& readings = *at.weighted.readings;
   std::vector<double> voltages, residuals;
   for (std::size_t g = 0; g + 1 < at.first.size(); ++g) {
     for (int k = at.first[g]; k < at.first[g + 1] && used[g] != 0; ++k) {
@@ -32,16 +32,16 @@ ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& u
 }
 
 // By how much a fit misses the readings, also those behind averages, in units of their noise.
-double MisfitRatio(const Workbench& bench, const LawFit& fit, const AtReadings& at) {
+double MisfitRatio(const WeightedData& weighted, const LawFit& fit, const AtReadings& at) {
   double within = 0, more = 0;  // squares about the averages, and their readings beyond one
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const Reading& reading = bench.readings->points[k];
-    const double sigma = at.bench.sigma[at.first[k]];
+    if (weighted.used[k] == 0) continue;
+    const Reading& reading = weighted.readings->points[k];
+    const double sigma = at.weighted.sigma[at.first[k]];
     within += reading.weight * reading.scatter / (sigma * sigma);
     more += reading.weight - 1;
   }
-  return std::sqrt((fit.sum + within) / (Degrees(bench, fit.law) + more));
+  return std::sqrt((fit.sum + within) / (Degrees(weighted, fit.law) + more));
 }
 
 // A photocurrent that no string of cells gives at 1000 W/m2: the irradiance is not what was stated.
@@ -63,7 +63,7 @@ void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
 
 // n below 1 is a hint at a wrong temperature or number of cells long before it is a proof.
 void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
-  const Readings& readings = *selection.bench.readings;
+  const Readings& readings = *selection.weighted.readings;
   const double n = std::min(selection.base.p[kBaseIdeality], selection.extended.p[kBaseIdeality]);
   if (n > 1) return;
   const double kelvin = readings.reference_temperature_K * n;
@@ -78,7 +78,7 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
 
 // Readings that stand at a limit of the instrument, and grids that they lie on.
 void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidence* evidence) {
-  const ReadingScale& scale = at.bench.readings->scale;
+  const ReadingScale& scale = at.weighted.readings->scale;
   const auto clipping = [&](const std::vector<int>& points, const std::string& text) {
     evidence->findings.push_back({"clipping", text, points});
   };
@@ -125,11 +125,11 @@ void AddResidualFindings(const Selection& selection, Evidence* evidence) {
                      evidence->residuals.runs_p_value),
          {}});
   }
-  if (selection.bench.correlation > 0) {
+  if (selection.weighted.correlation > 0) {
     findings.push_back({"autocorrelation",
                         fmt::format("neighbouring noise is correlated by {:.2f}; the tests allow "
                                     "for it",
-                                    selection.bench.correlation),
+                                    selection.weighted.correlation),
                         {}});
   }
 }
@@ -138,7 +138,7 @@ void AddFindings(const Selection& selection, const AtReadings& at, const ValueFi
                  Evidence* evidence) {
   AddValueFindings(at, values, evidence);
   AddResidualFindings(selection, evidence);
-  AddIrradianceFinding(*at.bench.readings, evidence);
+  AddIrradianceFinding(*at.weighted.readings, evidence);
   AddIdealityFinding(selection, evidence);
   const LawFit& fit = selection.extended;
   for (const auto& [k, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
@@ -149,13 +149,13 @@ void AddFindings(const Selection& selection, const AtReadings& at, const ValueFi
 
 }  // namespace
 
-double Whiteness(const Workbench& bench, const LawFit& fit) {
+double Whiteness(const WeightedData& weighted, const LawFit& fit) {
   constexpr int kLags = 8;
-  const std::vector<Reading>& points = bench.readings->points;
+  const std::vector<Reading>& points = weighted.readings->points;
   const int count = static_cast<int>(points.size());
   Eigen::VectorXd r(count);
   for (int k = 0; k < count; ++k) r[k] = fit.current[k] - points[k].current;
-  r = Whiten(bench, r);
+  r = Whiten(weighted, r);
   const double total = r.squaredNorm();
   if (count < 3 * kLags || !(total > 0) || !std::isfinite(total)) return 1;
   double statistic = 0;
@@ -193,19 +193,19 @@ std::string KindOfData(const Readings& readings) {
 
 Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
                           const ValueFindings& values, const Autocorrelation& autocorrelation) {
-  const Workbench& bench = selection.base_bench;
-  const Readings& readings = *at.bench.readings;
+  const WeightedData& weighted = selection.base_weighted;
+  const Readings& readings = *at.weighted.readings;
   const double scale = readings.scale.current_A;
   Evidence evidence;
   evidence.kind = KindOfData(readings);
   evidence.noise_constant_A = at.noise.lit.constant * scale;
   evidence.noise_voltage_V = at.noise.lit.voltage * readings.scale.cells;
   evidence.noise_relative = at.noise.lit.relative;
-  evidence.noise_path_A = selection.bench.path * scale;
+  evidence.noise_path_A = selection.weighted.path * scale;
   if (readings.traits.dark || readings.traits.only_dark) {
     evidence.noise_dark_A = at.noise.dark.constant * scale;
   }
-  evidence.misfit_ratio = MisfitRatio(bench, selection.base, at);
+  evidence.misfit_ratio = MisfitRatio(weighted, selection.base, at);
   evidence.autocorrelation = autocorrelation.value;
   evidence.grid_step_A = std::max(values.grids.lit, values.grids.dark) * scale;
   std::vector<double> voltages;
@@ -213,7 +213,7 @@ Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
   evidence.grid_step_V = FindGrid(voltages);
   evidence.clipped_points = static_cast<int>(values.clipped.size());
   evidence.clip_level_A = values.clip_level * scale;
-  evidence.residuals = StatisticsOf(at, bench.used);
+  evidence.residuals = StatisticsOf(at, weighted.used);
   AddFindings(selection, at, values, &evidence);
   return evidence;
 }
@@ -229,7 +229,7 @@ Cause Metadata(const char* evidence, double p) {
 
 // The stated number of cells would need more voltage of each than a junction gives.
 Cause WrongCells(const Selection& selection) {
-  const DataTraits& traits = selection.bench.readings->traits;
+  const DataTraits& traits = selection.weighted.readings->traits;
   const double cells = traits.cells * selection.extended.p[kBaseIdeality];
   Cause cause = Metadata("values", 0);
   cause.strength = {{"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
@@ -272,16 +272,16 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   // the number of cells is rather wrong than the junction.
   // A module that departs from its model along a path bends n by more than its error says.
   constexpr double kBent = 0.9, kLargest = 3, kSure = 1e-4;
-  const double smallest = selection.bench.path > 0 ? kBent : 0.97;
+  const double smallest = selection.weighted.path > 0 ? kBent : 0.97;
   const LawFit& fit = selection.extended;
-  const Workbench& bench = selection.bench;
-  const Readings& readings = *bench.readings;
+  const WeightedData& weighted = selection.weighted;
+  const Readings& readings = *weighted.readings;
   const DataTraits& traits = readings.traits;
   if (traits.cells_known && traits.stated_cells != traits.cells) return {WrongCells(selection)};
   const double n = fit.p[kBaseIdeality];
   if (n >= smallest && n <= kLargest) return {};
-  const std::vector<double> errors = StandardErrors(Linearize(bench, fit), fit.law.size());
-  const double error = errors[kBaseIdeality] * std::sqrt(SquarePerDegree(bench, fit));
+  const std::vector<double> errors = StandardErrors(Linearize(weighted, fit), fit.law.size());
+  const double error = errors[kBaseIdeality] * std::sqrt(SquarePerDegree(weighted, fit));
   if (!(error > 0)) return {};
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
@@ -290,7 +290,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   // n Ns T is what the data say; the plausible range of n turns it into the others'.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
-  const double z = StudentT95(Degrees(bench, fit.law)) * error;
+  const double z = StudentT95(Degrees(weighted, fit.law)) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false},
                     {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - kZeroCelsius_K,
                      kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, false},

@@ -12,7 +12,7 @@ namespace lyrefit {
 std::string KindOfData(const Readings& readings);
 
 // p-value of Ljung and Box's test over 8 lags inside each stretch, of whitened residuals.
-double Whiteness(const Workbench& bench, const LawFit& fit);
+double Whiteness(const WeightedData& weighted, const LawFit& fit);
 
 // Everything that was seen before a cause was thought of.
 Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,

@@ -29,8 +29,8 @@ constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
                              {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
 
 // Values in a person's units, in the order of the report.
-std::vector<double> Reported(const Workbench& bench, const Law& law, const std::vector<double>& p) {
-  const Readings& readings = *bench.readings;
+std::vector<double> Reported(const WeightedData& weighted, const Law& law, const std::vector<double>& p) {
+  const Readings& readings = *weighted.readings;
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
   double light = 1;
   if (readings.traits.single && !readings.traits.only_dark) {
@@ -99,7 +99,7 @@ void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
                         std::vector<Estimate>* estimates) {
   const LawFit& fit = selection.extended;
   const Effect& effect = *fit.law.effects[e];
-  const auto described = DescribeParameters(selection.bench, fit, e);
+  const auto described = DescribeParameters(selection.weighted, fit, e);
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     Estimate& estimate = (*estimates)[first + k];
@@ -113,7 +113,7 @@ void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
     estimate.fixed = info.searched;
     if (std::isfinite(estimate.low_95)) estimate.interval = IntervalMethod::kSymmetric;
     const double factor =
-        info.ReportedFactor(fit.p.data() + fit.law.Offset(e), selection.bench.readings->scale);
+        info.ReportedFactor(fit.p.data() + fit.law.Offset(e), selection.weighted.readings->scale);
     estimate.bounds.lower = std::min(info.lower * factor, info.upper * factor);
     estimate.bounds.upper = std::max(info.lower * factor, info.upper * factor);
   }
@@ -122,7 +122,7 @@ void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
 void AddEstimates(const Selection& selection, const std::vector<double>& searched,
                   FitReport* report) {
   const Law& law = selection.extended.law;
-  const std::vector<double> refined = Reported(selection.bench, law, selection.extended.p);
+  const std::vector<double> refined = Reported(selection.weighted, law, selection.extended.p);
   std::vector<Estimate>& estimates = report->estimates;
   estimates.resize(refined.size());
   for (std::size_t k = 0; k < refined.size(); ++k) {
@@ -131,7 +131,7 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
   }
   const std::vector<Row> rows = BaseRows(law);
   const std::vector<double> errors = StandardErrorsOf(selection, rows.size());
-  const double t = StudentT95(Degrees(selection.bench, law));
+  const double t = StudentT95(Degrees(selection.weighted, law));
   for (std::size_t k = 0; k < rows.size(); ++k) {
     estimates[k].info = {rows[k].symbol, rows[k].name, rows[k].unit, rows[k].doc};
     estimates[k].fixed = std::string(rows[k].symbol) == "n2";
@@ -167,7 +167,7 @@ IvCurve AllPoints(const CurveSet& set) {
 // What the law of many curves holds of alpha and the band gap stands in the report as well.
 void AddHeld(const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
-  const Readings& readings = *selection.bench.readings;
+  const Readings& readings = *selection.weighted.readings;
   const auto insert = [&](int at, ParameterInfo info, double value) {
     Estimate estimate;
     estimate.info = std::move(info);
@@ -246,8 +246,8 @@ void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& 
 
 FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
                          bool search, std::uint64_t seed, const Observer& observer) {
-  const Workbench& bench = selection.bench;
-  const Readings& readings = *bench.readings;
+  const WeightedData& weighted = selection.weighted;
+  const Readings& readings = *weighted.readings;
   const LawFit& fit = selection.extended;
   FitReport report;
   report.version = Version();
@@ -265,13 +265,13 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const 
     report.search_options = found.options;
     report.search = found.summary;
     report.interrupted = found.summary.termination == SearchTermination::kInterrupted;
-    searched = Reported(bench, fit.law, found.best);
+    searched = Reported(weighted, fit.law, found.best);
   }
   AddEstimates(selection, searched, &report);
-  report.rmse.refined.solved_current_A = RmseOf(at.bench, at.extended);
+  report.rmse.refined.solved_current_A = RmseOf(at.weighted, at.extended);
   report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
   if (!search) return report;
-  AttachLaw(set, selection, *at.bench.readings, &report);
+  AttachLaw(set, selection, *at.weighted.readings, &report);
   report.curve = AllPoints(set);
   report.refine.termination = "converged";
   for (std::size_t k = 0; k < at.extended.size(); ++k) {
@@ -282,7 +282,7 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const 
   report.simulated = FindKeyPoints(report.curve.voltage_V, report.model_current_A);
   report.residuals = FindResidualStatistics(report.curve.voltage_V, report.residual_A);
   const double rmse = report.rmse.refined.solved_current_A;
-  report.criteria = FindInformation(rmse * rmse, at.bench.count(), FreeCount(bench, fit.law));
+  report.criteria = FindInformation(rmse * rmse, at.weighted.count(), FreeCount(weighted, fit.law));
   report.warnings.push_back(
       "an extended model: its causes change currents as 'lyrefit diagnose --explain' says; the "
       "readings are weighted by their estimated noise");

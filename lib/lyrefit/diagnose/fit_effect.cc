@@ -61,8 +61,8 @@ const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
 
 // A fit's sum of squares and what it pays for the parameters that it lets go.
-double Paid(const Workbench& bench, const LawFit& fit) {
-  return fit.sum + FreedomOf(bench, fit.law) * NoiseVariance(bench, fit);
+double Paid(const WeightedData& weighted, const LawFit& fit) {
+  return fit.sum + FreedomOf(weighted, fit.law) * NoiseVariance(weighted, fit);
 }
 
 // Whether the last effect of a fit ended as what it is meant to be.
@@ -79,14 +79,14 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
 }
 
 // Whether a law misses the used readings by more than so many parts of Isc, root mean square.
-bool Misses(const Workbench& bench, const LawFit& fit, double part) {
+bool Misses(const WeightedData& weighted, const LawFit& fit, double part) {
   double sum = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const double off = fit.current[k] - bench.readings->points[k].current;
+    if (weighted.used[k] == 0) continue;
+    const double off = fit.current[k] - weighted.readings->points[k].current;
     sum += off * off;
   }
-  return sum > part * part * std::max(bench.count(), 1);
+  return sum > part * part * std::max(weighted.count(), 1);
 }
 
 // A fit on its way and what it pays.
@@ -96,12 +96,12 @@ struct Way {
 };
 
 // All go on by so many steps; the `most` best of what is then usable, the best first.
-std::vector<Way> GoOn(const Workbench& bench, const std::vector<Way>& ways, int steps,
+std::vector<Way> GoOn(const WeightedData& weighted, const std::vector<Way>& ways, int steps,
                       std::size_t most) {
   std::vector<Way> on;
   for (const Way& way : ways) {
-    LawFit end = FitLaw(bench, way.fit.law, way.fit.p, UpTo(steps, 1e-5));
-    if (end.usable) on.push_back({Paid(bench, end), std::move(end)});
+    LawFit end = FitLaw(weighted, way.fit.law, way.fit.p, UpTo(steps, 1e-5));
+    if (end.usable) on.push_back({Paid(weighted, end), std::move(end)});
   }
   std::stable_sort(on.begin(), on.end(),
                    [](const Way& a, const Way& b) { return a.paid < b.paid; });
@@ -112,12 +112,12 @@ std::vector<Way> GoOn(const Workbench& bench, const std::vector<Way>& ways, int 
 // The best end of those that the curve's shape suggests. All of them from a healthy module: a base
 // fit that had to bend to the fault leads to the wrong local optimum. All take some steps, the better ones
 // some more; those that are ahead then, each in a local optimum of its own, go on to their end.
-void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, const Law& law,
+void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
   constexpr std::size_t kBetter = 16, kAhead = 8;
   constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
   constexpr double kSameLocalOptimum = 1e-3;  // relative, of what is paid
-  const Readings& readings = *bench.readings;
+  const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
   const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
   std::vector<Way> ways;
@@ -133,15 +133,15 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
   // Steps of the current are cliffs for weights that foresee none: there all readings count alike
   // at first.
   constexpr double kSteps = 0.02;
-  if (Misses(bench, fit, kSteps)) {
-    Workbench alike = bench;
+  if (Misses(weighted, fit, kSteps)) {
+    WeightedData alike = weighted;
     alike.path = alike.correlation = 0;
-    alike.sigma.assign(bench.sigma.size(), 0.01);
+    alike.sigma.assign(weighted.sigma.size(), 0.01);
     ways = GoOn(alike, ways, kFirst, kBetter);
     ways = GoOn(alike, ways, kMore, kBetter);
   }
-  ways = GoOn(bench, ways, kFirst, kBetter);
-  ways = GoOn(bench, ways, kMore, kBetter);
+  ways = GoOn(weighted, ways, kFirst, kBetter);
+  ways = GoOn(weighted, ways, kMore, kBetter);
   double last = 0;
   std::size_t ahead = 0;
   for (const Way& way : ways) {
@@ -150,15 +150,15 @@ void TryShapes(const Workbench& bench, const LawFit& fit, const Effect& effect, 
     last = way.paid;
     ++ahead;
     LeastSquaresOptions on = UpTo(kToTheEnd, 1e-5);
-    if (best->usable) on.to_beat = Paid(bench, *best);
-    LawFit end = FitLaw(bench, way.fit.law, way.fit.p, on);
+    if (best->usable) on.to_beat = Paid(weighted, *best);
+    LawFit end = FitLaw(weighted, way.fit.law, way.fit.p, on);
     if (!end.usable || !IsItself(effect, end)) continue;
-    if (!best->usable || Paid(bench, end) < Paid(bench, *best)) *best = std::move(end);
+    if (!best->usable || Paid(weighted, end) < Paid(weighted, *best)) *best = std::move(end);
   }
 }
 
 // Scores are lines where the effect is a jump: the place is what fits best among its neighbours.
-void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe>& probes,
+void Climb(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
            LawFit* best) {
   constexpr int kMostSteps = 8;
   std::vector<int> searched;
@@ -182,7 +182,7 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
       p[at] = places[k];
       LeastSquaresOptions briefly = kBriefly;
       briefly.to_beat = best->sum;
-      LawFit end = FitLaw(bench, best->law, p, briefly);
+      LawFit end = FitLaw(weighted, best->law, p, briefly);
       if (!end.usable || !(end.sum < best->sum)) break;
       *best = std::move(end);
     }
@@ -192,19 +192,19 @@ void Climb(const Workbench& bench, const Effect& effect, const std::vector<Probe
 
 }  // namespace
 
-bool LeadsAstray(const Workbench& bench, const LawFit& fit) {
+bool LeadsAstray(const WeightedData& weighted, const LawFit& fit) {
   constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
   const double n = fit.p[kBaseIdeality];
-  return !(n > kLeastIdeality && n < kMostIdeality) || Misses(bench, fit, kMisfit);
+  return !(n > kLeastIdeality && n < kMostIdeality) || Misses(weighted, fit, kMisfit);
 }
 
-double FreedomOf(const Workbench& bench, const Law& law) {
-  return std::log(bench.count()) * static_cast<double>(law.freed.size());
+double FreedomOf(const WeightedData& weighted, const Law& law) {
+  return std::log(weighted.count()) * static_cast<double>(law.freed.size());
 }
 
-LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, Effort effort) {
+LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& score, Effort effort) {
   const Effect& effect = *score.effect;
-  const std::vector<Probe> probes = effect.probes(bench.readings->traits);
+  const std::vector<Probe> probes = effect.probes(weighted.readings->traits);
   Law law = fit.law;
   law.effects.push_back(&effect);
   LawFit best;
@@ -223,42 +223,42 @@ LawFit FitEffect(const Workbench& bench, const LawFit& fit, const Score& score, 
     start.insert(start.end(), own.begin(), own.end());
     LeastSquaresOptions briefly = effort == Effort::kForTheRecord ? kToKnow : kBriefly;
     if (best.usable) briefly.to_beat = best.sum;
-    LawFit end = FitLaw(bench, law, start, briefly);
+    LawFit end = FitLaw(weighted, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
     if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
   }
-  if (effect.starts != nullptr && bench.readings->traits.single && effort == Effort::kFull) {
-    TryShapes(bench, fit, effect, law, &best);
+  if (effect.starts != nullptr && weighted.readings->traits.single && effort == Effort::kFull) {
+    TryShapes(weighted, fit, effect, law, &best);
   }
   if (!(best.usable && best.sum <= fit.sum) && !probes.empty() && effect.size() > 0) {
     // From where it is not there it does not get worse.
     std::vector<double> start = fit.p, absent = probes.front();
     absent[0] = effect.parameters[0].neutral;
     start.insert(start.end(), absent.begin(), absent.end());
-    LawFit end = FitLaw(bench, law, start, kBriefly);
+    LawFit end = FitLaw(weighted, law, start, kBriefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull) Climb(bench, effect, probes, &best);
+  if (effort == Effort::kFull) Climb(weighted, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
-                                               : FitLaw(bench, best.law, best.p, kForRanking);
+                                               : FitLaw(weighted, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};
   return end;
 }
 
-LawFit FitOnwards(const Workbench& bench, const LawFit& met) {
-  LawFit end = FitLaw(bench, met.law, met.p, kForRanking);
+LawFit FitOnwards(const WeightedData& weighted, const LawFit& met) {
+  LawFit end = FitLaw(weighted, met.law, met.p, kForRanking);
   if (!end.usable || !IsItself(*met.law.effects.back(), end)) return {};
   return end;
 }
 
-LawFit FitWithout(const Workbench& bench, const LawFit& fit, int index) {
+LawFit FitWithout(const WeightedData& weighted, const LawFit& fit, int index) {
   Law law = fit.law;
   std::vector<double> start = fit.p;
   const int first = law.Offset(index), size = law.effects[index]->size();
   start.erase(start.begin() + first, start.begin() + first + size);
   law.effects.erase(law.effects.begin() + index);
-  return FitLaw(bench, law, start);
+  return FitLaw(weighted, law, start);
 }
 
 }  // namespace lyrefit

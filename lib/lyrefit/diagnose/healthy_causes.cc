@@ -29,7 +29,7 @@ struct Dose {
 };
 
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
-  const DataTraits& traits = sweep.bench.readings->traits;
+  const DataTraits& traits = sweep.weighted.readings->traits;
   const std::vector<double>& p = sweep.fit.p;
   const double voltage = sweep.state.voc_V / sweep.state.cells;
   std::vector<Dose> doses = {{"series_resistance",
@@ -91,7 +91,7 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
 // What so many doses do to the currents, in scales; empty where the law cannot have them. What is
 // always there, and has become more, is taken off the law; what may not have been is added to it.
 std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
-  const Readings& readings = *sweep.bench.readings;
+  const Readings& readings = *sweep.weighted.readings;
   Law law = sweep.fit.law;
   std::vector<double> p = sweep.fit.p;
   const bool taken = dose.parameter >= 0 && dose.either_way;
@@ -156,7 +156,7 @@ Eigen::MatrixXd Precision(const Expectation& expected) {
 
 // What a change gives of Pmax.
 double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
-  const Readings& readings = *sweep.bench.readings;
+  const Readings& readings = *sweep.weighted.readings;
   std::vector<double> voltage, without;
   for (std::size_t k = 0; k < change.size(); ++k) {
     voltage.push_back(readings.points[k].voltage);
@@ -254,11 +254,11 @@ std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expe
   double least = std::numeric_limits<double>::max();
   for (const Attempt& a : attempts) least = std::min(least, a.left);
   const double unit = std::max(1.0, least / kNumbers);
-  const auto worth = [unit](const Attempt& a) {
+  const auto calibration = [unit](const Attempt& a) {
     return a.left + (a.generic ? kClearly * unit : 0);
   };
   std::stable_sort(attempts.begin(), attempts.end(),
-                   [&](const Attempt& a, const Attempt& b) { return worth(a) < worth(b); });
+                   [&](const Attempt& a, const Attempt& b) { return calibration(a) < calibration(b); });
   std::vector<HealthyCause> causes;
   for (Attempt& a : attempts) {
     const bool as_good = a.left <= attempts.front().left + kAsGood * unit;

@@ -17,7 +17,7 @@ double PowerWith(const FittedSweep& sweep, int quantity, double expected) {
   const SweepState& s = sweep.state;
   Conditions conditions;
   conditions.cells_in_series = s.cells;
-  conditions.cell_temperature_K = sweep.bench.readings->reference_temperature_K;
+  conditions.cell_temperature_K = sweep.weighted.readings->reference_temperature_K;
   const Device device = MakeDevice(Model::kSingleDiode, conditions);
   const double thermal_V = conditions.ModuleThermalVoltage(ConstantSet::kCodata);
   const auto power = [&](double n, double series, double shunt) {

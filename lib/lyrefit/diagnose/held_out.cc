@@ -44,7 +44,7 @@ Squares SquaresAt(const Readings& readings, const std::vector<int>& held,
 }
 
 // A repeated selection need not look at those that stand behind so many others.
-constexpr int kRivals = 4;
+constexpr int kFittedCandidates = 4;
 
 // From the fit to all readings it is not far.
 const LeastSquaresOptions kNearby = UpTo(8, 1e-5);
@@ -81,14 +81,14 @@ std::vector<int> SweepOfEach(const Readings& readings) {
 SelectOptions Repeated(const SelectOptions& options, const Selection& selection) {
   SelectOptions inner = options;
   inner.trials = false;
-  inner.most_rivals = kRivals;
+  inner.most_fitted_candidates = kFittedCandidates;
   inner.in_passing = true;
   inner.hint = selection.extended;
   inner.met = &selection.trials;
   inner.base = selection.base.law;
   inner.start = selection.base.p;
-  inner.worth = selection.worth;
-  inner.imprints = selection.imprints;
+  inner.calibration = selection.calibration;
+  inner.signatures = selection.signatures;
   return inner;
 }
 
@@ -99,17 +99,17 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
             const Selection& selection) {
   const Readings& readings = measurement.readings;
   const Selection again =
-      SelectCauses(measurement, used, selection.bench.correlation, Repeated(options, selection));
+      SelectCauses(measurement, used, selection.weighted.correlation, Repeated(options, selection));
   Fold fold;
   if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return fold;
   fold.before = SquaresAt(readings, held, again.base.current);
   fold.after = SquaresAt(readings, held, again.extended.current);
-  Workbench bench = selection.base_bench;
-  for (std::size_t k = 0; k < used.size(); ++k) bench.used[k] = bench.used[k] != 0 ? used[k] : 0;
-  for (const Rival& rival : selection.trials) {
+  WeightedData weighted = selection.base_weighted;
+  for (std::size_t k = 0; k < used.size(); ++k) weighted.used[k] = weighted.used[k] != 0 ? used[k] : 0;
+  for (const FittedCandidate& fitted : selection.trials) {
     Squares squares;
-    if (rival.fit.usable) {
-      const LawFit fit = FitLaw(bench, rival.fit.law, rival.fit.p, kNearby);
+    if (fitted.fit.usable) {
+      const LawFit fit = FitLaw(weighted, fitted.fit.law, fitted.fit.p, kNearby);
       if (fit.usable) squares = SquaresAt(readings, held, fit.current);
     }
     fold.trials.push_back(squares);
@@ -120,7 +120,7 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
 
 // Over the folds that could be fitted.
 void Summarise(const std::vector<Fold>& folds, const Readings& readings,
-               const std::vector<Rival>& tried, Gain* gain, std::vector<Trial>* trials) {
+               const std::vector<FittedCandidate>& tried, Gain* gain, std::vector<Trial>* trials) {
   Squares before, after;
   std::vector<Squares> by_trial(tried.size());
   std::vector<double> gains;
@@ -178,7 +178,7 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
   std::vector<Fold> results(used_folds);
   Begin(options.watch, "held out", used_folds);
   ParallelFor(used_folds, threads, [&](int f) {
-    const std::vector<int> held = HeldReadings(of, f, selection.bench.used);
+    const std::vector<int> held = HeldReadings(of, f, selection.weighted.used);
     if (held.empty() || Stopped(options.watch)) return;
     std::vector<char> used(of.size(), 1);
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;

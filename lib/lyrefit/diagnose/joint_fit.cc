@@ -46,7 +46,7 @@ bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, Pl
 }
 
 // Noise of the used reading whose current comes nearest.
-double SigmaAt(const Workbench& measured, double current) {
+double SigmaAt(const WeightedData& measured, double current) {
   double nearest = 1e300, sigma = 0;
   for (std::size_t k = 0; k < measured.sigma.size(); ++k) {
     if (measured.used[k] == 0) continue;
@@ -87,9 +87,9 @@ bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, con
   std::vector<double> moved(count);
   for (const int u : {curve.light, curve.temperature, curve.drop}) {
     if (u < 0) continue;
-    std::vector<double> further = unknown;
-    further[u] += kStep;
-    if (!Currents(own, Under(curve, InUnits(further, joint.unknown)), moved.data())) return false;
+    std::vector<double> follow_up = unknown;
+    follow_up[u] += kStep;
+    if (!Currents(own, Under(curve, InUnits(follow_up, joint.unknown)), moved.data())) return false;
     for (int k = 0; k < count; ++k) (*rows)(first + k, size + u) = (moved[k] - current[k]) / kStep;
   }
   return true;
@@ -136,14 +136,14 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
 
 }  // namespace
 
-std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
-                                 const Further& further, const LawFit& truth,
+std::optional<Joint> TakeFurther(const WeightedData& measured, double deviation,
+                                 const FollowUp& follow_up, const LawFit& truth,
                                  const std::vector<double>& unknown) {
   Joint joint{
-      further.curves, further.unknown, *measured.readings, measured.sigma, measured.used, {}, 0};
+      follow_up.curves, follow_up.unknown, *measured.readings, measured.sigma, measured.used, {}, 0};
   for (double& sigma : joint.sigma) sigma *= deviation;
   joint.taken = static_cast<int>(measured.readings->points.size());
-  const std::vector<double> values = InUnits(unknown, further.unknown);
+  const std::vector<double> values = InUnits(unknown, follow_up.unknown);
   for (PlannedCurve& curve : joint.curves) {
     const CurveLaw own = LawOn(curve, truth.law, truth.p);
     if (curve.open_circuit && !FindOpenCircuit(own, values, &curve)) return std::nullopt;
@@ -160,12 +160,12 @@ std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
       joint.used.push_back(1);
     }
   }
-  Workbench bench = measured;
-  bench.readings = std::make_shared<const Readings>(joint.readings);
-  bench.sigma = joint.sigma;
-  bench.used = joint.used;
-  bench.path *= deviation;
-  joint.errors = ErrorsOf(bench);
+  WeightedData weighted = measured;
+  weighted.readings = std::make_shared<const Readings>(joint.readings);
+  weighted.sigma = joint.sigma;
+  weighted.used = joint.used;
+  weighted.path *= deviation;
+  joint.errors = ErrorsOf(weighted);
   return joint;
 }
 

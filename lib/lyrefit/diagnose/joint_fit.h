@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/diagnose/further.h"
+#include "lyrefit/diagnose/follow_up.h"
 
 namespace lyrefit {
 
 // Readings that were taken and, behind them, those of one further measurement.
 struct Joint {
   std::vector<PlannedCurve> curves;
-  std::vector<double> unknown;  // as Further::unknown
+  std::vector<double> unknown;  // as FollowUp::unknown
   Readings readings;
   std::vector<double> sigma;
   std::vector<char> used;
@@ -23,8 +23,8 @@ struct Joint {
 // The further readings as `truth` gives them, without noise. `unknown`: what turned out, in
 // standard deviations. The noise of a further reading is that of the used one whose current comes
 // nearest, times `deviation`. Nothing where the truth has no such currents.
-std::optional<Joint> TakeFurther(const Workbench& measured, double deviation,
-                                 const Further& further, const LawFit& truth,
+std::optional<Joint> TakeFurther(const WeightedData& measured, double deviation,
+                                 const FollowUp& follow_up, const LawFit& truth,
                                  const std::vector<double>& unknown);
 
 // Adds noise to the further readings.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

@@ -19,7 +19,7 @@ struct NoiseLaw {
 // No reading is believed to be better than this.
 constexpr double kSmallestNoise = 1e-7;
 
-// Whether noise of the voltage is one of the parts: for nulls it is what the data had.
+// Whether noise of the voltage is one of the parts: for null_statistics it is what the data had.
 enum class VoltageNoise { kIfInsisted, kAlways, kNever };
 
 struct Noise {
@@ -30,7 +30,7 @@ struct Noise {
 
 // From second differences of the residuals inside each monotone stretch, which smooth misfit does
 // not reach. Noise that the notes state decides the shape, never the size. The readings stay
-// what they are: for many residuals of one measurement, as nulls have them. The measurement
+// what they are: for many residuals of one measurement, as null_statistics have them. The measurement
 // outlives it.
 class NoiseEstimator {
  public:

@@ -30,17 +30,17 @@ std::string WhyNothing(const CurveSet& set, const Readings& readings) {
 }
 
 // The readings that count, of as many cells as the diagnosis reckons with.
-IvCurve UsedPart(const IvCurve& curve, const Workbench& bench) {
+IvCurve UsedPart(const IvCurve& curve, const WeightedData& weighted) {
   IvCurve used = curve;
-  used.conditions.cells_in_series = bench.readings->scale.cells;
+  used.conditions.cells_in_series = weighted.readings->scale.cells;
   used.voltage_V.clear();
   used.current_A.clear();
   used.sigma_A.clear();
   used.time_s.clear();
   used.sweep.clear();
-  for (std::size_t k = 0; k < bench.readings->points.size(); ++k) {
-    if (bench.used[k] == 0) continue;
-    const auto index = static_cast<std::size_t>(bench.readings->points[k].index);
+  for (std::size_t k = 0; k < weighted.readings->points.size(); ++k) {
+    if (weighted.used[k] == 0) continue;
+    const auto index = static_cast<std::size_t>(weighted.readings->points[k].index);
     used.voltage_V.push_back(curve.voltage_V[index]);
     used.current_A.push_back(curve.current_A[index]);
   }
@@ -101,7 +101,7 @@ void AddShapes(const IvCurve& curve, const Selection& selection, const Diagnosis
   const Trial* unequal = TrialOf(diagnosis, "mismatch");
   const Trial* shaded = TrialOf(diagnosis, "shading");
   if (unequal == nullptr && shaded == nullptr) return;
-  const int diodes = std::max(SubstringsOf(selection.bench.readings->traits) - 1, 1);
+  const int diodes = std::max(SubstringsOf(selection.weighted.readings->traits) - 1, 1);
   const double bend_V = kBendOfADiode_V * diodes;
   const ConcaveFloor floor = FindConcaveFloor(curve.voltage_V, curve.current_A, bend_V);
   const auto add = [&](const Trial& trial, double lower, std::string holds_for) {
@@ -131,9 +131,9 @@ void AddShapes(const IvCurve& curve, const Selection& selection, const Diagnosis
 Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
                   const Diagnosis& diagnosis, Watch* watch) {
   Proofs proofs;
-  proofs.sentence = WhyNothing(set, *selection.bench.readings);
+  proofs.sentence = WhyNothing(set, *selection.weighted.readings);
   if (!proofs.sentence.empty()) return proofs;
-  const IvCurve curve = UsedPart(set.curves.front(), at.bench);
+  const IvCurve curve = UsedPart(set.curves.front(), at.weighted);
   AddLinear(curve, selection, diagnosis, watch, &proofs);
   AddShapes(curve, selection, diagnosis, &proofs);
   std::stable_sort(proofs.causes.begin(), proofs.causes.end(),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/diagnose/nulls.h"
+#include "lyrefit/diagnose/null_statistics.h"
 
 namespace lyrefit {
 namespace {
@@ -39,7 +39,7 @@ class NormalNumbers {
   std::shared_ptr<const std::vector<float>> drawn_;
 };
 
-// Of the nulls, and of those that estimate their noise anew.
+// Of the null_statistics, and of those that estimate their noise anew.
 NormalNumbers& NumbersOfNulls() {
   static NormalNumbers numbers(0);
   return numbers;
@@ -58,63 +58,63 @@ void CountDirections(const Candidate& candidate, int degrees, Score* score) {
 
 // `list`: a smaller one than what is to be calibrated, so that it scatters more and errs to the
 // safe side.
-Calibration Calibrate(const Workbench& bench, const Prepared& prepared, const ListLaw& list,
+Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared, const ListDistribution& list,
                       const NoiseEstimator& noise, const Draws& draws) {
   Calibration calibration;
-  Begin(bench.watch, "nulls", draws.cols());
-  const Eigen::MatrixXf nulls = SimulateRefits(bench, prepared, noise, draws);
-  for (int d = 0; d < nulls.rows(); ++d) {
+  Begin(weighted.watch, "null_statistics", draws.cols());
+  const Eigen::MatrixXf null_statistics = SimulateRefits(weighted, prepared, noise, draws);
+  for (int d = 0; d < null_statistics.rows(); ++d) {
     double smallest = 1;
-    for (int c = 0; c < nulls.cols(); ++c) {
-      smallest = std::min(smallest, list.laws[c].Of(nulls(d, c)));
+    for (int c = 0; c < null_statistics.cols(); ++c) {
+      smallest = std::min(smallest, list.laws[c].Of(null_statistics(d, c)));
     }
-    calibration.nulls.push_back(-std::log(std::max(list.Corrected(smallest), 1e-300)));
+    calibration.null_statistics.push_back(-std::log(std::max(list.Corrected(smallest), 1e-300)));
   }
-  std::sort(calibration.nulls.begin(), calibration.nulls.end());
+  std::sort(calibration.null_statistics.begin(), calibration.null_statistics.end());
   return calibration;
 }
 
 }  // namespace
 
-ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
+ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& prepared,
                          const NoiseEstimator* noise, int draws, std::uint64_t seed) {
-  ScoreWorth worth;
-  if (prepared.degrees < 3) return worth;
+  ScoreCalibration calibration;
+  if (prepared.degrees < 3) return calibration;
   for (const Candidate& candidate : prepared.candidates) {
-    if (candidate.score.testable) worth.effects.push_back(candidate.score.effect);
+    if (candidate.score.testable) calibration.effects.push_back(candidate.score.effect);
   }
-  if (worth.effects.empty()) return worth;
+  if (calibration.effects.empty()) return calibration;
   // A row a reading and a column a null.
-  const int readings = static_cast<int>(bench.sigma.size());
+  const int readings = static_cast<int>(weighted.sigma.size());
   const std::size_t numbers = static_cast<std::size_t>(readings) * draws;
   const auto normal = NumbersOfNulls().First(numbers, seed);
-  const Eigen::MatrixXf nulls =
-      SimulateNulls(bench, prepared, Draws(normal->data(), readings, draws));
-  worth.list = ListLaw(nulls, prepared.degrees);
-  if (noise == nullptr) return worth;
+  const Eigen::MatrixXf null_statistics =
+      SimulateNullDistribution(weighted, prepared, Draws(normal->data(), readings, draws));
+  calibration.list = ListDistribution(null_statistics, prepared.degrees);
+  if (noise == nullptr) return calibration;
   const auto others = NumbersOfRefits().First(numbers / 5, seed);
-  worth.calibration =
-      Calibrate(bench, prepared, ListLaw(nulls.topRows(draws / 5 * 2), prepared.degrees), *noise,
+  calibration.calibration =
+      Calibrate(weighted, prepared, ListDistribution(null_statistics.topRows(draws / 5 * 2), prepared.degrees), *noise,
                 Draws(others->data(), readings, draws / 5));
-  return worth;
+  return calibration;
 }
 
-std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth) {
+std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreCalibration& calibration) {
   std::vector<Score> scores;
   for (const Candidate& candidate : prepared.candidates) {
     Score score = candidate.score;
     if (score.testable) {
-      const auto at = std::find(worth.effects.begin(), worth.effects.end(), score.effect);
-      if (at != worth.effects.end()) {
-        const NullLaw& law = worth.list.laws[at - worth.effects.begin()];
+      const auto at = std::find(calibration.effects.begin(), calibration.effects.end(), score.effect);
+      if (at != calibration.effects.end()) {
+        const NullDistribution& law = calibration.list.laws[at - calibration.effects.begin()];
         score.p_value = law.Of(score.statistic);
         score.charge = 2 * std::log(law.Directions());
       } else {
         CountDirections(candidate, prepared.degrees, &score);
       }
-      if (!worth.effects.empty()) {
-        score.catalogue = worth.list.Catalogue();
-        score.corrected_p = worth.calibration.Corrected(worth.list.Corrected(score.p_value));
+      if (!calibration.effects.empty()) {
+        score.catalogue = calibration.list.Catalogue();
+        score.corrected_p = calibration.calibration.Corrected(calibration.list.Corrected(score.p_value));
       }
     }
     scores.push_back(std::move(score));

@@ -5,36 +5,36 @@
 
 #include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/noise.h"
-#include "lyrefit/diagnose/null_law.h"
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/null_distribution.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
-// What the list's corrected p-value really is worth. Linear nulls know the weights; in truth these
+// What the list's corrected p-value really is worth. Linear null_statistics know the weights; in truth these
 // come from the same few readings, which makes extremes more frequent than they say. Found from
-// nulls that estimate their noise anew.
+// null_statistics that estimate their noise anew.
 struct Calibration {
-  std::vector<double> nulls;  // -ln of the corrected p-value of each such null, rising; empty: none
+  std::vector<double> null_statistics;  // -ln of the corrected p-value of each such null, rising; empty: none
   double Corrected(double p) const;
 };
 
-// What statistics are worth, by nulls (noise through the projections of one law) that count for the
+// What statistics are worth, by null_statistics (noise through the projections of one law) that count for the
 // whole list, boundaries and grids of probes included. One cause more or less in the law, or some
 // readings less, hardly change it: it serves all steps and their repetitions.
-struct ScoreWorth {
+struct ScoreCalibration {
   std::vector<const Effect*> effects;  // that were testable
-  ListLaw list;                        // in that order
+  ListDistribution list;                        // in that order
   Calibration calibration;
 };
 
-// From `draws` linear nulls; where there is a `noise` to estimate, calibrated by a fifth as many
+// From `draws` linear null_statistics; where there is a `noise` to estimate, calibrated by a fifth as many
 // that do so.
-ScoreWorth SimulateWorth(const Workbench& bench, const Prepared& prepared,
+ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& prepared,
                          const NoiseEstimator* noise, int draws, std::uint64_t seed);
 
 // With their p-values. An effect that was not testable when worth was found counts for all its
 // directions.
-std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreWorth& worth);
+std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreCalibration& calibration);
 
 // The score of what is found in that way (one effect a way beside probes); null: there is none.
 const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by);

@@ -34,8 +34,8 @@ Box SearchBox(const Selection& selection) {
 }  // namespace
 
 LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observer& observer) {
-  const Workbench& bench = selection.bench;
-  const Readings& readings = *bench.readings;
+  const WeightedData& weighted = selection.weighted;
+  const Readings& readings = *weighted.readings;
   const Law& law = selection.extended.law;
   std::vector<double> current(readings.points.size());
   // From a fresh start each time: the value must not hang on the candidate before.
@@ -43,7 +43,7 @@ LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observ
   LawWorkspace workspace(blocks);
   const auto rmse = [&](const double* p) {
     if (!EvaluateLaw(law, readings, p, &workspace, current.data(), nullptr)) return kInfinity;
-    return RmseOf(bench, current);
+    return RmseOf(weighted, current);
   };
   LawSearch searched;
   searched.options.seed = seed;
@@ -57,9 +57,9 @@ LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observ
   random.algorithm = Algorithm::kRandom;
   searched.rmse.random_baseline.solved_current_A =
       Search(rmse, box, random, observer).best.objective;
-  const LawFit polished = FitLaw(bench, law, searched.best);
+  const LawFit polished = FitLaw(weighted, law, searched.best);
   if (polished.usable) {
-    searched.rmse.refined_best_candidate.solved_current_A = RmseOf(bench, polished.current);
+    searched.rmse.refined_best_candidate.solved_current_A = RmseOf(weighted, polished.current);
   }
   return searched;
 }

@@ -7,95 +7,95 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/prefer.h"
-#include "lyrefit/diagnose/selecting.h"
-#include "lyrefit/diagnose/weigh_rivals.h"
+#include "lyrefit/diagnose/rank_causes.h"
+#include "lyrefit/diagnose/selection_state.h"
+#include "lyrefit/diagnose/weigh_candidates.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-Selecting BeginSelecting(const Measurement& measurement, const std::vector<char>& used,
+SelectionState BeginSelection(const Measurement& measurement, const std::vector<char>& used,
                          double correlation, const SelectOptions& options) {
-  Selecting now{measurement, options, options.worth, options.imprints, {}, {}, {}, {}, {}};
-  now.bench.readings = std::make_shared<const Readings>(measurement.readings);
-  now.bench.sigma.assign(measurement.readings.points.size(), 1e-3);
-  now.bench.used = used;
-  now.bench.correlation = correlation;
-  now.bench.watch = options.watch;
-  for (const int k : measurement.values.at_lower) now.bench.used[k] = 0;
-  for (const int k : measurement.values.at_voltage_limit) now.bench.used[k] = 0;
+  SelectionState now{measurement, options, options.calibration, options.signatures, {}, {}, {}, {}, {}};
+  now.weighted.readings = std::make_shared<const Readings>(measurement.readings);
+  now.weighted.sigma.assign(measurement.readings.points.size(), 1e-3);
+  now.weighted.used = used;
+  now.weighted.correlation = correlation;
+  now.weighted.watch = options.watch;
+  for (const int k : measurement.values.at_lower) now.weighted.used[k] = 0;
+  for (const int k : measurement.values.at_voltage_limit) now.weighted.used[k] = 0;
   return now;
 }
 
-void FitBaseLaw(const Law& law, Selecting* now) {
+void FitBaseLaw(const Law& law, SelectionState* now) {
   const std::vector<double>& start = now->options.start;
-  now->fit = start.empty() ? FitBase(now->bench, law) : FitLaw(now->bench, law, start);
+  now->fit = start.empty() ? FitBase(now->weighted, law) : FitLaw(now->weighted, law, start);
 }
 
 // The base model and its noise. False where it cannot be had.
-bool SettleBase(Selecting* now, Selection* selection) {
-  Begin(Heard(*now), "base fit", 3);
+bool SettleBase(SelectionState* now, Selection* selection) {
+  Begin(ObserverOf(*now), "base fit", 3);
   Law law = now->options.base;
-  if (now->bench.readings->points.size() <= kQuickToFit) now->bench.watch = nullptr;
+  if (now->weighted.readings->points.size() <= kQuickToFit) now->weighted.watch = nullptr;
   FitBaseLaw(law, now);
-  now->bench.watch = now->options.watch;
+  now->weighted.watch = now->options.watch;
   selection->base = selection->extended = now->fit;
-  selection->bench = selection->base_bench = now->bench;
+  selection->weighted = selection->base_weighted = now->weighted;
   if (!now->fit.usable) return false;
-  Step(Heard(*now));
+  Step(ObserverOf(*now));
   SettleNoise(now);
-  Step(Heard(*now));
-  if (now->options.start.empty()) law = ChooseLaw(now->bench, law);
+  Step(ObserverOf(*now));
+  if (now->options.start.empty()) law = ChooseLaw(now->weighted, law);
   FitBaseLaw(law, now);
-  if (Stopped(now->bench.watch)) now->fit = selection->base;
+  if (Stopped(now->weighted.watch)) now->fit = selection->base;
   selection->base = now->fit;
-  selection->base_bench = now->bench;
+  selection->base_weighted = now->weighted;
   return true;
 }
 
 // Clipped readings say no more than that they were clipped: they are left out, and the limit
 // stays what the values show.
-void AddClip(Selecting* now) {
+void AddClip(SelectionState* now) {
   const ValueFindings& values = now->measurement.values;
-  for (const int k : values.clipped) now->bench.used[k] = 0;
+  for (const int k : values.clipped) now->weighted.used[k] = 0;
   const Effect* clip = FindEffect("clip");
   Law law = now->fit.law;
   law.effects.push_back(clip);
   std::vector<double> start = now->fit.p;
   start.push_back(values.clip_level > 0 ? values.clip_level : kNoUpperLimit);
   start.push_back(values.limited ? values.lower_limit : kNoLowerLimit);
-  now->fit = FitLaw(now->bench, law, start);
+  now->fit = FitLaw(now->weighted, law, start);
   now->causes.push_back({clip, 0, {}, {}, true});
   SettleNoise(now);
 }
 
-void FindWorth(const Prepared& prepared, Selecting* now) {
-  if (now->worth != nullptr) return;
+void FindCalibration(const Prepared& prepared, SelectionState* now) {
+  if (now->calibration != nullptr) return;
   const bool voltage = now->noise.lit.voltage > 0 || now->noise.dark.voltage > 0;
-  const NoiseEstimator noise(now->measurement, now->bench.used,
+  const NoiseEstimator noise(now->measurement, now->weighted.used,
                              voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
-  now->worth = std::make_shared<const ScoreWorth>(
-      SimulateWorth(now->bench, prepared, &noise, now->options.draws, now->options.seed));
+  now->calibration = std::make_shared<const ScoreCalibration>(
+      CalibrateScores(now->weighted, prepared, &noise, now->options.draws, now->options.seed));
 }
 
 // Without floors a later cause explains its part in units of the noise: what remains of a first
 // cause whose own model is a little wrong is no second cause.
-bool ExplainsEnough(const Selecting& now, const Rival& rival) {
+bool ExplainsEnough(const SelectionState& now, const FittedCandidate& fitted) {
   constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
-  const bool generic = IsGeneric(*now.bench.readings, *rival.score.effect);
-  return rival.statistic >= (generic ? kGenericPart : kLaterPart) * now.first_gain;
+  const bool generic = IsGeneric(*now.weighted.readings, *fitted.score.effect);
+  return fitted.statistic >= (generic ? kGenericPart : kLaterPart) * now.first_gain;
 }
 
 // Whether the base model is so far off that scores beside it say nothing.
-bool IsRuined(const Selecting& now) {
+bool IsRuined(const SelectionState& now) {
   constexpr double kMisfit = 0.01;
   if (!now.measurement.has_path()) return false;
-  return MissedBy(now.bench, now.fit) > kMisfit;
+  return MissedBy(now.weighted, now.fit) > kMisfit;
 }
 
 // Whether any score passes the level of this step.
-bool IsAnythingThere(const std::vector<Score>& scores, int step, Selecting* now) {
+bool IsAnythingThere(const std::vector<Score>& scores, int step, SelectionState* now) {
   double smallest = 1;
   for (const Score& score : scores) {
     if (score.testable) smallest = std::min(smallest, score.corrected_p);
@@ -111,141 +111,141 @@ double UnknownP(const std::vector<Score>& scores) {
 }
 
 // Effects that were scored but have nothing to fit are trials as well.
-void AddUntried(const std::vector<Score>& scores, std::vector<Rival>* trials) {
+void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* trials) {
   for (const Score& score : scores) {
     const bool there = std::any_of(trials->begin(), trials->end(),
-                                   [&](const Rival& r) { return r.score.effect == score.effect; });
+                                   [&](const FittedCandidate& r) { return r.score.effect == score.effect; });
     if (!there) trials->push_back({score, {}, 0});
   }
 }
 
-bool LeaveOut(const std::vector<Score>& scores, const std::vector<Rival>& rivals, Selecting* now) {
+bool LeaveOut(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates, SelectionState* now) {
   const bool left_out =
-      LeaveOutFurthest(scores, rivals, now->level, &now->bench, &now->fit, &now->wrong);
+      LeaveOutFurthest(scores, fitted_candidates, now->level, &now->weighted, &now->fit, &now->wrong);
   if (left_out) SettleNoise(now);
   return left_out;
 }
 
-// Leaves those of the rivals that are worth a name. False where there are some and none is.
-bool KeepWorthy(Selecting* now, Selection* selection, std::vector<Rival>* rivals) {
+// Keeps the fitted candidates whose effect is large enough to be named. False where there are some and none is.
+bool KeepWorthy(SelectionState* now, Selection* selection, std::vector<FittedCandidate>* fitted_candidates) {
   const bool first = now->causes.empty();
   if (now->options.floors.Any()) {
     selection->below.clear();
-    *rivals = Weigh(*now, *rivals, &selection->below);
-    if (rivals->empty()) return false;
+    *fitted_candidates = Weigh(*now, *fitted_candidates, &selection->below);
+    if (fitted_candidates->empty()) return false;
     if (first) {
-      const double taken = Departure(now->bench, now->fit, rivals->front().fit.current);
+      const double taken = LackOfFit(now->weighted, now->fit, fitted_candidates->front().fit.current);
       now->first_misfit = std::pow(taken, 2);
     }
     return true;
   }
-  if (rivals->empty()) return true;
-  if (first) now->first_gain = rivals->front().statistic;
-  return ExplainsEnough(*now, rivals->front());
+  if (fitted_candidates->empty()) return true;
+  if (first) now->first_gain = fitted_candidates->front().statistic;
+  return ExplainsEnough(*now, fitted_candidates->front());
 }
 
 // A moment of the light that is there has the shape that it has, where that is worth its freedom.
-void FreeShape(const Effect& effect, Selecting* now) {
+void FreeShape(const Effect& effect, SelectionState* now) {
   const LawFit& fit = now->fit;
   Law law = fit.law;
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].held) law.freed.emplace_back(&effect, k);
   }
   if (law.freed.size() == fit.law.freed.size()) return;
-  LawFit freed = FitLaw(now->bench, law, fit.p);
-  const double paid = FreedomOf(now->bench, law) - FreedomOf(now->bench, fit.law);
+  LawFit freed = FitLaw(now->weighted, law, fit.p);
+  const double paid = FreedomOf(now->weighted, law) - FreedomOf(now->weighted, fit.law);
   if (!freed.usable) return;
-  if (!(freed.sum + paid * NoiseVariance(now->bench, freed) < fit.sum)) return;
+  if (!(freed.sum + paid * NoiseVariance(now->weighted, freed) < fit.sum)) return;
   now->fit = std::move(freed);
   SettleNoise(now);
 }
 
-bool Accept(const Rival& rival, Selecting* now) {
-  const Effect& effect = *rival.score.effect;
+bool Accept(const FittedCandidate& fitted, SelectionState* now) {
+  const Effect& effect = *fitted.score.effect;
   const bool floors = now->options.floors.Any();
-  double p = rival.corrected_p;
+  double p = fitted.corrected_p;
   const bool proven = floors && now->causes.empty() && effect.where == Where::kSweep &&
-                      LightMoved(*now->bench.readings);
+                      LightMoved(*now->weighted.readings);
   if (proven) p = 0;
   if (!(p < now->level)) return false;
-  now->fit = rival.fit;
-  now->causes.push_back({&effect, p, rival.score, {}});
+  now->fit = fitted.fit;
+  now->causes.push_back({&effect, p, fitted.score, {}});
   SettleNoise(now);
   if (floors && effect.momentary) FreeShape(effect, now);
   return true;
 }
 
-void Extend(Prepared prepared, Selecting* now, Selection* selection) {
+void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
   const SelectOptions& options = now->options;
   const int most = options.largest_causes + static_cast<int>(now->causes.size());
   std::set<std::set<const Effect*>> seen;
-  std::vector<Rival> rivals;  // of the step before where that took a single reading
+  std::vector<FittedCandidate> fitted_candidates;  // of the step before where that took a single reading
   for (int step = 0;; ++step) {
     if (step > 0) prepared = PrepareOpen(now);
-    const std::vector<Score> scores = JudgeScores(prepared, *now->worth);
-    if (Stopped(now->bench.watch)) return;
+    const std::vector<Score> scores = JudgeScores(prepared, *now->calibration);
+    if (Stopped(now->weighted.watch)) return;
     selection->unknown_p = UnknownP(scores);
     const bool is_there = IsAnythingThere(scores, step, now);
     if (step == 0 && options.trials) {
-      selection->trials = rivals = FitRivals(*now, scores, true, is_there);
+      selection->trials = fitted_candidates = FitCandidates(*now, scores, true, is_there);
       AddUntried(scores, &selection->trials);
     }
     if (!is_there) return;
     if (static_cast<int>(now->causes.size()) >= most) return;
     // Causes gain little from a reading less: no new fits where the next stands out by far.
-    const bool left = step > 0 && !rivals.empty();
-    if (left && StandsOut(scores) && LeaveOut(scores, rivals, now)) continue;
-    if (step > 0 || !options.trials) rivals = FitRivals(*now, scores);
-    if (Stopped(now->bench.watch)) return;
-    if (LeaveOut(scores, rivals, now)) continue;
-    if (!KeepWorthy(now, selection, &rivals)) return;
-    if (rivals.empty() || !Accept(rivals.front(), now)) {
+    const bool left = step > 0 && !fitted_candidates.empty();
+    if (left && StandsOut(scores) && LeaveOut(scores, fitted_candidates, now)) continue;
+    if (step > 0 || !options.trials) fitted_candidates = FitCandidates(*now, scores);
+    if (Stopped(now->weighted.watch)) return;
+    if (LeaveOut(scores, fitted_candidates, now)) continue;
+    if (!KeepWorthy(now, selection, &fitted_candidates)) return;
+    if (fitted_candidates.empty() || !Accept(fitted_candidates.front(), now)) {
       selection->unknown =
           now->causes.empty() && now->wrong.readings.empty() && selection->unknown_p < now->level;
       return;
     }
     selection->below.clear();  // beside a model that is the past
-    Exchange(now);
+    SwapCauses(now);
     Prune(now);
-    if (Readmit(&now->bench, &now->fit, &now->wrong)) SettleNoise(now);
+    if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);
     const std::vector<const Effect*>& effects = now->fit.law.effects;
     const std::set<const Effect*> present(effects.begin(), effects.end());
     if (!seen.insert(present).second) return;  // what was dropped came back
-    rivals.clear();
+    fitted_candidates.clear();
   }
 }
 
 }  // namespace
 
-Prepared PrepareOpen(Selecting* now) {
+Prepared PrepareOpen(SelectionState* now) {
   const std::vector<const Effect*> open = RoomFor(now->fit.law, now->options.candidates);
-  return PrepareAll(now->bench, now->fit, open, &now->imprints);
+  return PrepareAll(now->weighted, now->fit, open, &now->signatures);
 }
 
-std::vector<Rival> Weigh(const Selecting& now, const std::vector<Rival>& all,
-                         std::vector<Rival>* below) {
+std::vector<FittedCandidate> Weigh(const SelectionState& now, const std::vector<FittedCandidate>& all,
+                         std::vector<FittedCandidate>* below) {
   const Weights weights{now.options.floors, now.level, now.first_misfit};
-  return WeighRivals(now.bench, now.fit, all, weights, below);
+  return WeighCandidates(now.weighted, now.fit, all, weights, below);
 }
 
 Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
                        double correlation, const SelectOptions& options) {
-  Selecting now = BeginSelecting(measurement, used, correlation, options);
+  SelectionState now = BeginSelection(measurement, used, correlation, options);
   Selection selection;
   if (!SettleBase(&now, &selection)) return selection;
   if (measurement.values.HasLimits()) AddClip(&now);
   Prepared prepared = PrepareOpen(&now);
-  FindWorth(prepared, &now);
+  FindCalibration(prepared, &now);
   Extend(std::move(prepared), &now, &selection);
   selection.extended = std::move(now.fit);
   selection.causes = std::move(now.causes);
   selection.outliers = std::move(now.wrong.readings);
   selection.at_rest = std::move(now.wrong.at_rest);
   selection.outlier_p = now.wrong.p;
-  selection.bench = std::move(now.bench);
+  selection.weighted = std::move(now.weighted);
   selection.noise = std::move(now.noise);
-  selection.worth = std::move(now.worth);
-  selection.imprints = std::move(now.imprints);
+  selection.calibration = std::move(now.calibration);
+  selection.signatures = std::move(now.signatures);
   return selection;
 }
 

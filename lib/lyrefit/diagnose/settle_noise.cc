@@ -24,43 +24,43 @@ std::vector<double> CoarseRounding(const Measurement& measurement, const Noise& 
 }
 
 // Root mean square of a fit's residuals beyond what rounding does to them.
-double Misfit(const Workbench& bench, const std::vector<double>& residual,
+double Misfit(const WeightedData& weighted, const std::vector<double>& residual,
               const std::vector<double>& rounding) {
   constexpr double kReach = 2;
   double sum = 0;
   for (std::size_t k = 0; k < residual.size(); ++k) {
     const double by_rounding = rounding.empty() ? 0 : kReach * rounding[k];
     const double beyond = residual[k] * residual[k] - by_rounding * by_rounding;
-    if (bench.used[k] != 0) sum += std::max(beyond, 0.0);
+    if (weighted.used[k] != 0) sum += std::max(beyond, 0.0);
   }
-  return std::sqrt(sum / std::max(bench.count(), 1));
+  return std::sqrt(sum / std::max(weighted.count(), 1));
 }
 
 // Steps that a fit does not follow would pass for noise wherever there are few readings.
-void LevelNoise(Workbench* bench, double misfit) {
+void LevelNoise(WeightedData* weighted, double misfit) {
   constexpr double kRuined = 0.01, kByFar = 3, kUsual = 1.5e-3;
-  const double middle = UpperMedian(bench->sigma);
+  const double middle = UpperMedian(weighted->sigma);
   if (misfit < kRuined || misfit < kByFar * middle) return;
-  bench->sigma.assign(bench->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
+  weighted->sigma.assign(weighted->sigma.size(), std::max(kUsual, std::min(middle, 0.3 * misfit)));
 }
 
-void Widen(const std::vector<double>& rounding, Workbench* bench) {
+void Widen(const std::vector<double>& rounding, WeightedData* weighted) {
   if (rounding.empty()) return;
-  bench->least_variance = 1;
+  weighted->least_variance = 1;
   for (std::size_t k = 0; k < rounding.size(); ++k) {
-    bench->sigma[k] = std::hypot(bench->sigma[k], rounding[k]);
+    weighted->sigma[k] = std::hypot(weighted->sigma[k], rounding[k]);
   }
 }
 
 // What the file says of each current is believed.
-void TakeStatedSigma(const Measurement& measurement, Workbench* bench) {
-  for (std::size_t k = 0; k < bench->sigma.size(); ++k) {
-    bench->sigma[k] = std::max(measurement.stated_sigma[k], kSmallestNoise);
+void TakeStatedSigma(const Measurement& measurement, WeightedData* weighted) {
+  for (std::size_t k = 0; k < weighted->sigma.size(); ++k) {
+    weighted->sigma[k] = std::max(measurement.stated_sigma[k], kSmallestNoise);
   }
 }
 
 // And so are sizes that somebody knows. The voltage's errors show by the slope of the fitted curve.
-void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* bench) {
+void TakeStated(const Measurement& measurement, const LawFit& fit, WeightedData* weighted) {
   const ErrorSizes& sizes = measurement.errors.sizes;
   const std::vector<Reading>& points = measurement.readings.points;
   const ReadingScale& scale = measurement.readings.scale;
@@ -69,50 +69,50 @@ void TakeStated(const Measurement& measurement, const LawFit& fit, Workbench* be
     const std::size_t a = k > 0 ? k - 1 : k, b = k + 1 < points.size() ? k + 1 : k;
     const double span = points[b].voltage - points[a].voltage;
     const double slope = span != 0 ? (fit.current[b] - fit.current[a]) / span : 0;
-    bench->sigma[k] =
+    weighted->sigma[k] =
         std::max(std::hypot(sizes.current_A / scale.current_A, voltage * points[k].voltage * slope),
                  kSmallestNoise);
   }
-  bench->path = sizes.path;
-  bench->path_length = sizes.length;
+  weighted->path = sizes.path;
+  weighted->path_length = sizes.length;
 }
 
 }  // namespace
 
-Noise TakeNoise(const Measurement& measurement, const LawFit& fit, Workbench* bench) {
+Noise TakeNoise(const Measurement& measurement, const LawFit& fit, WeightedData* weighted) {
   const Readings& readings = measurement.readings;
   std::vector<double> residual(readings.points.size());
   for (std::size_t k = 0; k < residual.size(); ++k) {
     residual[k] = fit.current[k] - readings.points[k].current;
   }
-  Noise noise = EstimateNoise(measurement, residual, bench->used);
-  bench->sigma = noise.sigma;
+  Noise noise = EstimateNoise(measurement, residual, weighted->used);
+  weighted->sigma = noise.sigma;
   const std::vector<double> rounding = CoarseRounding(measurement, noise);
   const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
                      10 * kSmallestNoise;  // computed readings: what is left is arithmetic
-  if (exact) bench->least_variance = 1;
+  if (exact) weighted->least_variance = 1;
   const bool stated = measurement.errors.kind == ErrorKind::kStated;
   if (measurement.has_path()) {
-    bench->least_variance = 1;
+    weighted->least_variance = 1;
     if (stated) {
-      TakeStated(measurement, fit, bench);
+      TakeStated(measurement, fit, weighted);
     } else if (measurement.stated_sigma.empty()) {
-      LevelNoise(bench, Misfit(*bench, residual, rounding));
+      LevelNoise(weighted, Misfit(*weighted, residual, rounding));
     } else {
-      TakeStatedSigma(measurement, bench);
+      TakeStatedSigma(measurement, weighted);
     }
   }
-  if (!stated) Widen(rounding, bench);
+  if (!stated) Widen(rounding, weighted);
   return noise;
 }
 
-Noise SettleNoise(const Measurement& measurement, Workbench* bench, LawFit* fit) {
+Noise SettleNoise(const Measurement& measurement, WeightedData* weighted, LawFit* fit) {
   const bool stated = measurement.errors.kind == ErrorKind::kStated;
   Noise noise;
   for (int round = 0; round < 2; ++round) {
-    noise = TakeNoise(measurement, *fit, bench);
-    if (measurement.has_path() && !stated) bench->path = FindPath(*bench, *fit);
-    LawFit again = FitLaw(*bench, fit->law, fit->p);
+    noise = TakeNoise(measurement, *fit, weighted);
+    if (measurement.has_path() && !stated) weighted->path = FindPath(*weighted, *fit);
+    LawFit again = FitLaw(*weighted, fit->law, fit->p);
     if (again.usable) *fit = std::move(again);
   }
   return noise;

@@ -81,12 +81,12 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
   auto measurement = MakeMeasurement(InOrder(SetOfOne(curve), &disorder));
   if (!measurement) return named(measurement.error());
   FittedSweep sweep;
-  sweep.bench.readings = std::make_shared<const Readings>(std::move(measurement->readings));
-  const Readings& readings = *sweep.bench.readings;
+  sweep.weighted.readings = std::make_shared<const Readings>(std::move(measurement->readings));
+  const Readings& readings = *sweep.weighted.readings;
   if (readings.traits.only_dark) return Fail(curve.name + ": the curve is dark");
-  sweep.bench.sigma.assign(readings.points.size(), 1);
-  sweep.bench.used.assign(readings.points.size(), 1);
-  sweep.fit = FitBase(sweep.bench, StartingLaw(readings, Model::kSingleDiode));
+  sweep.weighted.sigma.assign(readings.points.size(), 1);
+  sweep.weighted.used.assign(readings.points.size(), 1);
+  sweep.fit = FitBase(sweep.weighted, StartingLaw(readings, Model::kSingleDiode));
   if (!sweep.fit.usable) return Fail(curve.name + ": no diode model fits these readings");
   SweepState& state = sweep.state;
   state.name = curve.name;
@@ -102,13 +102,13 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
 }
 
 SweepState StateWith(const FittedSweep& sweep, const std::vector<double>& change) {
-  Readings readings = *sweep.bench.readings;
+  Readings readings = *sweep.weighted.readings;
   for (std::size_t k = 0; k < change.size(); ++k) readings.points[k].current += change[k];
-  Workbench bench = sweep.bench;
-  bench.readings = std::make_shared<const Readings>(std::move(readings));
-  const LawFit fit = FitLaw(bench, sweep.fit.law, sweep.fit.p);
+  WeightedData weighted = sweep.weighted;
+  weighted.readings = std::make_shared<const Readings>(std::move(readings));
+  const LawFit fit = FitLaw(weighted, sweep.fit.law, sweep.fit.p);
   SweepState state = sweep.state;
-  if (fit.usable) Describe(*bench.readings, fit, &state);
+  if (fit.usable) Describe(*weighted.readings, fit, &state);
   return state;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -35,7 +35,7 @@ struct SweepState {
 
 // The sweep laid out and fitted, to be fitted again with something done to it.
 struct FittedSweep {
-  Workbench bench;
+  WeightedData weighted;
   LawFit fit;
   SweepState state;
 };

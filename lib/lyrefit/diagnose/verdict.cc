@@ -8,7 +8,7 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/weigh_rivals.h"
+#include "lyrefit/diagnose/weigh_candidates.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -53,16 +53,16 @@ constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
 // Whether the base model misses the data by more than it misses modules without a fault, and by
 // more than the floor.
 bool MissesTooMuch(const Verdict& verdict, const Floors& floors) {
-  return floors.Any() && verdict.departure.value > std::max(kMostHealthy, floors.current);
+  return floors.Any() && verdict.lack_of_fit.value > std::max(kMostHealthy, floors.current);
 }
 
 // "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)"
-std::string DepartureText(double departure, const Floors& floors) {
+std::string DepartureText(double lack_of_fit, const Floors& floors) {
   const std::string usual =
       fmt::format("({:.2f} to {:.2f} %)", 100 * kLeastHealthy, 100 * kMostHealthy);
-  const std::string text = fmt::format("{:.2f} % of Isc", 100 * departure);
-  if (departure < kLeastHealthy) return text + " beyond their noise";
-  if (departure <= kMostHealthy) return text + ", as healthy modules do " + usual;
+  const std::string text = fmt::format("{:.2f} % of Isc", 100 * lack_of_fit);
+  if (lack_of_fit < kLeastHealthy) return text + " beyond their noise";
+  if (lack_of_fit <= kMostHealthy) return text + ", as healthy modules do " + usual;
   return text + fmt::format(", more than healthy modules do {} but less than the floor of {:g} %",
                             usual, 100 * floors.current);
 }
@@ -70,7 +70,7 @@ std::string DepartureText(double departure, const Floors& floors) {
 // Where no cause is named: how far the data are from the model, and what is there all the same.
 std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves) {
   if (!floors.Any()) return "Nothing to find: what the base model leaves is noise.";
-  const double departure = verdict.departure.value;
+  const double lack_of_fit = verdict.lack_of_fit.value;
   std::string present;
   if (!verdict.below_floor.empty()) {
     present =
@@ -79,13 +79,13 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors, int cu
   }
   if (!MissesTooMuch(verdict, floors)) {
     return "Nothing to act on: the data depart from the base model by " +
-           DepartureText(departure, floors) + present + ".";
+           DepartureText(lack_of_fit, floors) + present + ".";
   }
   if (present.empty()) present = ", and no cause of the catalogue explains it";
   return fmt::format(
       "The base model misses the data by {:.2f} % of Isc, more than it misses healthy modules by "
       "({:.2f} to {:.2f} %){}. To tell: {}{}.",
-      100 * departure, 100 * kLeastHealthy, 100 * kMostHealthy, present,
+      100 * lack_of_fit, 100 * kLeastHealthy, 100 * kMostHealthy, present,
       curves > 1 ? "diagnose each curve by itself; " : "",
       FindEffect("unknown_structure")->separate_by);
 }
@@ -112,14 +112,14 @@ std::string VerdictSentence(const Verdict& verdict, const Floors& floors, int cu
 }
 
 // Root mean square, in parts of Isc, of what a fit leaves beyond the noise.
-Sized LeftBy(const Workbench& bench, const LawFit& fit) {
+Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
   double noise = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (bench.used[k] != 0) noise += bench.sigma[k] * bench.sigma[k];
+    if (weighted.used[k] != 0) noise += weighted.sigma[k] * weighted.sigma[k];
   }
-  noise /= std::max(bench.count(), 1);
-  const double departure = MissedBy(bench, fit);
-  const double left = std::sqrt(std::max(departure * departure - noise, 0.0));
+  noise /= std::max(weighted.count(), 1);
+  const double lack_of_fit = MissedBy(weighted, fit);
+  const double left = std::sqrt(std::max(lack_of_fit * lack_of_fit - noise, 0.0));
   // A rough path has some six independent pieces in a sweep: its size is known to a third.
   constexpr double kPieces = 6;
   const double half = left * kNormal95 / std::sqrt(2 * kPieces);
@@ -130,7 +130,7 @@ Sized LeftBy(const Workbench& bench, const LawFit& fit) {
 bool Remains(const Selection& selection, double whiteness_after) {
   constexpr double kCertain = 1e-3;
   return selection.unknown_p < kCertain || whiteness_after < kCertain ||
-         selection.bench.correlation >= 0.5;
+         selection.weighted.correlation >= 0.5;
 }
 
 }  // namespace
@@ -150,9 +150,9 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
                    [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
   verdict.below_floor = DescribeBelow(selection);
-  verdict.departure = LeftBy(selection.base_bench, selection.base);
-  const Sized left = LeftBy(selection.bench, selection.extended);
-  const bool material = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
+  verdict.lack_of_fit = LeftBy(selection.base_weighted, selection.base);
+  const Sized left = LeftBy(selection.weighted, selection.extended);
+  const bool exceeds = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
   // A shape that is not understood bends n, which then says nothing.
   const bool understood =
       options.floor_current > 0 ? left.value <= options.floor_current : verdict.causes.empty();
@@ -163,14 +163,14 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     }
   }
   constexpr double kNeverNoise = 1e-6;
-  const bool unknown = material && (selection.unknown || whiteness_after < kNeverNoise);
+  const bool unknown = exceeds && (selection.unknown || whiteness_after < kNeverNoise);
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {
     verdict.unexplained = true;
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
-  if (verdict.found && material && Remains(selection, whiteness_after)) verdict.unexplained = true;
+  if (verdict.found && exceeds && Remains(selection, whiteness_after)) verdict.unexplained = true;
   const Floors floors{options.floor_current, options.floor_power};
   if (!verdict.found && MissesTooMuch(verdict, floors)) verdict.unexplained = true;
   for (const Inseparable& open : InseparableCauses()) {

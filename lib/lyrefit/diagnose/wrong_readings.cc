@@ -10,20 +10,20 @@ namespace lyrefit {
 namespace {
 
 // How far the fit is from a reading, in its noise.
-double Off(const Workbench& bench, const LawFit& fit, int reading) {
-  return (fit.current[reading] - bench.readings->points[reading].current) / bench.sigma[reading];
+double Off(const WeightedData& weighted, const LawFit& fit, int reading) {
+  return (fit.current[reading] - weighted.readings->points[reading].current) / weighted.sigma[reading];
 }
 
 // Whether a reading is far off while its neighbours are not.
-bool IsAlone(const Workbench& bench, const LawFit& fit, int reading) {
+bool IsAlone(const WeightedData& weighted, const LawFit& fit, int reading) {
   constexpr double kShared = 0.35;
-  const std::vector<Reading>& points = bench.readings->points;
+  const std::vector<Reading>& points = weighted.readings->points;
   int neighbours = 0;
   for (const int k : {reading - 1, reading + 1}) {
     const bool there = k >= 0 && k < static_cast<int>(points.size());
     if (!there || points[k].segment != points[reading].segment) continue;
-    if (bench.used[k] == 0) continue;
-    if (Off(bench, fit, k) / Off(bench, fit, reading) > kShared) return false;
+    if (weighted.used[k] == 0) continue;
+    if (Off(weighted, fit, k) / Off(weighted, fit, reading) > kShared) return false;
     ++neighbours;
   }
   return neighbours == 2;
@@ -32,21 +32,21 @@ bool IsAlone(const Workbench& bench, const LawFit& fit, int reading) {
 // Whether a reading at an end of its stretch is what the law says of a voltage that stands still.
 // Where a sweep begins, turns or ends its rate is not what neighbours say: beside a charge or a
 // skew such a reading is off, but not wrong.
-bool StandsStill(const Workbench& bench, const LawFit& fit, int reading) {
+bool StandsStill(const WeightedData& weighted, const LawFit& fit, int reading) {
   constexpr double kPlausible = 3.5;
-  const std::vector<Reading>& points = bench.readings->points;
+  const std::vector<Reading>& points = weighted.readings->points;
   const int last = static_cast<int>(points.size()) - 1;
   const auto apart = [&](int k) {
     return k < 0 || k > last || points[k].segment != points[reading].segment;
   };
   if (!apart(reading - 1) && !apart(reading + 1)) return false;
-  Readings alone = *bench.readings;
+  Readings alone = *weighted.readings;
   alone.points = {points[reading]};
   alone.points[0].rate = 0;
   double current = 0;
   LawWorkspace workspace;
   return EvaluateLaw(fit.law, alone, fit.p.data(), &workspace, &current, nullptr) &&
-         std::fabs(current - points[reading].current) < kPlausible * bench.sigma[reading];
+         std::fabs(current - points[reading].current) < kPlausible * weighted.sigma[reading];
 }
 
 }  // namespace
@@ -61,27 +61,27 @@ bool StandsOut(const std::vector<Score>& scores) {
   });
 }
 
-bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<Rival>& rivals,
-                      double level, Workbench* bench, LawFit* fit, WrongReadings* wrong) {
+bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates,
+                      double level, WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
   constexpr double kMostOfAll = 0.05;
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
   if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return false;
   if (!(furthest->corrected_p < level)) return false;
-  const double most = std::max(1.0, kMostOfAll * static_cast<double>(bench->used.size()));
+  const double most = std::max(1.0, kMostOfAll * static_cast<double>(weighted->used.size()));
   if (static_cast<double>(wrong->readings.size()) >= most) return false;
-  Workbench without = *bench;
+  WeightedData without = *weighted;
   without.used[furthest->outlier] = 0;
   LawFit rest = FitLaw(without, fit->law, fit->p);
-  if (!rest.usable || Stopped(bench->watch)) return false;
-  if (!rivals.empty()) {
-    const Rival& best = rivals.front();
-    const double gain = (fit->sum - rest.sum) / NoiseVariance(*bench, best.fit);
+  if (!rest.usable || Stopped(weighted->watch)) return false;
+  if (!fitted_candidates.empty()) {
+    const FittedCandidate& best = fitted_candidates.front();
+    const double gain = (fit->sum - rest.sum) / NoiseVariance(*weighted, best.fit);
     const bool beaten = gain - furthest->charge < best.Charged();
-    const bool alone = best.score.effect->momentary && IsAlone(*bench, *fit, furthest->outlier);
+    const bool alone = best.score.effect->momentary && IsAlone(*weighted, *fit, furthest->outlier);
     if (beaten && !alone) return false;
   }
-  bench->used[furthest->outlier] = 0;
-  if (StandsStill(*bench, rest, furthest->outlier)) {
+  weighted->used[furthest->outlier] = 0;
+  if (StandsStill(*weighted, rest, furthest->outlier)) {
     wrong->at_rest.push_back(furthest->outlier);
   } else {
     wrong->readings.push_back(furthest->outlier);
@@ -91,16 +91,16 @@ bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<Rival>
   return true;
 }
 
-bool Readmit(Workbench* bench, LawFit* fit, WrongReadings* wrong) {
+bool Readmit(WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
   constexpr double kPlausible = 3.5;
   std::vector<int>& readings = wrong->readings;
-  const auto plausible = [&](int k) { return std::fabs(Off(*bench, *fit, k)) < kPlausible; };
+  const auto plausible = [&](int k) { return std::fabs(Off(*weighted, *fit, k)) < kPlausible; };
   const auto first =
       std::stable_partition(readings.begin(), readings.end(), [&](int k) { return !plausible(k); });
   if (first == readings.end()) return false;
-  for (auto k = first; k != readings.end(); ++k) bench->used[*k] = 1;
+  for (auto k = first; k != readings.end(); ++k) weighted->used[*k] = 1;
   readings.erase(first, readings.end());
-  LawFit again = FitLaw(*bench, fit->law, fit->p);
+  LawFit again = FitLaw(*weighted, fit->law, fit->p);
   if (again.usable) *fit = std::move(again);
   return true;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/diagnose/rival.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 namespace lyrefit {
 
@@ -17,12 +17,12 @@ struct WrongReadings {
 bool StandsOut(const std::vector<Score>& scores);
 
 // Leaves out the reading that is furthest off where that is certain at `level` and explains more
-// than the best of `rivals`, or is alone where that acts at a moment; at most a twentieth of all.
+// than the best of `fitted_candidates`, or is alone where that acts at a moment; at most a twentieth of all.
 // Says whether it did; the fit is then one without it.
-bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<Rival>& rivals,
-                      double level, Workbench* bench, LawFit* fit, WrongReadings* wrong);
+bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates,
+                      double level, WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
 
 // Takes back what causes that were found since explain, and says whether there was any.
-bool Readmit(Workbench* bench, LawFit* fit, WrongReadings* wrong);
+bool Readmit(WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
 
 }  // namespace lyrefit

@@ -28,7 +28,7 @@ std::vector<ResultColumn> DiagnoseColumns() {
       {"unexplained", "", CellType::kTruth,
        "something is there that no known cause fits; where no cause is named, the model misses "
        "more than it misses of healthy modules"},
-      {"departure_percent", "%", kNumber,
+      {"lack_of_fit_percent", "%", kNumber,
        "of the readings from the model beyond noise, root mean square in percent of Isc"},
       {"power_effect_percent", "%", kNumber,
        "of the cause on Pmax: what the model gets wrong without it, in percent"},

@@ -25,7 +25,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   cause_about              sweep, instrument or conditions: the string does not need work, but has
 //                            to be measured again; anything else counts as a cause of the plant
 //   date                     ISO 8601
-//   performance_factor, else group_deviation_percent, recoverable_power_W, departure_percent
+//   performance_factor, else group_deviation_percent, recoverable_power_W, lack_of_fit_percent
 //                            by which the worst are chosen
 //   Pmax_stc_W, Pmax_stc_U_W (k = 2), rated_power_W, recoverable_power_W
 //   sketch                   currents at even steps of V / Voc from 0 to 1, a byte each, in 1/255 of

@@ -18,7 +18,7 @@ constexpr const char* kNames[] = {"id",
                                   "Pmax_stc_W",
                                   "recoverable_power_W",
                                   "group_deviation_percent",
-                                  "departure_percent",
+                                  "lack_of_fit_percent",
                                   "page",
                                   "below_rating_W",
                                   "group_flag"};

@@ -20,7 +20,7 @@ constexpr double kLeastLeak = 1e-8;
 
 // The parameters' view of a law: where each effect's stretch begins.
 template <class S>
-struct Bench {
+struct EvaluationContext {
   const Law& law;
   const Readings& readings;
   const S* p;
@@ -28,33 +28,33 @@ struct Bench {
 };
 
 template <class S>
-Bench<S> MakeBench(const Law& law, const Readings& readings, const S* p) {
-  Bench<S> bench{law, readings, p, {}};
+EvaluationContext<S> MakeWeightedData(const Law& law, const Readings& readings, const S* p) {
+  EvaluationContext<S> context{law, readings, p, {}};
   int offset = law.base_size();
   for (const Effect* effect : law.effects) {
-    bench.offsets.push_back(offset);
+    context.offsets.push_back(offset);
     offset += effect->size();
   }
-  return bench;
+  return context;
 }
 
 // Of the photocurrent, relative.
 template <class S>
-S TempcoOf(const Bench<S>& bench) {
-  if (!bench.law.free_tempco) return S(bench.readings.isc_tempco_per_K);
-  const S& alpha = bench.p[bench.law.TempcoAt()];
-  return bench.law.natural ? S(alpha / bench.p[kIph]) : alpha;
+S TempcoOf(const EvaluationContext<S>& context) {
+  if (!context.law.free_tempco) return S(context.readings.isc_tempco_per_K);
+  const S& alpha = context.p[context.law.TempcoAt()];
+  return context.law.natural ? S(alpha / context.p[kIph]) : alpha;
 }
 
 template <class S>
-Sky<S> SkyAt(const Bench<S>& bench, const ReadingBlock& readings) {
-  const Law& law = bench.law;
+Sky<S> SkyAt(const EvaluationContext<S>& context, const ReadingBlock& readings) {
+  const Law& law = context.law;
   Sky<S> sky{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
-             law.free_bandgap ? bench.p[law.BandgapAt()] : S(bench.readings.bandgap_eV),
-             TempcoOf(bench)};
+             law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
+             TempcoOf(context)};
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const auto stage = law.effects[e]->sky.template For<S>();
-    if (stage != nullptr) stage(bench.p + bench.offsets[e], readings, &sky);
+    if (stage != nullptr) stage(context.p + context.offsets[e], readings, &sky);
   }
   return sky;
 }
@@ -62,69 +62,69 @@ Sky<S> SkyAt(const Bench<S>& bench, const ReadingBlock& readings) {
 // Diodes of the base at a temperature: `warmer` is what that makes of the first one's saturation
 // current, `warmer_2` of one that recombines in the junction.
 template <class S>
-void PivotDiodes(const Bench<S>& bench, const S& inverse_vt, const S& warmer, Cell<S>* cell) {
+void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer, Cell<S>* cell) {
   const double k_eV = ThermalVoltage(1.0);
-  const S inverse_n = 1.0 / bench.p[kBaseIdeality];
+  const S inverse_n = 1.0 / context.p[kBaseIdeality];
   const S exponent =
-      inverse_n * (bench.readings.pivot_voltage / (k_eV * bench.readings.reference_temperature_K));
+      inverse_n * (context.readings.pivot_voltage / (k_eV * context.readings.reference_temperature_K));
   // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
-  const S saturation = exp(bench.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
+  const S saturation = exp(context.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
   cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
-  if (bench.law.model == Model::kSingleDiode) return;
-  cell->diode[cell->diodes++] = {bench.p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
+  if (context.law.model == Model::kSingleDiode) return;
+  cell->diode[cell->diodes++] = {context.p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
 }
 template <class S>
-void NaturalDiodes(const Bench<S>& bench, const S& inverse_vt, const S& warmer, const S& warmer_2,
+void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer, const S& warmer_2,
                    Cell<S>* cell) {
-  const double per_scale = 1 / bench.readings.scale.current_A;
-  for (int d = 0; d < static_cast<int>(bench.law.model); ++d) {
-    const S saturation = bench.p[SaturationCurrentIndex(d)] * per_scale;
+  const double per_scale = 1 / context.readings.scale.current_A;
+  for (int d = 0; d < static_cast<int>(context.law.model); ++d) {
+    const S saturation = context.p[SaturationCurrentIndex(d)] * per_scale;
     cell->diode[cell->diodes++] = {saturation * (d == 0 ? warmer : warmer_2),
-                                   inverse_vt / bench.p[IdealityIndex(d)]};
+                                   inverse_vt / context.p[IdealityIndex(d)]};
   }
 }
 
 // A cell at a temperature, its light still to come.
 template <class S>
-void CellUnder(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
-  const ReadingScale& scale = bench.readings.scale;
-  const double k_eV = ThermalVoltage(1.0, bench.law.constants);
-  const double reference_K = bench.readings.reference_temperature_K;
+void CellUnder(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
+  const ReadingScale& scale = context.readings.scale;
+  const double k_eV = ThermalVoltage(1.0, context.law.constants);
+  const double reference_K = context.readings.reference_temperature_K;
   const S ratio = sky.temperature_K * (1 / reference_K);
   const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
-  const S barrier = DeSotoBarrier(sky.bandgap_eV, S(bench.law.bandgap_slope_per_K), reference_K,
+  const S barrier = DeSotoBarrier(sky.bandgap_eV, S(context.law.bandgap_slope_per_K), reference_K,
                                   sky.temperature_K, k_eV);
   const S warmer = exp(barrier) * (ratio * ratio * ratio);
   const S warmer_2 = (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
   cell->thermal_voltage = sky.temperature_K * k_eV;
   cell->saturation_2_unit = scale.saturation_2_unit * warmer_2;
   cell->diodes = 0;
-  if (bench.law.natural) {
-    NaturalDiodes(bench, inverse_vt, warmer, warmer_2, cell);
-    cell->resistance = bench.p[kRs] * (scale.current_A / scale.cells);
+  if (context.law.natural) {
+    NaturalDiodes(context, inverse_vt, warmer, warmer_2, cell);
+    cell->resistance = context.p[kRs] * (scale.current_A / scale.cells);
   } else {
-    PivotDiodes(bench, inverse_vt, warmer, cell);
-    cell->resistance = bench.p[kBaseResistance];
+    PivotDiodes(context, inverse_vt, warmer, cell);
+    cell->resistance = context.p[kBaseResistance];
   }
   cell->reach = scale.reach_V;
-  const DataTraits& traits = bench.readings.traits;
+  const DataTraits& traits = context.readings.traits;
   cell->cells = traits.cells;
   cell->substring_cells = cell->cells / SubstringsOf(traits);
 }
 
 // What the light decides in a cell whose temperature is settled.
 template <class S>
-void Light(const Bench<S>& bench, const Sky<S>& sky, Cell<S>* cell) {
-  const ReadingScale& scale = bench.readings.scale;
-  const S* p = bench.p;
+void Light(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
+  const ReadingScale& scale = context.readings.scale;
+  const S* p = context.p;
   cell->irradiance = sky.irradiance;
-  const S warmer = sky.temperature_K - bench.readings.reference_temperature_K;
-  const bool natural = bench.law.natural;
+  const S warmer = sky.temperature_K - context.readings.reference_temperature_K;
+  const bool natural = context.law.natural;
   const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
   cell->photocurrent = sky.irradiance * (photocurrent * (1.0 + sky.isc_tempco_per_K * warmer) +
-                                         bench.readings.isc_tempco_scales_per_K * warmer);
+                                         context.readings.isc_tempco_scales_per_K * warmer);
   const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
-  const bool inverse = bench.law.shunt == ShuntLaw::kInverse;
+  const bool inverse = context.law.shunt == ShuntLaw::kInverse;
   cell->conductance = inverse ? conductance * sky.irradiance : conductance;
 }
 
@@ -150,13 +150,13 @@ void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
 
 // What layout and effects make of a cell under a sky.
 template <class S>
-void ApplyCellStages(const Bench<S>& bench, Cell<S>* cell) {
-  if (bench.law.layout != nullptr) {
-    LayOut(*bench.law.layout, bench.readings.scale.current_A, cell);
+void ApplyCellStages(const EvaluationContext<S>& context, Cell<S>* cell) {
+  if (context.law.layout != nullptr) {
+    LayOut(*context.law.layout, context.readings.scale.current_A, cell);
   }
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->cell.template For<S>();
-    if (stage != nullptr) stage(bench.p + bench.offsets[e], cell);
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const auto stage = context.law.effects[e]->cell.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], cell);
   }
 }
 
@@ -188,21 +188,21 @@ Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
 
 // What stands beside photocurrent, diodes and shunt over the junction.
 template <class S>
-bool HasMore(const Bench<S>& bench, const Cell<S>& cell) {
+bool HasMore(const EvaluationContext<S>& context, const Cell<S>& cell) {
   if (cell.reverse != ReverseLaw::kShunt) return true;
-  for (const Effect* effect : bench.law.effects) {
+  for (const Effect* effect : context.law.effects) {
     if (effect->ChangesJunction()) return true;
   }
   return false;
 }
 template <class S>
-Tangent<S> MoreCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& photocurrent,
+Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell, const S& photocurrent,
                        const Tangent<S>& voltage) {
   Tangent<S> current = 0.0;
   if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const Effect& effect = *bench.law.effects[e];
-    const S* const p = bench.p + bench.offsets[e];
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const Effect& effect = *context.law.effects[e];
+    const S* const p = context.p + context.offsets[e];
     const auto stage = effect.junction.template For<S>();
     if (stage != nullptr) current = current + stage(p, cell, photocurrent, voltage);
     if (!effect.plain_junction) continue;
@@ -213,7 +213,7 @@ Tangent<S> MoreCurrent(const Bench<S>& bench, const Cell<S>& cell, const S& phot
 }
 
 // F(Vj) of one kind of cell: the current it delivers, with its slope.
-inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
+inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
                                      const Dual<1, Pack>& voltage) {
   const bool alike = cell.kinds == 1;
   const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.kind[kind].light;
@@ -223,23 +223,23 @@ inline Dual<1, Pack> JunctionCurrent(const Bench<Pack>& bench, const Cell<Pack>&
     const Diode<Pack>& diode = cell.diode[d];
     current = current + DiodeCurrent(diode.saturation, diode.inverse_n_vt, voltage);
   }
-  return HasMore(bench, cell) ? current + MoreCurrent(bench, cell, light, voltage) : current;
+  return HasMore(context, cell) ? current + MoreCurrent(context, cell, light, voltage) : current;
 }
 
 // D(I): what stands between junction and terminal beside Rs.
 template <class S>
-bool HasMoreDrop(const Bench<S>& bench) {
-  for (const Effect* effect : bench.law.effects) {
+bool HasMoreDrop(const EvaluationContext<S>& context) {
+  for (const Effect* effect : context.law.effects) {
     if (effect->ChangesSeries()) return true;
   }
   return false;
 }
 template <class S>
-Tangent<S> MoreDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>& current) {
+Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell, const Tangent<S>& current) {
   Tangent<S> drop = 0.0;
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const Effect& effect = *bench.law.effects[e];
-    const S* const p = bench.p + bench.offsets[e];
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const Effect& effect = *context.law.effects[e];
+    const S* const p = context.p + context.offsets[e];
     const auto stage = effect.series.template For<S>();
     if (stage != nullptr) drop = drop + stage(p, cell, current);
     if (!effect.plain_series) continue;
@@ -248,10 +248,10 @@ Tangent<S> MoreDrop(const Bench<S>& bench, const Cell<S>& cell, const Tangent<S>
   }
   return drop;
 }
-inline Dual<1, Pack> SeriesDrop(const Bench<Pack>& bench, const Cell<Pack>& cell,
+inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
                                 const Dual<1, Pack>& current) {
   const Dual<1, Pack> drop = current * cell.resistance;
-  return HasMoreDrop(bench) ? drop + MoreDrop(bench, cell, current) : drop;
+  return HasMoreDrop(context) ? drop + MoreDrop(context, cell, current) : drop;
 }
 
 // Current through the bypass diode beside a part, per voltage `reverse` of one of its cells against

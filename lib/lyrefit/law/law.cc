@@ -31,9 +31,9 @@ template <class S>
 class CellKeeper {
  public:
   CellKeeper(const CellKeeper&) = delete;  // cells point into it
-  explicit CellKeeper(const Bench<S>& bench) : bench_(bench) {
+  explicit CellKeeper(const EvaluationContext<S>& context) : bench_(context) {
     warm_.kind = kinds_;
-    for (const Effect* effect : bench.law.effects) varies_ = varies_ || effect->sky;
+    for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->sky;
   }
 
   // Whether the cell differs from that of the block before.
@@ -59,7 +59,7 @@ class CellKeeper {
   const Sky<S>& sky() const { return sky_; }
 
  private:
-  const Bench<S>& bench_;
+  const EvaluationContext<S>& bench_;
   bool varies_ = false;
   bool known_ = false;
   ReadingBlock last_;
@@ -71,7 +71,7 @@ class CellKeeper {
 };
 
 template <class S>
-S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell, const S& current,
+S Recorded(const EvaluationContext<S>& context, const ReadingBlock& block, const Cell<S>& cell, const S& current,
            const S& junction) {
   Solved<S> solved;
   solved.current = current;
@@ -84,9 +84,9 @@ S Recorded(const Bench<S>& bench, const ReadingBlock& block, const Cell<S>& cell
         solved.diode_conductance + (diode.saturation - through) * diode.inverse_n_vt;
   }
   solved.conductance = solved.diode_conductance + cell.conductance;
-  for (std::size_t e = 0; e < bench.law.effects.size(); ++e) {
-    const auto stage = bench.law.effects[e]->instrument.template For<S>();
-    if (stage != nullptr) stage(bench.p + bench.offsets[e], block, &solved);
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const auto stage = context.law.effects[e]->instrument.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], block, &solved);
   }
   return solved.current;
 }
@@ -152,7 +152,7 @@ void Add(const Pack& part, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
 // What the law is at a root, in duals and in plain numbers.
 template <class S>
 struct Place {
-  const Bench<S>& bench;
+  const EvaluationContext<S>& context;
   const Cell<S>& cell;
   const Cell<Pack>& plain;
 };
@@ -175,7 +175,7 @@ void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& 
     Add(part * current.v[0], cell.diode[d].saturation, sum);
     Add(part * current.v[1], cell.diode[d].inverse_n_vt, sum);
   }
-  if (HasMore(at.bench, cell)) Add(part, MoreCurrent(at.bench, cell, light, S(voltage)), sum);
+  if (HasMore(at.context, cell)) Add(part, MoreCurrent(at.context, cell, light, S(voltage)), sum);
 }
 
 // The same of a kind's current.
@@ -203,15 +203,15 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
     if (plain.kinds == 1 || !plain.part[plain.kind[g].part].paired) continue;
     const Pack& carried = root.kind[g].current.a;
     Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
-    if (HasMoreDrop(at.bench)) {
-      Add(slopes.by_chain_drop[g], MoreDrop(at.bench, at.cell, S(carried)), &current);
+    if (HasMoreDrop(at.context)) {
+      Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(carried)), &current);
     }
   }
   for (int s = 0; s < plain.strings; ++s) {
     Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);
     Add(slopes.by_terminal[s], voltage, &current);
-    if (!HasMoreDrop(at.bench)) continue;
-    Add(slopes.by_drop[s], MoreDrop(at.bench, at.cell, S(state.current[s])), &current);
+    if (!HasMoreDrop(at.context)) continue;
+    Add(slopes.by_drop[s], MoreDrop(at.context, at.cell, S(state.current[s])), &current);
   }
   for (int p = 0; p < plain.parts; ++p) {
     if (!plain.part[p].bypassed) continue;
@@ -283,15 +283,15 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const int size = law.size(), moved = static_cast<int>(free.size());
   std::vector<Pack> plain_values(size);
   for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
-  const Bench<Pack> plain = MakeBench(law, readings, static_cast<const Pack*>(plain_values.data()));
+  const EvaluationContext<Pack> plain = MakeWeightedData(law, readings, static_cast<const Pack*>(plain_values.data()));
   std::vector<S> duals;
   if constexpr (kDerivatives) {
     for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
     for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
   }
-  const Bench<S> bench = MakeBench(law, readings, static_cast<const S*>(duals.data()));
+  const EvaluationContext<S> context = MakeWeightedData(law, readings, static_cast<const S*>(duals.data()));
   CellKeeper<Pack> plain_cells(plain);
-  CellKeeper<S> cells(bench);
+  CellKeeper<S> cells(context);
   const bool instrument = HasInstrument(law);
   LawWorkspace::State& state = *workspace->Of(readings);
   StringLimits limits;
@@ -319,11 +319,11 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
       StoreRows(recorded, block, 1, current);
     } else {
       cells.Settle(block);
-      const Place<S> place{bench, cells.cell(), cell};
+      const Place<S> place{context, cells.cell(), cell};
       S recorded = DifferentiateCurrent(place, cells.sky().voltage, at, root);
       if (instrument) {
         const S junction = DifferentiateJunction(place, at, root, recorded);
-        recorded = Recorded(bench, block, cells.cell(), recorded, junction);
+        recorded = Recorded(context, block, cells.cell(), recorded, junction);
       }
       if (!AllFinite(recorded, moved)) return false;
       StoreRows(recorded.a, block, 1, current);

@@ -24,11 +24,11 @@ int KindOfChain(const Cell<Pack>& cell, int part, int chain) {
   return g;
 }
 
-void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState& state,
+void TermsAt(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringState& state,
              Terms* terms) {
-  for (int g = 0; g < cell.kinds; ++g) terms->kind[g] = PointOf(bench, cell, g, state);
+  for (int g = 0; g < cell.kinds; ++g) terms->kind[g] = PointOf(context, cell, g, state);
   for (int s = 0; s < cell.strings; ++s) {
-    terms->drop[s] = SeriesDrop(bench, cell, Dual<1, Pack>(state.current[s], 0));
+    terms->drop[s] = SeriesDrop(context, cell, Dual<1, Pack>(state.current[s], 0));
   }
   for (int p = 0; p < cell.parts; ++p) {
     if (!cell.part[p].bypassed) continue;
@@ -38,7 +38,7 @@ void TermsAt(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringState
   for (int p = 0; p < cell.parts; ++p) {
     for (int c = 0; cell.part[p].paired && c < 2; ++c) {
       const Pack& current = terms->kind[KindOfChain(cell, p, c)].current.a;
-      terms->chain_drop[p][c] = SeriesDrop(bench, cell, Dual<1, Pack>(current, 0));
+      terms->chain_drop[p][c] = SeriesDrop(context, cell, Dual<1, Pack>(current, 0));
     }
   }
 }
@@ -334,7 +334,7 @@ void Take(const Cell<Pack>& cell, const Mask& lanes, const StringState& from, St
 
 }  // namespace
 
-StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
+StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
                        const Pack& voltage, StringState* state, GiveUp give_up) {
   constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
@@ -343,7 +343,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
   bool near = false, settled_once = false;
   Mask hopeless = Pack(1.0) < 0.0;
   for (int k = 0; k < kMostSteps; ++k) {
-    TermsAt(bench, cell, *state, &terms);
+    TermsAt(context, cell, *state, &terms);
     SolveLinear(cell, limits, voltage, *state, terms, &linear);
     // Whole steps may go round in circles between exponentials that oppose each other.
     const double part = near || k < kPatience || k > kMostSteps - kPatience ? 1 : 0.5;
@@ -363,7 +363,7 @@ StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const S
     if (Any(hopeless)) break;
     StringState settled;
     StartString(cell, limits, voltage, 0.0, &settled);
-    SolveByBrackets(bench, cell, limits, voltage, &settled);
+    SolveByBrackets(context, cell, limits, voltage, &settled);
     Take(cell, !done, settled, state);
   }
   StringRoot root;

@@ -78,7 +78,7 @@ void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
 
 // The root at `voltage` per cell, from the state that is given, which moves there; NaN where it was
 // given up.
-StringRoot SolveString(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
+StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
                        const Pack& voltage, StringState* state, GiveUp give_up = GiveUp::kNever);
 
 }  // namespace lyrefit

@@ -7,8 +7,8 @@ namespace {
 
 class Bracketed {
  public:
-  Bracketed(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits)
-      : bench_(bench), cell_(cell), limits_(limits) {}
+  Bracketed(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits)
+      : bench_(context), cell_(cell), limits_(limits) {}
 
   void Solve(const Pack& voltage, StringState* state) const {
     for (int s = 0; s < cell_.strings; ++s) {
@@ -155,16 +155,16 @@ class Bracketed {
     }
   }
 
-  const Bench<Pack>& bench_;
+  const EvaluationContext<Pack>& bench_;
   const Cell<Pack>& cell_;
   const StringLimits& limits_;
 };
 
 }  // namespace
 
-void SolveByBrackets(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
+void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
                      const Pack& voltage, StringState* state) {
-  Bracketed(bench, cell, limits).Solve(voltage, state);
+  Bracketed(context, cell, limits).Solve(voltage, state);
 }
 
 }  // namespace lyrefit

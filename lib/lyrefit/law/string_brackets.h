@@ -7,7 +7,7 @@ namespace lyrefit {
 // Moves the state near the root at `voltage` by current, with brackets: for lanes on which Newton's
 // steps go round in circles. The voltage of a string falls as its current rises, and what a part's
 // cells carry rises with what all carry.
-void SolveByBrackets(const Bench<Pack>& bench, const Cell<Pack>& cell, const StringLimits& limits,
+void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
                      const Pack& voltage, StringState* state);
 
 }  // namespace lyrefit

@@ -40,12 +40,12 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
   return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // into breakdown by leaps of its own size
 }
 
-KindPoint PointOf(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
+KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
                   const StringState& state) {
   KindPoint point;
-  point.current = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.u[kind], 0));
+  point.current = JunctionCurrent(context, cell, kind, Dual<1, Pack>(state.u[kind], 0));
   if (!cell.halved) return point;
-  point.far = JunctionCurrent(bench, cell, kind, Dual<1, Pack>(state.far[kind], 0));
+  point.far = JunctionCurrent(context, cell, kind, Dual<1, Pack>(state.far[kind], 0));
   const Pack half = 0.5 * cell.lateral;
   point.follows = 1.0 / (1.0 - half * point.far.v[0]);
   point.behind = state.u[kind] - state.far[kind] + half * point.far.a;

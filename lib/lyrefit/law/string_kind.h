@@ -33,7 +33,7 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
                  const Dual<1, Pack>& current, const Pack& size);
 
 // Current of a kind at the voltages of a state.
-KindPoint PointOf(const Bench<Pack>& bench, const Cell<Pack>& cell, int kind,
+KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
                   const StringState& state);
 
 }  // namespace lyrefit

@@ -12,8 +12,8 @@ namespace {
 constexpr int kBriefly = 12;         // iterations that do for most refits
 constexpr int kMaxIterations = 200;  // of the others
 constexpr int kMaxRounds = 10;
-constexpr double kHopeless = 10;   // of t: no exchange of diodes brings a saturation current so far
-constexpr double kInside = 0.994;  // of the rise at the end: so far from it no exchange matters
+constexpr double kHopeless = 10;   // of t: no swap of diodes brings a saturation current so far
+constexpr double kInside = 0.994;  // of the rise at the end: so far from it no swap matters
 
 // The optimum with the diode of parameter i and diode d exchanged, where both have the same bounds.
 bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>* p) {

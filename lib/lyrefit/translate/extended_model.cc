@@ -187,11 +187,11 @@ Expected<KeyPoints> KeyPointsOf(const ExtendedModel& model, const TranslationInp
   return KeyPointsBy(KeyPointMethod::kInterpolated, points);
 }
 
-Expected<const ExtendedModel*> ModelOf(const PreparedCurve& curve, int rival) {
-  if (rival < 0 || rival >= static_cast<int>(curve.models.size())) {
+Expected<const ExtendedModel*> ModelOf(const PreparedCurve& curve, int alternative) {
+  if (alternative < 0 || alternative >= static_cast<int>(curve.models.size())) {
     return Fail("the readings were not diagnosed, or the diagnosis has no model of one device");
   }
-  return curve.models[rival].get();
+  return curve.models[alternative].get();
 }
 
 }  // namespace
@@ -243,16 +243,16 @@ Expected<std::shared_ptr<const ExtendedModel>> MakeExtendedModel(const IvCurve& 
 }
 
 Expected<CurvePoints> ExtendedPoints(const PreparedCurve& curve, const TranslationInputs& inputs,
-                                     int rival) {
-  TRY(const ExtendedModel* model, ModelOf(curve, rival));
+                                     int alternative) {
+  TRY(const ExtendedModel* model, ModelOf(curve, alternative));
   TRY(const PlacedModel placed,
       Place(*model, inputs, curve.target.irradiance_W_m2, curve.target.temperature_C));
   return Sweep(placed);
 }
 
 Expected<KeyPoints> ExtendedKeyPoints(const PreparedCurve& curve, const TranslationInputs& inputs,
-                                      int rival) {
-  TRY(const ExtendedModel* model, ModelOf(curve, rival));
+                                      int alternative) {
+  TRY(const ExtendedModel* model, ModelOf(curve, alternative));
   TRY(const KeyPoints target,
       KeyPointsOf(*model, inputs, curve.target.irradiance_W_m2, curve.target.temperature_C));
   if (!(target.max_power_W > 0)) return Fail("the device gives no power at the target");

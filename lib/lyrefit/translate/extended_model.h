@@ -29,7 +29,7 @@ struct ExtendedModel {
   std::vector<std::string> kept;      // titles of causes
   std::vector<std::string> removed;   // the same of those taken out
   std::optional<BetaAnchor> bandgap;  // of its first diode; none: as stated
-  std::string cause;                  // id of the first one, what rivals differ in
+  std::string cause;                  // id of the first one, what alternatives differ in
 };
 
 // `inputs` as settled; `anchored`: the band gap is such that Voc moves by beta.
@@ -52,10 +52,10 @@ Expected<std::shared_ptr<const ExtendedModel>> MakeExtendedModel(const IvCurve& 
 // Key points at the target. Where nothing was taken out of the readings, theirs times model at the
 // target / model at the source, as DiodeKeyPoints has it; else the model's own.
 Expected<KeyPoints> ExtendedKeyPoints(const PreparedCurve& curve, const TranslationInputs& inputs,
-                                      int rival);
+                                      int alternative);
 
 // 400 even points at the target, from short circuit to beyond open circuit.
 Expected<CurvePoints> ExtendedPoints(const PreparedCurve& curve, const TranslationInputs& inputs,
-                                     int rival);
+                                     int alternative);
 
 }  // namespace lyrefit

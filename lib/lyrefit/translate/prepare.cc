@@ -165,12 +165,12 @@ Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
 // place.
 void AddRivals(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
                Preparation* made) {
-  constexpr std::size_t kMostRivals = 4;
+  constexpr std::size_t kMostFittedCandidates = 4;
   const Verdict& verdict = made->diagnosis->verdict;
   if (verdict.causes.empty()) return;
   const std::vector<std::string>& causes = made->diagnosis->extended.causes;
   for (const std::string& id : verdict.causes.front().equivalents) {
-    if (made->curve.models.size() > kMostRivals) return;
+    if (made->curve.models.size() > kMostFittedCandidates) return;
     FitOptions fit = FitOptions();
     fit.search = FitOptions::SearchBesideShapes();
     fit.starts = StartsFrom::kShape;
@@ -187,7 +187,7 @@ void AddRivals(const IvCurve& curve, const TranslateOptions& options, const Exte
     if (fit.with.empty()) continue;
     const auto report = Fit(curve, fit);
     if (!report || !report->usable) continue;
-    // A rival that misses the readings by more than what was diagnosed explains less.
+    // An alternative that misses the readings by more than what was diagnosed explains less.
     constexpr double kAsGood = 1.5;
     const double best = made->diagnosis->extended.rmse.refined.solved_current_A;
     if (report->rmse.refined.solved_current_A > kAsGood * best) continue;

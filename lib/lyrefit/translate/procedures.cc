@@ -149,7 +149,7 @@ KeyPoints KeyPointsBy(KeyPointMethod method, const CurvePoints& points) {
 }
 
 Expected<CurvePoints> TranslatedPoints(Procedure procedure, const PreparedCurve& curve,
-                                       const TranslationInputs& inputs, int rival) {
+                                       const TranslationInputs& inputs, int alternative) {
   switch (procedure) {
     case Procedure::kIec1:
       return ByProcedure1(curve, inputs);
@@ -160,7 +160,7 @@ Expected<CurvePoints> TranslatedPoints(Procedure procedure, const PreparedCurve&
     case Procedure::kIec4:
       return ByProcedure4(curve, inputs);
     case Procedure::kExtended:
-      return ExtendedPoints(curve, inputs, rival);
+      return ExtendedPoints(curve, inputs, alternative);
     case Procedure::kDeSoto:
     case Procedure::kPvsyst:
       break;
@@ -169,12 +169,12 @@ Expected<CurvePoints> TranslatedPoints(Procedure procedure, const PreparedCurve&
 }
 
 Expected<KeyPoints> TranslatedKeyPoints(Procedure procedure, const PreparedCurve& curve,
-                                        const TranslationInputs& inputs, int rival) {
+                                        const TranslationInputs& inputs, int alternative) {
   if (procedure == Procedure::kDeSoto || procedure == Procedure::kPvsyst) {
     return DiodeKeyPoints(procedure, curve, inputs);
   }
-  if (procedure == Procedure::kExtended) return ExtendedKeyPoints(curve, inputs, rival);
-  TRY(const CurvePoints points, TranslatedPoints(procedure, curve, inputs, rival));
+  if (procedure == Procedure::kExtended) return ExtendedKeyPoints(curve, inputs, alternative);
+  TRY(const CurvePoints points, TranslatedPoints(procedure, curve, inputs, alternative));
   const KeyPoints key = KeyPointsBy(curve.key_points, points);
   if (!(key.max_power_W > 0)) return Fail("the translated curve has no point of maximum power");
   return key;

@@ -134,7 +134,7 @@ struct FurtherCurve {
   std::optional<SingleDiodeFit> diode;
 };
 
-// The device as diagnosed (extended_model.h); a rival for every cause that explains as much.
+// The device as diagnosed (extended_model.h); an alternative for every cause that explains as much.
 struct ExtendedModel;
 
 struct Translation;  // law/translation.h
@@ -187,14 +187,14 @@ SingleDiodeFit TrueDiode(const SingleDiodeFit& read, const TranslationInputs& in
 KeyPoints KeyPointsBy(KeyPointMethod method, const CurvePoints& points);
 
 // Isc, Voc, Imp, Vmp, Pmax, FF at the target. Pure, and cheap enough to be called thousands of
-// times: no fit is repeated (microseconds; some hundred for the extended model). `rival`: which of
+// times: no fit is repeated (microseconds; some hundred for the extended model). `alternative`: which of
 // `models`. Errors: what the procedure needs is not there (no points beyond an axis, no fit, no
 // further curve, a device whose model has no value there).
 Expected<KeyPoints> TranslatedKeyPoints(Procedure procedure, const PreparedCurve& curve,
-                                        const TranslationInputs& inputs, int rival = 0);
+                                        const TranslationInputs& inputs, int alternative = 0);
 
 // The curve behind them; of a model 200 even points.
 Expected<CurvePoints> TranslatedPoints(Procedure procedure, const PreparedCurve& curve,
-                                       const TranslationInputs& inputs, int rival = 0);
+                                       const TranslationInputs& inputs, int alternative = 0);
 
 }  // namespace lyrefit

@@ -64,8 +64,8 @@ OutputChoice CauseChoice(Procedure procedure, const PreparedCurve& curve,
                          "cause",
                          "spread of the answers of causes that explain the curve as well",
                          {}};
-  for (int rival = 1; rival < static_cast<int>(curve.models.size()); ++rival) {
-    const auto key = TranslatedKeyPoints(procedure, curve, inputs, rival);
+  for (int alternative = 1; alternative < static_cast<int>(curve.models.size()); ++alternative) {
+    const auto key = TranslatedKeyPoints(procedure, curve, inputs, alternative);
     if (key) choice.answers.push_back(KeyPointVector(*key));
   }
   return choice;

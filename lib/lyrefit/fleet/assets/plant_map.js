@@ -115,7 +115,7 @@ const valuesOf = (name) => (name === needsWork ? loadNeedsWork() : load(name));
 
 function colourChoices() {
   const words = wordColumns();
-  const wanted = ["performance_factor", "group_deviation_percent", "Pmax_stc_W", "departure_percent", "FF", "Pmax_W"].filter(isNumber);
+  const wanted = ["performance_factor", "group_deviation_percent", "Pmax_stc_W", "lack_of_fit_percent", "FF", "Pmax_W"].filter(isNumber);
   return [...wanted, ...(has("zone") || has("cause") ? [needsWork] : []), ...words, ...numberColumns.filter((name) => !wanted.includes(name))];
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -15,14 +15,14 @@ struct Floors {
 
 // Maximum power of the device by itself, W: the law's device terms under the brightest lit curve's
 // conditions, without what the sweep and the instruments did. NaN where there is none.
-double DevicePower(const Workbench& bench, const LawFit& fit);
+double DevicePower(const WeightedData& weighted, const LawFit& fit);
 
 // The same beside its standard error in parts: what the readings leave open of the parameters.
 struct PowerAndError {
   double power_W;
   double error;
 };
-PowerAndError DevicePowerAndError(const Workbench& bench, const LawFit& fit);
+PowerAndError DevicePowerAndError(const WeightedData& weighted, const LawFit& fit);
 
 // The fit with effect number `index` taken out of its law, or all of them; all else, the currents
 // among them, as it is.
@@ -35,7 +35,7 @@ struct Without {
   Eigen::MatrixXd basis;  // as Departure takes it
   double power;
 };
-Without MakeWithout(const Workbench& bench, const LawFit& fit);
+Without MakeWithout(const WeightedData& weighted, const LawFit& fit);
 
 // How large an effect of a fit is: number `index` of its law, beside the fit without it.
 struct EffectSize {
@@ -48,9 +48,9 @@ struct EffectSize {
   double power_error = 0;
   bool one_sweep = false;  // or one up and down
 };
-EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without);
+EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index, const Without& without);
 
 // Whether the whole interval of one of its sizes lies above the floor.
-bool IsMaterial(const EffectSize& size, const Floors& floors);
+bool ExceedsFloors(const EffectSize& size, const Floors& floors);
 
 }  // namespace lyrefit

@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "lyrefit/diagnose/material.h"
-#include "lyrefit/diagnose/rival.h"
+#include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 namespace lyrefit {
 
 // What a fit leaves beyond what its law could still take up, root mean square in parts of Isc.
-double MissedBy(const Workbench& bench, const LawFit& fit);
+double MissedBy(const WeightedData& weighted, const LawFit& fit);
 
 struct Weights {
   Floors floors;
@@ -19,8 +19,8 @@ struct Weights {
 // Those of `all`, fits with one effect more than `fit`, that are certainly larger than the floors,
 // explain their part of what there was to explain and are of a possible size; the likeliest first.
 // `below` receives what is there all the same.
-std::vector<Rival> WeighRivals(const Workbench& bench, const LawFit& fit,
-                               const std::vector<Rival>& all, const Weights& weights,
-                               std::vector<Rival>* below);
+std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const LawFit& fit,
+                               const std::vector<FittedCandidate>& all, const Weights& weights,
+                               std::vector<FittedCandidate>* below);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/material.h"
+#include "lyrefit/diagnose/effect_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,13 +84,13 @@ PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
   return peak;
 }
 
-double InWatts(const Workbench& bench, const PowerPoint& peak) {
-  const ReadingScale& scale = bench.readings->scale;
+double InWatts(const WeightedData& weighted, const PowerPoint& peak) {
+  const ReadingScale& scale = weighted.readings->scale;
   return peak.power * scale.cells * scale.current_A;
 }
 
 // Standard error of the power, in parts.
-double ErrorOf(const Workbench& bench, const LawFit& fit, Bare bare, const DeviceTerms& terms,
+double ErrorOf(const WeightedData& weighted, const LawFit& fit, Bare bare, const DeviceTerms& terms,
                const PowerPoint& peak) {
   if (!(peak.power > 0)) return kUnknown;
   // At its peak the power changes as the current there does.
@@ -104,20 +104,20 @@ double ErrorOf(const Workbench& bench, const LawFit& fit, Bare bare, const Devic
   }
   std::vector<double> by(fit.p.size(), 0.0);
   for (std::size_t k = 0; k < terms.of.size(); ++k) by[terms.of[k]] = derivative[k] / current;
-  return StandardError(Linearize(bench, fit), by) * std::sqrt(NoiseVariance(bench, fit));
+  return StandardError(Linearize(weighted, fit), by) * std::sqrt(NoiseVariance(weighted, fit));
 }
 
 }  // namespace
 
-double DevicePower(const Workbench& bench, const LawFit& fit) {
-  return InWatts(bench, FindPowerPoint(BareReadings(*bench.readings), DeviceTermsOf(fit)));
+double DevicePower(const WeightedData& weighted, const LawFit& fit) {
+  return InWatts(weighted, FindPowerPoint(BareReadings(*weighted.readings), DeviceTermsOf(fit)));
 }
 
-PowerAndError DevicePowerAndError(const Workbench& bench, const LawFit& fit) {
+PowerAndError DevicePowerAndError(const WeightedData& weighted, const LawFit& fit) {
   const DeviceTerms terms = DeviceTermsOf(fit);
-  const Bare bare = BareReadings(*bench.readings);
+  const Bare bare = BareReadings(*weighted.readings);
   const PowerPoint peak = FindPowerPoint(bare, terms);
-  return {InWatts(bench, peak), ErrorOf(bench, fit, bare, terms, peak)};
+  return {InWatts(weighted, peak), ErrorOf(weighted, fit, bare, terms, peak)};
 }
 
 LawFit TakenOut(const LawFit& fit, int index) {
@@ -135,27 +135,27 @@ LawFit WithoutEffects(const LawFit& fit) {
   return rest;
 }
 
-Without MakeWithout(const Workbench& bench, const LawFit& fit) {
-  return {fit, PlainBasis(bench, fit), DevicePower(bench, fit)};
+Without MakeWithout(const WeightedData& weighted, const LawFit& fit) {
+  return {fit, PlainBasis(weighted, fit), DevicePower(weighted, fit)};
 }
 
-EffectSize SizeOf(const Workbench& bench, const LawFit& with, int index, const Without& without) {
+EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index, const Without& without) {
   EffectSize size;
-  size.one_sweep = bench.readings->traits.single;
-  size.current = Departure(bench, without.fit, without.basis, with.current);
-  const auto [power, error] = DevicePowerAndError(bench, with);
+  size.one_sweep = weighted.readings->traits.single;
+  size.current = LackOfFit(weighted, without.fit, without.basis, with.current);
+  const auto [power, error] = DevicePowerAndError(weighted, with);
   size.power = power / without.power - 1;
   if (with.law.effects[index]->where == Where::kDevice) {
-    size.recoverable = DevicePower(bench, TakenOut(with, index)) / power - 1;
+    size.recoverable = DevicePower(weighted, TakenOut(with, index)) / power - 1;
   }
-  const double statistic = (without.fit.sum - with.sum) / NoiseVariance(bench, with);
+  const double statistic = (without.fit.sum - with.sum) / NoiseVariance(weighted, with);
   size.reach = statistic > kNormal95 * kNormal95 ? kNormal95 / std::sqrt(statistic) : 1;
   size.power_error =
-      std::max(kNormal95 * error, std::fabs(size.power) * size.reach) + kNormal95 * bench.path;
+      std::max(kNormal95 * error, std::fabs(size.power) * size.reach) + kNormal95 * weighted.path;
   return size;
 }
 
-bool IsMaterial(const EffectSize& size, const Floors& floors) {
+bool ExceedsFloors(const EffectSize& size, const Floors& floors) {
   // Less than this part of the floor is what healthy modules depart from the model: of one sweep
   // a power would be said that no reading shows.
   constexpr double kShown = 0.4;

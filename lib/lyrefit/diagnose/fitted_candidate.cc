@@ -1,12 +1,12 @@
-#include "lyrefit/diagnose/rival.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <algorithm>
 
 namespace lyrefit {
 
-void PutBestFirst(std::vector<Rival>* rivals) {
-  std::stable_sort(rivals->begin(), rivals->end(),
-                   [](const Rival& a, const Rival& b) { return a.Charged() > b.Charged(); });
+void PutBestFirst(std::vector<FittedCandidate>* fitted_candidates) {
+  std::stable_sort(fitted_candidates->begin(), fitted_candidates->end(),
+                   [](const FittedCandidate& a, const FittedCandidate& b) { return a.Charged() > b.Charged(); });
 }
 
 std::vector<const Effect*> RoomFor(const Law& law, const std::vector<const Effect*>& effects) {

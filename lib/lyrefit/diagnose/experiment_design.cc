@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/make_plan.h"
+#include "lyrefit/diagnose/experiment_design.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +18,14 @@ constexpr int kTruths = 8;     // drawn from what the readings leave open of a c
 constexpr int kNoises = 2000;  // of the further readings
 
 // A candidate as it would have been fitted, had the noise been another.
-LawFit DrawTruth(const Workbench& bench, const ErrorModel& errors, const PlanCandidate& candidate,
+LawFit DrawTruth(const WeightedData& weighted, const ErrorModel& errors, const PlanCandidate& candidate,
                  RandomStream* random) {
-  Readings again = *bench.readings;
+  Readings again = *weighted.readings;
   const std::vector<double> drawn = DrawErrors(errors, random);
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     again.points[k].current = candidate.fit.current[k] + drawn[k];
   }
-  Workbench other = bench;
+  WeightedData other = weighted;
   other.readings = std::make_shared<const Readings>(std::move(again));
   LawFit truth = candidate.fit;
   bool fitted = false;
@@ -88,12 +88,12 @@ void AddUp(const Contest& contest, const std::vector<PlanCandidate>& candidates,
   }
 }
 
-PlannedCause ForeseeOne(const Workbench& bench, double deviation, const Further& further,
+PlannedCause ForeseeOne(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
                         const std::vector<PlanCandidate>& candidates, std::size_t truth,
                         RandomStream random) {
   PlannedCause planned;
   planned.id = candidates[truth].effect->id;
-  Workbench scaled = bench;
+  WeightedData scaled = weighted;
   for (double& sigma : scaled.sigma) sigma *= deviation;
   scaled.path *= deviation;
   const ErrorModel errors = ErrorsOf(scaled);
@@ -101,10 +101,10 @@ PlannedCause ForeseeOne(const Workbench& bench, double deviation, const Further&
   double probability = 0;
   int drawn = 0;
   for (int draw = 0; draw < kTruths; ++draw) {
-    const LawFit law = DrawTruth(bench, errors, candidates[truth], &random);
+    const LawFit law = DrawTruth(weighted, errors, candidates[truth], &random);
     std::vector<double> unknown;
-    for (std::size_t k = 0; k < further.unknown.size(); ++k) unknown.push_back(random.Normal());
-    const auto joint = TakeFurther(bench, deviation, further, law, unknown);
+    for (std::size_t k = 0; k < follow_up.unknown.size(); ++k) unknown.push_back(random.Normal());
+    const auto joint = TakeFurther(weighted, deviation, follow_up, law, unknown);
     if (!joint) continue;
     const auto contest = Meet(*joint, candidates, truth);
     if (!contest) continue;
@@ -163,32 +163,32 @@ PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double 
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   const ChosenCause* first = nullptr;
   for (const ChosenCause& cause : selection.causes) {
-    if (EquivalentsOf(cause).empty() || OwnRival(cause) == nullptr) continue;
+    if (EquivalentsOf(cause).empty() || OwnFittedCandidate(cause) == nullptr) continue;
     if (first == nullptr || cause.corrected_p < first->corrected_p) first = &cause;
   }
   std::vector<PlanCandidate> candidates;
   if (first == nullptr) return candidates;
-  const auto add = [&](const Rival& rival) {
+  const auto add = [&](const FittedCandidate& fitted) {
     candidates.push_back(
-        MakeCandidate(*selection.bench.readings, rival.fit, rival.score.charge + rival.freedom));
+        MakeCandidate(*selection.weighted.readings, fitted.fit, fitted.score.charge + fitted.freedom));
   };
-  add(*OwnRival(*first));
-  for (const Rival* rival : EquivalentsOf(*first)) {
-    if (candidates.size() < kMostCandidates) add(*rival);
+  add(*OwnFittedCandidate(*first));
+  for (const FittedCandidate* fitted : EquivalentsOf(*first)) {
+    if (candidates.size() < kMostCandidates) add(*fitted);
   }
   return candidates;
 }
 
 double DeviationOf(const Selection& selection) {
-  return std::sqrt(NoiseVariance(selection.bench, selection.extended));
+  return std::sqrt(NoiseVariance(selection.weighted, selection.extended));
 }
 
-std::vector<PlannedCause> Foresee(const Workbench& bench, double deviation, const Further& further,
+std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
                                   const std::vector<PlanCandidate>& candidates,
                                   std::uint64_t seed) {
   std::vector<PlannedCause> causes;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    causes.push_back(ForeseeOne(bench, deviation, further, candidates, c, RandomStream(seed, c)));
+    causes.push_back(ForeseeOne(weighted, deviation, follow_up, candidates, c, RandomStream(seed, c)));
   }
   return causes;
 }
@@ -198,13 +198,13 @@ Plan MakePlan(const Selection& selection, std::uint64_t seed, int threads) {
   const std::vector<PlanCandidate> candidates = PlanCandidates(selection);
   for (const PlanCandidate& candidate : candidates) plan.causes.push_back(candidate.effect->id);
   if (!candidates.empty()) {
-    const std::vector<Further> all = FurtherMeasurements(*selection.bench.readings);
+    const std::vector<FollowUp> all = FollowUpMeasurements(*selection.weighted.readings);
     std::vector<std::vector<PlannedCause>> causes(all.size());
     const double deviation = DeviationOf(selection);
-    Begin(selection.bench.watch, "plan", static_cast<std::int64_t>(all.size()));
+    Begin(selection.weighted.watch, "plan", static_cast<std::int64_t>(all.size()));
     ParallelFor(static_cast<int>(all.size()), threads, [&](int k) {
-      causes[k] = Foresee(selection.bench, deviation, all[k], candidates, seed);
-      Step(selection.bench.watch);
+      causes[k] = Foresee(selection.weighted, deviation, all[k], candidates, seed);
+      Step(selection.weighted.watch);
     });
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double probability = Mean(causes[k]);

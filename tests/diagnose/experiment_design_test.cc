@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/make_plan.h"
+#include "lyrefit/diagnose/experiment_design.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,31 +9,31 @@
 
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/equivalents.h"
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::IsEmpty;
 
-Rival RivalOf(const char* id, double statistic) {
-  Rival rival;
-  rival.score.effect = FindEffect(id);
-  rival.score.charge = 2;
-  rival.statistic = statistic;
-  return rival;
+FittedCandidate FittedCandidateOf(const char* id, double statistic) {
+  FittedCandidate fitted;
+  fitted.score.effect = FindEffect(id);
+  fitted.score.charge = 2;
+  fitted.statistic = statistic;
+  return fitted;
 }
 
 TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
   ChosenCause cause;
   cause.effect = FindEffect("drift");
-  cause.rivals = {RivalOf("shading", 52), RivalOf("drift", 50), RivalOf("clip", 45),
-                  RivalOf("transient", 43)};
+  cause.fitted_candidates = {FittedCandidateOf("shading", 52), FittedCandidateOf("drift", 50), FittedCandidateOf("clip", 45),
+                  FittedCandidateOf("transient", 43)};
   const auto equivalents = EquivalentsOf(cause);
   ASSERT_EQ(equivalents.size(), 2U);
   EXPECT_STREQ(equivalents[0]->score.effect->id, "shading");
   EXPECT_STREQ(equivalents[1]->score.effect->id, "clip");
-  EXPECT_EQ(OwnRival(cause), &cause.rivals[1]);
+  EXPECT_EQ(OwnFittedCandidate(cause), &cause.fitted_candidates[1]);
   cause.in_values = true;
   EXPECT_THAT(EquivalentsOf(cause), IsEmpty());
 }

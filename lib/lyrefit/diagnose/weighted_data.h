@@ -13,7 +13,7 @@
 namespace lyrefit {
 
 // What laws are fitted to: readings, how far each is trusted, and which of them count.
-struct Workbench {
+struct WeightedData {
   std::shared_ptr<const Readings> readings;
   std::vector<double> sigma;
   std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
@@ -33,13 +33,13 @@ struct Workbench {
 // Whether fits leave a parameter where it is.
 bool Held(const Readings& readings, const Law& law, int parameter);
 
-// Errors of the bench's readings.
-ErrorModel ErrorsOf(const Workbench& bench);
+// Errors of the readings.
+ErrorModel ErrorsOf(const WeightedData& weighted);
 
 // Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
 // remains. Left-out readings become 0.
-Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values);
-Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns);
+Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values);
+Eigen::MatrixXd WhitenColumns(const WeightedData& weighted, const Eigen::MatrixXd& columns);
 
 struct LawFit {
   Law law;
@@ -50,7 +50,7 @@ struct LawFit {
 };
 
 // Least squares in all parameters of `law` that are not `searched`, from `start`.
-LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
+LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 
 // The base model of this many readings is fitted even where a stop was asked for already: it takes
@@ -63,10 +63,10 @@ std::vector<double> HealthyStart(const Readings& readings, const Law& law, doubl
 
 // Size of the rough path in a fit's residuals, by restricted maximum likelihood given the noise and
 // what healthy modules have.
-double FindPath(const Workbench& bench, const LawFit& fit);
+double FindPath(const WeightedData& weighted, const LawFit& fit);
 
 // The base model from several starts.
-LawFit FitBase(const Workbench& bench, const Law& law);
+LawFit FitBase(const WeightedData& weighted, const Law& law);
 
 // The fit's linear picture: whitened residual (model - measured) and its derivatives by the
 // parameters that are free to move, i.e. neither held nor pressed against a bound.
@@ -76,7 +76,7 @@ struct Linearized {
   std::vector<int> free;
   Eigen::MatrixXd basis;  // orthonormal, of the jacobian's columns
 };
-Linearized Linearize(const Workbench& bench, const LawFit& fit);
+Linearized Linearize(const WeightedData& weighted, const LawFit& fit);
 
 // Standard errors of all parameters (0 where not free), for unit noise.
 std::vector<double> StandardErrors(const Linearized& linear, int parameters);
@@ -86,24 +86,24 @@ double StandardError(const Linearized& linear, const std::vector<double>& deriva
 
 // Root mean square over the readings used, in scales, of what a fit's law at its best would still
 // miss of `currents`: noise, weights and what lies along its parameters do not count.
-double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents);
+double LackOfFit(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& currents);
 // The same with what lies along the fit's parameters given, which is the same for all currents.
-Eigen::MatrixXd PlainBasis(const Workbench& bench, const LawFit& fit);
-double Departure(const Workbench& bench, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
+Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
+double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
                  const std::vector<double>& currents);
 
-// Free parameters of a law on this bench.
-int FreeCount(const Workbench& bench, const Law& law);
+// Free parameters of a law on these data.
+int FreeCount(const WeightedData& weighted, const Law& law);
 
 // What the readings have beyond them, at least 1.
-int Degrees(const Workbench& bench, const Law& law);
+int Degrees(const WeightedData& weighted, const Law& law);
 
 // Mean square of whitened residuals: 1 where sigma is the noise and the law is right.
-double SquarePerDegree(const Workbench& bench, const LawFit& fit);
+double SquarePerDegree(const WeightedData& weighted, const LawFit& fit);
 
-// The same as the variance of the noise in units of sigma, which is not taken below what the bench
+// The same as the variance of the noise in units of sigma, which is not taken below what it
 // allows.
-double NoiseVariance(const Workbench& bench, const LawFit& fit);
+double NoiseVariance(const WeightedData& weighted, const LawFit& fit);
 
 // Half of a normal's 95 % interval in standard deviations: for sizes and for what scatters from
 // module to module, where the degrees of freedom of one fit say nothing.

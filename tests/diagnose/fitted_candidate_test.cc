@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/rival.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,24 +12,24 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Not;
 
-Rival Of(double statistic, double charge, double freedom, int place) {
-  Rival rival;
-  rival.statistic = statistic;
-  rival.score.charge = charge;
-  rival.score.outlier = place;
-  rival.freedom = freedom;
-  return rival;
+FittedCandidate Of(double statistic, double charge, double freedom, int place) {
+  FittedCandidate fitted;
+  fitted.statistic = statistic;
+  fitted.score.charge = charge;
+  fitted.score.outlier = place;
+  fitted.freedom = freedom;
+  return fitted;
 }
 
-TEST(RivalTest, WhatIsPaidCountsAndEqualsKeepTheirOrder) {
-  std::vector<Rival> rivals = {Of(10, 4, 0, 0), Of(30, 2, 25, 1), Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
-  PutBestFirst(&rivals);
+TEST(FittedCandidateTest, WhatIsPaidCountsAndEqualsKeepTheirOrder) {
+  std::vector<FittedCandidate> fitted_candidates = {Of(10, 4, 0, 0), Of(30, 2, 25, 1), Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
+  PutBestFirst(&fitted_candidates);
   std::vector<int> order;
-  for (const Rival& rival : rivals) order.push_back(rival.score.outlier);
+  for (const FittedCandidate& fitted : fitted_candidates) order.push_back(fitted.score.outlier);
   EXPECT_THAT(order, ElementsAre(3, 0, 2, 1));
 }
 
-TEST(RivalTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {
+TEST(FittedCandidateTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {
   const std::vector<const Effect*> all = Catalogue();
   Law law;
   EXPECT_EQ(RoomFor(law, all), all);

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +12,23 @@ bool Held(const Readings& readings, const Law& law, int parameter) {
   return law.Searched(parameter);
 }
 
-ErrorModel ErrorsOf(const Workbench& bench) {
-  const std::vector<Reading>& points = bench.readings->points;
+ErrorModel ErrorsOf(const WeightedData& weighted) {
+  const std::vector<Reading>& points = weighted.readings->points;
   ErrorModel errors;
-  errors.white = bench.sigma;
-  if (bench.correlation == 0 && bench.path == 0) return errors;
-  const bool neighbours = bench.correlation > 0;
-  const double voltage = bench.readings->pivot_voltage;
-  const double apart = neighbours ? -std::log(bench.correlation) : 0;
+  errors.white = weighted.sigma;
+  if (weighted.correlation == 0 && weighted.path == 0) return errors;
+  const bool neighbours = weighted.correlation > 0;
+  const double voltage = weighted.readings->pivot_voltage;
+  const double apart = neighbours ? -std::log(weighted.correlation) : 0;
   double brightest = 0, at = 0;
   for (const Reading& r : points) brightest = std::max(brightest, r.irradiance);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Reading& r = points[k];
     const double step = k > 0 ? std::fabs(r.voltage - points[k - 1].voltage) / voltage : 0;
-    at += neighbours ? apart : step / bench.path_length;
+    at += neighbours ? apart : step / weighted.path_length;
     const double light = brightest > 0 ? r.irradiance / brightest : 0;
     errors.position.push_back(at);
-    errors.path.push_back(neighbours ? bench.sigma[k] : r.dark ? 0 : bench.path * light);
+    errors.path.push_back(neighbours ? weighted.sigma[k] : r.dark ? 0 : weighted.path * light);
     errors.chain.push_back(neighbours ? r.segment : r.curve);
   }
   if (neighbours) errors.white.assign(points.size(), 0);
@@ -38,28 +38,28 @@ ErrorModel ErrorsOf(const Workbench& bench) {
 namespace {
 
 // Row by row, in place: rows of left-out readings become 0.
-void WhitenRows(const Workbench& bench, Eigen::Ref<RowMatrix> rows) {
-  if (bench.correlation != 0 || bench.path != 0) {
-    Whiten(ErrorsOf(bench), bench.used, rows);
+void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
+  if (weighted.correlation != 0 || weighted.path != 0) {
+    Whiten(ErrorsOf(weighted), weighted.used, rows);
     return;
   }
   for (int k = 0; k < rows.rows(); ++k) {
-    if (bench.used[k] == 0) {
+    if (weighted.used[k] == 0) {
       rows.row(k).setZero();
     } else {
-      rows.row(k) *= 1 / std::sqrt(bench.sigma[k] * bench.sigma[k]);
+      rows.row(k) *= 1 / std::sqrt(weighted.sigma[k] * weighted.sigma[k]);
     }
   }
 }
 
 // The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,
 // so those that are not become 0.
-bool EvaluateWhitened(const Workbench& bench, const Law& law, const std::vector<char>& held,
+bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::vector<char>& held,
                       const double* p, LawWorkspace* workspace, std::vector<double>* current,
                       double* residuals, double* jacobian) {
-  const Readings& readings = *bench.readings;
+  const Readings& readings = *weighted.readings;
   const int count = static_cast<int>(readings.points.size());
-  if (jacobian == nullptr && Stopped(bench.watch)) return false;
+  if (jacobian == nullptr && Stopped(weighted.watch)) return false;
   if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &held)) {
     if (jacobian == nullptr) return false;
     if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
@@ -67,29 +67,29 @@ bool EvaluateWhitened(const Workbench& bench, const Law& law, const std::vector<
   }
   Eigen::Map<RowMatrix> r(residuals, count, 1);
   for (int k = 0; k < count; ++k) r(k, 0) = (*current)[k] - readings.points[k].current;
-  WhitenRows(bench, r);
+  WhitenRows(weighted, r);
   if (!std::isfinite(r.squaredNorm())) return false;
   if (jacobian == nullptr) return true;
   Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
-  WhitenRows(bench, rows);
+  WhitenRows(weighted, rows);
   if (!std::isfinite(rows.squaredNorm())) rows.setZero();
   return true;
 }
 
-LeastSquaresProblem MakeProblem(const Workbench& bench, const Law& law, LawWorkspace* workspace,
+LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law, LawWorkspace* workspace,
                                 std::vector<double>* current) {
   LeastSquaresProblem problem;
-  const int count = static_cast<int>(bench.readings->points.size());
+  const int count = static_cast<int>(weighted.readings->points.size());
   problem.residuals = count;
   for (int k = 0; k < law.size(); ++k) {
     problem.lower.push_back(law.Lower(k));
     problem.upper.push_back(law.Upper(k));
-    problem.held.push_back(Held(*bench.readings, law, k) ? 1 : 0);
+    problem.held.push_back(Held(*weighted.readings, law, k) ? 1 : 0);
   }
   current->resize(count);
-  problem.evaluate = [&bench, law, held = problem.held, workspace, current](
+  problem.evaluate = [&weighted, law, held = problem.held, workspace, current](
                          const double* p, double* residuals, double* jacobian) {
-    return EvaluateWhitened(bench, law, held, p, workspace, current, residuals, jacobian);
+    return EvaluateWhitened(weighted, law, held, p, workspace, current, residuals, jacobian);
   };
   return problem;
 }
@@ -112,51 +112,51 @@ std::vector<double> HealthyStart(const Readings& readings, const Law& law, doubl
   return BaseStart(readings, law, light, 1.2, 0.015);
 }
 
-int Workbench::count() const { return static_cast<int>(std::count(used.begin(), used.end(), 1)); }
+int WeightedData::count() const { return static_cast<int>(std::count(used.begin(), used.end(), 1)); }
 
-Eigen::VectorXd Whiten(const Workbench& bench, const Eigen::VectorXd& values) {
+Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values) {
   RowMatrix rows = values;
-  WhitenRows(bench, rows);
+  WhitenRows(weighted, rows);
   return rows.col(0);
 }
 
-Eigen::MatrixXd WhitenColumns(const Workbench& bench, const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd WhitenColumns(const WeightedData& weighted, const Eigen::MatrixXd& columns) {
   RowMatrix rows = columns;
-  WhitenRows(bench, rows);
+  WhitenRows(weighted, rows);
   return rows;
 }
 
-LawFit FitLaw(const Workbench& bench, const Law& law, const std::vector<double>& start,
+LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options) {
   LawFit fit;
   fit.law = law;
   LawWorkspace workspace;
-  const LeastSquaresProblem problem = MakeProblem(bench, law, &workspace, &fit.current);
+  const LeastSquaresProblem problem = MakeProblem(weighted, law, &workspace, &fit.current);
   LeastSquaresOptions watched = options;
-  if (!watched.stop) watched.stop = [&bench] { return Stopped(bench.watch); };
+  if (!watched.stop) watched.stop = [&weighted] { return Stopped(weighted.watch); };
   const LeastSquaresEnd end = SolveLeastSquares(problem, start, watched);
   fit.p = end.p;
   fit.sum = end.sum_of_squares;
-  fit.usable = end.usable && EvaluateLaw(law, *bench.readings, fit.p.data(), &workspace,
+  fit.usable = end.usable && EvaluateLaw(law, *weighted.readings, fit.p.data(), &workspace,
                                          fit.current.data(), nullptr);
   return fit;
 }
 
-LawFit FitBase(const Workbench& bench, const Law& law) {
+LawFit FitBase(const WeightedData& weighted, const Law& law) {
   LawFit best;
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
-    LawFit fit = FitLaw(bench, law, BaseStart(*bench.readings, law, 1, n, resistance));
+    LawFit fit = FitLaw(weighted, law, BaseStart(*weighted.readings, law, 1, n, resistance));
     if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
-    if (Stopped(bench.watch)) break;
+    if (Stopped(weighted.watch)) break;
   }
   return best;
 }
 
-Linearized Linearize(const Workbench& bench, const LawFit& fit) {
-  const int count = static_cast<int>(bench.readings->points.size()), size = fit.law.size();
+Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
+  const int count = static_cast<int>(weighted.readings->points.size()), size = fit.law.size();
   LawWorkspace workspace;
   std::vector<double> current;
-  Workbench unwatched = bench;  // what was found before a stop is described after it
+  WeightedData unwatched = weighted;  // what was found before a stop is described after it
   unwatched.watch = nullptr;
   const LeastSquaresProblem problem = MakeProblem(unwatched, fit.law, &workspace, &current);
   Linearized linear;
@@ -225,14 +225,14 @@ double StandardError(const Linearized& linear, const std::vector<double>& deriva
   return ErrorAlong(SingularOf(linear, lengths), scaled);
 }
 
-int FreeCount(const Workbench& bench, const Law& law) {
+int FreeCount(const WeightedData& weighted, const Law& law) {
   int count = 0;
-  for (int k = 0; k < law.size(); ++k) count += Held(*bench.readings, law, k) ? 0 : 1;
+  for (int k = 0; k < law.size(); ++k) count += Held(*weighted.readings, law, k) ? 0 : 1;
   return count;
 }
 
-int Degrees(const Workbench& bench, const Law& law) {
-  return std::max(bench.count() - FreeCount(bench, law), 1);
+int Degrees(const WeightedData& weighted, const Law& law) {
+  return std::max(weighted.count() - FreeCount(weighted, law), 1);
 }
 
 bool CanAdd(const Law& law, const Effect& effect) {
@@ -245,41 +245,41 @@ bool CanAdd(const Law& law, const Effect& effect) {
 namespace {
 
 // Readings that are all trusted alike, each for itself.
-Workbench Plain(const Workbench& bench) {
-  Workbench plain = bench;
+WeightedData Plain(const WeightedData& weighted) {
+  WeightedData plain = weighted;
   plain.path = plain.correlation = 0;
   plain.watch = nullptr;
-  plain.sigma.assign(bench.sigma.size(), 1.0);
+  plain.sigma.assign(weighted.sigma.size(), 1.0);
   return plain;
 }
 
 }  // namespace
 
-Eigen::MatrixXd PlainBasis(const Workbench& bench, const LawFit& fit) {
-  return Linearize(Plain(bench), fit).basis;
+Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit) {
+  return Linearize(Plain(weighted), fit).basis;
 }
 
-double Departure(const Workbench& bench, const LawFit& fit, const std::vector<double>& currents) {
-  return Departure(bench, fit, PlainBasis(bench, fit), currents);
+double LackOfFit(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& currents) {
+  return LackOfFit(weighted, fit, PlainBasis(weighted, fit), currents);
 }
 
-double Departure(const Workbench& bench, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
+double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
                  const std::vector<double>& currents) {
-  const Workbench plain = Plain(bench);
+  const WeightedData plain = Plain(weighted);
   Eigen::VectorXd off(static_cast<int>(currents.size()));
   for (int k = 0; k < off.size(); ++k) off[k] = currents[k] - fit.current[k];
   off = Whiten(plain, off);
   TakeOut(plain_basis, &off);
-  return off.norm() / std::sqrt(std::max(bench.count(), 1));
+  return off.norm() / std::sqrt(std::max(weighted.count(), 1));
 }
 
-double FindPath(const Workbench& bench, const LawFit& fit) {
+double FindPath(const WeightedData& weighted, const LawFit& fit) {
   constexpr double kLargest = 4e-3;  // of Isc: more is no departure but a cause
   constexpr int kSteps = 12;
   const ErrorPrior prior = UsualErrors(1, 1);
-  Workbench own = Plain(bench);
+  WeightedData own = Plain(weighted);
   const Linearized linear = Linearize(own, fit);
-  own.sigma = bench.sigma;
+  own.sigma = weighted.sigma;
   double best = -1e300, path = prior.center.path;
   for (int k = 0; k <= kSteps; ++k) {
     own.path = kLargest * std::pow(0.5, 0.5 * (kSteps - k));
@@ -294,12 +294,12 @@ double FindPath(const Workbench& bench, const LawFit& fit) {
   return path;
 }
 
-double SquarePerDegree(const Workbench& bench, const LawFit& fit) {
-  return fit.sum / Degrees(bench, fit.law);
+double SquarePerDegree(const WeightedData& weighted, const LawFit& fit) {
+  return fit.sum / Degrees(weighted, fit.law);
 }
 
-double NoiseVariance(const Workbench& bench, const LawFit& fit) {
-  return std::max({SquarePerDegree(bench, fit), bench.least_variance, 1e-300});
+double NoiseVariance(const WeightedData& weighted, const LawFit& fit) {
+  return std::max({SquarePerDegree(weighted, fit), weighted.least_variance, 1e-300});
 }
 
 }  // namespace lyrefit

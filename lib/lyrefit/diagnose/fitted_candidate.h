@@ -4,12 +4,12 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/candidate.h"
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
 // An effect fitted in the company of others.
-struct Rival {
+struct FittedCandidate {
   Score score;
   LawFit fit;
   double statistic = 0;    // what it takes off the sum of squares, in units of the noise variance
@@ -22,7 +22,7 @@ struct Rival {
 };
 
 // By what they explain after what they pay; equals stay in their order.
-void PutBestFirst(std::vector<Rival>* rivals);
+void PutBestFirst(std::vector<FittedCandidate>* fitted_candidates);
 
 // Those of `effects` that a law has room for.
 std::vector<const Effect*> RoomFor(const Law& law, const std::vector<const Effect*>& effects);

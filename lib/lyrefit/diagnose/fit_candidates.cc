@@ -2,27 +2,27 @@
 #include <utility>
 
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/prefer.h"
-#include "lyrefit/diagnose/selecting.h"
-#include "lyrefit/diagnose/weigh_rivals.h"
+#include "lyrefit/diagnose/rank_causes.h"
+#include "lyrefit/diagnose/selection_state.h"
+#include "lyrefit/diagnose/weigh_candidates.h"
 
 namespace lyrefit {
 namespace {
 
 // The fit with one more effect of the selection that this one repeats. What is searched there is
 // searched here as well.
-const LawFit* FindMet(const Selecting& now, const Effect& effect) {
+const LawFit* FindMet(const SelectionState& now, const Effect& effect) {
   const auto searched = [](const EffectParameter& parameter) { return parameter.searched; };
-  const std::vector<Rival>* met = now.options.met;
+  const std::vector<FittedCandidate>* met = now.options.met;
   if (met == nullptr || !now.fit.law.effects.empty()) return nullptr;
   if (std::any_of(effect.parameters.begin(), effect.parameters.end(), searched)) return nullptr;
   const auto at = std::find_if(met->begin(), met->end(),
-                               [&](const Rival& r) { return r.score.effect == &effect; });
+                               [&](const FittedCandidate& r) { return r.score.effect == &effect; });
   return at != met->end() && at->fit.usable ? &at->fit : nullptr;
 }
 
 // Once more from where the effect was found before.
-void FitFromHint(const Selecting& now, const Effect& effect, LawFit* fit) {
+void FitFromHint(const SelectionState& now, const Effect& effect, LawFit* fit) {
   const LawFit& found = now.options.hint;
   const Law& hint = found.law;
   const auto at = std::find(hint.effects.begin(), hint.effects.end(), &effect);
@@ -35,18 +35,18 @@ void FitFromHint(const Selecting& now, const Effect& effect, LawFit* fit) {
   std::vector<double> start = now.fit.p;
   std::copy(p.begin(), p.begin() + law.base_size(), start.begin());
   start.insert(start.end(), own, own + (*at)->size());
-  LawFit end = FitLaw(now.bench, law, start, UpTo(20, 1e-6));
+  LawFit end = FitLaw(now.weighted, law, start, UpTo(20, 1e-6));
   if (end.usable && (!fit->usable || end.sum < fit->sum)) *fit = std::move(end);
 }
 
-LawFit FitRival(const Selecting& now, const Score& score, bool briefly) {
+LawFit FitCandidate(const SelectionState& now, const Score& score, bool briefly) {
   LawFit fit;
-  if (const LawFit* met = FindMet(now, *score.effect)) fit = FitOnwards(now.bench, *met);
+  if (const LawFit* met = FindMet(now, *score.effect)) fit = FitOnwards(now.weighted, *met);
   if (!fit.usable) {
     const Effort effort = briefly                  ? Effort::kForTheRecord
                           : now.options.in_passing ? Effort::kInPassing
                                                    : Effort::kFull;
-    fit = FitEffect(now.bench, now.fit, score, effort);
+    fit = FitEffect(now.weighted, now.fit, score, effort);
   }
   FitFromHint(now, *score.effect, &fit);
   return fit;
@@ -54,65 +54,65 @@ LawFit FitRival(const Selecting& now, const Score& score, bool briefly) {
 
 // What each takes off the sum of squares and what that is worth, in units of the smallest noise
 // variance that any of them leaves.
-void JudgeRivals(const Selecting& now, std::vector<Rival>* rivals) {
-  double variance = NoiseVariance(now.bench, now.fit);
-  for (const Rival& rival : *rivals) {
-    variance = std::min(variance, NoiseVariance(now.bench, rival.fit));
+void JudgeCandidates(const SelectionState& now, std::vector<FittedCandidate>* fitted_candidates) {
+  double variance = NoiseVariance(now.weighted, now.fit);
+  for (const FittedCandidate& fitted : *fitted_candidates) {
+    variance = std::min(variance, NoiseVariance(now.weighted, fitted.fit));
   }
-  for (Rival& rival : *rivals) {
-    const Law& law = rival.fit.law;
-    rival.statistic = (now.fit.sum - rival.fit.sum) / variance;
-    rival.freedom = FreedomOf(now.bench, law);
-    rival.corrected_p =
-        CorrectedP(rival.score, rival.statistic, Degrees(now.bench, law), now.worth->calibration);
+  for (FittedCandidate& fitted : *fitted_candidates) {
+    const Law& law = fitted.fit.law;
+    fitted.statistic = (now.fit.sum - fitted.fit.sum) / variance;
+    fitted.freedom = FreedomOf(now.weighted, law);
+    fitted.corrected_p =
+        CorrectedP(fitted.score, fitted.statistic, Degrees(now.weighted, law), now.calibration->calibration);
   }
-  PutBestFirst(rivals);
+  PutBestFirst(fitted_candidates);
 }
 
 }  // namespace
 
-std::vector<Rival> FitRivals(const Selecting& now, const std::vector<Score>& scores, bool all,
+std::vector<FittedCandidate> FitCandidates(const SelectionState& now, const std::vector<Score>& scores, bool all,
                              bool is_there) {
-  std::vector<Rival> rivals;
+  std::vector<FittedCandidate> fitted_candidates;
   const double floor = now.options.floors.current;
   const double hopeless =
-      std::max(HopelessStatistic(scores), LeastOfTheBest(scores, now.options.most_rivals));
+      std::max(HopelessStatistic(scores), LeastOfTheBest(scores, now.options.most_fitted_candidates));
   // Nothing is worth a name that is smaller than what the present law misses.
-  const bool may_matter = floor > 0 && MissedBy(now.bench, now.fit) > floor;
-  const bool astray = may_matter || LeadsAstray(now.bench, now.fit);
+  const bool may_matter = floor > 0 && MissedBy(now.weighted, now.fit) > floor;
+  const bool astray = may_matter || LeadsAstray(now.weighted, now.fit);
   const bool single = now.measurement.readings.traits.single;
-  Begin(Heard(now), "selection", static_cast<std::int64_t>(scores.size()));
+  Begin(ObserverOf(now), "selection", static_cast<std::int64_t>(scores.size()));
   for (const Score& score : scores) {
-    Step(Heard(now));
+    Step(ObserverOf(now));
     // What the shape of the curve suggests does not hang on scores that a fault ruins.
     const bool by_shape = astray && is_there && score.effect->starts != nullptr && single;
     const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
                                    score.effect->probes != nullptr);
-    if (!fits || Stopped(now.bench.watch)) continue;
+    if (!fits || Stopped(now.weighted.watch)) continue;
     const bool briefly = !by_shape && (!is_there || score.statistic < hopeless);
-    LawFit fit = FitRival(now, score, briefly);
-    if (fit.usable) rivals.push_back({score, std::move(fit), 0});
+    LawFit fit = FitCandidate(now, score, briefly);
+    if (fit.usable) fitted_candidates.push_back({score, std::move(fit), 0});
   }
-  JudgeRivals(now, &rivals);
-  return rivals;
+  JudgeCandidates(now, &fitted_candidates);
+  return fitted_candidates;
 }
 
-void FindRivals(const SelectOptions& options, Selection* selection) {
-  const Workbench& bench = selection->bench;
+void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
+  const WeightedData& weighted = selection->weighted;
   const LawFit& extended = selection->extended;
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     ChosenCause& cause = selection->causes[c];
-    Begin(options.watch, "rivals", static_cast<std::int64_t>(options.candidates.size()));
-    selection->without.push_back(FitWithout(bench, extended, static_cast<int>(c)));
+    Begin(options.watch, "fitted_candidates", static_cast<std::int64_t>(options.candidates.size()));
+    selection->without.push_back(FitWithout(weighted, extended, static_cast<int>(c)));
     const LawFit& without = selection->without.back();
     if (!without.usable || Stopped(options.watch) || cause.in_values) continue;
     std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
     open.erase(std::remove_if(open.begin(), open.end(),
                               [](const Effect* effect) { return effect->probes == nullptr; }),
                open.end());
-    const double variance = NoiseVariance(bench, extended);
+    const double variance = NoiseVariance(weighted, extended);
     const std::vector<Score> scores =
-        JudgeScores(PrepareAll(bench, without, open, &selection->imprints), *selection->worth);
+        JudgeScores(PrepareAll(weighted, without, open, &selection->signatures), *selection->calibration);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);
@@ -120,16 +120,16 @@ void FindRivals(const SelectOptions& options, Selection* selection) {
       if (Stopped(options.watch)) break;
       const bool own = score.effect == cause.effect;
       if (score.statistic < hopeless && !own) continue;
-      Rival rival{score, FitEffect(bench, without, score), 0};
-      if (!rival.fit.usable) continue;
-      const double sum = own ? std::min(rival.fit.sum, extended.sum) : rival.fit.sum;
-      rival.statistic = (without.sum - sum) / variance;
-      rival.freedom = FreedomOf(bench, rival.fit.law);
-      const bool possible = own || HasPossibleSize(*bench.readings, without, rival);
+      FittedCandidate fitted{score, FitEffect(weighted, without, score), 0};
+      if (!fitted.fit.usable) continue;
+      const double sum = own ? std::min(fitted.fit.sum, extended.sum) : fitted.fit.sum;
+      fitted.statistic = (without.sum - sum) / variance;
+      fitted.freedom = FreedomOf(weighted, fitted.fit.law);
+      const bool possible = own || HasPossibleSize(*weighted.readings, without, fitted);
       if (options.floors.Any() && !possible) continue;
-      cause.rivals.push_back(std::move(rival));
+      cause.fitted_candidates.push_back(std::move(fitted));
     }
-    PutBestFirst(&cause.rivals);
+    PutBestFirst(&cause.fitted_candidates);
   }
 }
 

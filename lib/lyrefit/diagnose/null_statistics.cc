@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/nulls.h"
+#include "lyrefit/diagnose/null_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-// Nulls that are computed together: what they need stays near the processor.
+// Draws of the null distribution that are computed together: what they need stays near the processor.
 constexpr int kLot = 100;
 
 // What all candidates share, side by side: products with it serve them all at once. Noise is random
@@ -35,7 +35,7 @@ struct Stack {
   bool IsOutliers(std::size_t candidate) const { return first[candidate + 1] == first[candidate]; }
 };
 
-Stack MakeStack(const Workbench& bench, const Prepared& prepared) {
+Stack MakeStack(const WeightedData& weighted, const Prepared& prepared) {
   Stack stack;
   stack.first = {0};
   for (const Candidate& candidate : prepared.candidates) {
@@ -51,7 +51,7 @@ Stack MakeStack(const Workbench& bench, const Prepared& prepared) {
         stack.candidates[c]->directions;
   }
   stack.used.resize(stack.basis.rows());
-  for (int k = 0; k < stack.used.size(); ++k) stack.used[k] = bench.used[k] != 0 ? 1.0F : 0.0F;
+  for (int k = 0; k < stack.used.size(); ++k) stack.used[k] = weighted.used[k] != 0 ? 1.0F : 0.0F;
   return stack;
 }
 
@@ -64,16 +64,16 @@ struct Reweighted {
   VectorXf outliers;            // the largest rest of a reading in parts of what the law leaves it
 };
 
-void Reweight(const Workbench& bench, const Stack& stack, const NoiseEstimator& estimator,
+void Reweight(const WeightedData& weighted, const Stack& stack, const NoiseEstimator& estimator,
               const VectorXf& noise, int d, Reweighted* lot) {
   const int count = static_cast<int>(noise.size());
   const VectorXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
   std::vector<double> residual(count);
-  for (int k = 0; k < count; ++k) residual[k] = left[k] * bench.sigma[k];
+  for (int k = 0; k < count; ++k) residual[k] = left[k] * weighted.sigma[k];
   const std::vector<double> sigma = estimator.Estimate(residual).sigma;
   auto weight = lot->weights.col(d);
   for (int k = 0; k < count; ++k) {
-    const double ratio = bench.sigma[k] / sigma[k];
+    const double ratio = weighted.sigma[k] / sigma[k];
     weight[k] = stack.used[k] * static_cast<float>(ratio * ratio);
   }
   const MatrixXf basis = OrthonormalUnder(stack.basis, weight);
@@ -100,12 +100,12 @@ float LargestReweighted(const Stack& stack, std::size_t candidate, const Reweigh
 
 }  // namespace
 
-MatrixXf SimulateNulls(const Workbench& bench, const Prepared& prepared,
+MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& prepared,
                        const Eigen::Ref<const MatrixXf>& draws) {
-  const Stack stack = MakeStack(bench, prepared);
+  const Stack stack = MakeStack(weighted, prepared);
   const VectorXf room = (1 - stack.basis.rowwise().squaredNorm().array()).max(1e-9F).rsqrt();
   MatrixXf statistics = MatrixXf::Zero(draws.cols(), static_cast<int>(stack.candidates.size()));
-  for (int first = 0; first < draws.cols() && !Stopped(bench.watch); first += kLot) {
+  for (int first = 0; first < draws.cols() && !Stopped(weighted.watch); first += kLot) {
     const int lot = std::min(kLot, static_cast<int>(draws.cols()) - first);
     const MatrixXf noise = stack.used.asDiagonal() * draws.middleCols(first, lot);
     const MatrixXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
@@ -118,16 +118,16 @@ MatrixXf SimulateNulls(const Workbench& bench, const Prepared& prepared,
                                ? left.col(d).cwiseProduct(room).cwiseAbs().maxCoeff()
                                : stack.Largest(c, along.col(d), &at);
         statistics(first + d, static_cast<int>(c)) =
-            static_cast<float>(Statistic(best, sum, prepared.degrees, bench.least_variance));
+            static_cast<float>(Statistic(best, sum, prepared.degrees, weighted.least_variance));
       }
     }
   }
   return statistics;
 }
 
-MatrixXf SimulateRefits(const Workbench& bench, const Prepared& prepared,
+MatrixXf SimulateRefits(const WeightedData& weighted, const Prepared& prepared,
                         const NoiseEstimator& estimator, const Eigen::Ref<const MatrixXf>& draws) {
-  const Stack stack = MakeStack(bench, prepared);
+  const Stack stack = MakeStack(weighted, prepared);
   const int count = static_cast<int>(draws.rows());
   const MatrixXf squared = stack.directions.cwiseAbs2();
   MatrixXf statistics(draws.cols(), static_cast<int>(stack.candidates.size()));
@@ -136,9 +136,9 @@ MatrixXf SimulateRefits(const Workbench& bench, const Prepared& prepared,
   for (int first = 0; first < draws.cols(); first += kLot) {
     const int size = std::min(kLot, static_cast<int>(draws.cols()) - first);
     for (int d = 0; d < size; ++d) {
-      if (Stopped(bench.watch)) return statistics.topRows(first);
-      Reweight(bench, stack, estimator, stack.used.cwiseProduct(draws.col(first + d)), d, &lot);
-      Step(bench.watch);
+      if (Stopped(weighted.watch)) return statistics.topRows(first);
+      Reweight(weighted, stack, estimator, stack.used.cwiseProduct(draws.col(first + d)), d, &lot);
+      Step(weighted.watch);
     }
     const MatrixXf lengths = TransposedTimes(squared, lot.weights).cwiseMax(1e-12F);
     const MatrixXf scores = TransposedTimes(stack.directions, lot.rest);
@@ -148,7 +148,7 @@ MatrixXf SimulateRefits(const Workbench& bench, const Prepared& prepared,
       for (std::size_t c = 0; c < stack.candidates.size(); ++c) {
         const float best = LargestReweighted(stack, c, lot, d, along, length);
         statistics(first + d, static_cast<int>(c)) = static_cast<float>(
-            Statistic(best, lot.sums[d], prepared.degrees, bench.least_variance));
+            Statistic(best, lot.sums[d], prepared.degrees, weighted.least_variance));
       }
     }
   }

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/material.h"
+#include "lyrefit/diagnose/effect_size.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include "diagnose/made_diagnosis.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/words.h"
-#include "made_bench.h"
+#include "lyrefit/diagnose/cause_text.h"
+#include "synthetic_data.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -17,32 +17,32 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-TEST(IsMaterial, WhereTheWholeIntervalIsAboveAFloor) {
+TEST(ExceedsFloors, WhereTheWholeIntervalIsAboveAFloor) {
   const Floors floors = {0.0025, 0.005};
   EffectSize size;
   size.reach = 0.1;
   size.current = 0.003;
-  EXPECT_TRUE(IsMaterial(size, floors));
+  EXPECT_TRUE(ExceedsFloors(size, floors));
   size.reach = 0.2;
-  EXPECT_FALSE(IsMaterial(size, floors));
+  EXPECT_FALSE(ExceedsFloors(size, floors));
   size.power = -0.02;
-  EXPECT_TRUE(IsMaterial(size, floors));
+  EXPECT_TRUE(ExceedsFloors(size, floors));
   size.power_error = 0.016;
-  EXPECT_FALSE(IsMaterial(size, floors));
-  EXPECT_TRUE(IsMaterial({}, {}));  // without floors everything is
+  EXPECT_FALSE(ExceedsFloors(size, floors));
+  EXPECT_TRUE(ExceedsFloors({}, {}));  // without floors everything is
 }
 
-TEST(IsMaterial, OfOneSweepOnlyWhereItShows) {
+TEST(ExceedsFloors, OfOneSweepOnlyWhereItShows) {
   const Floors floors = {0.0025, 0.005};
   EffectSize size;
   size.reach = 0.1;
   size.power = -0.1;
   size.current = 0.0005;
-  EXPECT_TRUE(IsMaterial(size, floors));  // other light has shown it
+  EXPECT_TRUE(ExceedsFloors(size, floors));  // other light has shown it
   size.one_sweep = true;
-  EXPECT_FALSE(IsMaterial(size, floors));
+  EXPECT_FALSE(ExceedsFloors(size, floors));
   size.current = 0.0012;
-  EXPECT_TRUE(IsMaterial(size, floors));
+  EXPECT_TRUE(ExceedsFloors(size, floors));
 }
 
 // Over seeds, of a diode alone and beside a step of the light at the knee.
@@ -54,16 +54,16 @@ TEST(DevicePowerAndErrorTest, IsTheSpreadOfRepeatedFits) {
       Recipe recipe;
       recipe.seed = seed;
       recipe.points = 120;
-      const MadeBench made = OnTheBench(MadeCurve(recipe));
-      LawFit fit = FitBase(made.bench, Law());
+      const SyntheticData made = OnTheData(MadeCurve(recipe));
+      LawFit fit = FitBase(made.weighted, Law());
       if (step) {
         Law law = fit.law;
         law.effects = {FindEffect("irr_step")};
         std::vector<double> start = fit.p;
         for (const double value : {0.0, 0.2}) start.push_back(value);
-        fit = FitLaw(made.bench, law, start);
+        fit = FitLaw(made.weighted, law, start);
       }
-      const auto [power_W, error] = DevicePowerAndError(made.bench, fit);
+      const auto [power_W, error] = DevicePowerAndError(made.weighted, fit);
       const double power = std::log(power_W);
       sum += power / kSeeds;
       square += power * power / kSeeds;
@@ -87,18 +87,18 @@ Done Do(const char* id, const std::vector<double>& values, double noise_A = 0.00
   Done done;
   done.curve = MadeCurve(recipe);
   done.curve.notes.bypass_diodes = 3;
-  const MadeBench made = OnTheBench(done.curve);
-  LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
-  done.healthy_W = DevicePower(made.bench, fit);
+  const SyntheticData made = OnTheData(done.curve);
+  LawFit fit = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
+  done.healthy_W = DevicePower(made.weighted, fit);
   fit.law.effects = {FindEffect(id)};
   fit.p.insert(fit.p.end(), values.begin(), values.end());
   LawWorkspace workspace;
-  EXPECT_TRUE(EvaluateLaw(fit.law, *made.bench.readings, fit.p.data(), &workspace,
+  EXPECT_TRUE(EvaluateLaw(fit.law, *made.weighted.readings, fit.p.data(), &workspace,
                           fit.current.data(), nullptr));
   RandomStream random(3);
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
     done.curve.current_A[k] =
-        fit.current[k] * made.bench.readings->scale.current_A + noise_A * random.Normal();
+        fit.current[k] * made.weighted.readings->scale.current_A + noise_A * random.Normal();
   }
   return done;
 }
@@ -141,7 +141,7 @@ TEST(FieldDiagnosis, WhatNoCauseExplainsIsNotSaidToBeHealthy) {
   DiagnoseOptions options = Quick();
   options.effects = {"collection"};
   const Diagnosis d = DiagnoseOrFail(curve, options);
-  ASSERT_GT(d.verdict.departure.value, 0.0025);
+  ASSERT_GT(d.verdict.lack_of_fit.value, 0.0025);
   EXPECT_THAT(d.verdict.causes, IsEmpty());
   EXPECT_FALSE(d.verdict.found);
   EXPECT_TRUE(d.verdict.unexplained);
@@ -167,12 +167,12 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
   const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const Done done = Do("weak_cell", weak);
-  const MadeBench made = OnTheBench(done.curve);
-  LawFit fit = FitBase(made.bench, StartingLaw(*made.bench.readings, Model::kSingleDiode));
+  const SyntheticData made = OnTheData(done.curve);
+  LawFit fit = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
   fit.law.effects = {FindEffect("weak_cell")};
   fit.p = {1, 0, 1.2, 0.015, 1e-3};
   fit.p.insert(fit.p.end(), weak.begin(), weak.end());
-  const HotCell hot = FindHotCell(made.bench, fit, 0);
+  const HotCell hot = FindHotCell(made.weighted, fit, 0);
   EXPECT_NEAR(hot.voltage_V, -3.2 * std::pow(0.6, 1 / 3.4), 0.15);
   EXPECT_NEAR(hot.heat_W, -hot.voltage_V * 8, 1.5);
   const Diagnosis d = DiagnosedInTheField(done.curve);

@@ -22,11 +22,11 @@ PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double 
 // The first cause that has equivalents, and these; none where every cause stands alone.
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection);
 
-// What to multiply the bench's deviations by: its noise as the extended model has it.
+// Factor on the deviations of the weighted data: its noise as the extended model has it.
 double DeviationOf(const Selection& selection);
 
 // How surely a further measurement names each candidate, were it the true one.
-std::vector<PlannedCause> Foresee(const Workbench& bench, double deviation, const Further& further,
+std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
                                   const std::vector<PlanCandidate>& candidates, std::uint64_t seed);
 
 // `threads`: 0 for all cores.

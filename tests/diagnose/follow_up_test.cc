@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/further.h"
+#include "lyrefit/diagnose/follow_up.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/law/make_readings.h"
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -29,32 +29,32 @@ Recipe Module() {
   return recipe;
 }
 
-std::vector<std::string> Ids(const std::vector<Further>& all) {
+std::vector<std::string> Ids(const std::vector<FollowUp>& all) {
   std::vector<std::string> ids;
-  for (const Further& further : all) ids.push_back(further.id);
+  for (const FollowUp& follow_up : all) ids.push_back(follow_up.id);
   return ids;
 }
 
-const Further& Find(const std::vector<Further>& all, const std::string& id) {
-  return *std::find_if(all.begin(), all.end(), [&](const Further& f) { return f.id == id; });
+const FollowUp& Find(const std::vector<FollowUp>& all, const std::string& id) {
+  return *std::find_if(all.begin(), all.end(), [&](const FollowUp& f) { return f.id == id; });
 }
 
-TEST(FurtherMeasurementsTest, FollowTheKindOfData) {
+TEST(FollowUpMeasurementsTest, FollowTheKindOfData) {
   EXPECT_THAT(
-      Ids(FurtherMeasurements(ReadingsOf(Recipe()))),
+      Ids(FollowUpMeasurements(ReadingsOf(Recipe()))),
       ElementsAre("reverse_sweep", "slower_sweep", "second_light", "dark_curve", "isc_voc"));
-  EXPECT_THAT(Ids(FurtherMeasurements(ReadingsOf(Module()))),
+  EXPECT_THAT(Ids(FollowUpMeasurements(ReadingsOf(Module()))),
               ElementsAre("reverse_sweep", "slower_sweep", "second_light", "dark_curve",
                           "cover_part", "isc_voc"));
   const Readings lit_and_dark = ReadingsOf({MadeCurve({}), MadeDarkCurve()});
-  EXPECT_THAT(Ids(FurtherMeasurements(lit_and_dark)),
+  EXPECT_THAT(Ids(FollowUpMeasurements(lit_and_dark)),
               ElementsAre("slower_sweep", "second_light", "isc_voc"));
-  EXPECT_TRUE(FurtherMeasurements(ReadingsOf(std::vector{MadeDarkCurve()})).empty());
+  EXPECT_TRUE(FollowUpMeasurements(ReadingsOf(std::vector{MadeDarkCurve()})).empty());
 }
 
-TEST(FurtherMeasurementsTest, TheReverseSweepGoesOnInTime) {
+TEST(FollowUpMeasurementsTest, TheReverseSweepGoesOnInTime) {
   const Readings readings = ReadingsOf(Recipe());
-  const std::vector<Further> all = FurtherMeasurements(readings);
+  const std::vector<FollowUp> all = FollowUpMeasurements(readings);
   const auto& points = Find(all, "reverse_sweep").curves.front().readings.points;
   ASSERT_EQ(points.size(), readings.points.size());
   EXPECT_EQ(points.front().voltage, readings.points.back().voltage);
@@ -63,9 +63,9 @@ TEST(FurtherMeasurementsTest, TheReverseSweepGoesOnInTime) {
   EXPECT_DOUBLE_EQ(points.back().x, 1.5);
 }
 
-TEST(FurtherMeasurementsTest, CoveringLeavesTheOtherGroups) {
-  const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
-  const Further& cover = Find(all, "cover_part");
+TEST(FollowUpMeasurementsTest, CoveringLeavesTheOtherGroups) {
+  const std::vector<FollowUp> all = FollowUpMeasurements(ReadingsOf(Module()));
+  const FollowUp& cover = Find(all, "cover_part");
   ASSERT_EQ(cover.curves.size(), 3U);
   for (const PlannedCurve& curve : cover.curves) {
     EXPECT_EQ(curve.readings.traits.cells, 40);
@@ -80,7 +80,7 @@ TEST(LawOnTest, WhatHappenedInTimeStaysThere) {
   Law law = StartingLaw(readings, Model::kSingleDiode);
   law.effects = {FindEffect("irr_step"), FindEffect("shading")};
   std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.02, 0.1, 0.4, 1.0 / 3, 0.5, 1};
-  const std::vector<Further> all = FurtherMeasurements(readings);
+  const std::vector<FollowUp> all = FollowUpMeasurements(readings);
   const CurveLaw at_once = LawOn(Find(all, "reverse_sweep").curves.front(), law, p);
   EXPECT_EQ(at_once.law.effects, law.effects);
   EXPECT_EQ(at_once.p, p);
@@ -95,15 +95,15 @@ TEST(LawOnTest, ACoveredShadeIsGone) {
   Law law = StartingLaw(readings, Model::kSingleDiode);
   law.effects = {FindEffect("shading")};
   const std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.4, 1.0 / 3, 0.5, 1};
-  const std::vector<Further> all = FurtherMeasurements(readings);
+  const std::vector<FollowUp> all = FollowUpMeasurements(readings);
   const auto& curves = Find(all, "cover_part").curves;
   EXPECT_TRUE(LawOn(curves[0], law, p).law.effects.empty());
   EXPECT_NEAR(LawOn(curves[1], law, p).p[6], 0.5, 1e-12);
 }
 
 TEST(UnderTest, MovesWhatIsUnknown) {
-  const std::vector<Further> all = FurtherMeasurements(ReadingsOf(Module()));
-  const Further& light = Find(all, "second_light");
+  const std::vector<FollowUp> all = FollowUpMeasurements(ReadingsOf(Module()));
+  const FollowUp& light = Find(all, "second_light");
   const PlannedCurve& curve = light.curves.front();
   const Readings moved = Under(curve, {0.1, 2});
   EXPECT_DOUBLE_EQ(moved.points[3].irradiance, 0.55);

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/words.h"
+#include "lyrefit/diagnose/cause_text.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "lyrefit/diagnose/material.h"
+#include "lyrefit/diagnose/effect_size.h"
 
 namespace lyrefit {
 namespace {
@@ -48,14 +48,14 @@ std::vector<std::string> OfSubstrings(const Readings& readings, const double* p)
 // Of the parameters of a weak cell: its own light where one of several chains has it.
 double LightOfWeakCell(const double* p) { return 1 - p[0] * p[8]; }
 
-std::vector<std::string> OfWeakCell(const Workbench& bench, const LawFit& fit, int index,
+std::vector<std::string> OfWeakCell(const WeightedData& weighted, const LawFit& fit, int index,
                                     const double* p) {
   const std::string cells =
       p[1] > 1.5 ? fmt::format("{:.0f} cells have", p[1]) : std::string("one cell has");
   std::vector<std::string> words = {
       fmt::format("{} {:.0f} % of the others' light", cells, Percent(LightOfWeakCell(p)))};
   if (p[8] > 1) words.push_back("the module's halves stand side by side: the other half goes on");
-  const HotCell hot = FindHotCell(bench, fit, index);
+  const HotCell hot = FindHotCell(weighted, fit, index);
   if (hot.heat_W > 0) {
     words.push_back(fmt::format("at short circuit it stands at {:.1f} V and turns {:.3g} W to heat",
                                 hot.voltage_V, hot.heat_W));
@@ -66,7 +66,7 @@ std::vector<std::string> OfWeakCell(const Workbench& bench, const LawFit& fit, i
 // Voltage of a healthy cell that carries `current`, by halving: it falls with the current.
 class HealthyCell {
  public:
-  HealthyCell(const Workbench& bench, const LawFit& fit) : grid_(*bench.readings) {
+  HealthyCell(const WeightedData& weighted, const LawFit& fit) : grid_(*weighted.readings) {
     Reading at = grid_.points.front();
     for (const Reading& r : grid_.points) {
       if (r.irradiance > at.irradiance) at = r;
@@ -120,10 +120,10 @@ double ReverseVoltage(const double* p, double photocurrent, double conductance, 
 
 }  // namespace
 
-HotCell FindHotCell(const Workbench& bench, const LawFit& fit, int index) {
-  const Readings& readings = *bench.readings;
+HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) {
+  const Readings& readings = *weighted.readings;
   const double* p = fit.p.data() + fit.law.Offset(index);
-  const HealthyCell healthy(bench, fit);
+  const HealthyCell healthy(weighted, fit);
   double brightest = 0;
   for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
   const double photocurrent = fit.p[kBasePhotocurrent] * brightest;
@@ -150,13 +150,13 @@ HotCell FindHotCell(const Workbench& bench, const LawFit& fit, int index) {
   return hot;
 }
 
-std::vector<std::string> InWords(const Workbench& bench, const LawFit& fit, int index) {
+std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index) {
   const std::string_view id = fit.law.effects[index]->id;
   const double* p = fit.p.data() + fit.law.Offset(index);
-  const Readings& readings = *bench.readings;
+  const Readings& readings = *weighted.readings;
   if (id == "shading") return OfShading(readings, p);
   if (id == "substrings") return OfSubstrings(readings, p);
-  if (id == "weak_cell") return OfWeakCell(bench, fit, index, p);
+  if (id == "weak_cell") return OfWeakCell(weighted, fit, index, p);
   if (id == "mismatch") {
     return {fmt::format("{:.3g} cells deliver {:.1f} % less than the others",
                         p[1] * readings.traits.cells, Percent(p[0]))};

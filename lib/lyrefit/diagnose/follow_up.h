@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -22,7 +22,7 @@ struct PlannedCurve {
   int drop = -1;
 };
 
-struct Further {
+struct FollowUp {
   std::string id;
   std::string title;
   std::string taken;
@@ -33,7 +33,7 @@ struct Further {
 };
 
 // Every further measurement that the readings' kind admits.
-std::vector<Further> FurtherMeasurements(const Readings& measured);
+std::vector<FollowUp> FollowUpMeasurements(const Readings& measured);
 
 // What a law becomes on a further curve.
 struct CurveLaw {

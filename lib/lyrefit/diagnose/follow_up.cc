@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/further.h"
+#include "lyrefit/diagnose/follow_up.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,19 +36,19 @@ PlannedCurve CurveOf(const Readings& measured, const std::vector<Reading>& point
   return curve;
 }
 
-void AddUnknownSky(PlannedCurve* curve, Further* further) {
-  curve->light = static_cast<int>(further->unknown.size());
-  further->unknown.push_back(kLightUnknown);
-  curve->temperature = static_cast<int>(further->unknown.size());
-  further->unknown.push_back(kKelvinUnknown);
+void AddUnknownSky(PlannedCurve* curve, FollowUp* follow_up) {
+  curve->light = static_cast<int>(follow_up->unknown.size());
+  follow_up->unknown.push_back(kLightUnknown);
+  curve->temperature = static_cast<int>(follow_up->unknown.size());
+  follow_up->unknown.push_back(kKelvinUnknown);
 }
 
 constexpr char kSameNoise[] = "noise as measured here, a rough path of its own";
 constexpr char kOtherSky[] =
     "noise as measured here, a rough path of its own, light known to 3 %, temperature to 1 K";
 
-Further ReverseSweep(const Readings& measured) {
-  Further further = {
+FollowUp ReverseSweep(const Readings& measured) {
+  FollowUp follow_up = {
       "reverse_sweep", "the same sweep in the opposite order, at once", kSameNoise, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   curve.at_once = true;
@@ -58,30 +58,30 @@ Further ReverseSweep(const Readings& measured) {
     r.x = 1 - r.x;
     r.rate = -r.rate;
   }
-  further.curves = {curve};
-  return further;
+  follow_up.curves = {curve};
+  return follow_up;
 }
 
-Further SlowerSweep(const Readings& measured) {
-  Further further = {"slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
+FollowUp SlowerSweep(const Readings& measured) {
+  FollowUp follow_up = {"slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.rate /= kSlower;
-  AddUnknownSky(&curve, &further);
-  further.curves = {curve};
-  return further;
+  AddUnknownSky(&curve, &follow_up);
+  follow_up.curves = {curve};
+  return follow_up;
 }
 
-Further SecondLight(const Readings& measured) {
-  Further further = {"second_light", "the same sweep under half the light", kOtherSky, {}, {}};
+FollowUp SecondLight(const Readings& measured) {
+  FollowUp follow_up = {"second_light", "the same sweep under half the light", kOtherSky, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.irradiance *= kDimmer;
-  AddUnknownSky(&curve, &further);
-  further.curves = {curve};
-  return further;
+  AddUnknownSky(&curve, &follow_up);
+  follow_up.curves = {curve};
+  return follow_up;
 }
 
-Further DarkCurve(const Readings& measured) {
-  Further further = {"dark_curve",
+FollowUp DarkCurve(const Readings& measured) {
+  FollowUp follow_up = {"dark_curve",
                      "a dark curve up to Voc",
                      "noise as measured here, temperature known to 1 K",
                      {},
@@ -95,14 +95,14 @@ Further DarkCurve(const Readings& measured) {
     points[k].dark = true;
   }
   curve.temperature = 0;
-  further.unknown = {kKelvinUnknown};
-  further.curves = {curve};
-  return further;
+  follow_up.unknown = {kKelvinUnknown};
+  follow_up.curves = {curve};
+  return follow_up;
 }
 
 // The cells that work keep their voltages.
-Further CoveredParts(const Readings& measured, int groups) {
-  Further further = {"cover_part",
+FollowUp CoveredParts(const Readings& measured, int groups) {
+  FollowUp follow_up = {"cover_part",
                      "a curve with each bypass group covered in turn (1/" + std::to_string(groups) +
                          " of the cells)",
                      std::string(kOtherSky) + ", the bypass diode's drop to 0.1 V",
@@ -116,18 +116,18 @@ Further CoveredParts(const Readings& measured, int groups) {
     curve.readings.scale.cells = curve.readings.traits.cells = cells;
     curve.readings.traits.substrings = groups - 1;
     curve.readings.traits.bypass_known = true;
-    AddUnknownSky(&curve, &further);
-    curve.drop = static_cast<int>(further.unknown.size());
-    further.unknown.push_back(kDropUnknown_V / cells);
-    further.curves.push_back(curve);
+    AddUnknownSky(&curve, &follow_up);
+    curve.drop = static_cast<int>(follow_up.unknown.size());
+    follow_up.unknown.push_back(kDropUnknown_V / cells);
+    follow_up.curves.push_back(curve);
   }
-  return further;
+  return follow_up;
 }
 
-Further IscVoc(const Readings& measured) {
+FollowUp IscVoc(const Readings& measured) {
   constexpr int kLevels = 12;
   constexpr double kDimmest = 0.03;
-  Further further = {"isc_voc",
+  FollowUp follow_up = {"isc_voc",
                      "Isc and Voc under 12 lights from full to 3 %",
                      "noise as measured here, each light known to 3 %, temperature to 1 K",
                      {},
@@ -142,18 +142,18 @@ Further IscVoc(const Readings& measured) {
     PlannedCurve curve = CurveOf(measured, pair);
     curve.open_circuit = true;
     curve.temperature = 0;
-    curve.light = static_cast<int>(further.unknown.size());
-    further.unknown.push_back(kLightUnknown);
-    further.curves.push_back(curve);
+    curve.light = static_cast<int>(follow_up.unknown.size());
+    follow_up.unknown.push_back(kLightUnknown);
+    follow_up.curves.push_back(curve);
   }
-  return further;
+  return follow_up;
 }
 
 }  // namespace
 
-std::vector<Further> FurtherMeasurements(const Readings& measured) {
+std::vector<FollowUp> FollowUpMeasurements(const Readings& measured) {
   const DataTraits& traits = measured.traits;
-  std::vector<Further> all;
+  std::vector<FollowUp> all;
   if (traits.only_dark) return all;
   if (traits.single) all.push_back(ReverseSweep(measured));
   all.push_back(SlowerSweep(measured));

@@ -1,24 +1,24 @@
-#include "lyrefit/diagnose/workbench.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "made_bench.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
 
 TEST(WhitenTest, DividesByTheNoiseAndDropsWhatIsLeftOut) {
-  MadeBench made = OnTheBench(MadeCurve({}));
-  made.bench.used[4] = 0;
-  const double sigma = made.bench.sigma.front();
+  SyntheticData made = OnTheData(MadeCurve({}));
+  made.weighted.used[4] = 0;
+  const double sigma = made.weighted.sigma.front();
   const Eigen::VectorXd white =
-      Whiten(made.bench, Eigen::VectorXd::Constant(made.bench.used.size(), 2));
+      Whiten(made.weighted, Eigen::VectorXd::Constant(made.weighted.used.size(), 2));
   EXPECT_DOUBLE_EQ(white[0], 2 / sigma);
   EXPECT_EQ(white[4], 0);
-  EXPECT_EQ(made.bench.count(), 59);
+  EXPECT_EQ(made.weighted.count(), 59);
 }
 
 // Noise of a first-order process becomes white, chain by chain.
@@ -26,10 +26,10 @@ TEST(WhitenTest, TakesTheCorrelationOut) {
   Recipe recipe;
   recipe.points = 1000;
   recipe.and_back = true;
-  MadeBench made = OnTheBench(MadeCurve(recipe));
+  SyntheticData made = OnTheData(MadeCurve(recipe));
   constexpr double kRho = 0.7;
-  made.bench.correlation = kRho;
-  const double sigma = made.bench.sigma.front();
+  made.weighted.correlation = kRho;
+  const double sigma = made.weighted.sigma.front();
   RandomStream random(3);
   Eigen::VectorXd noise(2000);
   double last = random.Normal();
@@ -37,21 +37,21 @@ TEST(WhitenTest, TakesTheCorrelationOut) {
     last = k == 1000 ? random.Normal() : kRho * last + std::sqrt(1 - kRho * kRho) * random.Normal();
     noise[k] = sigma * last;
   }
-  const Eigen::VectorXd white = Whiten(made.bench, noise);
+  const Eigen::VectorXd white = Whiten(made.weighted, noise);
   EXPECT_NEAR(white.squaredNorm() / 2000, 1, 0.12);
   EXPECT_NEAR(white.head(1999).dot(white.tail(1999)) / 2000, 0, 0.07);
 }
 
 TEST(WhitenTest, WhitensColumnsAsEachByItself) {
-  MadeBench made = OnTheBench(MadeCurve({}));
-  made.bench.path = 1e-3;
-  const int count = made.bench.count();
+  SyntheticData made = OnTheData(MadeCurve({}));
+  made.weighted.path = 1e-3;
+  const int count = made.weighted.count();
   Eigen::MatrixXd columns(count, 2);
   for (int k = 0; k < count; ++k) columns.row(k) << std::cos(0.1 * k), k;
-  const Eigen::MatrixXd white = WhitenColumns(made.bench, columns);
+  const Eigen::MatrixXd white = WhitenColumns(made.weighted, columns);
   for (int c = 0; c < 2; ++c) {
     const Eigen::VectorXd column = columns.col(c);
-    EXPECT_EQ(white.col(c), Whiten(made.bench, column)) << c;
+    EXPECT_EQ(white.col(c), Whiten(made.weighted, column)) << c;
   }
 }
 
@@ -60,8 +60,8 @@ TEST(FitBaseTest, FindsTheDevice) {
     Recipe recipe;
     recipe.cells = cells;
     recipe.noise_A = 0;
-    const MadeBench made = OnTheBench(MadeCurve(recipe));
-    const LawFit fit = FitBase(made.bench, Law());
+    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.weighted, Law());
     ASSERT_TRUE(fit.usable);
     const double scale = made.measurement.readings.scale.current_A;
     EXPECT_NEAR(fit.p[kBasePhotocurrent] * scale, 8, 1e-4);
@@ -77,12 +77,12 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
   for (int seed = 1; seed <= 20; ++seed) {
     Recipe recipe;
     recipe.seed = seed;
-    const MadeBench made = OnTheBench(MadeCurve(recipe));
-    const LawFit fit = FitBase(made.bench, Law());
+    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.weighted, Law());
     double by_hand = 0;
     for (std::size_t k = 0; k < fit.current.size(); ++k) {
       by_hand += std::pow(
-          (fit.current[k] - made.measurement.readings.points[k].current) / made.bench.sigma[k], 2);
+          (fit.current[k] - made.measurement.readings.points[k].current) / made.weighted.sigma[k], 2);
     }
     EXPECT_NEAR(fit.sum, by_hand, 1e-6 * by_hand);
     sum += fit.sum / 55 / 20;  // 60 readings, 5 parameters
@@ -91,28 +91,28 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
 }
 
 TEST(FitLawTest, HoldsWhatIsSearched) {
-  const MadeBench made = OnTheBench(MadeCurve({}));
+  const SyntheticData made = OnTheData(MadeCurve({}));
   Law law;
   law.effects = {FindEffect("irr_step")};
-  std::vector<double> start = FitBase(made.bench, Law()).p;
+  std::vector<double> start = FitBase(made.weighted, Law()).p;
   start.insert(start.end(), {0.0, 0.123});
-  const LawFit fit = FitLaw(made.bench, law, start);
+  const LawFit fit = FitLaw(made.weighted, law, start);
   EXPECT_EQ(fit.p.back(), 0.123);
-  EXPECT_EQ(FreeCount(made.bench, law), 6);
+  EXPECT_EQ(FreeCount(made.weighted, law), 6);
 }
 
 TEST(FitLawTest, DarkCurvesHaveNoPhotocurrent) {
-  const MadeBench made = OnTheBench(MadeDarkCurve());
-  EXPECT_EQ(FreeCount(made.bench, Law()), 4);
-  const LawFit fit = FitBase(made.bench, Law());
+  const SyntheticData made = OnTheData(MadeDarkCurve());
+  EXPECT_EQ(FreeCount(made.weighted, Law()), 4);
+  const LawFit fit = FitBase(made.weighted, Law());
   ASSERT_TRUE(fit.usable);
   EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 0.02);
 }
 
 TEST(LinearizeTest, IsTheFitsTangent) {
-  const MadeBench made = OnTheBench(MadeCurve({}));
-  const LawFit fit = FitBase(made.bench, Law());
-  const Linearized linear = Linearize(made.bench, fit);
+  const SyntheticData made = OnTheData(MadeCurve({}));
+  const LawFit fit = FitBase(made.weighted, Law());
+  const Linearized linear = Linearize(made.weighted, fit);
   ASSERT_EQ(linear.free.size(), 5U);
   EXPECT_NEAR(linear.residual.squaredNorm(), fit.sum, 1e-9 * fit.sum);
   EXPECT_LT((linear.basis.transpose() * linear.basis - Eigen::MatrixXd::Identity(5, 5)).norm(),
@@ -127,9 +127,9 @@ TEST(LinearizeTest, IsTheFitsTangent) {
 TEST(LinearizeTest, ParametersPressedAgainstABoundAreNotFree) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] += 0.3 * curve.voltage_V[k];
-  const MadeBench made = OnTheBench(curve);  // rises: 1/Rsh would be negative
-  const LawFit fit = FitBase(made.bench, Law());
-  const Linearized linear = Linearize(made.bench, fit);
+  const SyntheticData made = OnTheData(curve);  // rises: 1/Rsh would be negative
+  const LawFit fit = FitBase(made.weighted, Law());
+  const Linearized linear = Linearize(made.weighted, fit);
   EXPECT_LT(fit.p[kBaseConductance], 1e-6);
   EXPECT_EQ(std::count(linear.free.begin(), linear.free.end(), kBaseConductance), 0);
   EXPECT_EQ(StandardErrors(linear, 5)[kBaseConductance], 0);
@@ -143,10 +143,10 @@ TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
     Recipe recipe;
     recipe.seed = seed;
     recipe.points = 120;
-    const MadeBench made = OnTheBench(MadeCurve(recipe));
-    const LawFit fit = FitBase(made.bench, Law());
+    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const LawFit fit = FitBase(made.weighted, Law());
     const double scale = made.measurement.readings.scale.current_A;
-    const std::vector<double> errors = StandardErrors(Linearize(made.bench, fit), 5);
+    const std::vector<double> errors = StandardErrors(Linearize(made.weighted, fit), 5);
     const double to_A[] = {scale, 1, 1, 1 / scale, scale};
     for (int k = 0; k < 5; ++k) {
       if (k == kBasePivot) continue;  // its place moves with the curve

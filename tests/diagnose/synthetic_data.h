@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "law/made_curve.h"
+#include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/measurement.h"
+#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/weighted_data.h"
+#include "lyrefit/effects/catalogue.h"
+
+namespace lyrefit {
+
+// A synthetic measurement, its noise known.
+struct SyntheticData {
+  Measurement measurement;
+  WeightedData weighted;
+};
+
+inline SyntheticData OnTheData(const CurveSet& set, double sigma_A = 0.004) {
+  SyntheticData made;
+  made.measurement = *MakeMeasurement(set);
+  const Readings& readings = made.measurement.readings;
+  made.weighted.readings = std::make_shared<const Readings>(readings);
+  made.weighted.sigma.assign(readings.points.size(), sigma_A / readings.scale.current_A);
+  made.weighted.used.assign(readings.points.size(), 1);
+  return made;
+}
+
+inline SyntheticData OnTheData(const IvCurve& curve) { return OnTheData(SetOf({curve})); }
+
+// The effects a diagnosis tries on these data.
+inline std::vector<const Effect*> Showable(const DataTraits& traits) {
+  return Candidates(Catalogue(), traits, {});
+}
+
+// Scored and judged by linear null_statistics of the same law.
+inline std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
+                                       const std::vector<const Effect*>& effects, int draws,
+                                       std::uint64_t seed) {
+  Signatures signatures;
+  const Prepared prepared = PrepareAll(weighted, fit, effects, &signatures);
+  return JudgeScores(prepared, CalibrateScores(weighted, prepared, nullptr, draws, seed));
+}
+
+}  // namespace lyrefit

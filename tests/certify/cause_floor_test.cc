@@ -8,7 +8,7 @@
 
 #include "certify/made.h"
 #include "error_of.h"
-#include "lyrefit/certify/cause_attain.h"
+#include "lyrefit/certify/cause_upper_bound.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 
 #include "certify/made.h"
 #include "error_of.h"
-#include "lyrefit/certify/attain.h"
-#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/upper_bound.h"
+#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/refine/refine.h"
@@ -179,8 +179,8 @@ TEST(CertifySound, GoesThroughResistancesThatTheOrderOfThePointsDoesNotShutOut) 
   const auto open = Certify(curve);
   ASSERT_TRUE(open) << open.error().ToString();
   EXPECT_GE(open->rs_upper_ohm, 2 * in_order_ohm);
-  const double beyond = BoundBeyond(DataOf(curve), open->rs_upper_ohm);
-  EXPECT_NEAR(open->floor.lower_bound_A, std::sqrt(2 * beyond / 5), 1e-15);
+  const double tail = BoundTail(DataOf(curve), open->rs_upper_ohm);
+  EXPECT_NEAR(open->floor.lower_bound_A, std::sqrt(2 * tail / 5), 1e-15);
   EXPECT_FALSE(open->models[0].certified);
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/certify/attain.h"
-#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/upper_bound.h"
+#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/part_bound.h"
@@ -28,7 +28,7 @@ double ExactRmse(const IvCurve& curve, const Device& device, const std::vector<d
   for (int d = 0; d < DiodeCount(device); ++d) {
     diodes.push_back({p[IdealityIndex(d)], p[SaturationCurrentIndex(d)]});
   }
-  return SafeAttainedRmse(curve, SafeThermalVoltage(curve.conditions, ConstantSet::kCodata),
+  return SafeUpperRmse(curve, SafeThermalVoltage(curve.conditions, ConstantSet::kCodata),
                           p[kIph], p[kRs], WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
@@ -120,15 +120,15 @@ TEST(Rigorous, HoldsWhereDoublesClaimMoreThanIsTrue) {
   for (int seed = 0; seed < 200; ++seed) {
     const IvCurve curve = NearlyExact(seed % 2 == 0 ? "msx60" : "rtc_france", 1e-9, seed);
     const MixtureData data = DataOf(curve);
-    const double price = 2 * data.target_A.maxCoeff();
+    const double dual_gain = 2 * data.target_A.maxCoeff();
     const std::vector<Window> windows = {WindowOf(curve, 1, 2)};
     const double rs = seed % 2 == 0 ? 0.2 : 0.036;
-    Mixture mixture = SolveMixture(data, windows, rs, {}, 1e-12, price);
+    Mixture mixture = SolveMixture(data, windows, rs, {}, 1e-12, dual_gain);
     const double truth = ExactPrimal(curve, data, mixture);
-    const PriceTag tag = lyrefit::Price<Interval>(data, rs, rs, truth);
+    const DualGain tag = lyrefit::ComputeDualGain<Interval>(data, rs, rs, truth);
     const PartBound plain = BoundPart(data, windows, mixture, mixture, tag, truth);
     if (plain.lower > truth) ++claimed;
-    MakeSafe(data, windows, price, &mixture);
+    MakeSafe(data, windows, dual_gain, &mixture);
     const PartBound bound = BoundPart<Interval>(data, windows, mixture, mixture, tag, truth);
     EXPECT_LE(bound.lower, truth) << seed;
     if (bound.lower > 0.999 * truth) ++close;
@@ -216,7 +216,7 @@ TEST(Rigorous, BoundsLargerResistancesNoHigherThanDoublesDo) {
   for (const char* name : {"rtc_france", "msx60", "pwp201"}) {
     const MixtureData data = DataOf(Shipped(name));
     const double rs = data.reference_voltage_V / data.current_A.maxCoeff();
-    const double plain = BoundBeyond(data, rs), safe = BoundBeyond<Interval>(data, rs);
+    const double plain = BoundTail(data, rs), safe = BoundTail<Interval>(data, rs);
     EXPECT_LE(safe, plain);
     EXPECT_GT(safe, plain * 0.99);  // two of the points may be tied, to rounding
   }

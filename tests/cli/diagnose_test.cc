@@ -122,7 +122,7 @@ TEST(DiagnoseVerb, ProvesWhatCausesCanExplain) {
   EXPECT_EQ(plain.at("verdict"), report.at("verdict"));
   double shading = 0, others = 1;
   for (const json& proof : report.at("proofs").at("causes")) {
-    EXPECT_LE(proof.at("lower_bound_A").get<double>(), proof.at("attained_A").get<double>());
+    EXPECT_LE(proof.at("lower_bound_A").get<double>(), proof.at("upper_bound_A").get<double>());
     const double most = proof.at("explains_at_most");
     if (proof.at("effect") == "shading") shading = most;
     if (proof.at("objective") == "measured-current") others = std::min(others, 1 - most);

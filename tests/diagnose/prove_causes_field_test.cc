@@ -43,16 +43,16 @@ TEST(ProofsOfRealSweeps, AreUndercutByNoFit) {
     if (!diagnosis) continue;
     ASSERT_TRUE(diagnosis->proofs) << file;
     for (const CauseProof& proof : diagnosis->proofs->causes) {
-      EXPECT_FALSE(proof.attained_A < proof.lower_bound_A) << file << " " << proof.effect;
+      EXPECT_FALSE(proof.upper_bound_A < proof.lower_bound_A) << file << " " << proof.effect;
       EXPECT_FALSE(proof.base_A < proof.lower_bound_A &&
                    proof.objective == Objective::kMeasuredCurrent)
           << file << " " << proof.effect;
       if (proof.objective != Objective::kMeasuredCurrent) continue;
       ++proved;
       const auto square = [](double x) { return x * x; };
-      const double gap = square(proof.attained_A) - square(proof.lower_bound_A);
+      const double gap = square(proof.upper_bound_A) - square(proof.lower_bound_A);
       const double allowed =
-          std::max(0.02 * square(proof.attained_A), 0.005 * square(proof.base_A));
+          std::max(0.02 * square(proof.upper_bound_A), 0.005 * square(proof.base_A));
       close += gap <= allowed * (1 + 1e-6) ? 1 : 0;
     }
   }

@@ -29,7 +29,7 @@ TEST(Proofs, AreThereWhereTheyWereAskedFor) {
   EXPECT_FALSE(diagnosis.proofs->causes.empty());
   for (const CauseProof& proof : diagnosis.proofs->causes) {
     EXPECT_LE(proof.lower_bound_A, proof.base_A) << proof.effect;
-    EXPECT_LE(proof.lower_bound_A, proof.attained_A) << proof.effect;
+    EXPECT_LE(proof.lower_bound_A, proof.upper_bound_A) << proof.effect;
     const double left = proof.lower_bound_A / proof.base_A;
     EXPECT_NEAR(proof.explains_at_most, 1 - left * left, 1e-12) << proof.effect;
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/refine/climb.h"
+#include "lyrefit/refine/newton_ascent.h"
 
 namespace lyrefit {
 namespace {
@@ -137,11 +137,11 @@ TEST(ErrorSizes, StatedSizesOfCurrentsAreBelieved) {
   EXPECT_NEAR(std::log(found.sizes.path / truth.path), 0, 0.4);
 }
 
-TEST(Climb, FindsTheTopOfASmoothHill) {
+TEST(NewtonAscent, FindsTheTopOfASmoothHill) {
   const auto hill = [](const std::vector<double>& x) {
     return -std::cosh(x[0] - 1) - 0.5 * std::pow(x[1] + 2 - 0.5 * x[0], 2);
   };
-  const std::vector<double> top = Climb(hill, {-4, 5}, 50);
+  const std::vector<double> top = NewtonAscent(hill, {-4, 5}, 50);
   EXPECT_NEAR(top[0], 1, 1e-3);
   EXPECT_NEAR(top[1], -1.5, 1e-3);
 }

@@ -138,11 +138,11 @@ TEST(LeastSquaresTest, GivesUpWhereOthersWereBetter) {
   LeastSquaresOptions options;
   const LeastSquaresEnd all = SolveLeastSquares(problem, {5, 1}, options);
   EXPECT_NEAR(all.sum_of_squares, 4, 1e-6);
-  options.to_beat = 1;
+  options.cutoff = 1;
   const LeastSquaresEnd beaten = SolveLeastSquares(problem, {5, 1}, options);
   EXPECT_LT(beaten.iterations, all.iterations);
   EXPECT_FALSE(beaten.converged);
-  options.to_beat = 5;
+  options.cutoff = 5;
   EXPECT_NEAR(SolveLeastSquares(problem, {5, 1}, options).sum_of_squares, 4, 1e-6);
 }
 

@@ -94,7 +94,7 @@ TEST(SolveModel, EndsAlikeByEitherSolver) {
   options.stop = [] { return true; };
   EXPECT_TRUE(SolveModel(model, coordinates, {}, options).stopped);
   options.stop = {};
-  options.to_beat = 1;  // of some 35: what noise there is
+  options.cutoff = 1;  // of some 35: what noise there is
   const SolveEnd out_of_reach = SolveModel(model, coordinates, {}, options);
   EXPECT_TRUE(out_of_reach.hopeless);
   EXPECT_FALSE(out_of_reach.converged);

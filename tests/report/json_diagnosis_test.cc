@@ -44,7 +44,7 @@ TEST(DiagnosisJson, HoldsTheProofsWhereTheyWereAskedFor) {
   EXPECT_EQ(Keys(proofs), (Set{"causes", "sentence"}));
   const json& first = proofs.at("causes").at(0);
   EXPECT_EQ(Keys(first), (Set{"effect", "title", "named", "objective", "base_A", "lower_bound_A",
-                              "attained_A", "explains_at_most", "holds_for"}));
+                              "upper_bound_A", "explains_at_most", "holds_for"}));
   EXPECT_EQ(first.at("objective"), "measured-current");
   EXPECT_EQ(first.at("lower_bound_A"), 8.1e-4);
   EXPECT_EQ(proofs.at("causes").at(1).at("named"), true);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/mixture.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/certify/cause_attain.h"
+#include "lyrefit/certify/cause_upper_bound.h"
 #include "lyrefit/certify/part_bound.h"
 
 namespace lyrefit {
@@ -78,9 +78,9 @@ class CauseBranch {
   MixturePtr Solve(const CausePart& part, double rs, const std::vector<Atom>& start) {
     ++end_.solved;
     const MixtureData data = DataOf(part.theta);
-    const double price = Price(data, rs, rs, end_.best.primal).current_A;
+    const double dual_gain = ComputeDualGain(data, rs, rs, end_.best.primal).current_A;
     auto mixture = std::make_shared<Mixture>(
-        SolveMixture(data, {part.u}, rs, start, kSolveTolerance, std::min(price, 1e3 * Scale())));
+        SolveMixture(data, {part.u}, rs, start, kSolveTolerance, std::min(dual_gain, 1e3 * Scale())));
     Note(*mixture, part);
     return mixture;
   }
@@ -117,14 +117,14 @@ class CauseBranch {
   // What one end proves by itself, everything priced.
   double EndBound(const MixtureData& data, const Window& u, const Mixture& end) const {
     const double known = end_.best.primal;
-    return BoundPart(data, {u}, end, end, Price(data, end.rs, end.rs, known), known).lower;
+    return BoundPart(data, {u}, end, end, ComputeDualGain(data, end.rs, end.rs, known), known).lower;
   }
 
   void Push(CausePart part) {
     const Mixture &a = *part.left, &b = *part.right;
     const MixtureData data = DataOf(part.theta);
     const double known = end_.best.primal;
-    const PartBound bound = BoundPart(data, {part.u}, a, b, Price(data, a.rs, b.rs, known), known);
+    const PartBound bound = BoundPart(data, {part.u}, a, b, ComputeDualGain(data, a.rs, b.rs, known), known);
     part.raw_ends = std::min(a.dual, b.dual);
     part.ends = std::min(EndBound(data, part.u, a), EndBound(data, part.u, b));
     part.lower = std::max(bound.lower, std::max(part.lower, 0.0));

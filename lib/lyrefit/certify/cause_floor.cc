@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/certify/beyond.h"
-#include "lyrefit/certify/cause_attain.h"
+#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/cause_upper_bound.h"
 #include "lyrefit/certify/cause_branch.h"
 #include "lyrefit/law/device.h"
 
@@ -61,8 +61,8 @@ Expected<void> Check(const IvCurve& curve, const CauseFloorOptions& options) {
   return {};
 }
 
-// As BoundBeyond, of many pairs of points that have no point in common, large differences first.
-double BoundPairsBeyond(const MixtureData& data, double rs) {
+// As BoundTail, of many pairs of points that have no point in common, large differences first.
+double BoundTailPairs(const MixtureData& data, double rs) {
   const Eigen::VectorXd vd = data.JunctionVoltage(rs);
   const Eigen::VectorXd& current = data.current_A;
   std::vector<int> rising(static_cast<std::size_t>(vd.size()));
@@ -81,17 +81,17 @@ double BoundPairsBeyond(const MixtureData& data, double rs) {
       break;
     }
   }
-  return std::max(half, BoundBeyond(data, rs));
+  return std::max(half, BoundTail(data, rs));
 }
 
 // No model with a larger series resistance than the end of the region comes near `known`.
 void EndRegion(double known, Ground* ground) {
   constexpr int kDoublings = 4, kHalvings = 24;
   double low = 0, high = ground->region.rs_upper;
-  for (int k = 0; k < kDoublings && BoundPairsBeyond(ground->data, high) < known; ++k) high *= 2;
-  for (int k = 0; k < kHalvings && BoundPairsBeyond(ground->data, high) >= known; ++k) {
+  for (int k = 0; k < kDoublings && BoundTailPairs(ground->data, high) < known; ++k) high *= 2;
+  for (int k = 0; k < kHalvings && BoundTailPairs(ground->data, high) >= known; ++k) {
     const double middle = 0.5 * (low + high);
-    if (BoundPairsBeyond(ground->data, middle) < known) {
+    if (BoundTailPairs(ground->data, middle) < known) {
       low = middle;
     } else {
       high = middle;
@@ -129,7 +129,7 @@ Expected<Ground> MakeGround(const IvCurve& curve, const CauseFloorOptions& optio
 }
 
 // The best of descents from a few places.
-CausePoint Attain(const Ground& ground, const std::shared_ptr<const CauseShape>& shape,
+CausePoint FindUpperBound(const Ground& ground, const std::shared_ptr<const CauseShape>& shape,
                   const CausePoint& known) {
   CausePoint best = known;
   const double theta = shape != nullptr ? std::sqrt(shape->theta.lower * shape->theta.upper) : 0;
@@ -153,10 +153,10 @@ CausePoint Attain(const Ground& ground, const std::shared_ptr<const CauseShape>&
   return best;
 }
 
-ProvedCause Fill(const Ground& ground, double beyond, const CauseEnd& end) {
+ProvedCause Fill(const Ground& ground, double tail, const CauseEnd& end) {
   ProvedCause proved;
   proved.rmse_A = ground.Rmse(end.best.primal);
-  proved.lower_bound_A = std::min(ground.Rmse(std::min(end.lower, beyond)), proved.rmse_A);
+  proved.lower_bound_A = std::min(ground.Rmse(std::min(end.lower, tail)), proved.rmse_A);
   proved.solved = end.solved;
   proved.complete = end.complete;
   return proved;
@@ -172,20 +172,20 @@ Expected<CauseFloors> ProveCauses(const IvCurve& curve, const CauseFloorOptions&
   limits.relative_gap = options.relative_gap;
   limits.most_solved = static_cast<int>(std::min<std::int64_t>(options.effort, 1000000));
   limits.stop = options.stop;
-  const CausePoint alone = Attain(ground, nullptr, {});
+  const CausePoint alone = FindUpperBound(ground, nullptr, {});
   EndRegion(alone.primal, &ground);
   floors.rs_upper_ohm = ground.region.rs_upper;
-  const double beyond = BoundPairsBeyond(ground.data, ground.region.rs_upper);
+  const double tail = BoundTailPairs(ground.data, ground.region.rs_upper);
   const CauseEnd base = BranchOverCause(ground.data, nullptr, ground.region, alone, limits);
-  floors.without = Fill(ground, beyond, base);
+  floors.without = Fill(ground, tail, base);
   limits.absolute_gap = options.absolute_gap * base.best.primal;
   for (const std::string& cause : options.causes) {
     const auto shape = ShapeOf(cause, ground, options);
     if (shape == nullptr) return Fail("no floor is known for '" + cause + "'");
     // With no strength at all it is the diode alone.
-    const CausePoint start = Attain(ground, shape, base.best);
+    const CausePoint start = FindUpperBound(ground, shape, base.best);
     const CauseEnd end = BranchOverCause(ground.data, shape, ground.region, start, limits);
-    floors.causes.push_back(Fill(ground, beyond, end));
+    floors.causes.push_back(Fill(ground, tail, end));
     floors.causes.back().cause = cause;
     if (shape->theta.upper > shape->theta.lower) floors.causes.back().parameter = end.best.theta;
   }

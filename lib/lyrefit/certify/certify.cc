@@ -10,7 +10,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/as_diodes.h"
-#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/certify/box.h"
 #include "lyrefit/certify/branch.h"
 #include "lyrefit/certify/measured_relaxation.h"
@@ -36,7 +36,7 @@ struct Proof {
   BranchLimits limits;
   double thermal_voltage_V = 0;
   double rs_reached = 0;                 // largest Rs that a search came to
-  std::vector<Mixture> attained = {};    // of the floor and of every model so far
+  std::vector<Mixture> upper_bound = {};    // of the floor and of every model so far
   double rounding_A = 0;                 // RMSEs no further apart than this are equal
   std::vector<std::string> doubts = {};  // of the readings
   bool stopped = false;
@@ -148,7 +148,7 @@ double SafeFloorRmse(const Proof& proof, const Floor& floor) {
   for (const FloorDiode& diode : floor.diodes) {
     diodes.push_back({diode.n, diode.saturation_current_A});
   }
-  return SafeAttainedRmse(proof.curve, proof.ThermalVoltage(), floor.photocurrent_A,
+  return SafeUpperRmse(proof.curve, proof.ThermalVoltage(), floor.photocurrent_A,
                           floor.resistance_series_ohm, WideInterval(floor.conductance_shunt_S),
                           diodes);
 }
@@ -159,7 +159,7 @@ double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<doub
   for (int d = 0; d < diode_count; ++d) {
     diodes.push_back({p[IdealityIndex(d)], p[SaturationCurrentIndex(d)]});
   }
-  return SafeAttainedRmse(proof.curve, proof.ThermalVoltage(), p[kIph], p[kRs],
+  return SafeUpperRmse(proof.curve, proof.ThermalVoltage(), p[kIph], p[kRs],
                           WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
@@ -177,10 +177,10 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const 
 
 // A model may have come lower than the search of an unfinished floor: the best mixture at its Rs.
 void TakeBest(const Proof& proof, BranchEnd* floor) {
-  for (const Mixture& model : proof.attained) {
+  for (const Mixture& model : proof.upper_bound) {
     if (!(model.primal < floor->best.primal * (1 - kCertifiedGap))) continue;
     const double tolerance = 0.01 * proof.limits.tolerance;
-    const double price_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
+    const double dual_gain_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
     Mixture here = model;
     if (Solved(proof)) {
       const SolvedMixture solved =
@@ -193,7 +193,7 @@ void TakeBest(const Proof& proof, BranchEnd* floor) {
         here.primal = solved.value;
       }
     } else {
-      here = SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, price_A);
+      here = SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, dual_gain_A);
     }
     if (here.primal < floor->best.primal) floor->best = here;
   }
@@ -238,7 +238,7 @@ class ModelSearch {
     const ModelRanges ranges = RangesOfModel(options, diodes_, std::min(options.rs_upper_ohm, rs),
                                              proof_.data.reference_voltage_V);
     const RefineProblem problem = ModelProblem(proof_.curve, device_, ranges, options.objective);
-    Attain(problem, ranges, proof_.data, mixture, &best_);
+    FindUpperBound(problem, ranges, proof_.data, mixture, &best_);
   }
   const std::vector<double>& p() const { return best_.p; }
   double mean_square() const { return best_.mean_square; }
@@ -257,14 +257,14 @@ class ModelSearch {
   const Proof& proof_;
   int diodes_;
   Device device_;
-  Attained best_;
+  UpperBound best_;
 };
 
 ModelCertificate CertifyModel(Model model, const BranchEnd& floor, Proof* shared) {
   const Proof& proof = *shared;
   const int diodes = static_cast<int>(model);
   ModelSearch best(shared, model);
-  for (const Mixture& mixture : proof.attained) best.From(mixture);
+  for (const Mixture& mixture : proof.upper_bound) best.From(mixture);
   ModelCertificate certificate;
   certificate.model = model;
   double lower = floor.lower;
@@ -281,7 +281,7 @@ ModelCertificate CertifyModel(Model model, const BranchEnd& floor, Proof* shared
     lower = std::max(lower, end.lower);
     if (end.best.primal < best.Half() * (1 - 1e-9)) best.From(end.best);
   }
-  shared->attained.push_back(best.AsMixture());
+  shared->upper_bound.push_back(best.AsMixture());
   certificate.parameters = best.p();
   certificate.rmse_A = proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p())
                                               : std::sqrt(best.mean_square());
@@ -330,7 +330,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
   AppendNonDefaults(asked, kCertifyOptionTable, &certificate.non_default_options);
   BranchEnd floor = RunBranch(proof.limits, 0, kInfinity, &proof);
-  proof.attained.push_back(floor.best);
+  proof.upper_bound.push_back(floor.best);
   for (const Model model : options.models) {
     if (proof.stopped) break;
     const std::string name = ToText(model);

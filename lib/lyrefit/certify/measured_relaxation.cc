@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/part_bound.h"
 
@@ -12,13 +12,13 @@ namespace {
 template <class Real>
 PartBound BoundEnds(const MixtureData& data, const BranchPart& part, const Incumbent& incumbent) {
   return BoundPart<Real>(data, Union(part.windows), *part.left, *part.right,
-                         Price<Real>(data, part.rs0, part.rs1, incumbent.primal), incumbent.primal);
+                         ComputeDualGain<Real>(data, part.rs0, part.rs1, incumbent.primal), incumbent.primal);
 }
 
 }  // namespace
 
 double MeasuredRelaxation::Beyond(double rs) const {
-  return rigorous_ ? BoundBeyond<Interval>(data_, rs) : BoundBeyond(data_, rs);
+  return rigorous_ ? BoundTail<Interval>(data_, rs) : BoundTail(data_, rs);
 }
 
 double MeasuredRelaxation::Scale() const { return data_.WeightedTarget().cwiseAbs().maxCoeff(); }
@@ -26,11 +26,11 @@ double MeasuredRelaxation::Scale() const { return data_.WeightedTarget().cwiseAb
 MixturePtr MeasuredRelaxation::At(const std::vector<Window>& windows, double rs,
                                   const std::vector<Atom>& start, Incumbent* incumbent) const {
   ++incumbent->solved;
-  const double price = Price(data_, rs, rs, incumbent->primal).current_A;
-  const double price_A = std::min(price, 1e3 * Scale());
+  const double dual_gain = ComputeDualGain(data_, rs, rs, incumbent->primal).current_A;
+  const double dual_gain_A = std::min(dual_gain, 1e3 * Scale());
   auto mixture = std::make_shared<Mixture>(
-      SolveMixture(data_, Union(windows), rs, start, 0.01 * incumbent->tolerance, price_A));
-  if (rigorous_) MakeSafe(data_, Union(windows), price_A, mixture.get());
+      SolveMixture(data_, Union(windows), rs, start, 0.01 * incumbent->tolerance, dual_gain_A));
+  if (rigorous_) MakeSafe(data_, Union(windows), dual_gain_A, mixture.get());
   incumbent->Note(*mixture, mixture->primal);
   return mixture;
 }

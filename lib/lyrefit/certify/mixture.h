@@ -97,10 +97,10 @@ struct Mixture {
 
 // Solves the problem at `rs` with u in the windows (sorted, at most an end shared), from the atoms of a
 // neighbouring solution if there is one. The mixture respects the ranges of Is. `tolerance` is the relative duality gap aimed at; what was
-// reached is in the result. `price_A` prices what is left of the excess: no competitive mixture has
+// reached is in the result. `dual_gain_A` prices what is left of the excess: no competitive mixture has
 // a larger sum of shunt and diode currents at Vs.
 Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows, double rs,
-                     const std::vector<Atom>& start, double tolerance, double price_A);
+                     const std::vector<Atom>& start, double tolerance, double dual_gain_A);
 
 // a(u) at junction voltages vd, for any Vs > 0.
 Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, double u);

@@ -41,7 +41,7 @@ class MixtureSolver {
  public:
   MixtureSolver(const MixtureData& data, const std::vector<Window>& windows, double rs);
 
-  Mixture Run(const std::vector<Atom>& start, double tolerance, double price_A);
+  Mixture Run(const std::vector<Atom>& start, double tolerance, double dual_gain_A);
 
  private:
   int size() const { return static_cast<int>(state_.atoms.size()); }
@@ -49,9 +49,9 @@ class MixtureSolver {
   Eigen::Index rows() const { return vd_.size() + static_cast<Eigen::Index>(rows_.size()); }
 
   // Adds atoms and slides them until no diode column gains anything, the rows as they are.
-  Mixture Settle(double tolerance, double price_A);
+  Mixture Settle(double tolerance, double dual_gain_A);
   // What a correlation may be without opening the duality gap, or without rising above rounding.
-  double AllowedExcess(double y_norm, double tolerance, double price_A) const;
+  double AllowedExcess(double y_norm, double tolerance, double dual_gain_A) const;
   std::size_t WindowIndex(double u) const;
   const Window& WindowOf(double u) const { return windows_[WindowIndex(u)]; }
   double Within(double u) const;  // the nearest u of its window
@@ -72,14 +72,14 @@ class MixtureSolver {
   std::vector<int> FreeTerms() const;  // strictly within their ranges
   // Least squares over the atoms there are. Those left without current are dropped.
   void SolveLinear();
-  void Slide();
-  bool SlideOnce(double* damping);
+  void UpdateAtoms();
+  bool UpdateAtomsOnce(double* damping);
   MixtureSlope SlopeHere() const;
   double Move(const std::vector<int>& moving, const Eigen::VectorXd& step);
   void MergeNeighbours();
   bool SplitNearest(double u);
   Eigen::VectorXd CleanResidual() const;
-  Mixture Finish(const Eigen::VectorXd& y, double excess, double price_A) const;
+  Mixture Finish(const Eigen::VectorXd& y, double excess, double dual_gain_A) const;
   double SlopeInRs(const MixtureState& state) const;
 
   const MixtureData& data_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "lyrefit/certify/cause_price.h"
+#include "lyrefit/certify/cause_dual_gain.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/real_data.h"
 
@@ -26,24 +26,24 @@ Real Excess(const Mixture& mixture, const std::vector<Window>& windows, double v
          exp(Real(u) * above);
 }
 
-// The largest coefficient of a linear term in a model that the price allows.
+// The largest coefficient of a linear term in a model that the dual gain allows.
 template <class Real>
-double LargestCoefficient(const MixtureData& data, const LinearTerm& term, const PriceTag& price,
+double LargestCoefficient(const MixtureData& data, const LinearTerm& term, const DualGain& dual_gain,
                           double known) {
   double largest = kInfinity;
   if (term.light()) {
     const ArrayOf<Real> allowed = RealArray<Real>(data.target_A) +
                                   sqrt(Real(2 * known)) / RealArray<Real>(data.weight) +
-                                  Real(price.current_A);
+                                  Real(dual_gain.current_A);
     const double most = std::max(Upper(allowed.maxCoeff()), 0.0);
     for (const double lit : term.constant) {
       if (lit > 0) largest = std::min(largest, Upper(Real(most) / Real(lit)));
     }
   } else {
     const ArrayOf<Real> leak =
-        -(RealArray<Real>(term.constant) + RealArray<Real>(term.per_volt) * Real(price.voltage_V));
+        -(RealArray<Real>(term.constant) + RealArray<Real>(term.per_volt) * Real(dual_gain.voltage_V));
     const Real least = leak.minCoeff();
-    if (Lower(least) > 0) largest = Upper(Real(price.current_A) / least);
+    if (Lower(least) > 0) largest = Upper(Real(dual_gain.current_A) / least);
   }
   return std::min(largest, term.upper);
 }
@@ -66,7 +66,7 @@ double LeastBetween(const Interval& left, const Interval& right, const Interval&
 }  // namespace
 
 template <class Real>
-PriceTag Price(const MixtureData& data, double rs0, double rs1, double known) {
+DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double known) {
   const ArrayOf<Real> v0 = JunctionVoltage<Real>(data, rs0);
   const ArrayOf<Real> v1 = JunctionVoltage<Real>(data, rs1);
   // Known to be at least and at most this at any Rs of the range.
@@ -92,21 +92,21 @@ PriceTag Price(const MixtureData& data, double rs0, double rs1, double known) {
 
 template <class Real>
 PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows, const Mixture& a,
-                    const Mixture& b, const PriceTag& price, double known) {
+                    const Mixture& b, const DualGain& dual_gain, double known) {
   PartBound bound{-kInfinity, std::min(a.dual, b.dual)};
-  if (!std::isfinite(price.current_A)) return bound;
+  if (!std::isfinite(dual_gain.current_A)) return bound;
   const Real dr = Real(b.rs) - Real(a.rs);
   const ArrayOf<Real> step = RealArray<Real>(b.y) - RealArray<Real>(a.y);
-  const Real current(price.current_A);
-  Real left = Real(a.dual) - current * Excess<Real>(a, windows, price.voltage_V);
-  Real right = Real(b.dual) - current * Excess<Real>(b, windows, price.voltage_V);
+  const Real current(dual_gain.current_A);
+  Real left = Real(a.dual) - current * Excess<Real>(a, windows, dual_gain.voltage_V);
+  Real right = Real(b.dual) - current * Excess<Real>(b, windows, dual_gain.voltage_V);
   Real bend(0);  // along t: (1 - t) left + t right + t (1 - t) / 2 (|step|^2 - bend)
   const ArrayOf<Real> per_ohm = WeightedArray<Real>(data, data.current_A);
   for (std::size_t j = 0; j < data.terms.size(); ++j) {
     const LinearTerm& term = data.terms[j];
     if (term.shape != nullptr) continue;
     const auto index = static_cast<Eigen::Index>(j);
-    const Real largest(LargestCoefficient<Real>(data, term, price, known));
+    const Real largest(LargestCoefficient<Real>(data, term, dual_gain, known));
     if (term.upper == kInfinity) {  // finite ranges are in the dual values already
       if (a.pulls[index] > 0) left -= Real(a.pulls[index]) * largest;
       if (b.pulls[index] > 0) right -= Real(b.pulls[index]) * largest;
@@ -124,13 +124,13 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
       if (term.shape != nullptr) return bound;  // nothing is proved
     }
   }
-  const CauseGain causes = PriceCauses(data, a, b, price);
+  const CauseGain causes = CauseDualGains(data, a, b, dual_gain);
   left -= Real(causes.at_a);
   right -= Real(causes.at_b);
   bend += Real(causes.bend);
   bound.lower = std::min(Lower(left), Lower(right));
   if (b.rs > a.rs) {
-    bend += current * BoundBend<Real>(data, windows, a.rs, b.rs, a.y, b.y, price.voltage_V,
+    bend += current * BoundBend<Real>(data, windows, a.rs, b.rs, a.y, b.y, dual_gain.voltage_V,
                                       a.saturation_pulls, b.saturation_pulls);
     const Real curvature = Real(0.5) * (step.square().sum() - bend);
     if (!(Lower(curvature) >= 0)) bound.lower = LeastBetween(left, right, curvature);
@@ -138,7 +138,7 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
   return bound;
 }
 
-void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, double price_A,
+void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, double dual_gain_A,
               Mixture* mixture) {
   const Eigen::VectorXd& y = mixture->y;
   std::vector<WideInterval> weighted, wide_vd;
@@ -162,7 +162,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
       pull += weighted[k] * column;
     }
     // The most that a coefficient in its range gains; with no upper end only what a negative pull
-    // does, the rest is for the price.
+    // does, the rest is for the dual gain.
     const WideReal zero(0);
     const WideInterval falling(std::min(pull.lower, zero), std::min(pull.upper, zero));
     const WideInterval rising(std::max(pull.lower, zero), std::max(pull.upper, zero));
@@ -171,7 +171,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
     if (term.upper < kInfinity) {
       dual -= rising * WideInterval(term.upper);
     } else if (pull.upper > 0) {
-      lack += Interval(mixture->pulls[index]) * (mixture->linear[index] + Interval(price_A));
+      lack += Interval(mixture->pulls[index]) * (mixture->linear[index] + Interval(dual_gain_A));
     }
   }
   // Any price of Is proves a bound, the one found as it stands.
@@ -190,16 +190,16 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
                                  windows, mixture->atoms, std::max(mixture->excess, hidden),
                                  mixture->saturation_pulls)
           .bound;
-  lack += Interval(mixture->excess) * price_A;
+  lack += Interval(mixture->excess) * dual_gain_A;
   mixture->relative_gap = Upper(abs(Interval(mixture->primal) - mixture->dual) + lack) /
                           std::max(mixture->primal, 1e-300);
 }
 
-template PriceTag Price<double>(const MixtureData&, double, double, double);
-template PriceTag Price<Interval>(const MixtureData&, double, double, double);
+template DualGain ComputeDualGain<double>(const MixtureData&, double, double, double);
+template DualGain ComputeDualGain<Interval>(const MixtureData&, double, double, double);
 template PartBound BoundPart<double>(const MixtureData&, const std::vector<Window>&, const Mixture&,
-                                     const Mixture&, const PriceTag&, double);
+                                     const Mixture&, const DualGain&, double);
 template PartBound BoundPart<Interval>(const MixtureData&, const std::vector<Window>&,
-                                       const Mixture&, const Mixture&, const PriceTag&, double);
+                                       const Mixture&, const Mixture&, const DualGain&, double);
 
 }  // namespace lyrefit

@@ -43,7 +43,7 @@ double SafeGap(double rmse, double lower) {
   return rmse > 0 ? std::max(0.0, Upper(1.0 - Interval(lower) / rmse)) : 0;
 }
 
-double SafeAttainedRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
+double SafeUpperRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
                         double photocurrent_A, double resistance_series_ohm,
                         const WideInterval& conductance_shunt_S,
                         const std::vector<SafeDiode>& diodes) {

@@ -30,7 +30,7 @@ struct SafeDiode {
 };
 
 // An upper bound of the measured-current RMSE (unweighted) of one model on a curve.
-double SafeAttainedRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
+double SafeUpperRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
                         double photocurrent_A, double resistance_series_ohm,
                         const WideInterval& conductance_shunt_S,
                         const std::vector<SafeDiode>& diodes);

@@ -34,7 +34,7 @@ Difference Above(double x, double h) {
 struct Columns {
   std::vector<double> u;
   double scale_V = 0;
-  std::vector<double> prices;  // of each column
+  std::vector<double> dual_gains;  // of each column
 
   std::size_t size() const { return 2 + u.size(); }
   double Value(std::size_t column, double vd) const {
@@ -54,7 +54,7 @@ struct Columns {
 
 Columns SampleColumns(const KnownValues& known, const std::vector<Window>& windows) {
   Columns columns;
-  columns.scale_V = known.price.voltage_V;
+  columns.scale_V = known.dual_gain.voltage_V;
   for (const Window& window : windows) {
     const double span = (window.upper - window.lower) * columns.scale_V;
     const int count = std::min(std::max(3, static_cast<int>(span / kSampleWidth) + 2), 60);
@@ -62,8 +62,8 @@ Columns SampleColumns(const KnownValues& known, const std::vector<Window>& windo
       columns.u.push_back(window.lower + (window.upper - window.lower) * i / (count - 1));
     }
   }
-  columns.prices.assign(columns.size(), known.price.current_A);
-  columns.prices[0] = known.largest_light_A;
+  columns.dual_gains.assign(columns.size(), known.dual_gain.current_A);
+  columns.dual_gains[0] = known.largest_light_A;
   return columns;
 }
 
@@ -84,11 +84,11 @@ double LeftOver(const KnownValues& known, const std::vector<Window>& windows,
     voltage[nodes + i] = difference.voltage_V[i];
     weight[nodes + i] = sign * difference.weight[i];
   }
-  double left = std::max(weight.sum(), 0.0) * columns.prices[0];
-  left += std::max(-voltage.dot(weight) / columns.scale_V, 0.0) * known.price.current_A;
-  const double price = known.price.current_A;
-  return left + price * BoundCorrelation(voltage, columns.scale_V, weight, windows, {},
-                                         allowed / std::max(price, 1e-300))
+  double left = std::max(weight.sum(), 0.0) * columns.dual_gains[0];
+  left += std::max(-voltage.dot(weight) / columns.scale_V, 0.0) * known.dual_gain.current_A;
+  const double dual_gain = known.dual_gain.current_A;
+  return left + dual_gain * BoundCorrelation(voltage, columns.scale_V, weight, windows, {},
+                                         allowed / std::max(dual_gain, 1e-300))
                             .bound;
 }
 
@@ -105,13 +105,13 @@ std::vector<SlopeRange> BoundAll(const KnownValues& known, const std::vector<Win
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(samples + nodes, nodes);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(samples + nodes, 2 * count);
   for (Eigen::Index i = 0; i < samples; ++i) {
-    const double price = kLeftOverWeight * columns.prices[i];
+    const double dual_gain = kLeftOverWeight * columns.dual_gains[i];
     for (Eigen::Index m = 0; m < nodes; ++m) {
-      a(i, m) = price * columns.Value(i, known.voltage_V[m]);
+      a(i, m) = dual_gain * columns.Value(i, known.voltage_V[m]);
     }
     for (Eigen::Index k = 0; k < count; ++k) {
-      b(i, 2 * k) = price * columns.Value(i, Below(below_V[k], h));
-      b(i, 2 * k + 1) = price * columns.Value(i, Above(above_V[k], h));
+      b(i, 2 * k) = dual_gain * columns.Value(i, Below(below_V[k], h));
+      b(i, 2 * k + 1) = dual_gain * columns.Value(i, Above(above_V[k], h));
     }
   }
   for (Eigen::Index m = 0; m < nodes; ++m) {
@@ -176,7 +176,7 @@ double UpperBetween(const std::vector<double>& at_V, const std::vector<double>& 
 double LowerBetween(const std::vector<double>& at_V, const std::vector<double>& lower,
                     const std::vector<double>& upper, double v) {
   double most = 0;
-  const auto beyond = [&](std::size_t end, std::size_t other) {
+  const auto tail = [&](std::size_t end, std::size_t other) {
     const double t = (v - at_V[end]) / (at_V[end] - at_V[other]);
     if (!(lower[end] > 0) || !(upper[other] < kInfinity) || !(t >= 0)) return;
     most = std::max(most, lower[end] * std::pow(lower[end] / upper[other], t));
@@ -184,8 +184,8 @@ double LowerBetween(const std::vector<double>& at_V, const std::vector<double>& 
   for (std::size_t i = 0; i < at_V.size(); ++i) {
     if (at_V[i] <= v) most = std::max(most, lower[i]);
     if (i > 0 && at_V[i] > at_V[i - 1]) {
-      if (at_V[i] <= v) beyond(i, i - 1);
-      if (at_V[i - 1] >= v) beyond(i - 1, i);
+      if (at_V[i] <= v) tail(i, i - 1);
+      if (at_V[i - 1] >= v) tail(i - 1, i);
     }
   }
   return most;

@@ -21,7 +21,7 @@ struct KnownValues {
   double radius_A = 0;
   Eigen::VectorXd common_A;
   double largest_light_A = 0;  // the sum of the light terms is at most this
-  PriceTag price;              // on leaks and diodes
+  DualGain dual_gain;              // on leaks and diodes
 };
 
 // Bounds of the slope -dI/dVd at one junction voltage from below and at another from above.

@@ -33,14 +33,14 @@ struct SolvedPart {
 double Allowed(const SolvedPart& part, Eigen::Index k);
 
 // No competing mixture has a larger sum of leak and diode currents at this voltage.
-PriceTag CompetitorPrice(const SolvedPart& part);
+DualGain CompetitorDualGain(const SolvedPart& part);
 
 // True if no mixture with an Rs of this or more competes: of two points the one of larger junction
 // voltage would have the larger current.
 bool NoneCompetes(const MixtureData& data, double rs_lower, double known);
 
 // The sum of the light terms of a competing mixture at most.
-double LargestLight(const SolvedPart& part, const PriceTag& price);
+double LargestLight(const SolvedPart& part, const DualGain& dual_gain);
 
 // Upper bounds of the slopes of competing mixtures from the largest light alone. They hold for every
 // junction voltage between V + J' Rs and V + J Rs of the point, at one Rs of the part after the other

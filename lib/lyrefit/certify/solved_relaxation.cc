@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/certify/solved_part.h"
 
@@ -15,8 +15,8 @@ constexpr int kMostSharpenings = 12;  // of what is known of a part
 constexpr double kCoarse = 0.3;  // an error of the slopes that says that Rs is known too coarsely
 constexpr double kNearby = 4;    // half sums of squares this many times the best are near it
 
-double Price(const MixtureData& data, double rs, double known) {
-  return std::min(Price(data, rs, rs, known).current_A, 1e3 * data.target_A.cwiseAbs().maxCoeff());
+double ComputeDualGain(const MixtureData& data, double rs, double known) {
+  return std::min(ComputeDualGain(data, rs, rs, known).current_A, 1e3 * data.target_A.cwiseAbs().maxCoeff());
 }
 
 double Spread(const KnownValues& known) {
@@ -35,7 +35,7 @@ void SlopeEnds(const SolvedPart& work, std::vector<double>* below, std::vector<d
 }
 
 // Sharpens what is known of the slopes as long as that helps to prove `enough`.
-void Sharpen(const PriceTag& price, double light_A, double enough, SolvedPart* work) {
+void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPart* work) {
   std::vector<SlopeRange> slopes(static_cast<std::size_t>(work->error.size()));
   double radius = kInfinity, unsure = kInfinity;
   for (int round = 0; round < kMostSharpenings; ++round) {
@@ -47,7 +47,7 @@ void Sharpen(const PriceTag& price, double light_A, double enough, SolvedPart* w
       KnownValues from_duals = ValuesFromDuals(*work, slopes, radius);
       if (Spread(from_duals) < Spread(known)) known = std::move(from_duals);
     }
-    known.price = price;
+    known.dual_gain = dual_gain;
     known.largest_light_A = light_A;
     const double precision =
         std::min(1e-4, 0.3 * std::sqrt(1 - enough / work->known)) / work->region.rs1;
@@ -82,24 +82,24 @@ void BoundNear(const SolvedMixture& fit, double tolerance, double enough, Solved
     work->deviation_A[k] =
         Allowed(*work, k) + std::fabs(work->reference_A[k] - work->data.target_A[k]);
   }
-  const PriceTag price = CompetitorPrice(*work);
-  if (!std::isfinite(price.current_A)) return;
-  const double light = LargestLight(*work, price);
+  const DualGain dual_gain = CompetitorDualGain(*work);
+  if (!std::isfinite(dual_gain.current_A)) return;
+  const double light = LargestLight(*work, dual_gain);
   work->highest_slope_S = RoughSlopes(*work, light, false);
   work->error.resize(points);
   std::vector<SlopeRange> slopes;
   for (const double highest : work->highest_slope_S) slopes.push_back({0, highest});
   SetErrors(slopes, work);
-  const double solve_price = std::min(price.current_A, 1e3 * work->data.target_A.maxCoeff());
+  const double solve_dual_gain = std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
   work->left = SolveMixture(work->linear, work->windows, part.rs0, fit.mixture.atoms, tolerance,
-                            solve_price);
+                            solve_dual_gain);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
-                                                   fit.mixture.atoms, tolerance, solve_price)
+                                                   fit.mixture.atoms, tolerance, solve_dual_gain)
                                     : work->left;
   work->bound =
-      BoundPart(work->linear, work->windows, work->left, work->right, price, LinearKnown(*work));
+      BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, LinearKnown(*work));
   work->loss = Loss(*work);
-  if (part.rs1 > 0) Sharpen(price, light, enough, work);
+  if (part.rs1 > 0) Sharpen(dual_gain, light, enough, work);
 }
 
 // The bound by the measured-current problem with each residual reduced as far as any slope can.
@@ -112,18 +112,18 @@ void BoundFar(double tolerance, SolvedPart* work) {
     work->deviation_A[k] = Allowed(*work, k);
   }
   work->loss = 0;
-  const PriceTag price = CompetitorPrice(*work);
-  if (!std::isfinite(price.current_A)) return;
-  const Eigen::ArrayXd slopes = RoughSlopes(*work, LargestLight(*work, price), true);
+  const DualGain dual_gain = CompetitorDualGain(*work);
+  if (!std::isfinite(dual_gain.current_A)) return;
+  const Eigen::ArrayXd slopes = RoughSlopes(*work, LargestLight(*work, dual_gain), true);
   work->linear = work->data;
   work->linear.weight =
       work->data.weight.array() / (1 + part.rs1 * slopes.min(1e12 / (part.rs1 + 1e-12)));
-  const double solve_price = std::min(price.current_A, 1e3 * work->data.target_A.maxCoeff());
-  work->left = SolveMixture(work->linear, work->windows, part.rs0, {}, tolerance, solve_price);
+  const double solve_dual_gain = std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
+  work->left = SolveMixture(work->linear, work->windows, part.rs0, {}, tolerance, solve_dual_gain);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
-                                                   work->left.atoms, tolerance, solve_price)
+                                                   work->left.atoms, tolerance, solve_dual_gain)
                                     : work->left;
-  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, price, work->known);
+  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, work->known);
 }
 
 SolvedPart Begin(const MixtureData& data, const BranchPart& part, double known) {
@@ -168,7 +168,7 @@ SolvedMixture SolveSolvedMixture(const MixtureData& data, const std::vector<Wind
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const MixtureData linear = Linearise(data, rs, reference, slope);
     Mixture mixture = SolveMixture(linear, windows, rs, atoms, tolerance,
-                                   Price(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
+                                   ComputeDualGain(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
     ++best.steps;
     const MixtureLaw law(data, mixture);
     reference = SolvedCurrents(data, mixture);
@@ -224,7 +224,7 @@ void SolvedRelaxation::Bound(const BranchPart* parent, BranchPart* part,
   }
 }
 
-double SolvedRelaxation::Beyond(double rs) const { return BoundBeyondSolved(data_, rs); }
+double SolvedRelaxation::Beyond(double rs) const { return BoundTailSolved(data_, rs); }
 
 // It is the ends that lie too low, or the slopes that are known too badly, where the windows are
 // relatively wider than the range of Rs.

@@ -178,7 +178,7 @@ struct CauseProof {
   double base_A = kUnknown;  // RMSE that the base model attains
   double lower_bound_A =
       kUnknown;                  // proved: none with the cause, whatever its parameters, is lower
-  double attained_A = kUnknown;  // with the cause, by a fit
+  double upper_bound_A = kUnknown;  // with the cause, by a fit
   double explains_at_most = kUnknown;  // part of the base model's sum of squares
   std::string holds_for;               // which models the bound holds for, in words
 };

@@ -150,7 +150,7 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     last = way.paid;
     ++ahead;
     LeastSquaresOptions on = UpTo(kToTheEnd, 1e-5);
-    if (best->usable) on.to_beat = Paid(weighted, *best);
+    if (best->usable) on.cutoff = Paid(weighted, *best);
     LawFit end = FitLaw(weighted, way.fit.law, way.fit.p, on);
     if (!end.usable || !IsItself(effect, end)) continue;
     if (!best->usable || Paid(weighted, end) < Paid(weighted, *best)) *best = std::move(end);
@@ -158,7 +158,7 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
 }
 
 // Scores are lines where the effect is a jump: the place is what fits best among its neighbours.
-void Climb(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
+void NewtonAscent(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
            LawFit* best) {
   constexpr int kMostSteps = 8;
   std::vector<int> searched;
@@ -181,7 +181,7 @@ void Climb(const WeightedData& weighted, const Effect& effect, const std::vector
       std::vector<double> p = best->p;
       p[at] = places[k];
       LeastSquaresOptions briefly = kBriefly;
-      briefly.to_beat = best->sum;
+      briefly.cutoff = best->sum;
       LawFit end = FitLaw(weighted, best->law, p, briefly);
       if (!end.usable || !(end.sum < best->sum)) break;
       *best = std::move(end);
@@ -222,7 +222,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
     LeastSquaresOptions briefly = effort == Effort::kForTheRecord ? kToKnow : kBriefly;
-    if (best.usable) briefly.to_beat = best.sum;
+    if (best.usable) briefly.cutoff = best.sum;
     LawFit end = FitLaw(weighted, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
     if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
@@ -239,7 +239,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull) Climb(weighted, effect, probes, &best);
+  if (effort == Effort::kFull) NewtonAscent(weighted, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(weighted, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};

@@ -215,7 +215,7 @@ FurtherEnd FitJoint(const Joint& joint, const Law& law,
   for (std::vector<double> start : starts) {
     start.resize(law.size() + unknown, 0.0);
     LeastSquaresOptions options = UpTo(40, 1e-6);
-    if (best.usable) options.to_beat = best.sum_of_squares;
+    if (best.usable) options.cutoff = best.sum_of_squares;
     LeastSquaresEnd end = SolveLeastSquares(problem, start, options);
     if (end.usable && (!best.usable || end.sum_of_squares < best.sum_of_squares)) {
       best = std::move(end);

@@ -83,7 +83,7 @@ void AddLinear(const IvCurve& curve, const Selection& selection, const Diagnosis
     proof.objective = Objective::kMeasuredCurrent;
     proof.base_A = floors->without.rmse_A;
     proof.lower_bound_A = cause.lower_bound_A;
-    proof.attained_A = cause.rmse_A;
+    proof.upper_bound_A = cause.rmse_A;
     proof.holds_for = fmt::format(
         "{} with n from {:g} to {:g}, of every strength{}",
         options.recombination ? "a diode and one with n = 2" : "one diode", options.n_lower,
@@ -109,7 +109,7 @@ void AddShapes(const IvCurve& curve, const Selection& selection, const Diagnosis
     proof.objective = Objective::kSolvedCurrent;
     proof.base_A = diagnosis.gain.rmse_before_A;
     proof.lower_bound_A = lower;
-    proof.attained_A = trial.rmse_A;
+    proof.upper_bound_A = trial.rmse_A;
     proof.holds_for = std::move(holds_for);
     Finish(diagnosis, trial, &proof);
     proofs->causes.push_back(std::move(proof));

@@ -29,8 +29,8 @@ void Descents::Descend(std::vector<PolishStart> starts) {
   for (PolishStart& start : starts) {
     RefineEnd here;
     here.p = start.p;
-    LawWorkspace impatient(GiveUp::kSlow);
-    here.mean_square = MeanSquare(problem_, start.p, &impatient);
+    LawWorkspace evaluation_limit(GiveUp::kSlow);
+    here.mean_square = MeanSquare(problem_, start.p, &evaluation_limit);
     here.held.assign(start.p.size(), false);
     ways.push_back(static_cast<int>(ends_.size()));
     ends_.emplace_back();
@@ -55,7 +55,7 @@ void Descents::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   briefly.max_rounds = 1;
   briefly.max_iterations = briefly.first_iterations = steps;
   briefly.trust_radius = 1e4;
-  briefly.impatient = true;
+  briefly.evaluation_limit = true;
   briefly.stop = watch_->stop();
   for (const int way : *ways) {
     const DescentEnd& at = ends_[way];

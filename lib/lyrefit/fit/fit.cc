@@ -154,7 +154,7 @@ void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report)
       extended ? InVariant(job->problem, job->variants[candidate.variant], candidate.p) : job->problem;
   RefineOptions how;
   how.stop = job->watch.stop();
-  how.impatient = true;
+  how.evaluation_limit = true;
   Instant begin = Now();
   const RefineEnd plain = RefinePlainly(problem, candidate.p, how);
   report->plain_seconds = SecondsSince(begin);

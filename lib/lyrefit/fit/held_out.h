@@ -11,7 +11,7 @@ namespace lyrefit {
 // left out in turn, the model is refitted to the rest, and its residuals on the block are counted.
 // NaN where too few points are left to refit. Contiguous blocks, since residuals of neighbours are
 // alike and single points would be too easy; the first and the last point always stay in, since
-// beyond them every model is guessing. Refits see Thin() of the rest. NaN, too, once `watch` asks
+// beyond them every model is guessing. Refits see Coarsen() of the rest. NaN, too, once `watch` asks
 // to stop.
 double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch = nullptr);
 

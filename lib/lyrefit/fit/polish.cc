@@ -103,7 +103,7 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
 
 // A local optimum of nearly equal diodes can outlast the solver's patience: try the end again, and with
 // each diode taken out, as long as that helps.
-RefineEnd SecondWind(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
+RefineEnd Restart(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
   constexpr int kAttempts = 3;
   for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
     if (how.stop()) break;
@@ -218,10 +218,10 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
   const int count = static_cast<int>(descended.size());
   std::vector<RefineEnd> ends(count);
   for (int s = 0; s < count; ++s) {
-    if (groups.Leader(s) == s) ends[s] = SecondWind(coarse, how, Refine(coarse, descended[s], how));
+    if (groups.Leader(s) == s) ends[s] = Restart(coarse, how, Refine(coarse, descended[s], how));
     // Where the descent led astray: the start itself.
     if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree)) continue;
-    RefineEnd own = SecondWind(coarse, how, Refine(coarse, starts[s].p, how));
+    RefineEnd own = Restart(coarse, how, Refine(coarse, starts[s].p, how));
     if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;
     groups.LeaveGroup(s, &ends);
     ends[s] = std::move(own);

@@ -38,7 +38,7 @@ bool LeavesNoise(const FitJob& job, const Descents& descents) {
   return FindResidualStatistics(job.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
-void ClimbSettings(const FitJob& job, Descents* descents) {
+void AscentSettings(const FitJob& job, Descents* descents) {
   for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
     const int before = descents->best();
     std::vector<PolishStart> neighbours = Neighbours(job, descents->ends()[before]);
@@ -152,7 +152,7 @@ PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const Se
   job->watch.Begin("polish", 0);
   Descents descents(job->problem, job->variants, &job->watch);
   TryStarts(candidates, space, *job, &descents);
-  ClimbSettings(*job, &descents);
+  AscentSettings(*job, &descents);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
   for (const DescentEnd& end : descents.ends()) {

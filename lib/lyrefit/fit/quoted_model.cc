@@ -96,7 +96,7 @@ std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const Refine
                                   const std::function<bool()>& stop) {
   const Extension& extension = *problem.device.extension;
   OptimumQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
-  query.how.to_beat = highest;
+  query.how.cutoff = highest;
   return FindOtherOptima(CurveModel(problem), extension, best, std::move(ends), query);
 }
 

@@ -9,7 +9,7 @@
 
 #include "lyrefit/refine/linearize.h"
 #include "lyrefit/refine/solve.h"
-#include "lyrefit/refine/vanishing.h"
+#include "lyrefit/refine/drop_diode.h"
 
 namespace lyrefit {
 namespace {
@@ -48,12 +48,12 @@ class ActiveSet {
       StepBackInside();
     }
     Remember();
-    bool settled = options_.small && now_.converged && IsInside() && !LetDiodeIn();
+    bool settled = options_.small && now_.converged && IsInside() && !AddDiode();
     for (int round = 0; round < options_.max_rounds && !settled && !Ended(); ++round) {
-      HoldWhatPresses();
+      ActivateBounds();
       if (SolveFree()) {
         KeepIfBetter();
-        settled = !ReleaseOne() && !LetDiodeIn();
+        settled = !ReleaseOne() && !AddDiode();
       }
       Remember();
     }
@@ -159,7 +159,7 @@ class ActiveSet {
     how.unit_A = std::max(std::sqrt(now_.mean_square), 1e-13 * shape_.current_scale_A);
     const double per_unit = shape_.points / (how.unit_A * how.unit_A);
     how.enough = options_.enough * per_unit;
-    how.to_beat = options_.to_beat * per_unit;
+    how.cutoff = options_.cutoff * per_unit;
     how.stop = options_.stop;
     SolveEnd end = SolveModel(model_, coordinates, now_.at.local, how);
     iterations_ += end.iterations;
@@ -197,7 +197,7 @@ class ActiveSet {
     now_.held[i] = true;
   }
 
-  void HoldWhatPresses() {
+  void ActivateBounds() {
     const Linearization now = Linearize(model_, now_.at, now_.held);
     const Coordinates coordinates(shape_, now_.at.p, now_.held);
     const std::vector<double> theta = coordinates.Start();
@@ -319,14 +319,14 @@ class ActiveSet {
 
   // Puts a vanished diode where the residuals ask for one and solves on; keeps it only if that
   // pays.
-  bool LetDiodeIn() {
+  bool AddDiode() {
     if (!options_.let_in || Ended()) return false;
     for (int i = 0; i < size(); ++i) {
       const FitParameter& is = shape_.parameters[i];
       const bool vanished = is.may_vanish && now_.held[i] && now_.at.p[i] <= 0;
       if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
       if (coarse_ == nullptr) coarse_ = model_.Coarse();
-      const Comeback diode = FindComeback(model_, coarse_.get(), now_.at, i);
+      const DiodeToAdd diode = FindDiodeToAdd(model_, coarse_.get(), now_.at, i);
       if (!(diode.cosine > kFlat)) continue;
       ++let_in_;
       const State before = now_;
@@ -359,7 +359,7 @@ class ActiveSet {
   int let_in_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
-  bool hopeless_ = false;          // options_.to_beat is out of reach
+  bool hopeless_ = false;          // options_.cutoff is out of reach
   std::unique_ptr<FitModel> coarse_;  // filled where needed
 };
 

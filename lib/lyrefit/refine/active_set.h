@@ -20,9 +20,9 @@ struct RefineOptions {
   bool small = false;
   // Of one curve: whether places whose currents are slow to be had are taken for places that have
   // none.
-  bool impatient = false;
+  bool evaluation_limit = false;
   // A mean square that a small problem gives up on when it is out of reach.
-  double to_beat = HUGE_VAL;
+  double cutoff = HUGE_VAL;
   // Of the first solve, which has the bounds: the rounds go on from wherever it comes to, and where
   // one is active it would creep.
   double first_tolerance = 1e-9;
@@ -53,7 +53,7 @@ RefineEnd RefineModel(const FitModel& model, FitPoint start, const RefineOptions
 
 // One bounded solve in all parameters at once and nothing more: what a metaheuristic followed by
 // least squares usually means, and the yardstick for RefineModel. Of the options it reads
-// `max_iterations`, `function_tolerance`, `enough`, `stop` and `impatient`.
+// `max_iterations`, `function_tolerance`, `enough`, `stop` and `evaluation_limit`.
 RefineEnd RefineModelPlainly(const FitModel& model, FitPoint start,
                              const RefineOptions& options = {});
 

@@ -57,7 +57,7 @@ class CurveRefits {
     RefineOptions briefly = how_;
     briefly.first_iterations = kBriefly;
     briefly.max_rounds = 0;
-    if (enough > 0) briefly.to_beat = enough;
+    if (enough > 0) briefly.cutoff = enough;
     RefineEnd end = RefineModel(model_, from, briefly);
     // A descent that sees further where that did not do; and before a place counts as outside,
     // since the diodes may have changed their parts there.
@@ -77,7 +77,7 @@ class CurveRefits {
   bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
     Ask(value, enough, tolerance);
     RefineOptions reach = how_;
-    reach.to_beat = enough;
+    reach.cutoff = enough;
     reach.let_in = true;
     std::vector<std::vector<double>> starts = Traded(value);
     for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {

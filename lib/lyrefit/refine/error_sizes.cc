@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "lyrefit/refine/climb.h"
+#include "lyrefit/refine/newton_ascent.h"
 
 namespace lyrefit {
 namespace {
@@ -153,7 +153,7 @@ Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs&
     };
     // What neighbours differ by, path^2 / length, stays.
     const double path = at[2] + 0.5 * (length - at[3]);
-    at = Climb(others, {at[0], at[1], path}, kMostSteps);
+    at = NewtonAscent(others, {at[0], at[1], path}, kMostSteps);
     at.push_back(length);
     if (value(at) >= highest - kAllowed) longest = at;
   }
@@ -208,7 +208,7 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   all.columns.rightCols(1) = residual;
   constexpr int kMostSteps = 30;
   const auto value = [&](const Logs& there) { return LogPosterior(all, prior, there); };
-  const Logs top = Climb(value, FindStart(all, prior), kMostSteps);
+  const Logs top = NewtonAscent(value, FindStart(all, prior), kMostSteps);
   FoundErrors found;
   found.sizes = SizesAt(LongestAllowed(value, top, std::log(prior.center.length)));
   found.uncertainty = InverseOf(-CurvatureAt(value, top));

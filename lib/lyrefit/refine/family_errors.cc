@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/refine/climb.h"
+#include "lyrefit/refine/newton_ascent.h"
 
 namespace lyrefit {
 namespace {
@@ -55,7 +55,7 @@ FamilyErrorSizes FindFamilyErrors(FamilyErrorKind kind, const FamilyErrorShape& 
   for (const double part : {1.0, 0.03}) {  // of what is usual: tracers' readings, and made ones
     std::vector<double> start = center;
     for (double& one : start) one += std::log(part);
-    std::vector<double> end = Climb(value, std::move(start), kMostSteps);
+    std::vector<double> end = NewtonAscent(value, std::move(start), kMostSteps);
     if (value(end) > value(best)) best = std::move(end);
   }
   return SizesAt(kind, best);

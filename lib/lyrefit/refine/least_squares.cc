@@ -169,7 +169,7 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     const bool promising = predicted > enough || trust.radius < hardly_damped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
     end.hopeless = !end.converged && trust.radius >= hardly_damped &&
-                   here.sum - kMany * predicted > options.to_beat;
+                   here.sum - kMany * predicted > options.cutoff;
     if (end.converged || end.hopeless) break;
     if (!solved || !Evaluate(problem, &next)) {
       ++invalid;

@@ -24,7 +24,7 @@ struct LeastSquaresOptions {
   double function_tolerance = 1e-9;  // relative change of the sum of squares
   // A sum of squares that others reached: where steps do not promise to come near it, the descent
   // ends.
-  double to_beat = kInfinity;
+  double cutoff = kInfinity;
   // Of the first step, in squared lengths of the columns: directions that are so much weaker than
   // the columns by themselves are held back.
   double trust_radius = 1e4;
@@ -45,7 +45,7 @@ struct LeastSquaresEnd {
   bool converged = false;
   bool usable = false;    // false: the start itself could not be evaluated
   bool stopped = false;   // as `stop` asked
-  bool hopeless = false;  // `to_beat` is out of reach
+  bool hopeless = false;  // `cutoff` is out of reach
   int iterations = 0;
 };
 

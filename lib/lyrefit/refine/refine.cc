@@ -10,7 +10,7 @@ namespace lyrefit {
 
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options) {
-  const CurveModel model(problem, options.impatient ? GiveUp::kSlow : GiveUp::kAbsurd);
+  const CurveModel model(problem, options.evaluation_limit ? GiveUp::kSlow : GiveUp::kAbsurd);
   return RefineModel(model, {std::move(start), {}}, options);
 }
 
@@ -26,7 +26,7 @@ RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& st
 
 RefineEnd RefinePlainly(const RefineProblem& problem, std::vector<double> start,
                         const RefineOptions& options) {
-  const CurveModel model(problem, options.impatient ? GiveUp::kSlow : GiveUp::kAbsurd);
+  const CurveModel model(problem, options.evaluation_limit ? GiveUp::kSlow : GiveUp::kAbsurd);
   return RefineModelPlainly(model, {std::move(start), {}}, options);
 }
 

@@ -111,7 +111,7 @@ SolveEnd SolveSmall(const FitModel& model, const Coordinates& coordinates,
   how.max_iterations = options.max_iterations;
   how.function_tolerance = options.function_tolerance;
   how.trust_radius = options.trust_radius;
-  how.to_beat = options.to_beat;
+  how.cutoff = options.cutoff;
   how.enough = options.enough;
   how.stop = options.stop;
   LeastSquaresEnd found = SolveLeastSquares(problem, coordinates.Start(), how);

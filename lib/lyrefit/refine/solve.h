@@ -17,7 +17,7 @@ struct SolveOptions {
   double trust_radius = 0;        // of the first step
   double unit_A = 1;  // of the residuals, so that tolerances mean the same for every problem
   double enough = 0;  // sum of squares, in that unit, at or below which nothing more is done
-  double to_beat = HUGE_VAL;   // the same, as in LeastSquaresOptions; Ceres goes on regardless
+  double cutoff = HUGE_VAL;   // the same, as in LeastSquaresOptions; Ceres goes on regardless
   std::function<bool()> stop;  // asked once an iteration; true: end where it stands
 };
 
@@ -26,7 +26,7 @@ struct SolveEnd {
   std::vector<double> local;
   bool converged = false;
   bool stopped = false;   // as `stop` asked
-  bool hopeless = false;  // `to_beat` is out of reach
+  bool hopeless = false;  // `cutoff` is out of reach
   int iterations = 0;
 };
 

@@ -30,7 +30,7 @@ Section ProofSection(const Diagnosis& diagnosis) {
   for (const CauseProof& proof : proofs.causes) {
     table.rows.push_back({proof.effect + (proof.named ? " (named)" : ""), ToText(proof.objective),
                           Scientific(proof.base_A, 4), Scientific(proof.lower_bound_A, 4),
-                          Scientific(proof.attained_A, 4), AtMostText(proof.explains_at_most)});
+                          Scientific(proof.upper_bound_A, 4), AtMostText(proof.explains_at_most)});
     scopes.push_back(fmt::format("{}: {}.", proof.effect, proof.holds_for));
   }
   AddTable(std::move(table), &section);

@@ -121,7 +121,7 @@ void to_json(Json& j, const PlannedMeasurement& measurement) {
 }
 
 LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
-LYREFIT_JSON_FIELDS(CauseProof, effect, title, named, objective, base_A, lower_bound_A, attained_A,
+LYREFIT_JSON_FIELDS(CauseProof, effect, title, named, objective, base_A, lower_bound_A, upper_bound_A,
                     explains_at_most, holds_for)
 LYREFIT_JSON_FIELDS(Proofs, causes, sentence)
 

@@ -8,7 +8,7 @@ namespace lyrefit {
 
 // Newton's steps uphill from `at`, by differences and shortened until they lead there, on a smooth
 // function of a handful of logarithms; at most so many steps. -infinity where there is no value.
-std::vector<double> Climb(const std::function<double(const std::vector<double>&)>& value,
+std::vector<double> NewtonAscent(const std::function<double(const std::vector<double>&)>& value,
                           std::vector<double> at, int most_steps);
 
 // The second derivatives of such a function, by differences.

@@ -1,4 +1,4 @@
-#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/upper_bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,8 +164,8 @@ RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRange
                            std::move(lower), std::move(upper));
 }
 
-void Attain(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
-            const Mixture& mixture, Attained* best) {
+void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
+            const Mixture& mixture, UpperBound* best) {
   const auto consider = [&](const std::vector<double>& p) {
     const bool cut = LargestExponent(problem.device, data, p) > kLargestExponent;
     const double mean_square = cut ? UncutMeanSquare(problem, data, p) : MeanSquare(problem, p);

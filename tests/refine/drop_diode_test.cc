@@ -1,4 +1,4 @@
-#include "lyrefit/refine/vanishing.h"
+#include "lyrefit/refine/drop_diode.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST(RemoveFaded, LeavesADiodeWhoseBoundIsAbove0) {
   EXPECT_EQ(p[5], 1e-15);
 }
 
-TEST(FindComeback, FindsTheDiodeThatTheResidualsAskFor) {
+TEST(FindDiodeToAdd, FindsTheDiodeThatTheResidualsAskFor) {
   for (const int points : {40, 2000}) {  // the latter by few that stand for them
     const RefineProblem problem = Problem(Model::kDoubleDiode, points);
     const CurveModel model(problem);
@@ -47,22 +47,22 @@ TEST(FindComeback, FindsTheDiodeThatTheResidualsAskFor) {
     without.p[5] = 0;
     const auto coarse = model.Coarse();
     EXPECT_EQ(coarse != nullptr, points == 2000);
-    const Comeback diode = FindComeback(model, coarse.get(), without, 5);
+    const DiodeToAdd diode = FindDiodeToAdd(model, coarse.get(), without, 5);
     EXPECT_GT(diode.cosine, 0.9);
     EXPECT_NEAR(diode.n, kDoubleTruth[6], 0.1);
     EXPECT_NEAR(diode.size / kDoubleTruth[5], 1, 0.6);
   }
 }
 
-TEST(FindComeback, FindsNoneWhereTheDiodesAreAllThere) {
+TEST(FindDiodeToAdd, FindsNoneWhereTheDiodesAreAllThere) {
   const RefineProblem problem = Problem(Model::kSingleDiode);
   const CurveModel model(problem);
   std::vector<double> p = kSingleTruth;
   p[kIph] *= 1.1;  // more current everywhere: a diode would have to give it back
   p.insert(p.end(), {0, 1.5});
-  EXPECT_GT(FindComeback(model, nullptr, {p, {}}, 5).cosine, 0);
+  EXPECT_GT(FindDiodeToAdd(model, nullptr, {p, {}}, 5).cosine, 0);
   p[kIph] *= 0.8;
-  EXPECT_EQ(FindComeback(model, nullptr, {p, {}}, 5).cosine, 0);
+  EXPECT_EQ(FindDiodeToAdd(model, nullptr, {p, {}}, 5).cosine, 0);
 }
 
 }  // namespace

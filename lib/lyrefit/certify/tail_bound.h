@@ -10,10 +10,10 @@ namespace lyrefit {
 // than their mean; the points are sorted into such chains. With `Real` Interval rounding cannot raise
 // the bound above the truth.
 template <class Real = double>
-double BoundBeyond(const MixtureData& data, double rs);
+double BoundTail(const MixtureData& data, double rs);
 
 // The same of the solved-current problem: there the current never rises with the terminal voltage,
 // and falls by no more than the voltage rises over Rs.
-double BoundBeyondSolved(const MixtureData& data, double rs);
+double BoundTailSolved(const MixtureData& data, double rs);
 
 }  // namespace lyrefit

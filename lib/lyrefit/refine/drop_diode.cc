@@ -1,4 +1,4 @@
-#include "lyrefit/refine/vanishing.h"
+#include "lyrefit/refine/drop_diode.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ double Growth(const ModelShape& shape, double n) {
   return std::exp(std::min(shape.voltage_scale_V / (n * shape.thermal_voltage_V), 600.0));
 }
 
-Comeback Try(const FitModel& model, FitPoint trial, int is, double n) {
+DiodeToAdd Try(const FitModel& model, FitPoint trial, int is, double n) {
   const ModelShape& shape = model.shape();
   std::vector<bool> held(shape.size(), true);
   held[is] = false;
@@ -56,16 +56,16 @@ bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bo
   return any;
 }
 
-Comeback FindComeback(const FitModel& model, const FitModel* coarse, const FitPoint& point,
+DiodeToAdd FindDiodeToAdd(const FitModel& model, const FitModel* coarse, const FitPoint& point,
                       int saturation) {
   const ModelShape& shape = model.shape();
   const FitParameter& n = shape.parameters[shape.parameters[saturation].with[0]];
   const int steps = n.fixed() ? 0 : kSteps;
-  Comeback best;
+  DiodeToAdd best;
   for (int step = 0; step <= steps; ++step) {
     const double t = static_cast<double>(step) / kSteps;
     const double trial = n.fixed() ? n.lower : 1 / ((1 - t) / n.lower + t / n.upper);
-    const Comeback one = Try(coarse != nullptr ? *coarse : model, point, saturation, trial);
+    const DiodeToAdd one = Try(coarse != nullptr ? *coarse : model, point, saturation, trial);
     if (one.cosine > best.cosine) best = one;
   }
   return coarse != nullptr && best.n > 0 ? Try(model, point, saturation, best.n) : best;

@@ -12,7 +12,7 @@ namespace lyrefit {
 
 // Parameters of a model with the mean of their squared residuals: an upper bound
 // of the lowest there is.
-struct Attained {
+struct UpperBound {
   std::vector<double> p;  // in the device's order
   double mean_square = kInfinity;
 };
@@ -42,7 +42,7 @@ RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRange
 // Polishes the strongest diodes of a mixture, and a few starts that owe nothing to it, and takes the
 // mixture as it is where it is a model; keeps the better of `best` and what comes out. Where the
 // device would cut the exponent of a diode, Shockley's equation is taken at its word.
-void Attain(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
-            const Mixture& mixture, Attained* best);
+void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
+            const Mixture& mixture, UpperBound* best);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/refine/climb.h"
+#include "lyrefit/refine/newton_ascent.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -51,7 +51,7 @@ Eigen::MatrixXd CurvatureAt(const Function& value, const std::vector<double>& at
   return LookAround(value, at, value(at)).curvature;
 }
 
-std::vector<double> Climb(const Function& value, std::vector<double> at, int most_steps) {
+std::vector<double> NewtonAscent(const Function& value, std::vector<double> at, int most_steps) {
   constexpr double kLongest = 2;     // of a step, in any one of them
   constexpr double kSettled = 3e-3;  // the same
   const auto size = static_cast<Eigen::Index>(at.size());

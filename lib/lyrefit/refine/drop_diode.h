@@ -17,7 +17,7 @@ void HoldAbsent(const ModelShape& shape, const std::vector<double>& p, std::vect
 bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* held);
 
 // A diode that would be of use where there is none.
-struct Comeback {
+struct DiodeToAdd {
   double cosine = 0;  // of its current with what the residuals ask for
   double size = 0;    // its saturation current if nothing else moved
   double n = 0;
@@ -26,7 +26,7 @@ struct Comeback {
 // The ideality in the range of parameter `saturation`'s at which the residuals at `point` ask most
 // for it; a cosine of 0: nowhere. Looked for on the few points that stand for many, if there are
 // such (`coarse`, may be null).
-Comeback FindComeback(const FitModel& model, const FitModel* coarse, const FitPoint& point,
+DiodeToAdd FindDiodeToAdd(const FitModel& model, const FitModel* coarse, const FitPoint& point,
                       int saturation);
 
 }  // namespace lyrefit

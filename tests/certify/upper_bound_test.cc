@@ -1,4 +1,4 @@
-#include "lyrefit/certify/attain.h"
+#include "lyrefit/certify/upper_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ ModelRanges BoundsOf(const MixtureData& data, double n_lower, double n_upper) {
           data.reference_voltage_V};
 }
 
-TEST(Attain, FindsTheOptimumOfEveryModelFromAMixtureFarAway) {
+TEST(FindUpperBound, FindsTheOptimumOfEveryModelFromAMixtureFarAway) {
   const IvCurve curve = Shipped("rtc_france");
   const MixtureData data = DataOf(curve);
   const Mixture far = SolveMixture(data, {WindowOf(curve, 1, 2)}, 0.01, {}, kTolerance, 2);
@@ -23,8 +23,8 @@ TEST(Attain, FindsTheOptimumOfEveryModelFromAMixtureFarAway) {
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     const ModelRanges ranges = BoundsOf(data, 1, 2);
     const RefineProblem problem = ModelProblem(curve, MakeDevice(model, curve.conditions), ranges);
-    Attained best;
-    Attain(problem, ranges, data, far, &best);
+    UpperBound best;
+    FindUpperBound(problem, ranges, data, far, &best);
     const double rmse = Rmse(problem.device, Objective::kMeasuredCurrent, best.p.data(),
                              curve.voltage_V, curve.current_A);
     EXPECT_NEAR(std::sqrt(best.mean_square) / rmse, 1, 1e-12);
@@ -32,12 +32,12 @@ TEST(Attain, FindsTheOptimumOfEveryModelFromAMixtureFarAway) {
   }
 }
 
-TEST(Attain, KeepsWhatIsBetterAlready) {
+TEST(FindUpperBound, KeepsWhatIsBetterAlready) {
   const IvCurve curve = Shipped("rtc_france");
   const MixtureData data = DataOf(curve);
   const Mixture mixture = SolveMixture(data, {WindowOf(curve, 1, 2)}, 0.01, {}, kTolerance, 2);
-  Attained best = {{1, 2, 3, 4, 5}, 1e-20};
-  Attain(
+  UpperBound best = {{1, 2, 3, 4, 5}, 1e-20};
+  FindUpperBound(
       ModelProblem(curve, MakeDevice(Model::kSingleDiode, curve.conditions), BoundsOf(data, 1, 2)),
       BoundsOf(data, 1, 2), data, mixture, &best);
   EXPECT_EQ(best.p, (std::vector<double>{1, 2, 3, 4, 5}));
@@ -45,15 +45,15 @@ TEST(Attain, KeepsWhatIsBetterAlready) {
 
 // A module with so small an n that the device cuts exponents: those parameters would have an RMSE
 // that Shockley's equation does not give.
-TEST(Attain, ClaimsNothingThatShockleysEquationDoesNotGive) {
+TEST(FindUpperBound, ClaimsNothingThatShockleysEquationDoesNotGive) {
   const IvCurve curve = Shipped("stp6_120_36");
   const MixtureData data = DataOf(curve);
   const Mixture mixture =
       SolveMixture(data, {WindowOf(curve, 0.05, 100)}, 0.35, {}, kTolerance, 20);
   const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
-  Attained best;
+  UpperBound best;
   const ModelRanges ranges = BoundsOf(data, 0.05, 100);
-  Attain(ModelProblem(curve, device, ranges), ranges, data, mixture, &best);
+  FindUpperBound(ModelProblem(curve, device, ranges), ranges, data, mixture, &best);
   double squares = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double vd = curve.voltage_V[k] + best.p[kRs] * curve.current_A[k];

@@ -13,10 +13,10 @@ constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be on
 
 }  // namespace
 
-void MixtureSolver::Slide() {
+void MixtureSolver::UpdateAtoms() {
   double damping = 0;
   for (int step = 0; step < kMostSlides && size() > 0; ++step) {
-    if (!SlideOnce(&damping)) return;
+    if (!UpdateAtomsOnce(&damping)) return;
   }
 }
 
@@ -32,7 +32,7 @@ void MixtureSolver::MergeNeighbours() {
     state_.atoms[j].u = weight * a.u + (1 - weight) * b.u;
     state_.atoms.erase(state_.atoms.begin() + j + 1);
     SolveLinear();
-    Slide();
+    UpdateAtoms();
     if (state_.y.squaredNorm() <= before.y.squaredNorm() * (1 + 1e-13)) {
       --j;
     } else {
@@ -116,7 +116,7 @@ bool MixtureSolver::SplitNearest(double u) {
   Add(u);
   Add(std::min(std::max(opposite, windows_[window].lower), windows_[window].upper));
   SolveLinear();
-  Slide();
+  UpdateAtoms();
   if (state_.y.squaredNorm() < before.y.squaredNorm()) return true;
   state_ = before;
   return false;
@@ -124,7 +124,7 @@ bool MixtureSolver::SplitNearest(double u) {
 
 // One Newton step of the atoms' u, the linear unknowns following. False when nothing moves any
 // more.
-bool MixtureSolver::SlideOnce(double* damping) {
+bool MixtureSolver::UpdateAtomsOnce(double* damping) {
   constexpr int kAttempts = 12;
   const MixtureSlope slope = SlopeHere();
   if (slope.moving.empty()) return false;

@@ -1,22 +1,22 @@
-#include "lyrefit/certify/cause_price.h"
+#include "lyrefit/certify/cause_dual_gain.h"
 
 #include <algorithm>
 
 namespace lyrefit {
 namespace {
 
-// The largest strength in a model that the price allows, whatever its theta: the cause's current at
+// The largest strength in a model that the dual gain allows, whatever its theta: the cause's current at
 // the price's voltage is a leak as well.
-double LargestStrength(const CauseShape& shape, Span theta, const PriceTag& price) {
-  const double least = std::min(shape.value(price.voltage_V, theta.lower),
-                                shape.value(price.voltage_V, theta.upper));
-  return least > 0 ? std::min(price.current_A / least, shape.strongest_A) : shape.strongest_A;
+double LargestStrength(const CauseShape& shape, Span theta, const DualGain& dual_gain) {
+  const double least = std::min(shape.value(dual_gain.voltage_V, theta.lower),
+                                shape.value(dual_gain.voltage_V, theta.upper));
+  return least > 0 ? std::min(dual_gain.current_A / least, shape.strongest_A) : shape.strongest_A;
 }
 
 // Of one shape over its span. Strengths of a mixture over theta add up to one.
 void AddShape(const MixtureData& data, const CauseShape& shape, Span theta, const Mixture& a,
-              const Mixture& b, const PriceTag& price, CauseGain* gain) {
-  const double largest = LargestStrength(shape, theta, price);
+              const Mixture& b, const DualGain& dual_gain, CauseGain* gain) {
+  const double largest = LargestStrength(shape, theta, dual_gain);
   const Eigen::VectorXd v0 = data.JunctionVoltage(a.rs), v1 = data.JunctionVoltage(b.rs);
   const Eigen::VectorXd z0 = data.weight.cwiseProduct(a.y), z1 = data.weight.cwiseProduct(b.y);
   const ShapePull at_a = BoundPull(shape, theta, v0, z0), at_b = BoundPull(shape, theta, v1, z1);
@@ -30,15 +30,15 @@ void AddShape(const MixtureData& data, const CauseShape& shape, Span theta, cons
 
 }  // namespace
 
-CauseGain PriceCauses(const MixtureData& data, const Mixture& a, const Mixture& b,
-                      const PriceTag& price) {
+CauseGain CauseDualGains(const MixtureData& data, const Mixture& a, const Mixture& b,
+                      const DualGain& dual_gain) {
   CauseGain gain;
   const std::vector<LinearTerm>& terms = data.terms;
   for (std::size_t first = 0; first < terms.size(); ++first) {
     if (terms[first].shape == nullptr) continue;
     std::size_t last = first;
     while (last + 1 < terms.size() && terms[last + 1].shape == terms[first].shape) ++last;
-    AddShape(data, *terms[first].shape, {terms[first].theta, terms[last].theta}, a, b, price,
+    AddShape(data, *terms[first].shape, {terms[first].theta, terms[last].theta}, a, b, dual_gain,
              &gain);
     first = last;
   }

@@ -1,4 +1,4 @@
-#include "lyrefit/certify/beyond.h"
+#include "lyrefit/certify/tail_bound.h"
 
 #include <algorithm>
 #include <iterator>
@@ -33,7 +33,7 @@ Real HalfSpread(const Eigen::VectorXd& current, const Chain& chain) {
 }  // namespace
 
 template <class Real>
-double BoundBeyond(const MixtureData& data, double rs) {
+double BoundTail(const MixtureData& data, double rs) {
   const ArrayOf<Real> vd = JunctionVoltage<Real>(data, rs);
   std::vector<Eigen::Index> rising(static_cast<std::size_t>(vd.size()));
   std::iota(rising.begin(), rising.end(), 0);
@@ -62,10 +62,10 @@ double BoundBeyond(const MixtureData& data, double rs) {
   return std::max(0.0, Lower(sum));
 }
 
-template double BoundBeyond<double>(const MixtureData&, double);
-template double BoundBeyond<Interval>(const MixtureData&, double);
+template double BoundTail<double>(const MixtureData&, double);
+template double BoundTail<Interval>(const MixtureData&, double);
 
-double BoundBeyondSolved(const MixtureData& data, double rs) {
+double BoundTailSolved(const MixtureData& data, double rs) {
   const Eigen::Index points = data.target_A.size();
   const Eigen::ArrayXd square = data.weight.array().square().inverse();
   double largest = 0;

@@ -1,4 +1,4 @@
-#include "lyrefit/certify/cause_attain.h"
+#include "lyrefit/certify/cause_upper_bound.h"
 
 #include <algorithm>
 #include <cmath>

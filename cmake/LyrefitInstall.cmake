@@ -13,13 +13,13 @@ set(LYREFIT_PUBLIC_HEADERS
   certify/certify.h
   certify/concave_floor.h
   diagnose/diagnose.h
-  diagnose/healthy.h
+  diagnose/reference.h
   effects/catalogue.h
   family/coefficients.h
   family/data_sheet.h
   family/data_sheet_family.h
   family/fit_family.h
-  family/fit_free.h
+  family/fit_individually.h
   family/pvlib_parameters.h
   fit/fit.h
   fit/floor.h
@@ -33,7 +33,7 @@ set(LYREFIT_PUBLIC_HEADERS
   # their options
   certify/certify_options.h
   diagnose/diagnose_options.h
-  diagnose/healthy_options.h
+  diagnose/reference_options.h
   family/family_options.h
   fit/bounds.h
   fit/error_spec.h
@@ -49,7 +49,7 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/curve_set.h
   curve/iv_curve.h
   diagnose/diagnosis.h
-  diagnose/healthy_comparison.h
+  diagnose/reference_comparison.h
   diagnose/plan.h
   family/family_report.h
   fit/fit_report.h
@@ -144,7 +144,7 @@ set(LYREFIT_FLEET_PUBLIC_HEADERS
   fleet/fleet_source.h
   fleet/fleet_task.h
   fleet/pack.h
-  fleet/past.h
+  fleet/history.h
   fleet/plant_page.h
   fleet/result_row.h
   fleet/sketch.h

@@ -22,7 +22,7 @@ constexpr char kBatchFooter[] =
     "  lyrefit batch strings.jsonl --out results --resume\n"
     "  lyrefit batch strings.jsonl --out shards --shard 3/40 && lyrefit merge shards --out "
     "results\n"
-    "  lyrefit batch today_folder --task diagnose --healthy last_year_folder --out results\n"
+    "  lyrefit batch today_folder --task diagnose --reference last_year_folder --out results\n"
     "\n"
     "Writes results.csv, results.jsonl and results.schema.json into DIR: a row a curve, always, "
     "in\n"
@@ -64,12 +64,12 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
           "the K-th of N parts of the input, for several machines; merge puts them together")
       .Type("K/N")
       .Group("Batch");
-  verb->AddOption("--healthy", &request->healthy_inputs,
-                  "healthy sweeps of the same strings, of the shapes of INPUT: each curve is "
+  verb->AddOption("--reference", &request->reference_inputs,
+                  "reference sweeps of the same strings, of the shapes of INPUT: each curve is "
                   "compared with those of its own id, or in its folder ID/")
       .Reads()
-      .Group("Against its own past");
-  AddTableFlags(verb, kHealthyOptionTable, &request->healthy);
+      .Group("Against its own history");
+  AddTableFlags(verb, kReferenceOptionTable, &request->reference);
   AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   for (const BatchTask& task : BatchTasks()) task.declare(verb, request);
@@ -93,7 +93,7 @@ const BatchTask* FindTask(const std::string& name) {
 Expected<void> CheckOutside(const BatchRequest& request) {
   std::error_code error;
   const fs::path out = fs::weakly_canonical(request.options.folder, error);
-  for (const auto* inputs : {&request.inputs, &request.healthy_inputs}) {
+  for (const auto* inputs : {&request.inputs, &request.reference_inputs}) {
     for (const std::string& input : *inputs) {
       if (!fs::is_directory(input, error)) continue;
       const fs::path folder = fs::canonical(input, error);
@@ -140,17 +140,17 @@ BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
 
 Expected<FleetTask> MakeTask(const VerbLine& verb, const BatchRequest& request) {
   TRY(FleetTask task, FindTask(request.task)->make(verb, request));
-  if (request.healthy_inputs.empty()) return task;
+  if (request.reference_inputs.empty()) return task;
   FleetReadOptions reading = request.reading;
   reading.shard = {};
-  TRY(const auto source, OpenFleet(request.healthy_inputs, reading));
+  TRY(const auto source, OpenFleet(request.reference_inputs, reading));
   ConditionOptions module = request.conditions;  // light and temperature are today's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
-  TRY(auto sweeps, ReadHealthy(source.get(), [module](IvCurve* curve) {
+  TRY(auto sweeps, ReadReferences(source.get(), [module](IvCurve* curve) {
         return ApplyConditionFlags(module, curve);
       }));
-  return WithPast(std::move(task), std::move(sweeps), request.healthy);
+  return WithHistory(std::move(task), std::move(sweeps), request.reference);
 }
 
 // As it was said, else what the input is called.

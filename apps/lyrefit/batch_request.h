@@ -17,8 +17,8 @@ struct BatchRequest {
   BatchOptions options;
   FleetReadOptions reading;
   ConditionOptions conditions;
-  std::vector<std::string> healthy_inputs;
-  HealthyOptions healthy;
+  std::vector<std::string> reference_inputs;
+  ReferenceOptions reference;
   FitOptions fit = FleetFitOptions();
   bool auto_model = false;
   std::string bounds = "physical";

@@ -23,7 +23,7 @@ constexpr char kDiagnoseFooter[] =
     "  lyrefit diagnose sweep.csv --cells 60 --temperature-C 45 --html diagnosis.html\n"
     "  lyrefit diagnose folder_of_curves --base dd --json diagnosis.json --extend model.json\n"
     "  lyrefit diagnose roof/*.csv --effects nonohmic_shunt,clip --answers answers.json\n"
-    "  lyrefit diagnose today.csv --healthy last_year/*.csv\n"
+    "  lyrefit diagnose today.csv --reference last_year/*.csv\n"
     "  lyrefit diagnose folder_of_sweeps --module\n"
     "  lyrefit diagnose --explain nonohmic_shunt\n"
     "\n"
@@ -56,7 +56,7 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
   AddColumnFlags(verb, &request->reading, &request->list_columns);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   AddTableFlags(verb, kDiagnoseOptionTable, &request->options);
-  AddHealthyFlags(verb, request);
+  AddReferenceFlags(verb, request);
   verb->AddSwitch("--list", &request->list, "list the effects that are known").Group("Catalogue");
   verb->AddOption("--explain", &request->explain, "say all about one effect")
       .Type("EFFECT")
@@ -95,7 +95,7 @@ Expected<void> CheckRequest(const VerbLine& verb, const DiagnoseRequest& request
   }
   TRY(CheckEffects("--effects", request.options.effects));
   TRY(CheckNames(request));
-  TRY(CheckHealthyFlags(request));
+  TRY(CheckReferenceFlags(request));
   return verb.CheckFiles();
 }
 
@@ -188,10 +188,10 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
     return kExitFine;
   }
   request.options.extend = !request.extend_file.empty();
-  request.healthy.threads = request.options.threads;
+  request.reference.threads = request.options.threads;
   TRY(CheckRequest(verb, request));
   if (request.module) return RunModule(verb, request);
-  if (!request.healthy_files.empty()) return RunHealthy(verb, request);
+  if (!request.reference_files.empty()) return RunReferences(verb, request);
   std::optional<InterruptGuard> guard;
   const Diagnoses all = DiagnoseAll(request, &guard);
   TRY(Write(verb, request, all));

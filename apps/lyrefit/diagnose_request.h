@@ -5,7 +5,7 @@
 
 #include "flags.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 
 namespace lyrefit {
 
@@ -17,9 +17,9 @@ struct DiagnoseRequest {
   bool list_columns = false;
   ConditionOptions conditions;
   DiagnoseOptions options;
-  std::vector<std::string> healthy_files;
+  std::vector<std::string> reference_files;
   bool module = false;
-  HealthyOptions healthy;
+  ReferenceOptions reference;
   bool list = false;
   std::string explain;
   ReportFlags output;
@@ -29,10 +29,10 @@ struct DiagnoseRequest {
   bool Several() const { return files.size() > 1 && !together; }  // measurements
 };
 
-// diagnose_healthy.cc: against the module's own past.
-void AddHealthyFlags(VerbLine* verb, DiagnoseRequest* request);
-Expected<void> CheckHealthyFlags(const DiagnoseRequest& request);
-Expected<int> RunHealthy(const VerbLine& verb, const DiagnoseRequest& request);
+// diagnose_reference.cc: against the history of the module.
+void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request);
+Expected<void> CheckReferenceFlags(const DiagnoseRequest& request);
+Expected<int> RunReferences(const VerbLine& verb, const DiagnoseRequest& request);
 Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request);
 
 }  // namespace lyrefit

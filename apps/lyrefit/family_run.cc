@@ -9,7 +9,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
@@ -33,7 +33,7 @@ Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
 Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOptions& options) {
   switch (family) {
     case Family::kFree:
-      return FitFree(set, options, TerminalObserver());
+      return FitIndividually(set, options, TerminalObserver());
     case Family::kAuto:
       return FitFamilyAuto(set, options, TerminalObserver());
     case Family::kDeSoto:
@@ -65,7 +65,7 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
                      const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
                      const ReportFlags& output) {
   TRY(WriteWanted(output.json_file, [&] { return FamilyJson(report); }));
-  TRY(WriteWanted(output.csv_file, [&] { return FreeFitsCsv(report); }));
+  TRY(WriteWanted(output.csv_file, [&] { return IndividualFitsCsv(report); }));
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
     return PlotFamily(report, set, file, output.marks());
   }));

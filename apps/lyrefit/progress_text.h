@@ -16,7 +16,7 @@ class ProgressText {
 
   void Hear(const Progress& progress, double seconds);
 
-  // "compare [#########...........] 405 of 900, about 25 s left", "odd curves, 12 s"; empty as long
+  // "compare [#########...........] 405 of 900, about 25 s left", "outlier curves, 12 s"; empty as long
   // as there is nothing to say.
   std::string Line(double seconds) const;
 

@@ -6,7 +6,7 @@
 #include "fit.h"
 #include "frames.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
@@ -16,33 +16,33 @@
 namespace lyrefit::python {
 namespace {
 
-// A diagnosis, and beside it, where healthy sweeps were given, the comparison with them.
+// A diagnosis, and beside it, where reference sweeps were given, the comparison with them.
 struct Diagnosed {
   Diagnosis diagnosis;
-  std::optional<HealthyComparison> healthy;
+  std::optional<ReferenceComparison> reference;
 };
 using Found = std::shared_ptr<const Diagnosed>;
 
 Record RecordOf(const Found& found) {
   Record record;
   record.json = [found](JsonPoints) {
-    return found->healthy ? HealthyJson(*found->healthy, found->diagnosis)
+    return found->reference ? ReferenceJson(*found->reference, found->diagnosis)
                           : DiagnosisJson(found->diagnosis);
   };
   record.text = [found] {
     const std::string own = DiagnosisText(found->diagnosis);
-    return found->healthy ? HealthyText(*found->healthy) + "\n" + own : own;
+    return found->reference ? ReferenceText(*found->reference) + "\n" + own : own;
   };
   record.brief = [found] {
     const std::string own = BriefDiagnosis(found->diagnosis);
-    return found->healthy ? BriefHealthy(*found->healthy) + own : own;
+    return found->reference ? BriefReference(*found->reference) + own : own;
   };
   record.document = [found] {
-    return found->healthy ? HealthyDocument(*found->healthy, found->diagnosis)
+    return found->reference ? ReferenceDocument(*found->reference, found->diagnosis)
                           : DiagnosisDocument(found->diagnosis);
   };
   record.csv = [found] {
-    const std::string& name = found->healthy ? found->healthy->name : found->diagnosis.name;
+    const std::string& name = found->reference ? found->reference->name : found->diagnosis.name;
     return CausesCsv({name}, {found->diagnosis});
   };
   record.plot = [found](const std::string& file) { return PlotDiagnosis(found->diagnosis, file); };
@@ -51,7 +51,7 @@ Record RecordOf(const Found& found) {
 
 struct DiagnoseAsked {
   DiagnoseOptions options;
-  HealthyOptions healthy;
+  ReferenceOptions reference;
   OwnEffects own;
   py::object progress = py::none();
 };
@@ -66,7 +66,7 @@ class DiagnoseResult : public Result {
   const Diagnosis& diagnosis() const { return found_->diagnosis; }
   py::dict Said() const {
     const py::dict& all = Dictionary();
-    return found_->healthy ? py::dict(all["diagnosis"]) : all;
+    return found_->reference ? py::dict(all["diagnosis"]) : all;
   }
   std::optional<FitResult> Extended() const {
     if (!extended_) return std::nullopt;
@@ -79,18 +79,18 @@ class DiagnoseResult : public Result {
   bool extended_;  // it was asked for
 };
 
-class OddSweepsResult : public Result {
+class OutlierSweepsResult : public Result {
  public:
-  explicit OddSweepsResult(const std::shared_ptr<const OddSweeps>& odd) : Result(RecordOf(odd)) {}
+  explicit OutlierSweepsResult(const std::shared_ptr<const OutlierSweeps>& outlier) : Result(RecordOf(outlier)) {}
 
  private:
-  static Record RecordOf(const std::shared_ptr<const OddSweeps>& odd) {
+  static Record RecordOf(const std::shared_ptr<const OutlierSweeps>& outlier) {
     Record record;
-    record.json = [odd](JsonPoints) { return OddSweepsJson(*odd); };
-    record.text = [odd] { return OddSweepsText(*odd); };
-    record.brief = [odd] { return BriefOddSweeps(*odd); };
-    record.document = [odd] { return OddSweepsDocument(*odd); };
-    record.csv = [odd] { return OddSweepsCsv(*odd); };
+    record.json = [outlier](JsonPoints) { return OutlierSweepsJson(*outlier); };
+    record.text = [outlier] { return OutlierSweepsText(*outlier); };
+    record.brief = [outlier] { return BriefOutlierSweeps(*outlier); };
+    record.document = [outlier] { return OutlierSweepsDocument(*outlier); };
+    record.csv = [outlier] { return OutlierSweepsCsv(*outlier); };
     return record;
   }
 };
@@ -125,10 +125,10 @@ DiagnoseAsked ReadDiagnoseKeywords(Keywords* keywords) {
   if (const auto own = keywords->Take("own_effects")) asked.own = OwnEffectsOf("own_effects", *own);
   if (const auto effects = keywords->Take("effects")) ReadEffects(*effects, &asked);
   keywords->Read(kDiagnoseOptionTable, &asked.options);
-  keywords->Read(kHealthyOptionTable, &asked.healthy);
+  keywords->Read(kReferenceOptionTable, &asked.reference);
   for (const auto& own : asked.own) asked.options.own_effects.push_back(&own->effect());
   if (!asked.own.empty()) asked.options.threads = 1;
-  asked.healthy.threads = asked.options.threads;
+  asked.reference.threads = asked.options.threads;
   return asked;
 }
 
@@ -144,7 +144,7 @@ py::object Give(Diagnosed diagnosed, const DiagnoseAsked& asked) {
   return py::cast(DiagnoseResult(HoldWith(std::move(diagnosed), asked.own), asked));
 }
 
-py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle healthy,
+py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle reference,
                            const CurveKeywords& said, const DiagnoseAsked& asked) {
   const CurveSet sweep = SetOf(curves, current, said);
   if (sweep.curves.size() != 1) {
@@ -156,9 +156,9 @@ py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle hea
   module.told.irradiance_W_m2.reset();
   module.told.temperature_C.reset();
   module.name.clear();
-  const std::vector<IvCurve> others = SweepsOf(healthy, module);
-  HealthyComparison comparison = Must(Work(asked.progress, [&](const Observer&) {
-    return CompareWithHealthy(sweep.curves.front(), others, asked.healthy);
+  const std::vector<IvCurve> others = SweepsOf(reference, module);
+  ReferenceComparison comparison = Must(Work(asked.progress, [&](const Observer&) {
+    return CompareWithReferences(sweep.curves.front(), others, asked.reference);
   }));
   Diagnosis diagnosis = DiagnoseSet(SetOfOne(comparison.without_common), asked, "");
   return Give({std::move(diagnosis), std::move(comparison)}, asked);
@@ -167,22 +167,22 @@ py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle hea
 py::object DiagnoseModule(py::handle curves, const CurveKeywords& said,
                           const DiagnoseAsked& asked) {
   const std::vector<IvCurve> sweeps = SweepsOf(curves, said);
-  OddSweeps odd = Must(
-      Work(asked.progress, [&](const Observer&) { return FindOddSweeps(sweeps, asked.healthy); }));
-  return py::cast(OddSweepsResult(std::make_shared<const OddSweeps>(std::move(odd))));
+  OutlierSweeps outlier = Must(
+      Work(asked.progress, [&](const Observer&) { return FindOutlierSweeps(sweeps, asked.reference); }));
+  return py::cast(OutlierSweepsResult(std::make_shared<const OutlierSweeps>(std::move(outlier))));
 }
 
 py::object DiagnoseOne(py::handle curves, py::handle current, const py::kwargs& given) {
   Keywords keywords("diagnose", given);
-  const py::object healthy = keywords.Take("healthy").value_or(py::none());
+  const py::object reference = keywords.Take("reference").value_or(py::none());
   const auto module = keywords.Take("module");
   const DiagnoseAsked asked = ReadDiagnoseKeywords(&keywords);
   const CurveKeywords said = ReadCurveKeywords(&keywords);
   keywords.Finish();
-  const bool odd = module && TruthOf("module", *module);
-  if (odd && !healthy.is_none()) Raise({"only one of healthy and module", {}});
-  if (odd) return DiagnoseModule(curves, said, asked);
-  if (!healthy.is_none()) return DiagnoseAgainst(curves, current, healthy, said, asked);
+  const bool outlier = module && TruthOf("module", *module);
+  if (outlier && !reference.is_none()) Raise({"only one of healthy and module", {}});
+  if (outlier) return DiagnoseModule(curves, said, asked);
+  if (!reference.is_none()) return DiagnoseAgainst(curves, current, reference, said, asked);
   const bool file = IsPath(curves) && current.is_none();
   const CurveSet set = SetOf(curves, current, said);
   return Give({DiagnoseSet(set, asked, file ? TextOf("curve", curves) : ""), std::nullopt}, asked);
@@ -207,11 +207,11 @@ constexpr char kDiagnoseDoc[] =
     "current : array_like of shape (n,), optional\n"
     "    In A, with voltages.\n"
     "healthy : list, optional\n"
-    "    Healthy sweeps of the same module or its neighbours: the curve is compared with them, "
+    "    Reference sweeps of the same module or its neighbours: the curve is compared with them, "
     "and\n"
     "    diagnosed without what they all have.\n"
     "module : bool, default False\n"
-    "    All curves are sweeps of one module: find the odd ones.\n"
+    "    All curves are sweeps of one module: find the outliers.\n"
     "effects : list of str or Effect, optional\n"
     "    Those to try; all that the data can show unless said.\n"
     "own_effects : list of Effect, optional\n"
@@ -221,19 +221,19 @@ constexpr char kDiagnoseDoc[] =
 
 constexpr char kDiagnoseEnd[] =
     "Returns\n-------\n"
-    "DiagnoseResult, or OddSweepsResult with module=True\n\n"
+    "DiagnoseResult, or OutlierSweepsResult with module=True\n\n"
     "Raises\n------\n"
     "lyrefit.Error\n"
     "    No usable curve, unknown effects, fewer readings than parameters.\n";
 
 std::vector<KeywordNote> DiagnoseNotes() {
   std::vector<KeywordNote> notes;
-  notes.push_back({"healthy", "Any", "None", "", ""});
+  notes.push_back({"reference", "Any", "None", "", ""});
   notes.push_back({"module", "Literal[False]", "False", "", ""});  // True gives another result
   notes.push_back({"own_effects", "Effect | Sequence[Effect]", "None", "", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kDiagnoseOptionTable, DiagnoseOptions(), &notes);
-  AppendNotes(kHealthyOptionTable, HealthyOptions(), &notes);
+  AppendNotes(kReferenceOptionTable, ReferenceOptions(), &notes);
   AppendCurveNotes(&notes);
   return EachOnce(notes);
 }
@@ -261,10 +261,10 @@ void BindDiagnose(py::module_* module) {
           "cause_frame",
           [](const DiagnoseResult& result) { return FrameOfCsv(result.record().csv()); },
           "cause_frame($self)\n--\n\nA pandas.DataFrame with a row a cause (--csv).");
-  py::class_<OddSweepsResult, Result>(*module, "OddSweepsResult",
+  py::class_<OutlierSweepsResult, Result>(*module, "OutlierSweepsResult",
                                       "What diagnose(module=True) found.")
       .def(
-          "frame", [](const OddSweepsResult& r) { return FrameOfCsv(r.record().csv()); },
+          "frame", [](const OutlierSweepsResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame with a row a sweep, the oddest first (--csv).");
   DefineVerb(module,
              {"diagnose", "curve, current=None", kDiagnoseDoc, kDiagnoseEnd, DiagnoseNotes()},

@@ -7,7 +7,7 @@
 #include "effects.h"
 #include "frames.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
@@ -32,7 +32,7 @@ Record RecordOf(const Family& family) {
   record.text = [family] { return FamilyText(family->report); };
   record.brief = [family] { return BriefFamily(family->report); };
   record.document = [family] { return FamilyDocument(family->report, family->set); };
-  record.csv = [family] { return FreeFitsCsv(family->report); };
+  record.csv = [family] { return IndividualFitsCsv(family->report); };
   record.plot = [family](const std::string& file) {
     return PlotFamily(family->report, family->set, file);
   };
@@ -59,7 +59,7 @@ struct FamilyAsked {
 constexpr const char* kShared[] = {"shunt",         "recombination",        "weights",
                                    "search_curves", "fit_curves",           "irradiance_offset",
                                    "folds",         "temperature_offset",   "irradiance_accuracy",
-                                   "free",          "temperature_accuracy", "free_fits",
+                                   "free",          "temperature_accuracy", "individual_fits",
                                    "against"};
 constexpr const char* kChosenByAuto[] = {"model", "shunt", "recombination"};
 
@@ -133,7 +133,7 @@ FamilyAsked ReadFamilyKeywords(Keywords* keywords) {
 
 Expected<FamilyReport> FitAsked(const CurveSet& set, const FamilyAsked& asked,
                                 const Observer& observer) {
-  if (asked.family == "free") return FitFree(set, asked.options, observer);
+  if (asked.family == "free") return FitIndividually(set, asked.options, observer);
   if (asked.family == "auto") return FitFamilyAuto(set, asked.options, observer);
   return FitFamily(set, asked.options, observer);
 }

@@ -104,7 +104,7 @@ py::dict DeSotoAnswer(const FamilyReport& report) {
       devices.mutable_at(k, j) =
           curve.parameters.size() == 5 ? curve.parameters[static_cast<std::size_t>(j)] : kUnknown;
     }
-    belongs.mutable_at(k) = curve.role == CurveRole::kFitted && !curve.odd;
+    belongs.mutable_at(k) = curve.role == CurveRole::kFitted && !curve.outlier;
   }
   py::dict answer;
   answer["shared"] = shared;
@@ -121,7 +121,7 @@ py::dict FitDeSoto(const std::vector<Numbers>& voltages, const std::vector<Numbe
   const CurveSet set = MakeSet(voltages, currents, irradiance_W_m2, temperature_C, cells);
   FamilyOptions options;
   options.fixed = fixed;
-  options.intervals = options.free_fits = options.random_baseline = false;
+  options.intervals = options.individual_fits = options.random_baseline = false;
   options.folds = 0;
   return DeSotoAnswer(Must(Work(
       py::none(), [&](const Observer& observer) { return FitFamily(set, options, observer); })));

@@ -21,7 +21,7 @@
 #include "lyrefit/fleet/fleet_source.h"
 #include "lyrefit/fleet/fleet_task.h"
 #include "lyrefit/fleet/pack.h"
-#include "lyrefit/fleet/past.h"
+#include "lyrefit/fleet/history.h"
 #include "lyrefit/fleet/plant_page.h"
 #include "lyrefit/fleet/result_row.h"
 #include "lyrefit/fleet/sketch.h"

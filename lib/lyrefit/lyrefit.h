@@ -23,9 +23,9 @@
 // TranslateCurve carries a curve to standard or any conditions, with its uncertainty. FitDocument,
 // FamilyDocument and their kin are the reports as data, for DrawText, DrawMarkdown and DrawHtml.
 //
-// Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_free.h fits every curve
+// Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_individually.h fits every curve
 // of a set on its own, certify/cause_floor.h and certify/concave_floor.h prove how low a cause can
-// bring it, diagnose/healthy.h holds a sweep against healthy ones of the same module,
+// bring it, diagnose/reference.h holds a sweep against reference sweeps of the same module,
 // and study.h (another library, lyrefit::study) compares searches and checks publications.
 
 #include "lyrefit/certify/certify.h"

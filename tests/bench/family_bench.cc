@@ -8,7 +8,7 @@
 #include "benchmarks.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 
@@ -50,19 +50,19 @@ void JointFit(benchmark::State& state, int curves, FamilyOptions options) {
   }
 }
 
-void FreeFits(benchmark::State& state, int curves) {
+void IndividualFits(benchmark::State& state, int curves) {
   const CurveSet set = MadeFamily(curves);
   FamilyOptions options;
   options.threads = 1;
   options.intervals = false;
-  for (auto _ : state) benchmark::DoNotOptimize(FitFree(set, options));
+  for (auto _ : state) benchmark::DoNotOptimize(FitIndividually(set, options));
 }
 
 }  // namespace
 
 void RegisterFamilyBenchmarks() {
   FamilyOptions bare;
-  bare.free_fits = bare.intervals = bare.random_baseline = false;
+  bare.individual_fits = bare.intervals = bare.random_baseline = false;
   bare.folds = 0;
   FamilyOptions sensors = bare;
   sensors.irradiance_accuracy = 0.02;
@@ -76,7 +76,7 @@ void RegisterFamilyBenchmarks() {
     add("joint fit alone", bare);
     add("with an offset of every sensor reading", sensors);
     add("the whole report", {});
-    benchmark::RegisterBenchmark((name + "one by one").c_str(), FreeFits, curves)
+    benchmark::RegisterBenchmark((name + "one by one").c_str(), IndividualFits, curves)
         ->Unit(benchmark::kMillisecond);
   }
 }

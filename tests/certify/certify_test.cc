@@ -193,16 +193,16 @@ TEST(Certify, NeedsALitCurveAndSoundOptions) {
   EXPECT_THAT(Certify(Shipped("rtc_france"), options).error().message, HasSubstr("tolerance"));
 }
 
-TEST(Certify, TakesCurvesOfFewAndOddPoints) {
+TEST(Certify, TakesCurvesOfFewAndOutlierPoints) {
   const struct {
     std::vector<double> voltage_V, current_A;
-  } odd[] = {{{0, 0.5}, {0.76, 0.5}},
+  } outlier[] = {{{0, 0.5}, {0.76, 0.5}},
              {{0, 0.1, 0.2, 0.3}, {1, 1, 1, 0.999}},
              {{0, 0.1, 0.2, 0.3, 0.4, 0.5}, {0, 0.2, 0.4, 0.6, 0.8, 1}},
              {{0, 0, 0.3, 0.3, 0.5, 0.5}, {0.76, 0.75, 0.7, 0.71, 0.3, 0.31}}};
-  for (const auto& one : odd) {
+  for (const auto& one : outlier) {
     IvCurve curve;
-    curve.name = "odd";
+    curve.name = "outlier";
     curve.as_is = true;
     curve.voltage_V = one.voltage_V;
     curve.current_A = one.current_A;

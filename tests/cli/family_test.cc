@@ -242,7 +242,7 @@ TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
   EXPECT_EQ(j["family"], "free");
   ASSERT_EQ(j["curves"].size(), 6U);
   for (const json& curve : j["curves"]) {
-    EXPECT_NEAR(curve["free_rmse"]["solved_current_A"].get<double>(), 1e-3, 4e-4);
+    EXPECT_NEAR(curve["individual_rmse"]["solved_current_A"].get<double>(), 1e-3, 4e-4);
     EXPECT_EQ(curve["free_parameters"].size(), 5U);
   }
   const AppResult text = RunApp("fit " + Set() + " --family free");

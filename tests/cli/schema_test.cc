@@ -83,11 +83,11 @@ std::vector<SchemaCase> SchemaCases() {
        "diagnosis"},
       {"ExtendedModel", "diagnose " + shaded + "--extend FILE" + kCauses, "fit"},
       {"Answers", "diagnose " + shaded + "--answers FILE" + kCauses, "answers"},
-      {"Healthy",
-       "diagnose " + kData + "diagnosis/sweep_now.csv --healthy " + sweeps + "--json FILE" +
+      {"Reference",
+       "diagnose " + kData + "diagnosis/sweep_now.csv --reference " + sweeps + "--json FILE" +
            kCauses,
-       "healthy"},
-      {"OddSweeps", "diagnose " + sweeps + "--module --json FILE --quiet", "odd_sweeps"},
+       "reference"},
+      {"OutlierSweeps", "diagnose " + sweeps + "--module --json FILE --quiet", "outlier_sweeps"},
       {"Certificate", "certify " + rtc + "--json FILE --quiet", "certificate"},
       {"Comparison",
        "compare " + rtc +

@@ -148,7 +148,7 @@ TEST(Simulate, RefusesWhatItCannotSimulate) {
   ExpectSimulateRefused("simulate --from " + folder.Path("no.json"), "does not exist");
   ExpectSimulateRefused("simulate --from " + folder.Write("list.json", "[1, 2]"), "fit report");
   ExpectSimulateRefused(
-      "simulate --from " + folder.Write("odd.json", R"({"model":"sd","constants":"codata",
+      "simulate --from " + folder.Write("outlier.json", R"({"model":"sd","constants":"codata",
       "parameters":{},"curve":[],"rmse":[1]})"),
       "curve.conditions");
   ExpectSimulateRefused(

@@ -108,7 +108,7 @@ TEST_F(WithFamily, CurvesFittedOneByOneAreSimulatedAgain) {
       sum += std::pow(made[k] - measured[k].get<double>(), 2);
     }
     EXPECT_NEAR(std::sqrt(sum / static_cast<double>(made.size())),
-                curve["free_rmse"]["solved_current_A"], 1e-9);
+                curve["individual_rmse"]["solved_current_A"], 1e-9);
   }
 }
 

@@ -136,7 +136,7 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
 }
 
 // What no cause explains is not healthy because it has no name.
-TEST(FieldDiagnosis, WhatNoCauseExplainsIsNotSaidToBeHealthy) {
+TEST(FieldDiagnosis, WhatNoCauseExplainsIsNotSaidToBeReference) {
   IvCurve curve = CurveWithAStep();
   DiagnoseOptions options = Quick();
   options.effects = {"collection"};

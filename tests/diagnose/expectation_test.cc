@@ -43,7 +43,7 @@ std::vector<SweepState> MadeStates(int count, RandomStream* random) {
   return states;
 }
 
-// Share of healthy sweeps found different at the level.
+// Share of reference sweeps found different at the level.
 double FalseAlarms(int references, double level, std::uint64_t seed) {
   constexpr int kSweeps = 400;
   RandomStream random(seed);
@@ -70,7 +70,7 @@ TEST(Differ, SeesWhatNoParameterShowsByItself) {
   const auto states = MadeStates(30, &random);
   SweepState sweep = MadeState(&random);
   const Difference before = Differ(Expect(Pointers(states), sweep), sweep);
-  // n and Rs trade for each other in healthy sweeps; here both rise.
+  // n and Rs trade for each other in reference sweeps; here both rise.
   sweep.ideality += 0.02;
   sweep.series_ohm += 2.5e-3 * sweep.voc_V / sweep.isc_A;
   const Difference after = Differ(Expect(Pointers(states), sweep), sweep);
@@ -78,16 +78,16 @@ TEST(Differ, SeesWhatNoParameterShowsByItself) {
   EXPECT_LT(after.p_value, 1e-3);
 }
 
-TEST(Expect, LeavesOutTheOddOnes) {
+TEST(Expect, LeavesOutTheOutlierOnes) {
   RandomStream random(4);
   auto states = MadeStates(20, &random);
   states[7].fill_factor *= 0.97;
   states[12].shape *= -20;
   const SweepState sweep = MadeState(&random);
   const Expectation e = Expect(Pointers(states), sweep);
-  std::vector<int> odd = e.odd;
-  std::sort(odd.begin(), odd.end());
-  EXPECT_THAT(odd, ElementsAre(7, 12));
+  std::vector<int> outlier = e.outlier;
+  std::sort(outlier.begin(), outlier.end());
+  EXPECT_THAT(outlier, ElementsAre(7, 12));
   EXPECT_EQ(e.regressors, 3);
   EXPECT_EQ(e.degrees, 15);
 }

@@ -20,29 +20,29 @@ FollowUp Find(const Readings& readings, const std::string& id) {
   return {};
 }
 
-struct Healthy {
+struct Reference {
   SyntheticData made;
   LawFit fit;
 };
-Healthy FitHealthy() {
-  Healthy healthy{OnTheData(MadeCurve({})), {}};
-  healthy.fit = FitBase(healthy.made.weighted,
-                        StartingLaw(healthy.made.measurement.readings, Model::kSingleDiode));
-  return healthy;
+Reference FitReferences() {
+  Reference reference{OnTheData(MadeCurve({})), {}};
+  reference.fit = FitBase(reference.made.weighted,
+                        StartingLaw(reference.made.measurement.readings, Model::kSingleDiode));
+  return reference;
 }
 
 TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
-  const Healthy healthy = FitHealthy();
-  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "isc_voc");
+  const Reference reference = FitReferences();
+  const FollowUp follow_up = Find(*reference.made.weighted.readings, "isc_voc");
   const std::vector<double> unknown(follow_up.unknown.size(), 0.5);
-  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, unknown);
+  const auto joint = TakeFurther(reference.made.weighted, 1, follow_up, reference.fit, unknown);
   ASSERT_TRUE(joint);
   double before = 1;
   for (std::size_t k = joint->taken; k < joint->readings.points.size(); k += 2) {
     const Reading &isc = joint->readings.points[k], &voc = joint->readings.points[k + 1];
     EXPECT_NEAR(voc.current, 0, 1e-9);
     EXPECT_LT(voc.voltage, before);
-    EXPECT_NEAR(isc.current, isc.irradiance * 1.015 * healthy.fit.p[kBasePhotocurrent],
+    EXPECT_NEAR(isc.current, isc.irradiance * 1.015 * reference.fit.p[kBasePhotocurrent],
                 0.01 * isc.irradiance);
     before = voc.voltage;
   }
@@ -50,38 +50,38 @@ TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
 
 // The truth itself fits what it gave: what is left are the old readings' residuals.
 TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
-  const Healthy healthy = FitHealthy();
-  for (const FollowUp& follow_up : FollowUpMeasurements(*healthy.made.weighted.readings)) {
+  const Reference reference = FitReferences();
+  for (const FollowUp& follow_up : FollowUpMeasurements(*reference.made.weighted.readings)) {
     const std::vector<double> unknown(follow_up.unknown.size(), 0.0);
-    const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, unknown);
+    const auto joint = TakeFurther(reference.made.weighted, 1, follow_up, reference.fit, unknown);
     ASSERT_TRUE(joint) << follow_up.id;
-    const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
+    const FurtherEnd end = FitJoint(*joint, reference.fit.law, {reference.fit.p});
     ASSERT_TRUE(end.usable) << follow_up.id;
-    EXPECT_NEAR(end.sum, healthy.fit.sum, 1e-3 * healthy.fit.sum) << follow_up.id;
+    EXPECT_NEAR(end.sum, reference.fit.sum, 1e-3 * reference.fit.sum) << follow_up.id;
     EXPECT_LT(end.after.norm(), 0.1) << follow_up.id;
   }
 }
 
 // A light and a temperature that turned out otherwise cost what they are unlikely, and little more.
 TEST(FitJointTest, FindsWhatWasUnknown) {
-  const Healthy healthy = FitHealthy();
-  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "second_light");
-  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, healthy.fit, {2, -1});
+  const Reference reference = FitReferences();
+  const FollowUp follow_up = Find(*reference.made.weighted.readings, "second_light");
+  const auto joint = TakeFurther(reference.made.weighted, 1, follow_up, reference.fit, {2, -1});
   ASSERT_TRUE(joint);
-  const FurtherEnd end = FitJoint(*joint, healthy.fit.law, {healthy.fit.p});
-  EXPECT_NEAR(end.sum - healthy.fit.sum, 5, 1.5);
+  const FurtherEnd end = FitJoint(*joint, reference.fit.law, {reference.fit.p});
+  EXPECT_NEAR(end.sum - reference.fit.sum, 5, 1.5);
   EXPECT_LT(end.after.norm(), 1);
 }
 
 TEST(FitJointTest, WhatIsNotThereMisfits) {
-  const Healthy healthy = FitHealthy();
-  LawFit truth = healthy.fit;
+  const Reference reference = FitReferences();
+  LawFit truth = reference.fit;
   truth.law.effects = {FindEffect("nonohmic_shunt")};
   truth.p.insert(truth.p.end(), {0.5, 2});
-  const FollowUp follow_up = Find(*healthy.made.weighted.readings, "dark_curve");
-  const auto joint = TakeFurther(healthy.made.weighted, 1, follow_up, truth, {0});
+  const FollowUp follow_up = Find(*reference.made.weighted.readings, "dark_curve");
+  const auto joint = TakeFurther(reference.made.weighted, 1, follow_up, truth, {0});
   ASSERT_TRUE(joint);
-  EXPECT_GT(FitJoint(*joint, healthy.fit.law, {healthy.fit.p}).sum, 100 * healthy.fit.sum);
+  EXPECT_GT(FitJoint(*joint, reference.fit.law, {reference.fit.p}).sum, 100 * reference.fit.sum);
 }
 
 TEST(DrawErrorsTest, AreOfTheirSizeAndShared) {

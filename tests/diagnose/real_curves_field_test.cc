@@ -136,7 +136,7 @@ double ShareNamed(const std::map<std::string, int>& count) {
   return 1 - (silent != count.end() ? static_cast<double>(silent->second) : 0) / all;
 }
 
-TEST(RealCurvesTest, WholeDaysOfHealthyModulesAreSilent) {
+TEST(RealCurvesTest, WholeDaysOfReferenceModulesAreSilent) {
   SKIP_IF_SANITIZED();
   EXPECT_LE(ShareNamed(FirstNames("sandia_pvue125", 2)), 0.05);
   EXPECT_LE(ShareNamed(FirstNames("nist_ground_2015-07-20", 3)), 0.05);

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 FamilyOptions QuickAuto() {
   FamilyOptions options;
-  options.free_fits = options.intervals = options.random_baseline = false;
+  options.individual_fits = options.intervals = options.random_baseline = false;
   options.search.iterations = 20;
   return options;
 }

@@ -8,7 +8,7 @@
 
 #include "family/family_fixture.h"
 #include "family/made_effects.h"
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -298,13 +298,13 @@ TEST_F(FamilyEffectsTest, AutoTriesTheLawsThatKnowThem) {
 TEST_F(FamilyEffectsTest, EveryCurveOnItsOwnHasThemToo) {
   Make({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, 1e-4);
   options_.with = {UseOf("nonohmic_shunt", {{"m", {2.5, 2.5}}})};
-  const auto report = FitFree(set_, options_);
+  const auto report = FitIndividually(set_, options_);
   ASSERT_TRUE(report) << report.error().ToString();
   for (const FamilyCurve& curve : report->curves) {
     ASSERT_EQ(curve.free_parameters.size(), 7U);
     EXPECT_NEAR(curve.free_parameters[5], 0.15, 0.02) << curve.id;
-    EXPECT_EQ(curve.free_estimates[5].refined, curve.free_parameters[5]);
-    EXPECT_NEAR(curve.free_rmse.solved_current_A, 1e-4, 3e-5);
+    EXPECT_EQ(curve.individual_estimates[5].refined, curve.free_parameters[5]);
+    EXPECT_NEAR(curve.individual_rmse.solved_current_A, 1e-4, 3e-5);
   }
 }
 

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 FamilyReport FitMade(const CurveSet& set, int fit_curves = 0) {
   FamilyOptions options;
-  options.free_fits = false;
+  options.individual_fits = false;
   options.folds = 0;
   options.fit_curves = fit_curves;
   auto report = FitFamily(set, options);

@@ -64,13 +64,13 @@ TEST_P(FamilyOfThePvue125, PredictsTheCurvesItDidNotSeeBetterThanTheDataSheet) {
   const double isc = report->reference.short_circuit_current_A;
   EXPECT_NEAR(isc, 7.9, 0.4);
   EXPECT_LT(report->held_out->median_rmse_A, 0.005 * isc);
-  EXPECT_LT(report->held_out->median_free_rmse_A, report->held_out->median_rmse_A);
+  EXPECT_LT(report->held_out->median_individual_rmse_A, report->held_out->median_rmse_A);
   ASSERT_EQ(report->against.size(), 1U);
   EXPECT_EQ(report->against[0].result.curves, 548);
   EXPECT_GT(report->against[0].result.median_rmse_A, report->held_out->median_rmse_A);
   for (const FamilyCurve& curve : report->curves) {
     EXPECT_EQ(curve.free_parameters.size(), 5U) << curve.id;
-    EXPECT_LT(curve.free_rmse.solved_current_A, 0.02 * curve.short_circuit_current_A) << curve.id;
+    EXPECT_LT(curve.individual_rmse.solved_current_A, 0.02 * curve.short_circuit_current_A) << curve.id;
   }
 }
 
@@ -86,7 +86,7 @@ TEST(FamilyOfTheNistArray, WarnsThatTheIrradianceDoesNotBelongToTheSweeps) {
   options.intervals = false;
   const Expected<FamilyReport> report = FitFamily(set, options);
   ASSERT_TRUE(report.has_value()) << report.error().ToString();
-  bool warned = report->without_odd.has_value();
+  bool warned = report->without_outliers.has_value();
   for (const std::string& warning : report->warnings) {
     warned = warned || warning.find("The joint fit misses the curves") != std::string::npos;
   }
@@ -115,7 +115,7 @@ TEST(FamiliesOfThePanel, AreAllReadAndFittedWithIntervals) {
     EXPECT_TRUE(set.rejected.empty());
     FamilyOptions options;
     options.shunt = ShuntLaw::kConstant;  // the law of the panel
-    options.free_fits = false;
+    options.individual_fits = false;
     options.folds = 0;
     const Expected<FamilyReport> report = FitFamily(set, options);
     ASSERT_TRUE(report.has_value()) << report.error().ToString();

@@ -215,12 +215,12 @@ TEST_F(FitFamilyTest, HoldsCoefficientsWhereNobodyStatedATemperature) {
 
 TEST_F(FitFamilyTest, BearsCurvesWithoutNoise) {
   set_ = MadeSet(law_, truth_, kSixPlaces, 20, 0);
-  options_.free_fits = true;
+  options_.individual_fits = true;
   const FamilyReport report = Fit();
   EXPECT_NEAR(Of(report, "n").refined, 1.2, 1e-9);
   for (const Coefficient& c : report.coefficients) EXPECT_FALSE(std::isnan(c.value.high_95));
   EXPECT_THAT(report.warnings, testing::IsEmpty());
-  EXPECT_FALSE(report.without_odd.has_value());
+  EXPECT_FALSE(report.without_outliers.has_value());
 }
 
 TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
@@ -231,7 +231,7 @@ TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
     for (IvCurve& curve : set_.curves) {
       curve.conditions.irradiance_W_m2 *= 1 + 0.008 * random.Normal();
     }
-    EXPECT_FALSE(Fit().without_odd.has_value()) << seed;
+    EXPECT_FALSE(Fit().without_outliers.has_value()) << seed;
   }
 }
 
@@ -241,7 +241,7 @@ TEST_F(FitFamilyTest, GivesEveryCurveARowAndAReason) {
   set_.curves[1].conditions.irradiance_W_m2 = 0;
   options_.leave_out = {"c3"};
   options_.fit_curves = 4;
-  options_.free_fits = true;
+  options_.individual_fits = true;
   const FamilyReport report = Fit();
   ASSERT_EQ(report.curves.size(), 10U);
   int fitted = 0, held = 0;
@@ -261,7 +261,7 @@ TEST_F(FitFamilyTest, GivesEveryCurveARowAndAReason) {
   ASSERT_TRUE(report.held_out.has_value());
   EXPECT_EQ(report.held_out->curves, 3);
   EXPECT_NEAR(report.held_out->rmse.solved_current_A, 1e-3, 4e-4);
-  EXPECT_GT(report.held_out->median_free_rmse_A, 0);
+  EXPECT_GT(report.held_out->median_individual_rmse_A, 0);
   EXPECT_EQ(std::count_if(report.warnings.begin(), report.warnings.end(),
                           [](const std::string& text) {
                             return text.find("is left out") != std::string::npos;
@@ -332,13 +332,13 @@ TEST_F(FitFamilyTest, FitsTheObjectiveAndTheWeightsItIsTold) {
 }
 
 TEST_F(FitFamilyTest, BearsUnusualIdealitiesAndFewPoints) {
-  std::vector<double> odd = truth_;
-  odd[law_.n] = 3.2;
-  odd[law_.saturation_current] = 2.5e-3;
-  set_ = MadeSet(law_, odd, kSixPlaces, 30, 1e-3);
+  std::vector<double> outlier = truth_;
+  outlier[law_.n] = 3.2;
+  outlier[law_.saturation_current] = 2.5e-3;
+  set_ = MadeSet(law_, outlier, kSixPlaces, 30, 1e-3);
   EXPECT_NEAR(Of(Fit(), "n").refined, 3.2, 0.1);
   set_ = MadeSet(law_, truth_, ManyPlaces(15), 3, 1e-3);
-  options_.free_fits = true;
+  options_.individual_fits = true;
   options_.folds = 3;
   const FamilyReport few = Fit();
   EXPECT_TRUE(few.usable);

@@ -41,13 +41,13 @@ class Numbers {
       AddAll(curve.residual_A);
       AddAll(curve.free_parameters);
       Add(curve.rmse);
-      Add(curve.free_rmse);
+      Add(curve.individual_rmse);
     }
     if (report.held_out) {
       Add(report.held_out->rmse);
-      AddAll({report.held_out->median_rmse_A, report.held_out->median_free_rmse_A});
+      AddAll({report.held_out->median_rmse_A, report.held_out->median_individual_rmse_A});
     }
-    if (report.without_odd) AddAll(report.without_odd->shared);
+    if (report.without_outliers) AddAll(report.without_outliers->shared);
   }
   const std::vector<double>& all() const { return all_; }
 
@@ -107,7 +107,7 @@ TEST(FitFamily, StopsAtEveryStage) {
   const FamilyReport whole = *FitFamily(set, Small(), listen);
   EXPECT_FALSE(whole.interrupted);
   EXPECT_THAT(stages, testing::IsSupersetOf({"search", "curves", "joint fit", "intervals",
-                                             "held out", "odd curves", "jackknife"}));
+                                             "held out", "outlier curves", "jackknife"}));
   for (const std::string& stage : stages) {
     SCOPED_TRACE(stage);
     const Observer stop = [&](const Progress& now) {
@@ -159,7 +159,7 @@ TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
   const CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 20, 5e-4);
   FamilyOptions options = Small();
-  options.free_fits = options.intervals = options.random_baseline = false;
+  options.individual_fits = options.intervals = options.random_baseline = false;
   const FamilyReport report = *FitFamilyAuto(set, options);
   ASSERT_EQ(report.candidates.size(), 4U);
   EXPECT_EQ(report.translation.spec.law, TranslationLaw::kDeSoto);
@@ -176,7 +176,7 @@ TEST(FitFamily, FitsFiveHundredCurves) {
   const std::vector<double> truth = MadeTruth(law);
   const CurveSet set = MadeSet(law, truth, ManyPlaces(500), 10, 2e-3);
   FamilyOptions options = Small();
-  options.free_fits = false;
+  options.individual_fits = false;
   options.irradiance_accuracy = 0.01;
   const FamilyReport report = *FitFamily(set, options);
   EXPECT_EQ(report.termination, "converged");

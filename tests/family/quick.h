@@ -10,7 +10,7 @@ inline FamilyOptions Quick() {
   options.search.population = 12;
   options.search.iterations = 15;
   options.random_baseline = false;
-  options.free_fits = false;
+  options.individual_fits = false;
   options.folds = 0;
   options.threads = 2;
   return options;

@@ -131,14 +131,14 @@ Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
   hidden::field::Rig whole;
   whole.departure = hidden::field::DrawDeparture(&random);
   const double missed = random.LogUniform(3e-4, 1e-3);
-  const Sampled healthy = CurveOf(WholeString(rig));
-  SettleDeparture(healthy, missed, &whole.departure);
+  const Sampled reference = CurveOf(WholeString(rig));
+  SettleDeparture(reference, missed, &whole.departure);
   if (fault != nullptr) fault->apply(&random, &rig);
   whole.module = WholeString(rig);
   whole.sky = rig.sky;
   whole.tracer = rig.tracer;
   hidden::field::Lit lit(whole.module);
-  strung.loss_percent = 100 * (1 - KeyPointsOf(lit.Whole()).pmax() / KeyPointsOf(healthy).pmax());
+  strung.loss_percent = 100 * (1 - KeyPointsOf(lit.Whole()).pmax() / KeyPointsOf(reference).pmax());
   strung.readings = Measured(whole, &lit, &random);
   Random sensor(SeedOf(seed, 1'000'000 + place / kStringsOfCombiner));  // set up at each combiner
   const double gain = 1 + 0.004 * sensor.Normal() + 0.006 * random.Normal();

@@ -46,7 +46,7 @@ inline std::vector<ResultColumn> MadePlantColumns() {
   }
   for (const char* name :
        {"lack_of_fit_percent", "recoverable_power_W", "Pmax_stc_W", "Pmax_stc_U_W", "rated_power_W",
-        "performance_factor", "wrong_decision_probability", "group_deviation_percent", "past_p"}) {
+        "performance_factor", "wrong_decision_probability", "group_deviation_percent", "history_p"}) {
     columns.push_back({name, "", kNumber, "of the field test"});
   }
   columns.push_back({"zone", "", kText, "of four"});
@@ -160,7 +160,7 @@ class MadePlantRow {
     Set("performance_factor", factor);
     Set("wrong_decision_probability", 0.5 * std::exp(-std::fabs(factor - 0.95) / 0.015));
     Set("group_deviation_percent", -100 * loss + 0.8 * random_.Normal());
-    Set("past_p", random_.Uniform() * (ill ? 0.01 : 1));
+    Set("history_p", random_.Uniform() * (ill ? 0.01 : 1));
     Set("zone", std::string(factor > 0.98    ? "pass"
                             : factor > 0.95  ? "pass within uncertainty"
                             : factor > 0.925 ? "fail within uncertainty"

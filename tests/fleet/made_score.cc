@@ -69,7 +69,7 @@ std::set<std::string> Words(const std::string& text, const char* between) {
 }
 
 // "Voc -4.96 % (usual: within 0.5 %), FF ..." -> "Voc-", ...
-std::set<std::string> OddNames(const std::string& text) {
+std::set<std::string> OutlierNames(const std::string& text) {
   std::set<std::string> names;
   std::string before;
   std::size_t at = 0;
@@ -100,7 +100,7 @@ Alarm AlarmOf(const Row& row) {
     alarm.names = Words(At(row, "equivalents"), " ,;|");
     alarm.names.insert(At(row, "cause"));
   }
-  if (!alarm.by_cause) alarm.names = OddNames(At(row, "group_odd"));
+  if (!alarm.by_cause) alarm.names = OutlierNames(At(row, "group_outlier"));
   return alarm;
 }
 
@@ -116,7 +116,7 @@ std::string Said(const Row& row, const Alarm& alarm) {
     if (is) text += (text.empty() ? "" : "; ") + words;
   };
   add(alarm.by_cause, At(row, "cause"));
-  add(alarm.by_group, "beside its neighbours " + At(row, "group_odd"));
+  add(alarm.by_group, "beside its neighbours " + At(row, "group_outlier"));
   add(alarm.by_zone, At(row, "zone"));
   return text.empty() ? "not found" : text;
 }
@@ -146,11 +146,11 @@ std::string Score(const ScoreRequest& request, std::string* text) {
              " %): " + Said(by_id[id], alarm) + (alarm.any() && !named ? "  [another name]" : "") +
              "\n";
   }
-  int healthy = 0, false_alarms = 0, instrument = 0, by_cause = 0, by_group = 0, by_zone = 0;
+  int reference = 0, false_alarms = 0, instrument = 0, by_cause = 0, by_group = 0, by_zone = 0;
   std::string false_lines;
   for (const Row& row : results) {
     if (hidden.count(At(row, "id"))) continue;
-    ++healthy;
+    ++reference;
     const Alarm alarm = AlarmOf(row);
     false_alarms += alarm.any();
     instrument += OfInstrument(row, alarm);
@@ -165,7 +165,7 @@ std::string Score(const ScoreRequest& request, std::string* text) {
       "%d of %zu hidden faults found, %d under a right name\n"
       "%d false alarms among %d healthy strings (cause %d, neighbours %d, zone %d); %d of "
       "them of the instrument alone\n",
-      found, truths.size(), right, false_alarms, healthy, by_cause, by_group, by_zone, instrument);
+      found, truths.size(), right, false_alarms, reference, by_cause, by_group, by_zone, instrument);
   *text =
       buffer + ("hidden:\n" + lines) + (false_lines.empty() ? "" : "false alarms:\n" + false_lines);
   return "";

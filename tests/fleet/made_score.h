@@ -11,7 +11,7 @@ struct ScoreRequest {
 
 // What of the hidden faults was found, and what was called a fault that is none. A row is an alarm
 // if `cause` names one, `group_flag` is true or `zone` is fail. It is right if the truth accepts
-// `cause` or one of its `equivalents`; where no cause is named, if it accepts what `group_odd` says
+// `cause` or one of its `equivalents`; where no cause is named, if it accepts what `group_outlier` says
 // is too low or too high ("Voc-").
 // Returns what went wrong, empty if nothing did; `text` is the score.
 std::string Score(const ScoreRequest& request, std::string* text);

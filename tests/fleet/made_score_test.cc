@@ -26,7 +26,7 @@ std::string ScoreOf(const std::string& results) {
 
 TEST(MadeScore, CountsWhatIsFoundAndUnderWhichName) {
   const std::string text = ScoreOf(
-      "id,cause,equivalents,group_flag,group_odd\n"
+      "id,cause,equivalents,group_flag,group_outlier\n"
       "a/1,weak_cell,\"shading, transient\",false,\n"
       "a/2,,,true,\"FF -1.00 % (usual: within 0.5 %), Voc +5.00 % (usual: within 0.5 %)\"\n"
       "a/3,,,false,\n");
@@ -38,7 +38,7 @@ TEST(MadeScore, CountsWhatIsFoundAndUnderWhichName) {
 
 TEST(MadeScore, NamesTheSideOnWhichAStringDiffers) {
   const std::string text = ScoreOf(
-      "id,cause,equivalents,group_flag,group_odd\na/1,,,false,\n"
+      "id,cause,equivalents,group_flag,group_outlier\na/1,,,false,\n"
       "a/2,,,true,Voc -5.00 % (usual: within 0.5 %)\n");
   EXPECT_THAT(text, HasSubstr("1 of 2 hidden faults found, 1 under a right name"));
   EXPECT_THAT(text, HasSubstr("not found"));
@@ -46,7 +46,7 @@ TEST(MadeScore, NamesTheSideOnWhichAStringDiffers) {
 
 TEST(MadeScore, AWrongCauseIsNotMadeRightByTheNeighbours) {
   const std::string text = ScoreOf(
-      "id,cause,group_flag,group_odd\na/1,,false,\n"
+      "id,cause,group_flag,group_outlier\na/1,,false,\n"
       "a/2,transient,true,Voc -5.00 % (usual: within 0.5 %)\n");
   EXPECT_THAT(text, HasSubstr("1 of 2 hidden faults found, 0 under a right name"));
 }

@@ -283,8 +283,8 @@ TEST_F(PlantPageTest, FoldersThatAreNotThereAndNoColumnsAreErrors) {
 
 TEST_F(PlantPageTest, RowsThatWereWrittenBeforeMakeTheirPage) {
   const std::string results = File("results.jsonl");
-  std::ofstream(results) << "{\"id\":\"a/b\",\"n\":1,\"x\":null,\"ok\":true,\"odd\":1}\n\n"
-                            "{\"id\":\"a/c\",\"n\":2,\"x\":0.5,\"ok\":false,\"odd\":\"two\"}\n"
+  std::ofstream(results) << "{\"id\":\"a/b\",\"n\":1,\"x\":null,\"ok\":true,\"outlier\":1}\n\n"
+                            "{\"id\":\"a/c\",\"n\":2,\"x\":0.5,\"ok\":false,\"outlier\":\"two\"}\n"
                             "{\"id\":\"a/d\",\"late\":\"here\"}\n";
   const auto rows =
       WritePlantPage(results, File("page.html"), {}, {{"x", "ohm", CellType::kNumber, "of x"}});

@@ -8,7 +8,7 @@ namespace {
 const std::vector<ResultColumn> kColumns = {{"id", "", CellType::kText, "name"},
                                             {"Rs_ohm", "ohm", CellType::kNumber, "resistance"},
                                             {"points", "", CellType::kWhole, "how many"},
-                                            {"odd", "", CellType::kTruth, "whether"},
+                                            {"outlier", "", CellType::kTruth, "whether"},
                                             {"cause", "", CellType::kText, "none here"}};
 
 TEST(RowText, ReadsBackToTheSameBits) {
@@ -16,7 +16,7 @@ TEST(RowText, ReadsBackToTheSameBits) {
   const std::string text = RowJson(kColumns, row);
   EXPECT_EQ(text,
             "{\"id\":\"a,\\\"b\\\"\\n\xEF\xBF\xBD\",\"Rs_ohm\":0.30000000000000004,"
-            "\"points\":50,\"odd\":true,\"cause\":null}");
+            "\"points\":50,\"outlier\":true,\"cause\":null}");
   const ResultRow back = RowOf(kColumns, nlohmann::json::parse(text));
   EXPECT_EQ(RowJson(kColumns, back), text);
   EXPECT_EQ(std::get<double>(back.cells[1]), 0.1 + 0.2);
@@ -34,7 +34,7 @@ TEST(RowText, OfColumnsReadsBack) {
   const auto back = ReadColumns(FieldsJson(kColumns));
   ASSERT_TRUE(back);
   EXPECT_EQ(FieldsJson(*back), FieldsJson(kColumns));
-  EXPECT_EQ(HeadCsv(*back), "id,Rs_ohm,points,odd,cause\n");
+  EXPECT_EQ(HeadCsv(*back), "id,Rs_ohm,points,outlier,cause\n");
   EXPECT_FALSE(ReadColumns(nlohmann::ordered_json::parse(R"([{"name":"a","type":"colour"}])")));
 }
 

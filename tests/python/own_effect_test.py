@@ -110,9 +110,9 @@ class OwnEffect(unittest.TestCase):
             ({}, {"junction": lambda v: v}, "expected parameters as"),
         ):
             with self.assertRaisesRegex(lyrefit.Error, sentence):
-                lyrefit.Effect("odd", parameters, **functions)
+                lyrefit.Effect("outlier", parameters, **functions)
         with self.assertRaisesRegex(TypeError, "junktion"):
-            lyrefit.Effect("odd", {"k": (0, 1)}, junktion=shunt)
+            lyrefit.Effect("outlier", {"k": (0, 1)}, junktion=shunt)
 
 
 if __name__ == "__main__":

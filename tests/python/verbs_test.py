@@ -25,7 +25,7 @@ class Verbs(unittest.TestCase):
         self.assertEqual(without_clocks(command(*arguments, "--json", "-", code=code)), without_clocks(result.json))
 
     def test_family(self):
-        joint = lyrefit.fit_family(FAMILY, family="desoto", folds=0, free_fits=False, search_curves=4, seed=3)
+        joint = lyrefit.fit_family(FAMILY, family="desoto", folds=0, individual_fits=False, search_curves=4, seed=3)
         self.same(joint, "fit", FAMILY, "--family", "desoto", "--folds", 0, "--no-free-fits", "--search-curves", 4,
                   "--seed", 3)
         self.assertEqual(len(joint.frame()), len(joint["curves"]))
@@ -90,7 +90,7 @@ class Verbs(unittest.TestCase):
             device = dict(DEVICE, Iph=0.7608 * light / 1000)
             one = lyrefit.simulate(device, irradiance_Wm2=light, temperature_C=33, points=25).frame()
             curves.append(one.assign(curve=f"at {light}", irradiance=light, temperature=33.0))
-        keywords = dict(folds=0, free_fits=False, fix={"R_sh_ref": 52.9}, shunt="constant")
+        keywords = dict(folds=0, individual_fits=False, fix={"R_sh_ref": 52.9}, shunt="constant")
         of_frame = lyrefit.fit_family(pd.concat(curves), **keywords)
         self.assertEqual(list(of_frame.frame()["id"]), ["at 400", "at 700", "at 1000"])
         self.assertAlmostEqual(of_frame.parameters["R_s"], 0.0365, delta=1e-6)
@@ -108,18 +108,18 @@ class Verbs(unittest.TestCase):
         self.assertEqual(list(found.cause_frame()["id" if "id" in found.cause_frame() else "cause"]), ["shading"])
         self.assertIsNone(found.extended)
 
-    def test_diagnose_against_healthy_sweeps(self):
+    def test_diagnose_against_reference_sweeps(self):
         now = DATA / "diagnosis" / "sweep_now.csv"
         options = dict(draws=200, held_out=False)
-        found = lyrefit.diagnose(now, healthy=SWEEPS, **options)
-        self.same(found, "diagnose", now, "--healthy", SWEEPS, "--draws", 200, "--no-held-out")
+        found = lyrefit.diagnose(now, reference=SWEEPS, **options)
+        self.same(found, "diagnose", now, "--reference", SWEEPS, "--draws", 200, "--no-held-out")
         files = sorted(SWEEPS.glob("*.csv"))
         if len(files) > 4:
-            one_by_one = lyrefit.diagnose(now, healthy=files, **options)
+            one_by_one = lyrefit.diagnose(now, reference=files, **options)
             self.assertEqual(one_by_one.causes, found.causes)
-        odd = lyrefit.diagnose(SWEEPS, module=True)
-        self.same(odd, "diagnose", SWEEPS, "--module")
-        self.assertGreater(len(odd.frame()), 4)
+        outlier = lyrefit.diagnose(SWEEPS, module=True)
+        self.same(outlier, "diagnose", SWEEPS, "--module")
+        self.assertGreater(len(outlier.frame()), 4)
 
     def test_translate(self):
         options = dict(procedures=["iec1", "desoto"], alpha="0.05%", draws=2000, seed=4, tracer="one")
@@ -179,7 +179,7 @@ class Verbs(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "did you mean 'draws'"):
             lyrefit.diagnose(SHADED, draw=3)
         with self.assertRaisesRegex(lyrefit.Error, "healthy and module"):
-            lyrefit.diagnose(SHADED, healthy=SWEEPS, module=True)
+            lyrefit.diagnose(SHADED, reference=SWEEPS, module=True)
 
     def test_progress_and_interrupt(self):
         heard = []

@@ -9,7 +9,7 @@
 #include "sample_data_sheet.h"
 #include "sample_family.h"
 #include "sample_fits.h"
-#include "sample_healthy.h"
+#include "sample_reference.h"
 
 namespace lyrefit {
 namespace {
@@ -99,28 +99,28 @@ FamilyReport TwoCurves() {
   return report;
 }
 
-TEST(FreeFitsCsv, HasTheColumnsOfThePublishedParameterSets) {
-  EXPECT_EQ(FreeFitsCsv(TwoCurves()),
+TEST(IndividualFitsCsv, HasTheColumnsOfThePublishedParameterSets) {
+  EXPECT_EQ(IndividualFitsCsv(TwoCurves()),
             "Index,photocurrent,saturation_current,resistance_series,resistance_shunt,n,"
             "cells_in_series\n"
             "1,6.1,1.25e-10,0.3,400,1.1,60\n"
             "\"2,b\",6,1e-09,0.25,500,1,60\n");
 }
 
-TEST(FreeFitsCsv, AddsTheSecondDiode) {
+TEST(IndividualFitsCsv, AddsTheSecondDiode) {
   FamilyReport report = TwoCurves();
   report.translation.spec.model = Model::kDoubleDiode;
   report.curves[0].free_parameters.insert(report.curves[0].free_parameters.end(), {1e-7, 2});
-  const std::string csv = FreeFitsCsv(report);
+  const std::string csv = IndividualFitsCsv(report);
   EXPECT_THAT(csv, HasSubstr(",cells_in_series,saturation_current_2,n_2\n"));
   EXPECT_THAT(csv, HasSubstr("\n1,6.1,1.25e-10,0.3,400,1.1,60,1e-07,2\n"));
 }
 
-TEST(FreeFitsCsv, KeepsTheRowOfACurveWithoutParameters) {
+TEST(IndividualFitsCsv, KeepsTheRowOfACurveWithoutParameters) {
   FamilyReport report = TwoCurves();
   report.curves[0].parameters.clear();
   report.curves[0].free_parameters.clear();
-  EXPECT_THAT(FreeFitsCsv(report), HasSubstr("\n1,,,,,,60\n"));
+  EXPECT_THAT(IndividualFitsCsv(report), HasSubstr("\n1,,,,,,60\n"));
 }
 
 // Every row of a table has as many fields as its head; fields of these samples hold no comma.
@@ -155,8 +155,8 @@ TEST(CausesCsv, HasARowACauseAndOneOfAMeasurementWithout) {
   EXPECT_THAT(lines[3], EndsWith(",nothing"));
 }
 
-TEST(OddSweepsCsv, HasARowASweep) {
-  const auto lines = LinesOf(OddSweepsCsv(SampleOddSweeps()));
+TEST(OutlierSweepsCsv, HasARowASweep) {
+  const auto lines = LinesOf(OutlierSweepsCsv(SampleOutlierSweeps()));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[1], StartsWith("today,yes,3e-06,series_resistance,8,6.9,9.1,%,-0.0062,"));
   EXPECT_THAT(lines[2], StartsWith("yesterday,no,"));

@@ -8,7 +8,7 @@
 #include "sample_diagnosis.h"
 #include "sample_document.h"
 #include "sample_family.h"
-#include "sample_healthy.h"
+#include "sample_reference.h"
 #include "sample_report.h"
 #include "well_formed.h"
 
@@ -111,8 +111,8 @@ TEST(DrawHtml, IsWellFormedForEveryRecord) {
                                            FitsDocument({{"<a>", fit}, {"b", Fail("x < y")}}),
                                            FamilyDocument(MakeSampleFamily(8).report),
                                            DiagnosisDocument(diagnosis),
-                                           HealthyDocument(SampleHealthy()),
-                                           OddSweepsDocument(SampleOddSweeps()),
+                                           ReferenceDocument(SampleReference()),
+                                           OutlierSweepsDocument(SampleOutlierSweeps()),
                                            CertificateDocument(RtcCertificate()),
                                            DataSheetDocument(SampleDataSheetFit())};
   for (const Document& document : documents) {

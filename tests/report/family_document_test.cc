@@ -56,7 +56,7 @@ TEST(FamilyText, TellsEachCurveAndWhatWasNotFitted) {
   const std::string text = FamilyText(MakeSampleFamily(8).report);
   EXPECT_THAT(text, HasSubstr("held out"));
   EXPECT_THAT(text, HasSubstr("228.57?"));
-  EXPECT_THAT(text, HasSubstr("1.20e-03    +1.23   -0.045  odd"));
+  EXPECT_THAT(text, HasSubstr("1.20e-03    +1.23   -0.045  outlier"));
   EXPECT_THAT(text, HasSubstr("sweep-1: taken in the dark"));
   EXPECT_THAT(text, HasSubstr("torn: torn.csv:7:3: expected a number"));
   EXPECT_THAT(text, HasSubstr("1.100 .. 1.500 .. 1.900"));
@@ -84,7 +84,7 @@ TEST(FamilyText, TellsTheTestOnCurvesNotSeenBesideParametersFromElsewhereAndTheF
   ExpectNarrow(FamilyText(report));
 }
 
-TEST(FamilyText, TellsHowToFitWithoutOddCurves) {
+TEST(FamilyText, TellsHowToFitWithoutOutlierCurves) {
   const std::string text = FamilyText(MakeSampleFamily(8).report);
   EXPECT_THAT(text, HasSubstr("curve sweep-2 looks like another device"));
   EXPECT_THAT(text, HasSubstr("Without it: RMSE 1.100e-03 A measured-current, 1.000e-03 A"));

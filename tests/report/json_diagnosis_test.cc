@@ -7,7 +7,7 @@
 
 #include "json_keys.h"
 #include "sample_diagnosis.h"
-#include "sample_healthy.h"
+#include "sample_reference.h"
 
 namespace lyrefit {
 namespace {
@@ -140,8 +140,8 @@ TEST(AnswersJson, ListsEachCauseWithItsEquivalents) {
   EXPECT_EQ(j["c"].size(), 2U);
 }
 
-TEST(HealthyJson, HoldsTheComparisonAndTheDiagnosis) {
-  const json j = json::parse(HealthyJson(SampleHealthy(), SampleDiagnosis()));
+TEST(ReferenceJson, HoldsTheComparisonAndTheDiagnosis) {
+  const json j = json::parse(ReferenceJson(SampleReference(), SampleDiagnosis()));
   EXPECT_EQ(j["diagnosis"]["name"], "sample_module");
   const json& c = j["comparison"];
   EXPECT_EQ(c["name"], "today");
@@ -157,9 +157,9 @@ TEST(HealthyJson, HoldsTheComparisonAndTheDiagnosis) {
   EXPECT_EQ(c["causes"][0]["size"], 8);
 }
 
-TEST(OddSweepsJson, ListsAllSweeps) {
-  const json j = json::parse(OddSweepsJson(SampleOddSweeps()));
-  EXPECT_EQ(j["odd"], 1);
+TEST(OutlierSweepsJson, ListsAllSweeps) {
+  const json j = json::parse(OutlierSweepsJson(SampleOutlierSweeps()));
+  EXPECT_EQ(j["outlier"], 1);
   ASSERT_EQ(j["sweeps"].size(), 2U);
   EXPECT_EQ(j["sweeps"][1]["differs"], false);
   EXPECT_EQ(j["rejected"][0], "night: the curve is dark");

@@ -24,8 +24,8 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
                  "shunt",           "recombination", "cells_in_series", "objective",
                  "constants",       "parameters",    "sensor_offsets",  "temperature_coefficients",
                  "reference",       "rmse",          "noise_A",         "held_out",
-                 "without_odd",     "candidates",    "correlations",    "search",
-                 "refine",          "seconds",       "free_fits",       "options",
+                 "without_outliers",     "candidates",    "correlations",    "search",
+                 "refine",          "seconds",       "individual_fits",       "options",
                  "rejected",        "assumptions",   "warnings",        "interrupted",
                  "usable",          "curves",        "against",         "in_sample",
                  "errors",          "weights",       "weights_gain"}));
@@ -41,12 +41,12 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["rmse"]["refined"]), (Set{"measured_current_A", "solved_current_A", "curves"}));
   EXPECT_EQ(Keys(j["held_out"]),
             (Set{"how", "curves", "rmse", "median_solved_current_A", "largest_solved_current_A",
-                 "largest_id", "median_free_solved_current_A"}));
+                 "largest_id", "median_individual_solved_current_A"}));
   ASSERT_EQ(j["against"].size(), 1U);
   EXPECT_EQ(Keys(j["against"][0]), (Set{"name", "law", "curves", "rmse", "median_solved_current_A",
                                         "largest_solved_current_A", "largest_id"}));
   EXPECT_TRUE(j["in_sample"].is_null());
-  EXPECT_EQ(Keys(j["without_odd"]), (Set{"ids", "rmse", "parameters"}));
+  EXPECT_EQ(Keys(j["without_outliers"]), (Set{"ids", "rmse", "parameters"}));
   EXPECT_EQ(
       Keys(j["candidates"][0]),
       (Set{"law", "model", "rmse", "held_out_solved_current_A", "held_out_median_solved_current_A",
@@ -63,7 +63,7 @@ TEST(FamilyJson, HoldsEveryCurve) {
   EXPECT_EQ(Keys(curve), (Set{"id",
                               "role",
                               "reason",
-                              "odd",
+                              "outlier",
                               "points",
                               "irradiance_Wm2",
                               "irradiance_known",
@@ -75,12 +75,12 @@ TEST(FamilyJson, HoldsEveryCurve) {
                               "parameters",
                               "rmse",
                               "free_parameters",
-                              "free_rmse",
+                              "individual_rmse",
                               "isc_excess",
                               "voc_excess_V",
                               "mean_residual_A",
                               "residual_A"}));
-  EXPECT_EQ(curve["odd"], true);
+  EXPECT_EQ(curve["outlier"], true);
   EXPECT_EQ(curve["residual_A"].size(), 25U);
   EXPECT_EQ(Keys(curve["rmse"]), kPair);
   EXPECT_EQ(Keys(curve["irradiance_offset_Wm2"]), kInterval);

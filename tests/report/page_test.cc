@@ -13,7 +13,7 @@
 #include "sample_diagnosis.h"
 #include "sample_document.h"
 #include "sample_family.h"
-#include "sample_healthy.h"
+#include "sample_reference.h"
 #include "sample_report.h"
 
 namespace lyrefit {
@@ -154,7 +154,7 @@ TEST(DrawPage, DrawsEveryRecord) {
   const std::vector<Document> documents = {
       FamilyDocument(family.report, family.set), DiagnosisDocument(SampleUpDown()),
       DiagnosisDocument(SampleLitAndDark()), CertificateDocument(RtcCertificate()),
-      HealthyDocument(SampleHealthy(), SampleDiagnosis())};
+      ReferenceDocument(SampleReference(), SampleDiagnosis())};
   for (const Document& document : documents) {
     const std::string html = DrawPage(document, "{}");
     EXPECT_EQ(Count(html, "<figure id="), 1) << document.head.heading;

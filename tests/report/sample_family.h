@@ -53,7 +53,7 @@ inline void AddSampleCurve(int index, int curves, SampleFamily* sample) {
   curve.free_parameters[kRs] *= 1.02;
   curve.short_circuit_current_A = points.current_A[0];
   curve.rmse = {1.5e-3 + 1e-5 * index, 1.4e-3 + 1e-5 * index};
-  curve.free_rmse = {1.3e-3, 1.2e-3};
+  curve.individual_rmse = {1.3e-3, 1.2e-3};
   curve.isc_excess = 0.0123;
   curve.voc_excess_V = -0.045;
   curve.mean_residual_A = 1e-4 * std::cos(index);
@@ -109,12 +109,12 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.curves[1].role = CurveRole::kLeftOut;
   report.curves[1].reason = "taken in the dark";
   report.curves[1].irradiance_known = false;
-  report.curves[2].odd = true;
+  report.curves[2].outlier = true;
   report.held_out =
       HeldOut{"5 folds of whole curves", 5, {2e-3, 1.9e-3}, 1.8e-3, 2.5e-3, "sweep-0", {}, 1.2e-3};
   report.against = {
       {"sheet.json", "De Soto", {"", 5, {5e-3, 4.9e-3}, 4.8e-3, 6.5e-3, "sweep-3", {}, kUnknown}}};
-  report.without_odd = WithoutOdd{{"sweep-2"}, {1.1e-3, 1e-3}, report.refined};
+  report.without_outliers = WithoutOutliers{{"sweep-2"}, {1.1e-3, 1e-3}, report.refined};
   report.candidates = {
       {TranslationLaw::kDeSoto, Model::kSingleDiode, {2e-3, 1.9e-3}, 1.7e-3, 1.8e-3, 0, 7, true},
       {TranslationLaw::kPvsyst,
@@ -133,7 +133,7 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.termination = "converged";
   report.projected_gradient = 1e-13;
   report.seconds = 1.5;
-  report.free_seconds = 0.4;
+  report.individual_seconds = 0.4;
   report.rejected = {{"torn", Error{"expected a number, found 'abc'", "torn.csv", 7, 3}}};
   report.non_default_options = {{"folds", "3", "5"}};
   report.assumptions = {"cells in series not given: assumed 36"};
@@ -149,7 +149,7 @@ inline SampleFamily MakeFreeSample(int curves) {
   report.searched.clear();
   report.refined.clear();
   report.jackknife.clear();
-  report.without_odd.reset();
+  report.without_outliers.reset();
   report.held_out.reset();
   report.against.clear();
   report.candidates.clear();
@@ -157,7 +157,7 @@ inline SampleFamily MakeFreeSample(int curves) {
     curve.parameters.clear();
     curve.rmse = {};
     curve.irradiance_offset_W_m2 = {};
-    curve.odd = false;
+    curve.outlier = false;
   }
   return sample;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 #include "lyrefit/study/truth.h"
 #include "repeats.h"
 
@@ -31,7 +31,7 @@ TruthComparison HeldAgainstTruth(const FamilyReport& report, const std::string& 
 class ExactSet : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ExactSet, GivesEveryParameterToNineDigits) {
-  const auto report = FitFree(ContestSet(GetParam()));
+  const auto report = FitIndividually(ContestSet(GetParam()));
   ASSERT_TRUE(report) << report.error().ToString();
   const TruthComparison comparison = HeldAgainstTruth(*report, GetParam());
   EXPECT_EQ(comparison.curves, 32);
@@ -53,7 +53,7 @@ TEST_P(NoisySet, IsFittedTogetherAndItsNoiseIsNamed) {
   const CurveSet set = ContestSet(GetParam());
   FamilyOptions options;
   options.bounds["n1"] = {0.5, 3};
-  const auto single = FitFree(set, options);
+  const auto single = FitIndividually(set, options);
   ASSERT_TRUE(single) << single.error().ToString();
   EXPECT_EQ(HeldAgainstTruth(*single, GetParam()).curves, 50);
   bool named = false;
@@ -63,7 +63,7 @@ TEST_P(NoisySet, IsFittedTogetherAndItsNoiseIsNamed) {
   EXPECT_TRUE(named);
 
   FamilyOptions joint;
-  joint.free_fits = false;
+  joint.individual_fits = false;
   joint.folds = 0;
   const auto together = FitFamily(set, joint);
   ASSERT_TRUE(together) << together.error().ToString();

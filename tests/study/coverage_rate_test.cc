@@ -141,7 +141,7 @@ TEST(Coverage, SwitchesOffWhatOnlyCostsTime) {
       });
   ASSERT_TRUE(report);
   EXPECT_EQ(seen.threads, 1);
-  EXPECT_FALSE(seen.free_fits);
+  EXPECT_FALSE(seen.individual_fits);
   EXPECT_EQ(seen.folds, 0);
   EXPECT_TRUE(seen.intervals);
 }

@@ -106,12 +106,12 @@ TEST(CompareWithTruth, GoesByTheIndexWhereThereAreManyTruths) {
 TEST(CompareWithTruth, CountsTheIntervalsThatHoldTheTruth) {
   FamilyReport report = ThreeFits();
   for (FamilyCurve& curve : report.curves) {
-    curve.free_estimates.resize(5);
+    curve.individual_estimates.resize(5);
     const double value = curve.free_parameters[0];
-    curve.free_estimates[0].low_95 = value - 0.1;
-    curve.free_estimates[0].high_95 = value + 0.1;
+    curve.individual_estimates[0].low_95 = value - 0.1;
+    curve.individual_estimates[0].high_95 = value + 0.1;
   }
-  report.curves[2].free_estimates[0].low_95 = kUnknown;
+  report.curves[2].individual_estimates[0].low_95 = kUnknown;
   const TruthComparison all = CompareWithTruth(report, {kOne});
   EXPECT_EQ(all.parameters[0].intervals, 2);
   EXPECT_EQ(all.parameters[0].covered, 1);

@@ -22,7 +22,7 @@ FitReport PlainFit(const IvCurve& curve) {
 }
 
 // Without a cause the extended model is De Soto's law.
-TEST(ExtendedModel, OfAHealthyModuleIsDeSotosLaw) {
+TEST(ExtendedModel, OfAReferenceModuleIsDeSotosLaw) {
   const MadeModule module;
   const IvCurve curve = module.Measured(700, 40);
   const ExtendedInputs inputs = {module.Inputs(700, 40), true};

@@ -202,16 +202,16 @@ MadeCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
 
 std::vector<std::string> Worlds() { return {"PVsyst", "two diodes", "cells"}; }
 
-MadeCase MakeHealthy(const std::string& world, const Light& light, std::uint64_t seed) {
+MadeCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed) {
   Random random(SeedOf(seed, 7));
   const double suns = random.Uniform(light.lowest_W_m2, light.highest_W_m2) / 1000;
   const double kelvin = 273.15 + random.Uniform(5, 30) + 30 * suns * random.Unit();
   if (world == "PVsyst") return MakePvsyst(suns, kelvin, seed);
-  return MakeCells("healthy", world == "two diodes", suns, kelvin, seed);
+  return MakeCells("reference", world == "two diodes", suns, kelvin, seed);
 }
 
 std::vector<std::string> FaultKinds() {
-  std::vector<std::string> kinds = {"healthy", "low_shunt", "high_series"};
+  std::vector<std::string> kinds = {"reference", "low_shunt", "high_series"};
   for (const auto* faults : {&field::DeviceFaults(), &field::SweepFaults()}) {
     for (const field::Fault& fault : *faults) kinds.push_back(fault.name);
   }

@@ -26,7 +26,7 @@ struct Light {
   double lowest_W_m2 = 250;
   double highest_W_m2 = 1100;
 };
-MadeCase MakeHealthy(const std::string& world, const Light& light, std::uint64_t seed);
+MadeCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed);
 
 // Kinds of faults: of hidden/field_*, and a shunt over every cell or a resistance in series. Those
 // of the sweep are not in the truth.

@@ -57,7 +57,7 @@ std::vector<Carried> CarryWorld(const std::string& world, const Light& light, in
   std::vector<std::vector<Carried>> parts(cases);
   lyrefit::ParallelFor(cases, options.threads, [&](int i) {
     const std::uint64_t seed = 1000 * options.seed + i;
-    MadeCase made = MakeHealthy(world, light, seed);
+    MadeCase made = MakeReferenceSweeps(world, light, seed);
     if (misread != nullptr) Misread(seed, *misread, &made);
     lyrefit::TranslateOptions how = ReadyOptions(false);
     how.coefficients = made.coefficients;

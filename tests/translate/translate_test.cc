@@ -61,7 +61,7 @@ double ErrorOf(const TranslationReport& report, Procedure procedure, double trut
   return kUnknown;
 }
 
-TEST(TranslateCurve, BringsAHealthyModuleToStandardConditions) {
+TEST(TranslateCurve, BringsAReferenceModuleToStandardConditions) {
   const MadeModule module;
   const IvCurve curve = Simulated(module, 800, 45, 1e9, "", 0.004);
   const auto report = TranslateCurve(curve, Quick(module));
@@ -108,19 +108,19 @@ TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
   EXPECT_THAT(shade->kept, ::testing::Not(::testing::IsEmpty()));
   EXPECT_NEAR(shade->Recommended()->key_points.max_power_W, shaded, 0.005 * shaded);
 
-  const double healthy = module.Truth(1000, 25).max_power_W;
+  const double reference = module.Truth(1000, 25).max_power_W;
   const auto step = TranslateCurve(Simulated(module, 800, 45, 1e9, "irr_step", 0.004), options);
   ASSERT_TRUE(step) << step.error().message;
   EXPECT_EQ(step->Recommended()->procedure, Procedure::kExtended);
   EXPECT_THAT(step->removed, ::testing::Not(::testing::IsEmpty()));
-  EXPECT_NEAR(ErrorOf(*step, Procedure::kExtended, healthy), 0, 0.005);
+  EXPECT_NEAR(ErrorOf(*step, Procedure::kExtended, reference), 0, 0.005);
   // Key points without a sweep as fine as the one that is drawn.
   const TranslatedResult& drawn = *step->Recommended();
   const KeyPoints swept = FindKeyPoints(drawn.curve.voltage_V, drawn.curve.current_A);
   EXPECT_NEAR(drawn.key_points.max_power_W, swept.max_power_W, 1e-5 * swept.max_power_W);
   EXPECT_NEAR(drawn.key_points.open_circuit_voltage_V, swept.open_circuit_voltage_V,
               1e-4 * swept.open_circuit_voltage_V);
-  EXPECT_GT(ErrorOf(*step, Procedure::kDeSoto, healthy), 0.03);
+  EXPECT_GT(ErrorOf(*step, Procedure::kDeSoto, reference), 0.03);
 }
 
 // Read 2.5 K too cold at 1000 W/m2, as by a sensor on the back.

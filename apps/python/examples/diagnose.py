@@ -24,10 +24,10 @@ assert found.extended is not None
 print(found.extended.parameters)
 
 # %% [markdown]
-# Against its own past: a sweep of today beside healthy ones of the same module.
+# Against its own history: a sweep of today beside reference sweeps of the same module.
 
 # %%
-against = lyrefit.diagnose(data / "sweep_now.csv", healthy=data / "sweeps", draws=500, held_out=False)
+against = lyrefit.diagnose(data / "sweep_now.csv", reference=data / "sweeps", draws=500, held_out=False)
 print(against.brief)
 
 # %% In a notebook the result shows itself as a page

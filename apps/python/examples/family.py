@@ -13,7 +13,7 @@ import lyrefit
 data = pathlib.Path(os.environ.get("LYREFIT_ROOT", ".")) / "data"
 
 # %% A folder of curves, as the command reads it
-result = lyrefit.fit_family(data / "s75_constructed", family="desoto", folds=0, free_fits=False)
+result = lyrefit.fit_family(data / "s75_constructed", family="desoto", folds=0, individual_fits=False)
 print(result.parameter_frame()[["parameter", "refined", "low_95", "high_95", "unit"]])
 print(result.frame().head())
 
@@ -31,6 +31,6 @@ for light in (400.0, 700.0, 1000.0):
     curve = lyrefit.simulate(own, irradiance_Wm2=light, temperature_C=33, points=30, noise_A=2e-4, seed=int(light))
     rows.append(curve.frame().assign(curve=int(light), irradiance=light, temperature=33.0))
 frame = pd.concat(rows)
-made = lyrefit.fit_family(frame, shunt="constant", folds=0, free_fits=False)
+made = lyrefit.fit_family(frame, shunt="constant", folds=0, individual_fits=False)
 print(made.parameters)
 assert np.isclose(made.parameters["R_s"], device["Rs"], rtol=0.05)

@@ -123,7 +123,7 @@ double ReverseVoltage(const double* p, double photocurrent, double conductance, 
 HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) {
   const Readings& readings = *weighted.readings;
   const double* p = fit.p.data() + fit.law.Offset(index);
-  const HealthyCell healthy(weighted, fit);
+  const HealthyCell reference(weighted, fit);
   double brightest = 0;
   for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
   const double photocurrent = fit.p[kBasePhotocurrent] * brightest;
@@ -135,10 +135,10 @@ HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) 
   // over a conducting bypass diode lets through.
   const auto excess = [&](double current) {
     const double own = ReverseVoltage(p, photocurrent, conductance, current);
-    return bypassed ? own + mates * healthy.Voltage(current) + p[3]
-                    : own + (cells - 1) * healthy.Voltage(current);
+    return bypassed ? own + mates * reference.Voltage(current) + p[3]
+                    : own + (cells - 1) * reference.Voltage(current);
   };
-  double low = LightOfWeakCell(p) * photocurrent, high = healthy.ShortCircuit();
+  double low = LightOfWeakCell(p) * photocurrent, high = reference.ShortCircuit();
   if (!(high > low)) return {};
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);

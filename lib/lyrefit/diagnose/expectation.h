@@ -23,10 +23,10 @@ enum Quantity {
 // Sweeps that may be expected to be alike; fewer are no measure of how much they differ.
 constexpr int kFewestReferences = 4;
 
-// What a healthy sweep would show at the Isc and Voc of the sweep that it is made for.
+// What a reference sweep would show at the Isc and Voc of the sweep that it is made for.
 struct Expectation {
   std::vector<int> used;        // positions among the references
-  std::vector<int> odd;         // left out: unlike the others
+  std::vector<int> outlier;         // left out: unlike the others
   int regressors = 1;           // 1, ln Isc, Voc: as many as the references can bear
   Eigen::VectorXd centre;       // ln Isc, Voc of the sweep
   Eigen::MatrixXd slopes;       // regressors x kQuantities
@@ -37,7 +37,7 @@ struct Expectation {
   int degrees = 1;              // of the covariance
 };
 
-// The references nearest to `sweep` in Isc and Voc, odd ones left out.
+// The references nearest to `sweep` in Isc and Voc, outliers left out.
 Expectation Expect(const std::vector<const SweepState*>& references, const SweepState& sweep);
 
 struct Difference {

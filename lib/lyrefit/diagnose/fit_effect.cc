@@ -119,14 +119,14 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
   constexpr double kSameLocalOptimum = 1e-3;  // relative, of what is paid
   const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
-  const std::vector<double> healthy = HealthyStart(readings, law, shape.At(0.02));
+  const std::vector<double> reference = TypicalStart(readings, law, shape.At(0.02));
   std::vector<Way> ways;
   for (const ShapeStart& own : effect.starts(shape, readings.traits, {})) {
     LawFit start;
     start.law = law;
     for (const int k : own.freed) start.law.freed.emplace_back(&effect, k);
     start.p = fit.p;
-    std::copy(healthy.begin(), healthy.end(), start.p.begin());
+    std::copy(reference.begin(), reference.end(), start.p.begin());
     start.p.insert(start.p.end(), own.p.begin(), own.p.end());
     ways.push_back({0, std::move(start)});
   }

@@ -48,7 +48,7 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
 }
 
 // Of one diode fitted to sweeps of modules without a fault, parts of Isc.
-constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
+constexpr double kLeastReferences = 5e-4, kMostHealthy = 2e-3;
 
 // Whether the base model misses the data by more than it misses modules without a fault, and by
 // more than the floor.
@@ -59,9 +59,9 @@ bool MissesTooMuch(const Verdict& verdict, const Floors& floors) {
 // "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)"
 std::string DepartureText(double lack_of_fit, const Floors& floors) {
   const std::string usual =
-      fmt::format("({:.2f} to {:.2f} %)", 100 * kLeastHealthy, 100 * kMostHealthy);
+      fmt::format("({:.2f} to {:.2f} %)", 100 * kLeastReferences, 100 * kMostHealthy);
   const std::string text = fmt::format("{:.2f} % of Isc", 100 * lack_of_fit);
-  if (lack_of_fit < kLeastHealthy) return text + " beyond their noise";
+  if (lack_of_fit < kLeastReferences) return text + " beyond their noise";
   if (lack_of_fit <= kMostHealthy) return text + ", as healthy modules do " + usual;
   return text + fmt::format(", more than healthy modules do {} but less than the floor of {:g} %",
                             usual, 100 * floors.current);
@@ -85,7 +85,7 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors, int cu
   return fmt::format(
       "The base model misses the data by {:.2f} % of Isc, more than it misses healthy modules by "
       "({:.2f} to {:.2f} %){}. To tell: {}{}.",
-      100 * lack_of_fit, 100 * kLeastHealthy, 100 * kMostHealthy, present,
+      100 * lack_of_fit, 100 * kLeastReferences, 100 * kMostHealthy, present,
       curves > 1 ? "diagnose each curve by itself; " : "",
       FindEffect("unknown_structure")->separate_by);
 }

@@ -108,7 +108,7 @@ std::vector<double> BaseStart(const Readings& readings, const Law& law, double l
 
 }  // namespace
 
-std::vector<double> HealthyStart(const Readings& readings, const Law& law, double light) {
+std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light) {
   return BaseStart(readings, law, light, 1.2, 0.015);
 }
 

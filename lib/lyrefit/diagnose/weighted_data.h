@@ -59,7 +59,7 @@ constexpr std::size_t kQuickToFit = 2500;
 
 // Base parameters of a healthy module whose cells under full light carry `light` (in scales), for
 // fits that stand on no other.
-std::vector<double> HealthyStart(const Readings& readings, const Law& law, double light);
+std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light);
 
 // Size of the rough path in a fit's residuals, by restricted maximum likelihood given the noise and
 // what healthy modules have.

@@ -120,10 +120,10 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
 }
 
 // Of the curves on their own: the floor.
-double FreeMedian(const FamilyReport& report, const std::vector<int>& curves) {
+double IndividualMedian(const FamilyReport& report, const std::vector<int>& curves) {
   std::vector<double> rmse;
   for (const int c : curves) {
-    const double one = report.curves[c].free_rmse.solved_current_A;
+    const double one = report.curves[c].individual_rmse.solved_current_A;
     if (std::isfinite(one)) rmse.push_back(one);
   }
   return UpperMedian(std::move(rmse));
@@ -159,7 +159,7 @@ void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOp
     held = std::move(*folds);
   }
   if (held.curves > 0) {
-    held.median_free_rmse_A = FreeMedian(*report, tested);
+    held.median_individual_rmse_A = IndividualMedian(*report, tested);
     report->held_out = held;
   }
   for (const NamedParameters& other : options.against) {
@@ -168,7 +168,7 @@ void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOp
   if (report->against.empty() || report->held_out) return;
   HeldOut own = TestOn(set, family, options, end.point.shared, tested);
   own.how = "the curves that were fitted";
-  own.median_free_rmse_A = FreeMedian(*report, tested);
+  own.median_individual_rmse_A = IndividualMedian(*report, tested);
   report->in_sample = own;
 }
 

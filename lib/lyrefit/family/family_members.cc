@@ -13,7 +13,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/family/spread_curves.h"
+#include "lyrefit/family/curve_subset.h"
 
 namespace lyrefit {
 namespace {
@@ -241,7 +241,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   result.stated_errors = UseSigmas(set, &result.members);
   result.fitted = usable;
   if (options.fit_curves > 0) {
-    result.fitted = SpreadCurves(ConditionsOf(result), usable, options.fit_curves);
+    result.fitted = CurveSubset(ConditionsOf(result), usable, options.fit_curves);
   }
   for (const int c : usable) {
     if (std::binary_search(result.fitted.begin(), result.fitted.end(), c)) continue;

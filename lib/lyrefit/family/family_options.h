@@ -73,7 +73,7 @@ struct FamilyOptions {
   double temperature_accuracy_K = 0;
   bool random_baseline = true;
   bool intervals = true;
-  bool free_fits = true;  // also fit every curve on its own: the floor
+  bool individual_fits = true;  // also fit every curve on its own: the floor
   int folds = 5;          // whole curves left out in turn; 0: none. Not used with fit_curves.
   std::vector<std::string> leave_out;  // ids
   // Parameters from elsewhere that are tested beside the joint fit. Error where they are of another
@@ -156,7 +156,7 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      &FamilyOptions::random_baseline, OptionTrait::kNoFlag},
     {"intervals", "", "95 % intervals", &FamilyOptions::intervals, OptionTrait::kNoFlag},
     {"free-fits", "", "do not also fit every curve on its own, the floor of the joint fit",
-     &FamilyOptions::free_fits},
+     &FamilyOptions::individual_fits},
     {"folds", "N", "whole curves left out in turn, to test the answer; 0: none",
      &FamilyOptions::folds, 0, 1e6, OptionTrait::kQuiet},
     {"leave-out", "ID[,ID]", "curves that are not fitted",

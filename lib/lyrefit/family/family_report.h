@@ -61,16 +61,16 @@ struct FamilyCurve {
   std::vector<double> residual_A;     // model - measured, solved-current
   // The same curve fitted alone by the same number of diodes, and its solved-current RMSE.
   std::vector<double> free_parameters;   // empty: not done
-  std::vector<Estimate> free_estimates;  // of these, with their intervals; empty: not asked for
+  std::vector<Estimate> individual_estimates;  // of these, with their intervals; empty: not asked for
   // The same with intervals under the errors its residuals show; empty where those are believed to
   // be independent, or the fit was weighed by them.
-  std::vector<Estimate> free_under_errors;
+  std::vector<Estimate> individual_under_errors;
   std::optional<ErrorReport> free_errors;
-  RmsePair free_rmse;
+  RmsePair individual_rmse;
   // Isc and Voc of that fit beside those of the shared parameters: what the stated conditions miss.
   double isc_excess = kUnknown;  // relative
   double voc_excess_V = kUnknown;
-  bool odd = false;  // does not belong to the device of the others
+  bool outlier = false;  // does not belong to the device of the others
 };
 
 // The errors of a joint fit on its way, over all points of the curves named.
@@ -94,7 +94,7 @@ struct HeldOut {
   double largest_rmse_A = kUnknown;
   std::string largest_id;                // of the curve with that
   std::vector<double> curve_rmse_A;      // of every curve tested, solved-current
-  double median_free_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
+  double median_individual_rmse_A = kUnknown;  // the same curves fitted one by one: the floor
 };
 
 // Parameters from elsewhere, tested on the same curves at their stated conditions.
@@ -119,7 +119,7 @@ struct FamilyCandidate {
 };
 
 // The fit without the curves that look like another device's.
-struct WithoutOdd {
+struct WithoutOutliers {
   std::vector<std::string> ids;  // the curves that were left out
   RmsePair rmse;
   std::vector<double> shared;  // parameters of the others, in the translation's order
@@ -183,7 +183,7 @@ struct FamilyReport {
   std::vector<Against> against;  // on the curves of `held_out`; without it on those fitted
   // The joint fit on the curves it was fitted to, where nothing else stands beside `against`.
   std::optional<HeldOut> in_sample;
-  std::optional<WithoutOdd> without_odd;
+  std::optional<WithoutOutliers> without_outliers;
   std::vector<FamilyCandidate> candidates;  // of auto
   std::vector<Correlation> correlations;    // |value| > 0.9 among shared parameters
   // How the curves counted in the residuals.
@@ -203,7 +203,7 @@ struct FamilyReport {
   std::string termination;               // of the joint fit
   double projected_gradient = kUnknown;  // as in RefineReport
   double seconds = 0;
-  double free_seconds = 0;              // of the fits one by one
+  double individual_seconds = 0;              // of the fits one by one
   double joint_seconds = 0;             // of the joint fit, from all its starts
   double plain_seconds = kUnknown;      // of the best candidate's plain solve
   double best_candidate_seconds = kUnknown;  // and of its own joint fit

@@ -30,7 +30,7 @@ void WarnOfParameters(const FamilyReport& report, std::vector<std::string>* warn
 void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings) {
   double joint = 0, free = 0, points = 0, largest = 0;
   for (const FamilyCurve& curve : report.curves) {
-    const double alone = curve.free_rmse.solved_current_A;
+    const double alone = curve.individual_rmse.solved_current_A;
     if (curve.role != CurveRole::kFitted || !std::isfinite(alone)) continue;
     const double count = static_cast<double>(curve.points);
     joint += count * curve.rmse.solved_current_A * curve.rmse.solved_current_A;
@@ -50,14 +50,14 @@ void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings
       std::sqrt(joint / points), std::sqrt(free / points)));
 }
 
-void WarnOfOddCurves(const FamilyReport& report, std::vector<std::string>* warnings) {
-  if (!report.without_odd) return;
-  for (const std::string& id : report.without_odd->ids) {
+void WarnOfOutlierCurves(const FamilyReport& report, std::vector<std::string>* warnings) {
+  if (!report.without_outliers) return;
+  for (const std::string& id : report.without_outliers->ids) {
     warnings->push_back(fmt::format(
         "Curve {} does not belong to the device of the others, or its irradiance or temperature is "
         "wrong: without it the joint RMSE falls from {:.4g} to {:.4g} A (solved-current). To fit "
         "without it: --leave-out {}",
-        id, report.rmse.refined.solved_current_A, report.without_odd->rmse.solved_current_A, id));
+        id, report.rmse.refined.solved_current_A, report.without_outliers->rmse.solved_current_A, id));
   }
 }
 
@@ -73,7 +73,7 @@ std::vector<std::string> FamilyWarnings(const FamilyReport& report, const Family
     if (curve.role != CurveRole::kLeftOut || curve.reason == "left out as asked") continue;
     warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }
-  WarnOfOddCurves(report, &warnings);
+  WarnOfOutlierCurves(report, &warnings);
   if (report.estimates.empty()) return warnings;
   WarnOfParameters(report, &warnings);
   WarnOfMisfit(report, &warnings);

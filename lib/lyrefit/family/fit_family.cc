@@ -17,10 +17,10 @@
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/family/family_warnings.h"
 #include "lyrefit/family/family_weights.h"
-#include "lyrefit/family/free_fits.h"
+#include "lyrefit/family/individual_fits.h"
 #include "lyrefit/family/joint_fit.h"
-#include "lyrefit/family/odd_curves.h"
-#include "lyrefit/family/spread_curves.h"
+#include "lyrefit/family/outlier_curves.h"
+#include "lyrefit/family/curve_subset.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
@@ -38,7 +38,7 @@ struct Job {
   const Observer& observer;
   FamilyProblem family;
   std::vector<int> search_curves;
-  FreeFits free;
+  IndividualFits free;
   std::vector<JointPoint> starts;  // the search's elites, then others
   std::ptrdiff_t elites = 0;
   JointPoint searched;
@@ -73,7 +73,7 @@ void FitFreely(Job* job, FamilyReport* report) {
   std::vector<int> rows;
   // One start for the joint fit is worth a fit even where the floor is not asked for.
   std::vector<int> wanted = job->search_curves;
-  if (job->options.free_fits) {
+  if (job->options.individual_fits) {
     wanted = job->family.curves.fitted;
     const std::vector<int>& held = job->family.curves.held_out;
     wanted.insert(wanted.end(), held.begin(), held.end());
@@ -85,17 +85,17 @@ void FitFreely(Job* job, FamilyReport* report) {
   job->free =
       FitEveryCurve(curves, SingleFitOptions(job->options), job->options.threads, job->observer);
   job->stopped = job->stopped || job->free.interrupted;
-  report->free_seconds = job->free.seconds;
+  report->individual_seconds = job->free.seconds;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::optional<Expected<FitReport>>& one = job->free.reports[k];
     if (!one || !*one) continue;
     FamilyCurve& row = report->curves[rows[k]];
-    FillFreeFit(**one, &row);
+    FillIndividualFit(**one, &row);
     const std::vector<int>& search = job->search_curves;
     const FamilyMember& member = job->family.curves.members[rows[k]];
     if (std::find(search.begin(), search.end(), rows[k]) == search.end()) continue;
     if (member.IsDark()) continue;
-    std::vector<double> start = StartFromFreeFit(job->family, member.joint, row.free_parameters);
+    std::vector<double> start = StartFromIndividualFit(job->family, member.joint, row.free_parameters);
     if (!start.empty()) job->starts.push_back({std::move(start), {}});
   }
 }
@@ -179,18 +179,18 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
   }
 }
 
-void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
+void FindOutlier(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
   // Whether its sensors excuse a curve is asked with unknowns that no curve with effects has.
   if (job->family.translation.extended) return;
-  SharedObserver watch(job->observer, "odd curves", 0);
+  SharedObserver watch(job->observer, "outlier curves", 0);
   watch.Begin();
-  const std::vector<int> odd = FindOddCurves(problem, end, watch.Proceed());
+  const std::vector<int> outlier = FindOutlierCurves(problem, end, watch.Proceed());
   job->stopped = watch.Stopped();
-  if (odd.empty() || job->stopped) return;
-  WithoutOdd without;
+  if (outlier.empty() || job->stopped) return;
+  WithoutOutliers without;
   JointProblem rest = problem;
   JointPoint start = end.point;
-  for (auto c = odd.rbegin(); c != odd.rend(); ++c) {
+  for (auto c = outlier.rbegin(); c != outlier.rend(); ++c) {
     rest.curves.erase(rest.curves.begin() + *c);
     start.local.erase(start.local.begin() + *c);
   }
@@ -199,15 +199,15 @@ void FindOdd(Job* job, const JointProblem& problem, const JointEnd& end, FamilyR
   const JointEnd refit = RefineJointly(rest, start, options);
   job->stopped = refit.stopped;
   if (job->stopped) return;
-  for (const int c : odd) {
+  for (const int c : outlier) {
     FamilyCurve& row = report->curves[job->family.curves.fitted[c]];
-    row.odd = true;
+    row.outlier = true;
     without.ids.push_back(row.id);
   }
   const std::vector<double>& shared = refit.point.shared;
   without.rmse = FamilyRmse(rest, refit.point);
   without.shared.assign(shared.begin(), shared.begin() + job->family.translation.size());
-  report->without_odd = std::move(without);
+  report->without_outliers = std::move(without);
 }
 
 FamilyReport Head(const Job& job) {
@@ -274,7 +274,7 @@ void Refine(Job* job, FamilyReport* report) {
     TestFamily(job->set, job->family, job->options, problem, end, job->observer, report);
     job->stopped = report->interrupted;
   }
-  if (!job->stopped) FindOdd(job, problem, end, report);
+  if (!job->stopped) FindOutlier(job, problem, end, report);
   const std::size_t curves = problem.curves.size();
   if (job->options.intervals && curves > 2 && curves <= kMostJackknifed && !job->stopped) {
     Jackknife(job->family, problem, end, job->options.threads, job->observer, report);
@@ -310,7 +310,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   TRY(FamilyProblem family, CheckedProblem(set, options));
   Job job{set, options, observer, std::move(family), {}, {}, {}, 0, {}, false};
   const std::vector<int>& fitted = job.family.curves.fitted;
-  job.search_curves = SpreadCurves(ConditionsOf(job.family.curves), fitted, options.search_curves);
+  job.search_curves = CurveSubset(ConditionsOf(job.family.curves), fitted, options.search_curves);
   FamilyReport report = Head(job);
   DescribeCurves(job, &report);
   TRY(SearchShared(&job, &report));

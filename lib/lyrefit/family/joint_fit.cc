@@ -105,7 +105,7 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
   return ends;
 }
 
-std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,
+std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
                                      const std::vector<double>& free_parameters) {
   const Translation& at = family.translation;
   std::vector<double> shared(at.size() + 2, 0);

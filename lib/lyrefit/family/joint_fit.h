@@ -36,7 +36,7 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
 
 // A start from a curve's own fit: its parameters brought to the reference by the usual
 // coefficients. Empty where they do not go there.
-std::vector<double> StartFromFreeFit(const FamilyProblem& family, const JointCurve& curve,
+std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
                                      const std::vector<double>& free_parameters);
 
 }  // namespace lyrefit

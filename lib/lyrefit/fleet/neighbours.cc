@@ -122,7 +122,7 @@ std::vector<ResultColumn> NeighbourColumns() {
       {"group_deviation_percent", "%", kNumber,
        "maximum power per irradiance against the median of its peers"},
       {"group_flag", "", CellType::kTruth, "differs from its peers by more than is usual"},
-      {"group_odd", "", CellType::kText, "in what it differs, with the limit of what is usual"},
+      {"group_outlier", "", CellType::kText, "in what it differs, with the limit of what is usual"},
   };
 }
 
@@ -131,16 +131,16 @@ std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
   if (deviation.peers == 0) return std::vector<ResultCell>(kNeighbourQuantities + 3);
   static constexpr const char* kNames[] = {"Isc/G", "Voc", "FF", "Pmax/G"};
   std::vector<ResultCell> cells = {std::int64_t{deviation.peers}};
-  std::vector<std::string> odd;
+  std::vector<std::string> outlier;
   for (int q = 0; q < kNeighbourQuantities; ++q) {
     const double part = deviation.parts[q];
     cells.push_back(NumberCell(100 * part));
     if (!(std::fabs(part) > limits[q])) continue;
-    odd.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q], 100 * part,
+    outlier.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q], 100 * part,
                               100 * limits[q]));
   }
-  cells.emplace_back(!odd.empty());
-  cells.push_back(ListCell(odd, ", "));
+  cells.emplace_back(!outlier.empty());
+  cells.push_back(ListCell(outlier, ", "));
   return cells;
 }
 

@@ -238,11 +238,11 @@ std::string PlantVerdict(const PlantSummary& summary) {
     text += fmt::format(" Of those that pass, {} show{} a cause all the same: {}.", Counted(beside),
                         beside == 1 ? "s" : "", Listed(summary.causes_of_passed, 6));
   }
-  if (summary.passed_odd > 0) {
+  if (summary.passed_outlier > 0) {
     text +=
         fmt::format(" {} that need{} no work by this differ{} from the strings of {} combiner.",
-                    Counted(summary.passed_odd), summary.passed_odd == 1 ? "s" : "",
-                    summary.passed_odd == 1 ? "s" : "", summary.passed_odd == 1 ? "its" : "their");
+                    Counted(summary.passed_outlier), summary.passed_outlier == 1 ? "s" : "",
+                    summary.passed_outlier == 1 ? "s" : "", summary.passed_outlier == 1 ? "its" : "their");
   }
   if (summary.fine < summary.rows) {
     text += fmt::format(" {} could not be judged.", Counted(summary.rows - summary.fine));

@@ -49,7 +49,7 @@ bool Worse(const std::pair<double, PlantRow>& one, const std::pair<double, Plant
 }  // namespace
 
 bool IsNoCause(const std::string& cause) {
-  return cause.empty() || cause == "none" || cause == "clean" || cause == "healthy";
+  return cause.empty() || cause == "none" || cause == "clean" || cause == "reference";
 }
 
 PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) {
@@ -184,7 +184,7 @@ void PlantCounter::Add(const ResultRow& row) {
   if (needs_work && named.recoverable_power_W > 0) {
     sum_.recoverable_power_W += named.recoverable_power_W;
   }
-  if (fine && !needs_work && Differs(row)) ++sum_.passed_odd;
+  if (fine && !needs_work && Differs(row)) ++sum_.passed_outlier;
   const double below_W = Number(row, kBelow);
   if (needs_work && below_W > 0) sum_.below_rating_W += below_W;
   if (std::isfinite(named.performance_factor)) {

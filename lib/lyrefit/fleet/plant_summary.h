@@ -50,7 +50,7 @@ struct PlantSummary {
   std::map<std::string, PlantShare> causes_of_passed;
   std::map<std::string, PlantShare> causes_to_repeat;
   std::map<std::string, PlantShare> reasons;  // of rows that are not fine
-  std::int64_t passed_odd = 0;                // that need no work but differ from their neighbours
+  std::int64_t passed_outlier = 0;                // that need no work but differ from their neighbours
   std::string first_date, last_date;
   std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
   std::string worst_by;          // the column that says so

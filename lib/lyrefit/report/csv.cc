@@ -10,7 +10,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/report/readable.h"
 #include "lyrefit/report/record_parts.h"
@@ -153,7 +153,7 @@ std::string FitsCsv(const std::vector<FittedFile>& fits) {
   return csv;
 }
 
-std::string FreeFitsCsv(const FamilyReport& report) {
+std::string IndividualFitsCsv(const FamilyReport& report) {
   const bool two = report.translation.spec.model == Model::kDoubleDiode;
   std::string csv =
       "Index,photocurrent,saturation_current,resistance_series,resistance_shunt,n,cells_in_series";
@@ -198,11 +198,11 @@ std::string CausesCsv(const std::vector<std::string>& names,
   return csv;
 }
 
-std::string OddSweepsCsv(const OddSweeps& odd) {
+std::string OutlierSweepsCsv(const OutlierSweeps& outlier) {
   std::string csv = "sweep,differs,p_value,cause,size,low_95,high_95,unit,power,sentence\n";
-  for (const HealthyComparison& sweep : odd.sweeps) {
-    const HealthyCause none{"", "", kUnknown, kUnknown, kUnknown, "", kUnknown, 0};
-    const HealthyCause& cause = sweep.causes.empty() ? none : sweep.causes.front();
+  for (const ReferenceComparison& sweep : outlier.sweeps) {
+    const ReferenceCause none{"", "", kUnknown, kUnknown, kUnknown, "", kUnknown, 0};
+    const ReferenceCause& cause = sweep.causes.empty() ? none : sweep.causes.front();
     csv += CsvLine({CsvField(sweep.name), YesNo(sweep.differs), CsvField(sweep.p_value),
                     CsvField(cause.id), CsvField(cause.size), CsvField(cause.low_95),
                     CsvField(cause.high_95), CsvField(cause.unit), CsvField(cause.power),

@@ -14,7 +14,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct Certificate;
 struct DataSheetFit;
 struct FamilyReport;
-struct OddSweeps;
+struct OutlierSweeps;
 struct TranslationReport;
 
 // A row a file, in their order: file, name, model, objective, cells_in_series, temperature_C,
@@ -27,7 +27,7 @@ std::string FitsCsv(const std::vector<FittedFile>& fits);
 // photocurrent, saturation_current, resistance_series, resistance_shunt, n, cells_in_series, and
 // saturation_current_2 and n_2 for two diodes. The parameters of the curve's own fit, or, where
 // that was not done, what the shared ones come to; a curve without any keeps its row, empty.
-std::string FreeFitsCsv(const FamilyReport& report);
+std::string IndividualFitsCsv(const FamilyReport& report);
 
 // A row a cause, those below the floor after those that are named; of a measurement without any one
 // row with nothing but its name and the verdict.
@@ -35,7 +35,7 @@ std::string CausesCsv(const std::vector<std::string>& names,
                       const std::vector<Diagnosis>& diagnoses);
 
 // A row a sweep, the oddest first.
-std::string OddSweepsCsv(const OddSweeps& odd);
+std::string OutlierSweepsCsv(const OutlierSweeps& outlier);
 
 // The floor and each model.
 std::string CertificateCsv(const Certificate& certificate);

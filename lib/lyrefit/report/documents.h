@@ -18,8 +18,8 @@ struct Diagnosis;
 struct FamilyReport;
 struct FitReport;
 struct FittedFile;
-struct HealthyComparison;
-struct OddSweeps;
+struct ReferenceComparison;
+struct OutlierSweeps;
 struct TranslationReport;
 
 // A fit: the answer, then how far to trust it. '*' marks the objective that was fitted.
@@ -44,17 +44,17 @@ std::string DiagnosisText(const Diagnosis& diagnosis);
 std::string BriefDiagnosis(const Diagnosis& diagnosis);
 
 // A sweep against healthy ones: what it says, the table of now against expected, who was compared.
-Document HealthyDocument(const HealthyComparison& comparison);
+Document ReferenceDocument(const ReferenceComparison& comparison);
 // The same, then the diagnosis.
-Document HealthyDocument(const HealthyComparison& comparison, const Diagnosis& diagnosis);
-std::string HealthyText(const HealthyComparison& comparison);
-std::string BriefHealthy(const HealthyComparison& comparison);
+Document ReferenceDocument(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
+std::string ReferenceText(const ReferenceComparison& comparison);
+std::string BriefReference(const ReferenceComparison& comparison);
 
-// The sweeps of a module against each other: the odd ones first, each with its table; the others
-// are counted. In short a line for each odd one, and one.
-Document OddSweepsDocument(const OddSweeps& odd);
-std::string OddSweepsText(const OddSweeps& odd);
-std::string BriefOddSweeps(const OddSweeps& odd);
+// The sweeps of a module against each other: the outliers first, each with its table; the others
+// are counted. In short a line for each outlier, and one.
+Document OutlierSweepsDocument(const OutlierSweeps& outlier);
+std::string OutlierSweepsText(const OutlierSweeps& outlier);
+std::string BriefOutlierSweeps(const OutlierSweeps& outlier);
 
 // A certificate: what was asked, the floor and the diodes that attain it, what proves it, and how
 // each model stands.

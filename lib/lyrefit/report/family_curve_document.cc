@@ -18,7 +18,7 @@ constexpr std::size_t kMostNamed = 10;    // of a list of curves; the JSON repor
 constexpr int kHeldOutDigits = 4;
 
 double ErrorOf(const FamilyReport& report, const FamilyCurve& curve) {
-  return (OneByOne(report) ? curve.free_rmse : curve.rmse).Of(report.objective);
+  return (OneByOne(report) ? curve.individual_rmse : curve.rmse).Of(report.objective);
 }
 
 // The curves that the tables show: all of them, or the worst of too many.
@@ -68,8 +68,8 @@ std::string PercentOfIsc(double rmse_A, double isc_A) {
 }
 
 std::string Marks(const FamilyCurve& curve) {
-  if (curve.role == CurveRole::kFitted) return curve.odd ? "odd" : "";
-  if (curve.odd) return "odd, out";
+  if (curve.role == CurveRole::kFitted) return curve.outlier ? "outlier" : "";
+  if (curve.outlier) return "outlier";
   return curve.role == CurveRole::kHeldOut ? "held out" : "left out";
 }
 
@@ -90,7 +90,7 @@ Section CurveSection(const FamilyReport& report) {
   const double isc = report.reference.short_circuit_current_A;
   block::Table table = {
       "lrrrrrrrrl",
-      {{"", "G", "T", "RMSE (A)", "RMSE (A)", "of Isc", "free fit", "Isc off", "Voc off", ""},
+      {{"", "G", "T", "RMSE (A)", "RMSE (A)", "of Isc", "own fit", "Isc off", "Voc off", ""},
        {"curve", "W/m2", "C", "measured", "solved", "%", "solved", "%", "V", ""}}};
   const std::vector<const FamilyCurve*> shown = Shown(report);
   for (const FamilyCurve* curve : shown) {
@@ -99,14 +99,14 @@ Section CurveSection(const FamilyReport& report) {
          Stated(curve->temperature_C, curve->temperature_known),
          Scientific(curve->rmse.measured_current_A, 3), Scientific(curve->rmse.solved_current_A, 3),
          PercentOfIsc(curve->rmse.solved_current_A, isc),
-         Scientific(curve->free_rmse.solved_current_A, 3), Signed(100 * curve->isc_excess, 2),
+         Scientific(curve->individual_rmse.solved_current_A, 3), Signed(100 * curve->isc_excess, 2),
          Signed(curve->voc_excess_V, 3), Marks(*curve)});
   }
   AddTable(std::move(table), &section);
   AddOthersNote(report, shown.size(), &section);
   AddSentence(
       "measured: measured-current RMSE, solved: solved-current RMSE; %: solved-current RMSE as a "
-      "part of the Isc that the model has at 1000 W/m2 and 25 C; free fit: the curve on its own; "
+      "part of the Isc that the model has at 1000 W/m2 and 25 C; own fit: the curve on its own; "
       "off: its own Isc and Voc less those of the model - Isc off speaks of the irradiance, Voc "
       "off alone of the temperature; ?: nobody stated it",
       &section);
@@ -129,7 +129,7 @@ Section OffsetSection(const FamilyReport& report) {
   return section;
 }
 
-Section FreeFitSection(const FamilyReport& report) {
+Section IndividualFitSection(const FamilyReport& report) {
   Section section = {
       fmt::format("Curves, each fitted on its own (RMSE: {})", ToText(report.objective))};
   if (!OneByOne(report) || report.curves.empty()) return section;
@@ -188,10 +188,10 @@ Section HeldOutSection(const FamilyReport& report) {
   for (const Against& other : report.against) {
     table.rows.push_back(HeldOutRow(other.name, other.law, other.result, isc));
   }
-  if (!std::isnan(joint.median_free_rmse_A)) {
+  if (!std::isnan(joint.median_individual_rmse_A)) {
     table.rows.push_back({"each curve on its own", "",
-                          Scientific(joint.median_free_rmse_A, kHeldOutDigits),
-                          PercentOfIsc(joint.median_free_rmse_A, isc), "-", "-", ""});
+                          Scientific(joint.median_individual_rmse_A, kHeldOutDigits),
+                          PercentOfIsc(joint.median_individual_rmse_A, isc), "-", "-", ""});
   }
   std::string note =
       "RMSE: solved-current; median: of the curves; %: that median as a part of the Isc that the "
@@ -223,8 +223,8 @@ Section ShortList(const std::string& title, std::vector<std::string> sentences) 
   return ListSection(title, std::move(sentences));
 }
 
-// What the shared parameters would be without the odd curves.
-void AddWithoutOdd(const FamilyReport& report, const WithoutOdd& without, Section* section) {
+// What the shared parameters would be without the outlier curves.
+void AddWithoutOutliers(const FamilyReport& report, const WithoutOutliers& without, Section* section) {
   const char* const them = without.ids.size() == 1 ? "it" : "them";
   AddSentence(fmt::format("Without {}: RMSE {}.", them, BothLabelled(without.rmse)), section);
   std::string values;
@@ -238,23 +238,23 @@ void AddWithoutOdd(const FamilyReport& report, const WithoutOdd& without, Sectio
   AddSentence(fmt::format("Parameters without {}: {}", them, values), section);
 }
 
-Section OddSection(const FamilyReport& report) {
+Section OutlierSection(const FamilyReport& report) {
   std::vector<std::string> ids;
   std::vector<std::string> sentences;
   for (const FamilyCurve& curve : report.curves) {
-    if (!curve.odd) continue;
+    if (!curve.outlier) continue;
     ids.push_back(curve.id);
     sentences.push_back(fmt::format(
         "curve {} looks like another device: solved-current RMSE {} A under the shared parameters, "
         "{} A on its own",
         curve.id, Scientific(curve.rmse.solved_current_A, 3),
-        Scientific(curve.free_rmse.solved_current_A, 3)));
+        Scientific(curve.individual_rmse.solved_current_A, 3)));
   }
   Section section = ShortList("Odd curves", std::move(sentences));
   if (ids.empty()) return section;
-  if (report.without_odd) {
-    AddWithoutOdd(report, *report.without_odd, &section);
-    ids = report.without_odd->ids;
+  if (report.without_outliers) {
+    AddWithoutOutliers(report, *report.without_outliers, &section);
+    ids = report.without_outliers->ids;
   }
   AddSentence(fmt::format("To fit without: --leave-out {}", fmt::join(ids, ",")), &section);
   return section;
@@ -281,8 +281,8 @@ Section RejectedSection(const FamilyReport& report) {
 }  // namespace
 
 std::vector<Section> FamilyCurveSections(const FamilyReport& report) {
-  return {CurveSection(report),   OffsetSection(report), FreeFitSection(report),
-          HeldOutSection(report), OddSection(report),    LeftOutSection(report),
+  return {CurveSection(report),   OffsetSection(report), IndividualFitSection(report),
+          HeldOutSection(report), OutlierSection(report),    LeftOutSection(report),
           RejectedSection(report)};
 }
 

@@ -200,7 +200,7 @@ Figure FamilyFigure(const FamilyReport& report, const CurveSet& set) {
   const std::string open = held_out ? "; open: held out)" : ")";
   Panel rmse = PerCurvePanel(
       report, "RMSE of each curve (mA, solved-current" + open, [&](const FamilyCurve& curve) {
-        const RmsePair& pair = report.estimates.empty() ? curve.free_rmse : curve.rmse;
+        const RmsePair& pair = report.estimates.empty() ? curve.individual_rmse : curve.rmse;
         return 1e3 * pair.solved_current_A;
       });
   rmse.y.low = 0;

@@ -7,7 +7,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/family/data_sheet.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/pvlib_parameters.h"
@@ -79,8 +79,8 @@ std::string AnswersJson(const std::vector<std::string>& names,
                         const std::vector<Diagnosis>& diagnoses);
 
 // The comparison and, beside it, the diagnosis of what it leaves.
-std::string HealthyJson(const HealthyComparison& comparison, const Diagnosis& diagnosis);
-std::string OddSweepsJson(const OddSweeps& odd);
+std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
+std::string OutlierSweepsJson(const OutlierSweeps& outlier);
 
 // Sizes are in the units of what they are of, expanded ones k = 2. Curves stand in `points`.
 std::string TranslationJson(const TranslationReport& report);

@@ -6,10 +6,10 @@ namespace lyrefit {
 LYREFIT_JSON_FIELDS(Finding, id, sentence, points)
 LYREFIT_JSON_FIELDS(Sized, value, low_95, high_95)
 LYREFIT_JSON_FIELDS(CannotBeExcluded, id, biases, sentence, separate_by)
-LYREFIT_JSON_FIELDS(HealthyRow, symbol, name, unit, now, expected, low_95, high_95, z, corrected_p,
+LYREFIT_JSON_FIELDS(ReferenceRow, symbol, name, unit, now, expected, low_95, high_95, z, corrected_p,
                     power, differs)
-LYREFIT_JSON_FIELDS(HealthyCause, id, sentence, size, low_95, high_95, unit, power, explained)
-LYREFIT_JSON_FIELDS(HealthyComparison, name, differs, p_value, sentence, rows, causes, references,
+LYREFIT_JSON_FIELDS(ReferenceCause, id, sentence, size, low_95, high_95, unit, power, explained)
+LYREFIT_JSON_FIELDS(ReferenceComparison, name, differs, p_value, sentence, rows, causes, references,
                     left_out, regressed_on, common, warnings)
 
 void to_json(Json& j, const Evidence& evidence) {
@@ -201,16 +201,16 @@ std::string AnswersJson(const std::vector<std::string>& names,
   return Dump(answers);
 }
 
-std::string HealthyJson(const HealthyComparison& comparison, const Diagnosis& diagnosis) {
+std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis& diagnosis) {
   return Dump(
       {{"lyrefit_version", Version()}, {"comparison", comparison}, {"diagnosis", diagnosis}});
 }
 
-std::string OddSweepsJson(const OddSweeps& odd) {
+std::string OutlierSweepsJson(const OutlierSweeps& outlier) {
   return Dump({{"lyrefit_version", Version()},
-               {"odd", odd.odd},
-               {"sweeps", odd.sweeps},
-               {"rejected", odd.rejected}});
+               {"outlier", outlier.outlier},
+               {"sweeps", outlier.sweeps},
+               {"rejected", outlier.rejected}});
 }
 
 }  // namespace lyrefit

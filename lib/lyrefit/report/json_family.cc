@@ -33,14 +33,14 @@ void to_json(Json& j, const HeldOut& held_out) {
        {"median_solved_current_A", held_out.median_rmse_A},
        {"largest_solved_current_A", held_out.largest_rmse_A},
        {"largest_id", held_out.largest_id},
-       {"median_free_solved_current_A", held_out.median_free_rmse_A}};
+       {"median_individual_solved_current_A", held_out.median_individual_rmse_A}};
 }
 
 void to_json(Json& j, const Against& against) {
   j = {{"name", against.name}, {"law", against.law}};
   j.update(Json(against.result));
   j.erase("how");  // as the joint fit
-  j.erase("median_free_solved_current_A");
+  j.erase("median_individual_solved_current_A");
 }
 
 void to_json(Json& j, const FamilyCandidate& c) {
@@ -97,7 +97,7 @@ Json FamilyCurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>&
   return {{"id", curve.id},
           {"role", curve.role},
           {"reason", curve.reason},
-          {"odd", curve.odd},
+          {"outlier", curve.outlier},
           {"points", curve.points},
           {"irradiance_Wm2", curve.irradiance_W_m2},
           {"irradiance_known", curve.irradiance_known},
@@ -109,7 +109,7 @@ Json FamilyCurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>&
           {"parameters", ValuesJson(device, curve.parameters)},
           {"rmse", curve.rmse},
           {"free_parameters", ValuesJson(device, curve.free_parameters)},
-          {"free_rmse", curve.free_rmse},
+          {"individual_rmse", curve.individual_rmse},
           {"isc_excess", curve.isc_excess},
           {"voc_excess_V", curve.voc_excess_V},
           {"mean_residual_A", curve.mean_residual_A},
@@ -124,9 +124,9 @@ Json FamilyCurvesJson(const FamilyReport& report) {
   return curves;
 }
 
-Json WithoutOddJson(const FamilyReport& report) {
-  if (!report.without_odd) return nullptr;
-  const WithoutOdd& without = *report.without_odd;
+Json WithoutOutliersJson(const FamilyReport& report) {
+  if (!report.without_outliers) return nullptr;
+  const WithoutOutliers& without = *report.without_outliers;
   return {{"ids", without.ids},
           {"rmse", without.rmse},
           {"parameters", ValuesJson(report.translation.parameters, without.shared)}};
@@ -170,7 +170,7 @@ void AddFamilyEvidence(const FamilyReport& report, Json* json) {
   j["held_out"] = report.held_out;
   j["against"] = report.against;
   j["in_sample"] = report.in_sample;
-  j["without_odd"] = WithoutOddJson(report);
+  j["without_outliers"] = WithoutOutliersJson(report);
   j["candidates"] = report.candidates;
   j["correlations"] = report.correlations;
   j["search"] = SearchJson(report.search_options, report.search, report.search.evaluations);
@@ -178,7 +178,7 @@ void AddFamilyEvidence(const FamilyReport& report, Json* json) {
   j["refine"] = {{"termination", report.termination},
                  {"projected_gradient", report.projected_gradient}};
   j["seconds"] = report.seconds;
-  j["free_fits"] = {{"seconds", report.free_seconds}};
+  j["individual_fits"] = {{"seconds", report.individual_seconds}};
   j["options"] = report.non_default_options;
   j["rejected"] = report.rejected;
   j["assumptions"] = report.assumptions;

@@ -32,7 +32,7 @@ FamilyOptions FamilyOptionsOf(const CompareCurve& subject, const CompareOptions&
   family.plain_polish = options.plain_polish;
   family.random_baseline = false;
   family.intervals = false;
-  family.free_fits = false;
+  family.individual_fits = false;
   family.folds = 0;
   family.threads = 1;
   return family;
@@ -102,7 +102,7 @@ RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, i
   record.plain_polished_A = report.rmse.plain_polished.Of(objective);
   record.own_polished_A = report.rmse.refined_best_candidate.Of(objective);
   record.polished_A = report.rmse.refined.Of(objective);
-  record.polish_seconds = report.free_seconds + report.joint_seconds;
+  record.polish_seconds = report.individual_seconds + report.joint_seconds;
   record.plain_seconds = report.plain_seconds;
   record.own_seconds = report.best_candidate_seconds;
   // The search saw some of the curves only: of its course nothing compares with the reference.

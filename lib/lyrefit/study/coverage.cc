@@ -20,7 +20,7 @@ namespace {
 
 FamilyOptions FitOptionsOf(const CoverageOptions& options) {
   FamilyOptions family = options.family;
-  family.random_baseline = family.free_fits = false;
+  family.random_baseline = family.individual_fits = false;
   family.intervals = true;
   family.folds = family.fit_curves = 0;
   family.threads = 1;

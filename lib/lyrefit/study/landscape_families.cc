@@ -20,7 +20,7 @@ Expected<LandscapeCase> DrawFamily(bool effects, RandomStream* random) {
   result.set = std::move(made->set);
   result.family = options.family;
   // The search and its polish are what is looked at.
-  result.family.free_fits = result.family.intervals = result.family.random_baseline = false;
+  result.family.individual_fits = result.family.intervals = result.family.random_baseline = false;
   result.family.folds = 0;
   for (int i = 0; i < made->translation.size(); ++i) {
     result.truth[made->translation.parameters[i].symbol] = made->truth[i];

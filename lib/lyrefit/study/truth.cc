@@ -58,9 +58,9 @@ struct Pair {
 };
 
 void CountInterval(const Pair& pair, int index, TruthParameter* result) {
-  const std::vector<Estimate>& plain = pair.curve->free_estimates;
+  const std::vector<Estimate>& plain = pair.curve->individual_estimates;
   if (static_cast<int>(plain.size()) <= index) return;
-  const std::vector<Estimate>& under = pair.curve->free_under_errors;
+  const std::vector<Estimate>& under = pair.curve->individual_under_errors;
   const Estimate& e = plain[index];
   if (e.fixed || std::isnan(e.low_95) || std::isnan(e.high_95)) return;
   const double truth = pair.row->values[index];

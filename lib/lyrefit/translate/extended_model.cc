@@ -75,9 +75,9 @@ Device SkyDevice(const ExtendedModel& model, const TranslationInputs& in, double
 // theirs; beside a leak of its own it is more likely something below.
 double ShuntUnder(const ExtendedModel& model, double shunt_ohm, double brighter) {
   const double conductance = 1 / shunt_ohm, most = model.healthy_shunt_S;
-  const double healthy =
+  const double reference =
       std::min(conductance, std::max(0.5 * most, 1.5 * most - 0.5 * conductance));
-  return 1 / (conductance + healthy * (brighter - 1));
+  return 1 / (conductance + reference * (brighter - 1));
 }
 
 // The parameters under these inputs in light of `g`, as TrueDiode has those of a single diode.

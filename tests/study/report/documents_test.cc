@@ -14,13 +14,13 @@ namespace {
 
 TEST(StudyDocuments, AreWellFormedPages) {
   if (!HasXmlLint()) GTEST_SKIP() << "xmllint is not there (Debian's libxml2-utils)";
-  Comparison odd = SampleComparison();
-  odd.problems[0].curve_name = "<!-- & ]]> \"curve\"";
-  odd.interrupted = true;
+  Comparison outlier = SampleComparison();
+  outlier.problems[0].curve_name = "<!-- & ]]> \"curve\"";
+  outlier.interrupted = true;
   const Comparison pooled =
       MadeComparison({MadeDevice("x 0", "x <1>", {MadeContender("random", 100, {{9, 2, 2}})})});
   const std::vector<Document> documents = {AuditDocument(SampleAudit()),
-                                           CompareDocument(odd),
+                                           CompareDocument(outlier),
                                            BudgetDocument(SampleComparison()),
                                            BudgetDocument(pooled),
                                            SensitivityDocument(SampleComparison()),

@@ -3,7 +3,7 @@
 const charts = { worstBy: null, spread: [], x: null, y: null, by: null, trend: null };
 const mostPoints = 4000;
 
-const worstChoices = () => ["performance_factor", "group_deviation_percent", "past_p", "FF", "recoverable_power_W", "lack_of_fit_percent", ...numberColumns]
+const worstChoices = () => ["performance_factor", "group_deviation_percent", "history_p", "FF", "recoverable_power_W", "lack_of_fit_percent", ...numberColumns]
   .filter((name, i, all) => isNumber(name) && all.indexOf(name) === i);
 
 async function groupMedian(id, sketches) {

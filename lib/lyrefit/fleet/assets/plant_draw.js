@@ -28,7 +28,7 @@ const zones = [
   { name: "doubtful", sign: "!", point: "+", colour: "#CC79A7" },
 ];
 const zoneOf = (name) => zones.find((zone) => zone.name === name);
-const noCause = (cause) => !cause || ["none", "clean", "healthy"].includes(cause);
+const noCause = (cause) => !cause || ["none", "clean", "reference"].includes(cause);
 
 const counted = (count) => count.toLocaleString("en");
 

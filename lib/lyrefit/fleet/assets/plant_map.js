@@ -97,7 +97,7 @@ function blocksOf(node) {
 }
 
 // Where little is bad, and where much is.
-const worstFirst = (name) => /performance_factor|deviation|Pmax|FF|past_p/.test(name);
+const worstFirst = (name) => /performance_factor|deviation|Pmax|FF|history_p/.test(name);
 const worstLast = (name) => name === needsWork || /departure|recoverable|wrong_decision/.test(name);
 
 // 1 where a string needs work, as the verdict counts it; not known where it could not be judged.

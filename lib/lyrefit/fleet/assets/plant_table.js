@@ -15,7 +15,7 @@ const listeners = [];  // called when other rows are shown
 
 function defaultColumns() {
   const wanted = ["id", "page", "status", "zone", "cause_title", "performance_factor", "Pmax_stc_W", "Pmax_stc_U_W",
-    "group_deviation_percent", "recoverable_power_W", "group_odd", "date"];
+    "group_deviation_percent", "recoverable_power_W", "group_outlier", "date"];
   if (!has("cause_title")) wanted.splice(4, 0, "cause");
   const there = wanted.filter(has);
   const others = ["Pmax_W", "FF", "Isc_A", "Voc_V", "Rs_ohm", "n1", "irradiance_Wm2", "temperature_C", "reason"].filter(has);

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/healthy_causes.h"
+#include "lyrefit/diagnose/reference_causes.h"
 
 #include <fmt/format.h>
 
@@ -177,7 +177,7 @@ struct Puzzle {
 };
 
 struct Attempt {
-  HealthyCause cause;
+  ReferenceCause cause;
   bool generic = false;  // no fault of the device
   double left = 0;       // of the squared difference
 };
@@ -215,7 +215,7 @@ std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double do
   Attempt attempt;
   attempt.generic = dose.id == "drift";
   attempt.left = left.dot(Times(puzzle.precision, left)) / puzzle.widening;
-  HealthyCause& cause = attempt.cause;
+  ReferenceCause& cause = attempt.cause;
   cause.id = dose.id;
   cause.size = InPercent(dose, doses * dose.percent);
   cause.low_95 = InPercent(dose, doses * dose.percent - error);
@@ -239,7 +239,7 @@ void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts)
 
 }  // namespace
 
-std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
+std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                             const Difference& difference) {
   // As good: within two deviations of the best, and within three where light alone is to blame; the
   // deviations are the larger, the more the best leaves (of some nine independent numbers). An
@@ -259,7 +259,7 @@ std::vector<HealthyCause> ExplainDifference(const FittedSweep& sweep, const Expe
   };
   std::stable_sort(attempts.begin(), attempts.end(),
                    [&](const Attempt& a, const Attempt& b) { return calibration(a) < calibration(b); });
-  std::vector<HealthyCause> causes;
+  std::vector<ReferenceCause> causes;
   for (Attempt& a : attempts) {
     const bool as_good = a.left <= attempts.front().left + kAsGood * unit;
     if (as_good && a.cause.explained >= kHalf) causes.push_back(std::move(a.cause));

@@ -1,4 +1,4 @@
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/family/free_fits.h"
+#include "lyrefit/family/individual_fits.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/law/quote.h"
 
@@ -32,10 +32,10 @@ FitOptions OwnFitOptions(const FamilyOptions& options) {
   return fit;
 }
 
-FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
+IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer) {
   const Instant begin = Now();
-  FreeFits fits;
+  IndividualFits fits;
   fits.reports.resize(curves.size());
   SharedObserver watch(observer, "curves", static_cast<std::int64_t>(curves.size()));
   watch.Begin();
@@ -51,12 +51,12 @@ FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptio
   return fits;
 }
 
-void FillFreeFit(const FitReport& fit, FamilyCurve* curve) {
+void FillIndividualFit(const FitReport& fit, FamilyCurve* curve) {
   curve->free_parameters = Reported(fit.device, fit.refined);
-  curve->free_estimates = fit.estimates;
-  curve->free_under_errors = fit.under_errors;
+  curve->individual_estimates = fit.estimates;
+  curve->individual_under_errors = fit.under_errors;
   curve->free_errors = fit.errors;
-  curve->free_rmse = fit.polished ? fit.rmse.refined : fit.rmse.searched;
+  curve->individual_rmse = fit.polished ? fit.rmse.refined : fit.rmse.searched;
 }
 
 FamilyCurve DescribeCurve(const IvCurve& curve) {
@@ -151,7 +151,7 @@ struct FreeCounts {
 };
 
 // Fills the curves of the report; those that cannot be fitted are left out with a warning.
-FreeCounts TakeFits(const FreeFits& fits, FamilyReport* report) {
+FreeCounts TakeFits(const IndividualFits& fits, FamilyReport* report) {
   FreeCounts counts;
   std::size_t next = 0;
   for (FamilyCurve& curve : report->curves) {
@@ -159,7 +159,7 @@ FreeCounts TakeFits(const FreeFits& fits, FamilyReport* report) {
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
     if (one && *one) {
       const FitReport& fit = **one;
-      FillFreeFit(fit, &curve);
+      FillIndividualFit(fit, &curve);
       counts.fitted += fit.usable;
       counts.failed += !fit.usable;
       if (!fit.usable && counts.unusable == nullptr) counts.unusable = &fit;
@@ -197,14 +197,14 @@ void WarnOfFits(const FreeCounts& counts, std::vector<std::string>* warnings) {
 
 }  // namespace
 
-Expected<FamilyReport> FitFree(const CurveSet& set, const FamilyOptions& options,
+Expected<FamilyReport> FitIndividually(const CurveSet& set, const FamilyOptions& options,
                                const Observer& observer) {
   TRY(ValidateThreads(options.threads));
   FamilyReport report = FreeHead(set, options);
   TRY(const auto curves, WantedCurves(set, options, &report));
   report.cells_in_series = curves[0]->conditions.cells_in_series;
-  const FreeFits fits = FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
-  report.free_seconds = report.seconds = fits.seconds;
+  const IndividualFits fits = FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
+  report.individual_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
   const FreeCounts counts = TakeFits(fits, &report);
   // What no curve can be fitted with is an error of the options, or of the set.

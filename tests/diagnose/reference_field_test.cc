@@ -1,4 +1,4 @@
-// Faults done to real clean sweeps, among real healthy sweeps of the same module at other moments;
+// Faults done to real clean sweeps, among real reference sweeps of the same module at other moments;
 // built only where LYREFIT_FIELD_DATA names them. The table goes to standard output.
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/diagnose/sweep_state.h"
 
 namespace lyrefit {
@@ -177,9 +177,9 @@ const std::map<std::string, std::vector<std::string>> kNames = {
     {"drift 1 %", {"drift"}},
     {"substring 1 %", {"shading"}}};
 
-bool Names(const HealthyComparison& comparison, const std::string& fault, bool first) {
+bool Names(const ReferenceComparison& comparison, const std::string& fault, bool first) {
   if (kNames.count(fault) == 0) return false;
-  for (const HealthyCause& cause : comparison.causes) {
+  for (const ReferenceCause& cause : comparison.causes) {
     const auto& names = kNames.at(fault);
     if (std::find(names.begin(), names.end(), cause.id) != names.end()) return true;
     if (first) break;
@@ -204,7 +204,7 @@ std::map<std::string, Rates> MeasureRates(const DayPlan& plan) {
     ++cases;
     for (const char* fault : kFaults) {
       const IvCurve sweep = WithFault(fault, day.curves[target], day.states[target]);
-      const auto comparison = CompareWithHealthy(sweep, references);
+      const auto comparison = CompareWithReferences(sweep, references);
       if (!comparison) continue;
       rates[fault].found += comparison->differs ? 1 : 0;
       rates[fault].first += Names(*comparison, fault, true) ? 1 : 0;
@@ -222,9 +222,9 @@ std::map<std::string, Rates> MeasureRates(const DayPlan& plan) {
   return rates;
 }
 
-class HealthyFieldTest : public ::testing::TestWithParam<DayPlan> {};
+class ReferenceFieldTest : public ::testing::TestWithParam<DayPlan> {};
 
-TEST_P(HealthyFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
+TEST_P(ReferenceFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
   SKIP_IF_SANITIZED();
   auto rates = MeasureRates(GetParam());
   EXPECT_LE(rates["nothing"].found, 0.05);
@@ -239,7 +239,7 @@ TEST_P(HealthyFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
 
 // On 2015-07-01 the shade of the morning (until sweep 380) and its bypass step are a fault of their
 // own; the irradiance of the NIST days is the weather station's, not the sweeps'.
-INSTANTIATE_TEST_SUITE_P(Days, HealthyFieldTest,
+INSTANTIATE_TEST_SUITE_P(Days, ReferenceFieldTest,
                          ::testing::Values(DayPlan{"sandia_pvue125", 0, true},
                                            DayPlan{"nist_ground_2015-07-20", 0, false},
                                            DayPlan{"nist_ground_2015-07-01", 380, false}),

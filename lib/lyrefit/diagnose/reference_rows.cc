@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/healthy_rows.h"
+#include "lyrefit/diagnose/reference_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,11 +62,11 @@ double Read(const Reader& reader, double quantity) {
   return reader.factor * (reader.exponential ? std::exp(quantity) : quantity);
 }
 
-HealthyRow RowOf(const FittedSweep& sweep, const Expectation& e, const Difference& d, int j) {
+ReferenceRow RowOf(const FittedSweep& sweep, const Expectation& e, const Difference& d, int j) {
   const Reader reader = ReaderOf(j, sweep.state);
   const double deviation = std::sqrt(e.covariance(j, j) * d.widening);
   const double reach = deviation * StudentQuantile(0.975, e.degrees);
-  HealthyRow row{reader.symbol, reader.name, reader.unit};
+  ReferenceRow row{reader.symbol, reader.name, reader.unit};
   row.now = Read(reader, d.expected[j] + d.value[j]);
   row.expected = Read(reader, d.expected[j]);
   row.low_95 = Read(reader, d.expected[j] - reach);
@@ -81,15 +81,15 @@ HealthyRow RowOf(const FittedSweep& sweep, const Expectation& e, const Differenc
 
 }  // namespace
 
-std::vector<HealthyRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
+std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
                                            const Difference& difference) {
-  std::vector<HealthyRow> rows;
+  std::vector<ReferenceRow> rows;
   rows.reserve(kQuantities);
   for (int j = 0; j < kQuantities; ++j) rows.push_back(RowOf(sweep, expected, difference, j));
   return rows;
 }
 
-std::vector<HealthyRow> DescribeLight(const SweepState& now,
+std::vector<ReferenceRow> DescribeLight(const SweepState& now,
                                       const std::vector<const SweepState*>& references) {
   const int count = static_cast<int>(references.size());
   bool temperatures = std::isfinite(now.temperature_C) && count >= 8;
@@ -111,7 +111,7 @@ std::vector<HealthyRow> DescribeLight(const SweepState& now,
   const double deviation = std::sqrt(off.squaredNorm() / degrees * (1 + leverage) + 1e-14);
   const double difference = std::log(now.isc_A / now.irradiance_W_m2) - line[0];
   const double reach = deviation * StudentQuantile(0.975, degrees);
-  HealthyRow row{"Isc/G", "current per light", "mA m2/W"};
+  ReferenceRow row{"Isc/G", "current per light", "mA m2/W"};
   row.now = 1e3 * now.isc_A / now.irradiance_W_m2;
   row.expected = 1e3 * std::exp(line[0]);
   row.low_95 = row.expected * std::exp(-reach);

@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "lyrefit/diagnose/expectation.h"
-#include "lyrefit/diagnose/healthy_comparison.h"
+#include "lyrefit/diagnose/reference_comparison.h"
 
 namespace lyrefit {
 
 // Now against expected, quantity by quantity.
-std::vector<HealthyRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
+std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
                                            const Difference& difference);
 
 // Isc per light, where the light of all is known: by the sensor, whose own scatter is in the
 // references too. With the temperatures of enough sweeps it follows them. One row or none.
-std::vector<HealthyRow> DescribeLight(const SweepState& now,
+std::vector<ReferenceRow> DescribeLight(const SweepState& now,
                                       const std::vector<const SweepState*>& references);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,30 +56,30 @@ IvCurve WithLeak(IvCurve curve, double siemens) {
   return curve;
 }
 
-HealthyComparison Compare(const IvCurve& curve, const std::vector<IvCurve>& healthy) {
-  auto comparison = CompareWithHealthy(curve, healthy);
+ReferenceComparison Compare(const IvCurve& curve, const std::vector<IvCurve>& reference) {
+  auto comparison = CompareWithReferences(curve, reference);
   EXPECT_TRUE(comparison) << comparison.error().message;
-  return comparison ? *comparison : HealthyComparison();
+  return comparison ? *comparison : ReferenceComparison();
 }
 
-TEST(CompareWithHealthy, SaysThatAHealthySweepIsLikeTheOthers) {
-  const HealthyComparison c = Compare(Sweep(50), Sweeps(24));
+TEST(CompareWithReferences, SaysThatAReferenceSweepIsLikeTheOthers) {
+  const ReferenceComparison c = Compare(Sweep(50), Sweeps(24));
   EXPECT_FALSE(c.differs) << c.sentence;
-  EXPECT_THAT(c.sentence, HasSubstr("Like its 24 healthy sweeps"));
+  EXPECT_THAT(c.sentence, HasSubstr("Like its 24 reference sweeps"));
   EXPECT_THAT(c.causes, IsEmpty());
   EXPECT_EQ(c.references.size(), 24U);
-  for (const HealthyRow& row : c.rows) {
+  for (const ReferenceRow& row : c.rows) {
     EXPECT_LT(row.low_95, row.high_95) << row.symbol;
     EXPECT_LT(std::fabs(row.z), 4) << row.symbol;
   }
 }
 
-TEST(CompareWithHealthy, NamesASeriesResistanceWithItsSizeAndItsPower) {
+TEST(CompareWithReferences, NamesASeriesResistanceWithItsSizeAndItsPower) {
   const IvCurve before = Sweep(50, 0), now = WithResistance(before, 0.1 * kSeriesOhm);
-  const HealthyComparison c = Compare(now, Sweeps(24, 0));
+  const ReferenceComparison c = Compare(now, Sweeps(24, 0));
   ASSERT_TRUE(c.differs);
   ASSERT_FALSE(c.causes.empty());
-  const HealthyCause& cause = c.causes.front();
+  const ReferenceCause& cause = c.causes.front();
   EXPECT_EQ(cause.id, "series_resistance");
   // Of what this sweep had: the warmer cells' voltages, and so their resistance, are smaller.
   EXPECT_NEAR(cause.size, 10.25, 1);
@@ -92,8 +92,8 @@ TEST(CompareWithHealthy, NamesASeriesResistanceWithItsSizeAndItsPower) {
   EXPECT_THAT(c.sentence, HasSubstr("series resistance +"));
 }
 
-TEST(CompareWithHealthy, NamesALeak) {
-  const HealthyComparison c = Compare(WithLeak(Sweep(50), 0.02 * 8 / 36), Sweeps(24));
+TEST(CompareWithReferences, NamesALeak) {
+  const ReferenceComparison c = Compare(WithLeak(Sweep(50), 0.02 * 8 / 36), Sweeps(24));
   ASSERT_TRUE(c.differs);
   ASSERT_FALSE(c.causes.empty());
   EXPECT_EQ(c.causes.front().id, "shunt");
@@ -101,16 +101,16 @@ TEST(CompareWithHealthy, NamesALeak) {
   EXPECT_LT(c.causes.front().power, -0.01);
 }
 
-TEST(CompareWithHealthy, FewHealthySweepsShowOnlyLargeDifferencesAndSaySo) {
-  const HealthyComparison c = Compare(WithResistance(Sweep(50), kSeriesOhm), Sweeps(5));
+TEST(CompareWithReferences, FewReferenceSweepsShowOnlyLargeDifferencesAndSaySo) {
+  const ReferenceComparison c = Compare(WithResistance(Sweep(50), kSeriesOhm), Sweeps(5));
   EXPECT_TRUE(c.differs);
   EXPECT_THAT(c.warnings, Contains(HasSubstr("only large differences")));
   EXPECT_THAT(c.regressed_on, IsEmpty());
 }
 
-TEST(CompareWithHealthy, TakesOffWhatAllMissAlike) {
+TEST(CompareWithReferences, TakesOffWhatAllMissAlike) {
   const IvCurve sweep = Sweep(50);
-  const HealthyComparison c = Compare(sweep, Sweeps(24));
+  const ReferenceComparison c = Compare(sweep, Sweeps(24));
   const auto size = [](const IvCurve& curve) {
     double squares = 0;
     const auto fitted = FitSweep(curve);
@@ -124,20 +124,20 @@ TEST(CompareWithHealthy, TakesOffWhatAllMissAlike) {
   EXPECT_THAT(SentencesOf(c.without_common.assumptions), Contains(HasSubstr("miss alike")));
 }
 
-TEST(CompareWithHealthy, LeavesOddReferencesAndTheSweepItselfOut) {
-  std::vector<IvCurve> healthy = Sweeps(24);
-  healthy[5] = WithResistance(healthy[5], 0.5 * kSeriesOhm);
-  healthy.push_back(Sweep(50));
-  const HealthyComparison c = Compare(Sweep(50), healthy);
+TEST(CompareWithReferences, LeavesOutlierReferencesAndTheSweepItselfOut) {
+  std::vector<IvCurve> reference = Sweeps(24);
+  reference[5] = WithResistance(reference[5], 0.5 * kSeriesOhm);
+  reference.push_back(Sweep(50));
+  const ReferenceComparison c = Compare(Sweep(50), reference);
   EXPECT_THAT(c.left_out, Contains(HasSubstr("s6: unlike")));
   EXPECT_THAT(c.left_out, Contains(HasSubstr("s50: it is the sweep")));
   EXPECT_EQ(c.references.size(), 23U);
 }
 
-TEST(CompareWithHealthy, SeesSoilingByTheStatedLight) {
+TEST(CompareWithReferences, SeesSoilingByTheStatedLight) {
   IvCurve soiled = Sweep(50);
   soiled.conditions.irradiance_W_m2 *= 1.05;
-  const HealthyComparison c = Compare(soiled, Sweeps(24));
+  const ReferenceComparison c = Compare(soiled, Sweeps(24));
   EXPECT_TRUE(c.differs);
   EXPECT_EQ(c.rows.back().symbol, "Isc/G");
   EXPECT_NEAR(c.rows.back().power, -0.048, 0.005);
@@ -147,9 +147,9 @@ TEST(CompareWithHealthy, SeesSoilingByTheStatedLight) {
   EXPECT_FALSE(Compare(soiled, Sweeps(24)).differs);
 }
 
-TEST(CompareWithHealthy, RefusesWhatCannotBeCompared) {
-  const auto complaint = [](const IvCurve& curve, const std::vector<IvCurve>& healthy) {
-    const auto comparison = CompareWithHealthy(curve, healthy);
+TEST(CompareWithReferences, RefusesWhatCannotBeCompared) {
+  const auto complaint = [](const IvCurve& curve, const std::vector<IvCurve>& reference) {
+    const auto comparison = CompareWithReferences(curve, reference);
     return comparison ? std::string() : comparison.error().message;
   };
   EXPECT_THAT(complaint(Sweep(50), Sweeps(3)), HasSubstr("needs 4 or more"));
@@ -159,31 +159,31 @@ TEST(CompareWithHealthy, RefusesWhatCannotBeCompared) {
   IvCurve bright = Sweep(50);
   for (double& current : bright.current_A) current *= 1.6;
   EXPECT_THAT(complaint(bright, Sweeps(8)), HasSubstr("more than 20 % beyond"));
-  HealthyOptions options;
+  ReferenceOptions options;
   options.level = 2;
-  EXPECT_FALSE(CompareWithHealthy(Sweep(50), Sweeps(8), options));
+  EXPECT_FALSE(CompareWithReferences(Sweep(50), Sweeps(8), options));
 }
 
-TEST(FindOddSweeps, ListsTheOddOnesFirst) {
+TEST(FindOutlierSweeps, ListsTheOutlierOnesFirst) {
   std::vector<IvCurve> sweeps = Sweeps(26);
   sweeps[3] = WithResistance(sweeps[3], 0.3 * kSeriesOhm);
   sweeps[17] = WithLeak(sweeps[17], 0.03 * 8 / 36);
-  const auto odd = FindOddSweeps(sweeps);
-  ASSERT_TRUE(odd) << odd.error().message;
-  ASSERT_EQ(odd->sweeps.size(), 26U);
-  EXPECT_EQ(odd->odd, 2);
-  std::vector<std::string> first = {odd->sweeps[0].name, odd->sweeps[1].name};
+  const auto outlier = FindOutlierSweeps(sweeps);
+  ASSERT_TRUE(outlier) << outlier.error().message;
+  ASSERT_EQ(outlier->sweeps.size(), 26U);
+  EXPECT_EQ(outlier->outlier, 2);
+  std::vector<std::string> first = {outlier->sweeps[0].name, outlier->sweeps[1].name};
   std::sort(first.begin(), first.end());
   EXPECT_EQ(first, (std::vector<std::string>{"s18", "s4"}));
-  for (std::size_t k = 0; k < 26; ++k) EXPECT_EQ(odd->sweeps[k].differs, k < 2);
+  for (std::size_t k = 0; k < 26; ++k) EXPECT_EQ(outlier->sweeps[k].differs, k < 2);
 }
 
-TEST(FindOddSweeps, GivesTheSameAnswerOnAnyNumberOfThreads) {
-  HealthyOptions options;
+TEST(FindOutlierSweeps, GivesTheSameAnswerOnAnyNumberOfThreads) {
+  ReferenceOptions options;
   options.threads = 1;
-  const auto one = FindOddSweeps(Sweeps(12), options);
+  const auto one = FindOutlierSweeps(Sweeps(12), options);
   options.threads = 3;
-  const auto three = FindOddSweeps(Sweeps(12), options);
+  const auto three = FindOutlierSweeps(Sweeps(12), options);
   ASSERT_TRUE(one && three);
   for (std::size_t k = 0; k < one->sweeps.size(); ++k) {
     EXPECT_EQ(one->sweeps[k].name, three->sweeps[k].name);
@@ -191,11 +191,11 @@ TEST(FindOddSweeps, GivesTheSameAnswerOnAnyNumberOfThreads) {
   }
 }
 
-TEST(FindOddSweeps, RefusesTooFewAndOtherModules) {
-  EXPECT_THAT(FindOddSweeps(Sweeps(4)).error().message, HasSubstr("takes 5 or more"));
+TEST(FindOutlierSweeps, RefusesTooFewAndOtherModules) {
+  EXPECT_THAT(FindOutlierSweeps(Sweeps(4)).error().message, HasSubstr("takes 5 or more"));
   std::vector<IvCurve> sweeps = Sweeps(8);
   sweeps[2].conditions.cells_in_series = 72;
-  EXPECT_THAT(FindOddSweeps(sweeps).error().message, HasSubstr("not sweeps of one module"));
+  EXPECT_THAT(FindOutlierSweeps(sweeps).error().message, HasSubstr("not sweeps of one module"));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/base/version.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -11,9 +11,9 @@
 namespace lyrefit {
 namespace {
 
-Section NowSection(const HealthyComparison& comparison) {
+Section NowSection(const ReferenceComparison& comparison) {
   block::Table table = {"lrrlrrl", {{"", "now", "expected", "95 % interval", "z", "Pmax", ""}}};
-  for (const HealthyRow& row : comparison.rows) {
+  for (const ReferenceRow& row : comparison.rows) {
     const std::string label = row.name + (row.unit.empty() ? "" : " (" + row.unit + ")");
     table.rows.push_back({label, Significant(row.now, 4), Significant(row.expected, 4),
                           Range(row.low_95, row.high_95), fmt::format("{:+.1f}", row.z),
@@ -23,15 +23,15 @@ Section NowSection(const HealthyComparison& comparison) {
   Section section = {"Now and as expected"};
   AddTable(std::move(table), &section);
   AddSentence(
-      "95 % interval: of what a healthy sweep shows; z: difference in standard deviations of its "
+      "95 % interval: of what a reference sweep shows; z: difference in standard deviations of its "
       "prediction; Pmax: what the difference alone gives of it or costs; parameters make up for "
       "one another, the causes do not",
       &section);
   return section;
 }
 
-std::string ComparedWith(const HealthyComparison& comparison) {
-  std::string text = Plural(comparison.references.size(), "healthy sweep");
+std::string ComparedWith(const ReferenceComparison& comparison) {
+  std::string text = Plural(comparison.references.size(), "reference sweep");
   if (comparison.regressed_on.empty()) return text + ", their mean";
   text += ", brought to this sweep's";
   for (std::size_t i = 0; i < comparison.regressed_on.size(); ++i) {
@@ -40,11 +40,11 @@ std::string ComparedWith(const HealthyComparison& comparison) {
   return text;
 }
 
-Section CauseSection(const HealthyComparison& comparison) {
+Section CauseSection(const ReferenceComparison& comparison) {
   Section section = {"What would make the difference"};
   if (comparison.causes.empty()) return section;
   block::Table table = {"lrlrr", {{"cause", "size", "95 % interval", "Pmax", "explains"}}};
-  for (const HealthyCause& cause : comparison.causes) {
+  for (const ReferenceCause& cause : comparison.causes) {
     table.rows.push_back({cause.id, fmt::format("{} {}", Significant(cause.size, 3), cause.unit),
                           Range(cause.low_95, cause.high_95),
                           fmt::format("{:+.2f} %", 100 * cause.power),
@@ -58,7 +58,7 @@ Section CauseSection(const HealthyComparison& comparison) {
 }
 
 // What there is to say of a sweep, below `heading` if there is one.
-void AddSweep(const HealthyComparison& comparison, const std::string& heading, Document* document) {
+void AddSweep(const ReferenceComparison& comparison, const std::string& heading, Document* document) {
   std::vector<Section> details = {NowSection(comparison), CauseSection(comparison),
                                   ListSection("Not compared with", comparison.left_out),
                                   ListSection("Warnings", comparison.warnings)};
@@ -69,10 +69,10 @@ void AddSweep(const HealthyComparison& comparison, const std::string& heading, D
 
 }  // namespace
 
-Document HealthyDocument(const HealthyComparison& comparison) {
+Document ReferenceDocument(const ReferenceComparison& comparison) {
   Document document;
   document.head.heading =
-      fmt::format("lyrefit {}: {} against healthy sweeps", Version(), comparison.name);
+      fmt::format("lyrefit {}: {} against reference sweeps", Version(), comparison.name);
   AddField("compared with", ComparedWith(comparison), &document.head);
   if (!comparison.without_common.voltage_V.empty()) {
     AddField("in common",
@@ -85,8 +85,8 @@ Document HealthyDocument(const HealthyComparison& comparison) {
   return document;
 }
 
-Document HealthyDocument(const HealthyComparison& comparison, const Diagnosis& diagnosis) {
-  Document document = HealthyDocument(comparison);
+Document ReferenceDocument(const ReferenceComparison& comparison, const Diagnosis& diagnosis) {
+  Document document = ReferenceDocument(comparison);
   Document below = DiagnosisDocument(diagnosis);
   document.verdict = FullSentence(comparison.sentence) + " " + below.verdict;
   document.banners.insert(document.banners.end(), below.banners.begin(), below.banners.end());
@@ -95,39 +95,39 @@ Document HealthyDocument(const HealthyComparison& comparison, const Diagnosis& d
   return document;
 }
 
-std::string HealthyText(const HealthyComparison& comparison) {
-  return DrawText(HealthyDocument(comparison));
+std::string ReferenceText(const ReferenceComparison& comparison) {
+  return DrawText(ReferenceDocument(comparison));
 }
 
-Document OddSweepsDocument(const OddSweeps& odd) {
+Document OutlierSweepsDocument(const OutlierSweeps& outlier) {
   Document document;
   document.head.heading =
       fmt::format("lyrefit {}: the sweeps of one module against each other", Version());
   AddField("compared",
            fmt::format("{}, each with the nearest of the others in Isc and Voc; p-values count "
                        "them all",
-                       Plural(odd.sweeps.size(), "sweep")),
+                       Plural(outlier.sweeps.size(), "sweep")),
            &document.head);
-  AddField("odd", odd.odd == 0 ? "none" : std::to_string(odd.odd), &document.head);
-  for (const HealthyComparison& sweep : odd.sweeps) {
+  AddField("outliers", outlier.outlier == 0 ? "none" : std::to_string(outlier.outlier), &document.head);
+  for (const ReferenceComparison& sweep : outlier.sweeps) {
     if (sweep.differs) AddSweep(sweep, sweep.name, &document);
   }
-  AddSections({ListSection("Not compared", odd.rejected)}, &document);
+  AddSections({ListSection("Not compared", outlier.rejected)}, &document);
   return document;
 }
 
-std::string OddSweepsText(const OddSweeps& odd) { return DrawText(OddSweepsDocument(odd)); }
+std::string OutlierSweepsText(const OutlierSweeps& outlier) { return DrawText(OutlierSweepsDocument(outlier)); }
 
-std::string BriefHealthy(const HealthyComparison& comparison) {
+std::string BriefReference(const ReferenceComparison& comparison) {
   return comparison.name + ": " + comparison.sentence + "\n";
 }
 
-std::string BriefOddSweeps(const OddSweeps& odd) {
+std::string BriefOutlierSweeps(const OutlierSweeps& outlier) {
   std::string text;
-  for (const HealthyComparison& sweep : odd.sweeps) {
-    if (sweep.differs) text += BriefHealthy(sweep);
+  for (const ReferenceComparison& sweep : outlier.sweeps) {
+    if (sweep.differs) text += BriefReference(sweep);
   }
-  return text + fmt::format("{} of {} odd\n", odd.odd, Plural(odd.sweeps.size(), "sweep"));
+  return text + fmt::format("outliers: {} of {}\n", outlier.outlier, Plural(outlier.sweeps.size(), "sweep"));
 }
 
 }  // namespace lyrefit

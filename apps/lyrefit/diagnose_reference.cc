@@ -25,9 +25,9 @@ Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
 }
 
 Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
-                     const HealthyComparison& comparison, const Diagnosis& diagnosis) {
+                     const ReferenceComparison& comparison, const Diagnosis& diagnosis) {
   const ReportFlags& output = request.output;
-  TRY(WriteWanted(output.json_file, [&] { return HealthyJson(comparison, diagnosis); }));
+  TRY(WriteWanted(output.json_file, [&] { return ReferenceJson(comparison, diagnosis); }));
   TRY(WriteWanted(output.csv_file, [&] { return CausesCsv({comparison.name}, {diagnosis}); }));
   TRY(WriteWanted(request.extend_file,
                   [&] { return JsonReport(diagnosis.extended, output.points()); }));
@@ -35,41 +35,41 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
     return PlotDiagnosis(diagnosis, file, output.marks());
   }));
   TRY(WriteWanted(output.html_file, [&] {
-    return DrawPage(HealthyDocument(comparison, diagnosis), HealthyJson(comparison, diagnosis));
+    return DrawPage(ReferenceDocument(comparison, diagnosis), ReferenceJson(comparison, diagnosis));
   }));
   return WriteText(verb, [&] {
-    return output.brief ? BriefHealthy(comparison) + BriefDiagnosis(diagnosis)
-                        : HealthyText(comparison) + "\n" + DiagnosisText(diagnosis);
+    return output.brief ? BriefReference(comparison) + BriefDiagnosis(diagnosis)
+                        : ReferenceText(comparison) + "\n" + DiagnosisText(diagnosis);
   });
 }
 
 }  // namespace
 
-void AddHealthyFlags(VerbLine* verb, DiagnoseRequest* request) {
-  constexpr char kGroup[] = "Against its own past";
-  verb->AddOption("--healthy", &request->healthy_files,
-                  "healthy sweeps of the same module or its neighbours, files or folders: CURVE is "
+void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request) {
+  constexpr char kGroup[] = "Against its own history";
+  verb->AddOption("--reference", &request->reference_files,
+                  "reference sweeps of the same module or its neighbours, files or folders: CURVE is "
                   "compared with them, and diagnosed without what they all have")
       .ReadsCurves()
       .Group(kGroup);
   verb->AddSwitch("--module", &request->module,
-                  "all curves of CURVE are sweeps of one module: find the odd ones")
+                  "all curves of CURVE are sweeps of one module: find the outliers")
       .Group(kGroup);
-  AddTableFlags(verb, kHealthyOptionTable, &request->healthy);
+  AddTableFlags(verb, kReferenceOptionTable, &request->reference);
 }
 
-Expected<void> CheckHealthyFlags(const DiagnoseRequest& request) {
+Expected<void> CheckReferenceFlags(const DiagnoseRequest& request) {
   const bool module = request.module;
-  if (!module && request.healthy_files.empty()) return {};
-  if (module && !request.healthy_files.empty()) return Fail("only one of --healthy and --module");
+  if (!module && request.reference_files.empty()) return {};
+  if (module && !request.reference_files.empty()) return Fail("only one of --reference and --module");
   if (request.together || !request.answers_file.empty()) {
-    return Fail("--together and --answers are not for --healthy and --module");
+    return Fail("--together and --answers are not for --reference and --module");
   }
   if (module && !(request.output.plot_file.empty() && request.extend_file.empty())) {
     return Fail("--plot and --extend are not for --module");
   }
   if (!module && request.files.size() > 1) {
-    return Fail("--healthy compares one CURVE; for many sweeps of one module: --module");
+    return Fail("--reference compares one CURVE; for many sweeps of one module: --module");
   }
   return {};
 }
@@ -77,27 +77,27 @@ Expected<void> CheckHealthyFlags(const DiagnoseRequest& request) {
 Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
   const ReportFlags& output = request.output;
   TRY(const auto sweeps, ReadSweeps(request, request.files, request.conditions));
-  TRY(const OddSweeps odd, FindOddSweeps(sweeps, request.healthy));
-  TRY(WriteWanted(output.json_file, [&] { return OddSweepsJson(odd); }));
-  TRY(WriteWanted(output.csv_file, [&] { return OddSweepsCsv(odd); }));
+  TRY(const OutlierSweeps outlier, FindOutlierSweeps(sweeps, request.reference));
+  TRY(WriteWanted(output.json_file, [&] { return OutlierSweepsJson(outlier); }));
+  TRY(WriteWanted(output.csv_file, [&] { return OutlierSweepsCsv(outlier); }));
   TRY(WriteWanted(output.html_file,
-                  [&] { return DrawPage(OddSweepsDocument(odd), OddSweepsJson(odd)); }));
-  TRY(WriteText(verb, [&] { return output.brief ? BriefOddSweeps(odd) : OddSweepsText(odd); }));
+                  [&] { return DrawPage(OutlierSweepsDocument(outlier), OutlierSweepsJson(outlier)); }));
+  TRY(WriteText(verb, [&] { return output.brief ? BriefOutlierSweeps(outlier) : OutlierSweepsText(outlier); }));
   return kExitFine;
 }
 
-Expected<int> RunHealthy(const VerbLine& verb, const DiagnoseRequest& request) {
+Expected<int> RunReferences(const VerbLine& verb, const DiagnoseRequest& request) {
   TRY(const auto sweep, ReadSweeps(request, request.files, request.conditions));
   if (sweep.size() != 1) {
     return Fail(
-        fmt::format("--healthy compares one sweep, this measurement has {} curves", sweep.size()),
+        fmt::format("--reference compares one sweep, this measurement has {} curves", sweep.size()),
         request.files.front());
   }
   ConditionOptions module = request.conditions;  // light and temperature are this sweep's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
-  TRY(const auto healthy, ReadSweeps(request, request.healthy_files, module));
-  TRY(const auto comparison, CompareWithHealthy(sweep.front(), healthy, request.healthy));
+  TRY(const auto reference, ReadSweeps(request, request.reference_files, module));
+  TRY(const auto comparison, CompareWithReferences(sweep.front(), reference, request.reference));
   const InterruptGuard guard;
   TRY(const Diagnosis diagnosis,
       Diagnose(comparison.without_common, request.options, TerminalObserver()));

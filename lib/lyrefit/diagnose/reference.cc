@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
-#include "lyrefit/diagnose/healthy_causes.h"
-#include "lyrefit/diagnose/healthy_rows.h"
+#include "lyrefit/diagnose/reference_causes.h"
+#include "lyrefit/diagnose/reference_rows.h"
 
 namespace lyrefit {
 namespace {
@@ -39,7 +39,7 @@ double CommonAt(const std::vector<const SweepState*>& references, double u) {
 }
 
 void TakeCommonOff(const IvCurve& curve, const SweepState& state,
-                   const std::vector<const SweepState*>& references, HealthyComparison* result) {
+                   const std::vector<const SweepState*>& references, ReferenceComparison* result) {
   result->without_common = curve;
   double squares = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -49,20 +49,20 @@ void TakeCommonOff(const IvCurve& curve, const SweepState& state,
   }
   result->common = std::sqrt(squares / static_cast<double>(curve.size()));
   result->without_common.assumptions.push_back(fmt::format(
-      "what the single diodes of {} healthy sweeps miss alike ({:.2g} % of Isc) is taken off the "
+      "what the single diodes of {} reference sweeps miss alike ({:.2g} % of Isc) is taken off the "
       "readings",
       references.size(), 100 * result->common));
 }
 
-std::string LightSentence(const HealthyRow& row) {
+std::string LightSentence(const ReferenceRow& row) {
   const double percent = 100 * row.power;
   return fmt::format("current per light {:+.2g} %: {}", percent,
                      percent < 0 ? "soiling, a shade on all cells alike, or the light's sensor"
-                                 : "the light's sensor, or healthy sweeps that were soiled");
+                                 : "the light's sensor, or reference sweeps that were soiled");
 }
 
 // `whom`: what it is compared with.
-std::string SentenceOf(const HealthyComparison& c, bool light, const std::string& whom) {
+std::string SentenceOf(const ReferenceComparison& c, bool light, const std::string& whom) {
   if (!c.differs) {
     return fmt::format("Like {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is expected.",
                        whom, c.p_value, c.rows.front().now, c.rows.front().expected);
@@ -77,39 +77,39 @@ std::string SentenceOf(const HealthyComparison& c, bool light, const std::string
 }
 
 void NameSweeps(const std::vector<const SweepState*>& references, const Expectation& e,
-                HealthyComparison* result) {
+                ReferenceComparison* result) {
   for (const int i : e.used) result->references.push_back(references[i]->name);
-  for (const int i : e.odd) {
-    result->left_out.push_back(references[i]->name + ": unlike the other healthy sweeps");
+  for (const int i : e.outlier) {
+    result->left_out.push_back(references[i]->name + ": unlike the other reference sweeps");
   }
   static const char* const kRegressors[] = {"Isc", "Voc"};
   for (int k = 1; k < e.regressors; ++k) result->regressed_on.push_back(kRegressors[k - 1]);
-  const std::size_t far = references.size() - e.used.size() - e.odd.size();
+  const std::size_t far = references.size() - e.used.size() - e.outlier.size();
   if (far > 0) {
     result->left_out.push_back(fmt::format("{} more: the nearest in Isc and Voc were taken", far));
   }
   if (e.degrees < 2 * kQuantities) {
     result->warnings.push_back(
-        fmt::format("{} healthy sweeps show only large differences: with 15 and more all "
+        fmt::format("{} reference sweeps show only large differences: with 15 and more all "
                     "parameters are judged together",
                     e.used.size()));
   }
 }
 
 // `looks`: how many sweeps are compared alike. `used` receives the references that count.
-HealthyComparison Compare(const FittedSweep& sweep,
+ReferenceComparison Compare(const FittedSweep& sweep,
                           const std::vector<const SweepState*>& references, double level, int looks,
                           std::vector<const SweepState*>* used) {
   const Expectation e = Expect(references, sweep.state);
   const Difference d = Differ(e, sweep.state);
   for (const int i : e.used) used->push_back(references[i]);
-  HealthyComparison result;
+  ReferenceComparison result;
   result.name = sweep.state.name;
   NameSweeps(references, e, &result);
   result.rows = DescribeDifference(sweep, e, d);
-  const std::vector<HealthyRow> light = DescribeLight(sweep.state, *used);
+  const std::vector<ReferenceRow> light = DescribeLight(sweep.state, *used);
   result.rows.insert(result.rows.end(), light.begin(), light.end());
-  for (HealthyRow& row : result.rows) row.differs = row.corrected_p * looks < level;
+  for (ReferenceRow& row : result.rows) row.differs = row.corrected_p * looks < level;
   const bool by_light = !light.empty() && result.rows.back().differs;
   const double light_p = light.empty() ? 1 : light.front().corrected_p;
   result.p_value = std::min(1.0, looks * std::min(d.p_value, light_p));
@@ -117,7 +117,7 @@ HealthyComparison Compare(const FittedSweep& sweep,
   if (looks * d.p_value < level) result.causes = ExplainDifference(sweep, e, d);
   result.sentence = SentenceOf(
       result, by_light,
-      fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} healthy sweeps"),
+      fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} reference sweeps"),
                   result.references.size()));
   return result;
 }
@@ -136,7 +136,7 @@ Expected<void> CheckReach(const SweepState& sweep,
     const double value = sweep.*field;
     if (value <= kReach * high && value * kReach >= low) return {};
     return Fail(
-        fmt::format("{}: {} {:.4g} {} is more than 20 % beyond the healthy sweeps' {:.4g} "
+        fmt::format("{}: {} {:.4g} {} is more than 20 % beyond the reference sweeps' {:.4g} "
                     "to {:.4g} {}; compare it with sweeps under like light",
                     sweep.name, what, value, unit, low, high, unit));
   };
@@ -144,30 +144,30 @@ Expected<void> CheckReach(const SweepState& sweep,
   return check(&SweepState::voc_V, "Voc", "V");
 }
 
-Expected<void> CheckOptions(const HealthyOptions& options) {
-  TRY(ValidateOptions(options, kHealthyOptionTable));
+Expected<void> CheckOptions(const ReferenceOptions& options) {
+  TRY(ValidateOptions(options, kReferenceOptionTable));
   return ValidateThreads(options.threads);
 }
 
 }  // namespace
 
-Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
-                                               const std::vector<IvCurve>& healthy,
-                                               const HealthyOptions& options) {
+Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
+                                               const std::vector<IvCurve>& reference,
+                                               const ReferenceOptions& options) {
   TRY(CheckOptions(options));
   TRY(const FittedSweep sweep, FitSweep(curve));
-  const auto fits = FitAll(healthy, options.threads);
+  const auto fits = FitAll(reference, options.threads);
   std::vector<const SweepState*> references;
   std::vector<std::string> left_out;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const Expected<FittedSweep>& fit = fits[i];
-    if (healthy[i].voltage_V == curve.voltage_V && healthy[i].current_A == curve.current_A) {
-      left_out.push_back(healthy[i].name + ": it is the sweep that is compared");
+    if (reference[i].voltage_V == curve.voltage_V && reference[i].current_A == curve.current_A) {
+      left_out.push_back(reference[i].name + ": it is the sweep that is compared");
     } else if (!fit) {
       left_out.push_back(fit.error().message);
     } else if (fit->state.cells != sweep.state.cells) {
       return Fail(
-          fmt::format("{} has {} cells in series, the healthy sweep {} has {}: compare "
+          fmt::format("{} has {} cells in series, the reference sweep {} has {}: compare "
                       "sweeps of one module or of its like",
                       curve.name, sweep.state.cells, fit->state.name, fit->state.cells));
     } else {
@@ -175,23 +175,23 @@ Expected<HealthyComparison> CompareWithHealthy(const IvCurve& curve,
     }
   }
   if (references.size() < kFewestReferences) {
-    return Fail(fmt::format("{} healthy sweeps can be used, a comparison needs {} or more{}",
+    return Fail(fmt::format("{} reference sweeps can be used, a comparison needs {} or more{}",
                             references.size(), kFewestReferences,
                             left_out.empty() ? "" : " (" + left_out.front() + ")"));
   }
   TRY(CheckReach(sweep.state, references));
   std::vector<const SweepState*> used;
-  HealthyComparison result = Compare(sweep, references, options.level, 1, &used);
+  ReferenceComparison result = Compare(sweep, references, options.level, 1, &used);
   result.left_out.insert(result.left_out.begin(), left_out.begin(), left_out.end());
   TakeCommonOff(curve, sweep.state, used, &result);
   return result;
 }
 
-Expected<OddSweeps> FindOddSweeps(const std::vector<IvCurve>& curves,
-                                  const HealthyOptions& options) {
+Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
+                                  const ReferenceOptions& options) {
   TRY(CheckOptions(options));
   const auto fits = FitAll(curves, options.threads);
-  OddSweeps result;
+  OutlierSweeps result;
   std::vector<const FittedSweep*> sweeps;
   for (const auto& fit : fits) {
     if (!fit) {
@@ -211,16 +211,16 @@ Expected<OddSweeps> FindOddSweeps(const std::vector<IvCurve>& curves,
     return Fail(fmt::format("{} sweeps can be compared with each other, that takes {} or more",
                             count, kFewestReferences + 1));
   }
-  // Those that look odd by themselves are nobody's reference the second time.
-  std::vector<char> odd(count, 0);
-  std::vector<HealthyComparison> found(count);
+  // Outliers among the references themselves are nobody's reference the second time.
+  std::vector<char> outlier(count, 0);
+  std::vector<ReferenceComparison> found(count);
   std::vector<char> compared(count, 0);
   for (const bool last : {false, true}) {
     std::vector<char> now(count, 0);
     ParallelFor(count, options.threads, [&](int i) {
       std::vector<const SweepState*> others;
       for (int k = 0; k < count; ++k) {
-        if (k != i && odd[k] == 0) others.push_back(&sweeps[k]->state);
+        if (k != i && outlier[k] == 0) others.push_back(&sweeps[k]->state);
       }
       if (others.size() < kFewestReferences || !CheckReach(sweeps[i]->state, others)) return;
       compared[i] = 1;
@@ -232,14 +232,14 @@ Expected<OddSweeps> FindOddSweeps(const std::vector<IvCurve>& curves,
         now[i] = Differ(Expect(others, state), state).p_value < options.level ? 1 : 0;
       }
     });
-    odd = now;
+    outlier = now;
   }
   for (int i = 0; i < count; ++i) {
     if (compared[i] == 0) {
       result.rejected.push_back(sweeps[i]->state.name + ": no other sweeps under like light");
       continue;
     }
-    result.odd += found[i].differs ? 1 : 0;
+    result.outlier += found[i].differs ? 1 : 0;
     result.sweeps.push_back(std::move(found[i]));
   }
   std::stable_sort(result.sweeps.begin(), result.sweeps.end(),

@@ -1,4 +1,4 @@
-#include "lyrefit/family/odd_curves.h"
+#include "lyrefit/family/outlier_curves.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,9 +20,9 @@ struct Stranger {
   double factor;
 };
 
-class OddCurve : public testing::TestWithParam<std::tuple<Stranger, int>> {};
+class OutlierCurve : public testing::TestWithParam<std::tuple<Stranger, int>> {};
 
-TEST_P(OddCurve, IsNamedAndOnlyIt) {
+TEST_P(OutlierCurve, IsNamedAndOnlyIt) {
   const auto& [stranger, count] = GetParam();
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
   std::vector<double> other = MadeTruth(law);
@@ -35,17 +35,17 @@ TEST_P(OddCurve, IsNamedAndOnlyIt) {
   FamilyOptions options = Quick();
   options.intervals = false;
   const FamilyReport report = *FitFamily(set, options);
-  ASSERT_TRUE(report.without_odd.has_value());
-  EXPECT_THAT(report.without_odd->ids, ElementsAre(id));
-  EXPECT_NEAR(report.without_odd->rmse.solved_current_A, 2e-3, 4e-4);
-  for (const FamilyCurve& row : report.curves) EXPECT_EQ(row.odd, row.id == id);
+  ASSERT_TRUE(report.without_outliers.has_value());
+  EXPECT_THAT(report.without_outliers->ids, ElementsAre(id));
+  EXPECT_NEAR(report.without_outliers->rmse.solved_current_A, 2e-3, 4e-4);
+  for (const FamilyCurve& row : report.curves) EXPECT_EQ(row.outlier, row.id == id);
   EXPECT_THAT(report.warnings, testing::Contains(HasSubstr("Curve " + id + " does not belong")));
   // The same set without a stranger accuses nobody.
   options.leave_out = {id};
-  EXPECT_FALSE(FitFamily(set, options)->without_odd.has_value());
+  EXPECT_FALSE(FitFamily(set, options)->without_outliers.has_value());
 }
 
-INSTANTIATE_TEST_SUITE_P(FitFamily, OddCurve,
+INSTANTIATE_TEST_SUITE_P(FitFamily, OutlierCurve,
                          testing::Combine(testing::Values(Stranger{"Isc", 0, 1.1},
                                                           Stranger{"Voc", 1, 6},
                                                           Stranger{"Rs", 3, 2}),

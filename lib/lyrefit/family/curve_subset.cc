@@ -1,4 +1,4 @@
-#include "lyrefit/family/spread_curves.h"
+#include "lyrefit/family/curve_subset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double Distance(const Place& a, const Place& b) {
 
 }  // namespace
 
-std::vector<int> SpreadCurves(const std::vector<Conditions>& conditions,
+std::vector<int> CurveSubset(const std::vector<Conditions>& conditions,
                               const std::vector<int>& among, int count) {
   if (static_cast<int>(among.size()) <= count) return among;
   if (count < 1) return {};

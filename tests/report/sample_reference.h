@@ -3,21 +3,21 @@
 #include <limits>
 #include <string>
 
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 
 // Comparisons made by hand: no engine has seen them.
 namespace lyrefit {
 
-inline HealthyComparison SampleHealthy() {
-  HealthyComparison c;
+inline ReferenceComparison SampleReference() {
+  ReferenceComparison c;
   c.name = "today";
   c.differs = true;
   c.p_value = 3e-6;
-  c.sentence = "Unlike its 12 healthy sweeps (p = 3e-06): series resistance +8 %: -0.62 % of Pmax.";
+  c.sentence = "Unlike its 12 reference sweeps (p = 3e-06): series resistance +8 %: -0.62 % of Pmax.";
   c.rows = {{"FF", "fill factor", "%", 73.2, 73.7, 73.5, 73.9, -6.1, 1e-5, -0.0068, true},
             {"shape", "departure from the usual shape", "% of Isc", 0.02, 0.021, 0.01, 0.04, -0.2,
              1, std::numeric_limits<double>::quiet_NaN(), false}};
-  HealthyCause cause;
+  ReferenceCause cause;
   cause.id = "series_resistance";
   cause.sentence = "series resistance +8 %: -0.62 % of Pmax";
   cause.size = 8;
@@ -28,7 +28,7 @@ inline HealthyComparison SampleHealthy() {
   cause.explained = 0.97;
   c.causes = {cause};
   c.references.assign(12, "before");
-  c.left_out = {"wet: unlike the other healthy sweeps"};
+  c.left_out = {"wet: unlike the other reference sweeps"};
   c.regressed_on = {"Isc", "Voc"};
   c.warnings = {"a warning"};
   c.without_common.voltage_V = {0, 1};
@@ -37,17 +37,17 @@ inline HealthyComparison SampleHealthy() {
   return c;
 }
 
-inline OddSweeps SampleOddSweeps() {
-  OddSweeps odd;
-  odd.sweeps = {SampleHealthy(), SampleHealthy()};
-  odd.sweeps[0].without_common = {};
-  odd.sweeps[1].name = "yesterday";
-  odd.sweeps[1].differs = false;
-  odd.sweeps[1].sentence = "Like the 12 sweeps nearest to it (p = 0.7).";
-  odd.sweeps[1].causes.clear();
-  odd.rejected = {"night: the curve is dark"};
-  odd.odd = 1;
-  return odd;
+inline OutlierSweeps SampleOutlierSweeps() {
+  OutlierSweeps outlier;
+  outlier.sweeps = {SampleReference(), SampleReference()};
+  outlier.sweeps[0].without_common = {};
+  outlier.sweeps[1].name = "yesterday";
+  outlier.sweeps[1].differs = false;
+  outlier.sweeps[1].sentence = "Like the 12 sweeps nearest to it (p = 0.7).";
+  outlier.sweeps[1].causes.clear();
+  outlier.rejected = {"night: the curve is dark"};
+  outlier.outlier = 1;
+  return outlier;
 }
 
 }  // namespace lyrefit

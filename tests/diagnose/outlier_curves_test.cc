@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 // Measurements as nobody should take them: a verdict, no crash and finite numbers, where the person
 // insists.
-Diagnosis DiagnoseOdd(CurveSet set) {
+Diagnosis DiagnoseOutlier(CurveSet set) {
   for (IvCurve& curve : set.curves) curve.as_is = true;
   DiagnoseOptions options;
   options.draws = 200;
@@ -39,7 +39,7 @@ Diagnosis DiagnoseOdd(CurveSet set) {
   return *diagnosis;
 }
 
-Diagnosis DiagnoseOdd(const IvCurve& curve) { return DiagnoseOdd(SetOf({curve})); }
+Diagnosis DiagnoseOutlier(const IvCurve& curve) { return DiagnoseOutlier(SetOf({curve})); }
 
 // The readings of a curve in another order.
 IvCurve Reordered(const IvCurve& curve, const std::vector<int>& order) {
@@ -53,17 +53,17 @@ IvCurve Reordered(const IvCurve& curve, const std::vector<int>& order) {
   return result;
 }
 
-TEST(OddCurvesTest, WithoutNoise) {
+TEST(OutlierCurvesTest, WithoutNoise) {
   for (const int cells : {1, 60}) {
     Recipe recipe;
     recipe.noise_A = 0;
     recipe.cells = cells;
-    const Diagnosis d = DiagnoseOdd(MadeCurve(recipe));
+    const Diagnosis d = DiagnoseOutlier(MadeCurve(recipe));
     EXPECT_THAT(d.warnings, Contains(HasSubstr("almost no noise")));
   }
 }
 
-TEST(OddCurvesTest, Unsorted) {
+TEST(OutlierCurvesTest, Unsorted) {
   const IvCurve curve = MadeCurve({});
   std::vector<int> order(curve.size());
   std::iota(order.begin(), order.end(), 0);
@@ -71,41 +71,41 @@ TEST(OddCurvesTest, Unsorted) {
   for (std::size_t k = order.size() - 1; k > 0; --k) {
     std::swap(order[k], order[random.Index(static_cast<std::uint32_t>(k + 1))]);
   }
-  DiagnoseOdd(Reordered(curve, order));
+  DiagnoseOutlier(Reordered(curve, order));
 }
 
-TEST(OddCurvesTest, BackwardsIsTheSameVerdict) {
+TEST(OutlierCurvesTest, BackwardsIsTheSameVerdict) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
   std::vector<int> order(curve.size());
   std::iota(order.rbegin(), order.rend(), 0);
-  const Diagnosis forward = DiagnoseOdd(curve), backward = DiagnoseOdd(Reordered(curve, order));
+  const Diagnosis forward = DiagnoseOutlier(curve), backward = DiagnoseOutlier(Reordered(curve, order));
   ASSERT_EQ(forward.verdict.causes.size(), backward.verdict.causes.size());
   EXPECT_EQ(forward.verdict.causes.front().id, backward.verdict.causes.front().id);
   EXPECT_NEAR(forward.gain.rmse_after_A, backward.gain.rmse_after_A,
               0.02 * forward.gain.rmse_after_A);
 }
 
-TEST(OddCurvesTest, EveryReadingTwice) {
+TEST(OutlierCurvesTest, EveryReadingTwice) {
   const IvCurve curve = MadeCurve({});
   std::vector<int> order;
   for (int k = 0; k < static_cast<int>(curve.size()); ++k) order.insert(order.end(), 2, k);
-  DiagnoseOdd(Reordered(curve, order));
+  DiagnoseOutlier(Reordered(curve, order));
 }
 
-TEST(OddCurvesTest, SevenReadings) {
+TEST(OutlierCurvesTest, SevenReadings) {
   Recipe recipe;
   recipe.points = 7;
-  DiagnoseOdd(MadeCurve(recipe));
+  DiagnoseOutlier(MadeCurve(recipe));
 }
 
-TEST(OddCurvesTest, NothingButShortCircuit) {
+TEST(OutlierCurvesTest, NothingButShortCircuit) {
   Recipe recipe;
   recipe.to_V = 0.1;
-  DiagnoseOdd(MadeCurve(recipe));
+  DiagnoseOutlier(MadeCurve(recipe));
 }
 
-TEST(OddCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
+TEST(OutlierCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
   for (const double current : {0.0, 5.0}) {
     IvCurve curve = MadeCurve({});
     curve.as_is = true;
@@ -115,45 +115,45 @@ TEST(OddCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
   }
 }
 
-TEST(OddCurvesTest, NothingButNoise) {
+TEST(OutlierCurvesTest, NothingButNoise) {
   IvCurve curve = MadeCurve({});
   RandomStream random(9);
   for (double& i : curve.current_A) i = random.Normal();
-  DiagnoseOdd(curve);
+  DiagnoseOutlier(curve);
 }
 
-TEST(OddCurvesTest, CurrentsInTheOtherSign) {
+TEST(OutlierCurvesTest, CurrentsInTheOtherSign) {
   IvCurve curve = MadeCurve({});
   for (double& i : curve.current_A) i = -i;
-  DiagnoseOdd(curve);
+  DiagnoseOutlier(curve);
 }
 
-TEST(OddCurvesTest, WrongNumberOfCells) {
+TEST(OutlierCurvesTest, WrongNumberOfCells) {
   Recipe recipe;
   recipe.cells = 60;
   for (const int cells : {1, 20, 200}) {
     IvCurve curve = MadeCurve(recipe);
     curve.conditions.cells_in_series = cells;
-    DiagnoseOdd(curve);
+    DiagnoseOutlier(curve);
   }
 }
 
-TEST(OddCurvesTest, MicroampereAndKiloampere) {
+TEST(OutlierCurvesTest, MicroampereAndKiloampere) {
   for (const double factor : {1e-7, 1e3}) {
     IvCurve curve = MadeCurve({});
     for (double& i : curve.current_A) i *= factor;
-    const Diagnosis d = DiagnoseOdd(curve);
+    const Diagnosis d = DiagnoseOutlier(curve);
     EXPECT_FALSE(d.verdict.found);
   }
 }
 
-TEST(OddCurvesTest, TheSameCurveManyTimes) {
+TEST(OutlierCurvesTest, TheSameCurveManyTimes) {
   std::vector<IvCurve> curves(4, MadeCurve({}));
-  DiagnoseOdd(SetOf(curves));
+  DiagnoseOutlier(SetOf(curves));
 }
 
-TEST(OddCurvesTest, ManyDarkCurves) {
-  DiagnoseOdd(SetOf({MadeDarkCurve(1), MadeDarkCurve(2), MadeDarkCurve(3)}));
+TEST(OutlierCurvesTest, ManyDarkCurves) {
+  DiagnoseOutlier(SetOf({MadeDarkCurve(1), MadeDarkCurve(2), MadeDarkCurve(3)}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lyrefit/fleet/past.h"
+#include "lyrefit/fleet/history.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/diagnose/healthy.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/fleet/neighbours.h"
 
 namespace lyrefit {
 
-class HealthySweeps {
+class ReferenceSweeps {
  public:
   std::string digest;
   std::map<std::string, std::vector<IvCurve>> by_id;
@@ -28,7 +28,7 @@ void Slim(IvCurve* curve) {
   curve->assumptions = {};
 }
 
-std::vector<IvCurve> SweepsOf(const HealthySweeps& sweeps, const std::string& id) {
+std::vector<IvCurve> SweepsOf(const ReferenceSweeps& sweeps, const std::string& id) {
   const auto own = sweeps.by_id.find(id);
   if (own != sweeps.by_id.end()) return own->second;
   std::vector<IvCurve> below;  // of the folder "id/"
@@ -41,24 +41,24 @@ std::vector<IvCurve> SweepsOf(const HealthySweeps& sweeps, const std::string& id
   return below;
 }
 
-std::vector<ResultColumn> PastColumns() {
+std::vector<ResultColumn> HistoryColumns() {
   constexpr CellType kText = CellType::kText;
-  return {{"past_sweeps", "", CellType::kWhole, "healthy sweeps of the same string"},
-          {"past_p", "", CellType::kNumber,
+  return {{"history_sweeps", "", CellType::kWhole, "reference sweeps of the same string"},
+          {"history_p", "", CellType::kNumber,
            "p-value of the difference from them, all looks at it counted"},
-          {"past_cause", "", kText, "what would make the difference, where there is one"},
-          {"past_sentence", "", kText, "the comparison in one sentence, or why there is none"}};
+          {"history_cause", "", kText, "what would make the difference, where there is one"},
+          {"history_sentence", "", kText, "the comparison in one sentence, or why there is none"}};
 }
 
-std::vector<ResultCell> PastCells(const IvCurve& curve, const std::vector<IvCurve>& sweeps,
-                                  const HealthyOptions& options) {
+std::vector<ResultCell> HistoryCells(const IvCurve& curve, const std::vector<IvCurve>& sweeps,
+                                  const ReferenceOptions& options) {
   std::vector<ResultCell> cells = {static_cast<std::int64_t>(sweeps.size())};
   if (sweeps.empty()) {
     cells.resize(3);
-    cells.push_back(std::string("no healthy sweep has this id"));
+    cells.push_back(std::string("no reference sweep has this id"));
     return cells;
   }
-  const auto comparison = CompareWithHealthy(curve, sweeps, options);
+  const auto comparison = CompareWithReferences(curve, sweeps, options);
   if (!comparison) {
     cells.resize(3);
     cells.push_back(TextCell(comparison.error().message));
@@ -73,9 +73,9 @@ std::vector<ResultCell> PastCells(const IvCurve& curve, const std::vector<IvCurv
 
 }  // namespace
 
-Expected<std::shared_ptr<const HealthySweeps>> ReadHealthy(
+Expected<std::shared_ptr<const ReferenceSweeps>> ReadReferences(
     FleetSource* source, const std::function<Expected<void>(IvCurve*)>& prepare) {
-  auto sweeps = std::make_shared<HealthySweeps>();
+  auto sweeps = std::make_shared<ReferenceSweeps>();
   TRY(sweeps->digest, source->Digest());
   std::optional<Error> first;
   while (true) {
@@ -96,23 +96,23 @@ Expected<std::shared_ptr<const HealthySweeps>> ReadHealthy(
   }
   if (!sweeps->by_id.empty()) return sweeps;
   if (first) return tl::unexpected(*first);
-  return Fail("no healthy sweep in there");
+  return Fail("no reference sweep in there");
 }
 
-FleetTask WithPast(FleetTask task, std::shared_ptr<const HealthySweeps> sweeps,
-                   const HealthyOptions& asked) {
-  HealthyOptions options = asked;
+FleetTask WithHistory(FleetTask task, std::shared_ptr<const ReferenceSweeps> sweeps,
+                   const ReferenceOptions& asked) {
+  ReferenceOptions options = asked;
   options.threads = 1;
   const std::size_t own = task.columns.size();
-  for (const ResultColumn& column : PastColumns()) task.columns.push_back(column);
-  task.options.push_back({"healthy", sweeps->digest, ""});
-  AppendNonDefaults(options, kHealthyOptionTable, &task.options);
+  for (const ResultColumn& column : HistoryColumns()) task.columns.push_back(column);
+  task.options.push_back({"reference", sweeps->digest, ""});
+  AppendNonDefaults(options, kReferenceOptionTable, &task.options);
   task.run = [run = task.run, sweeps = std::move(sweeps), options, own](
                  const FleetCurve& curve, std::uint64_t seed, const Observer& observer) {
     TaskResult result = run(curve, seed, observer);
     if (result.interrupted) return result;
     result.cells.resize(own);
-    for (ResultCell& cell : PastCells(*curve.curve, SweepsOf(*sweeps, curve.id), options)) {
+    for (ResultCell& cell : HistoryCells(*curve.curve, SweepsOf(*sweeps, curve.id), options)) {
       result.cells.push_back(std::move(cell));
     }
     return result;

@@ -1,4 +1,4 @@
-#include "lyrefit/family/odd_curves.h"
+#include "lyrefit/family/outlier_curves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,10 +44,10 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
 
 }  // namespace
 
-std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end,
+std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
                                const std::function<bool()>& proceed) {
   constexpr double kSuspicious = 4;  // times the median RMSE
-  constexpr double kOdd = 6;
+  constexpr double kOutlier = 6;
   constexpr double kVisible = 5e-3;  // of the largest current
   constexpr int kRounds = 6;
   const int curves = static_cast<int>(problem.curves.size());
@@ -78,16 +78,16 @@ std::vector<int> FindOddCurves(const JointProblem& problem, const JointEnd& end,
     point = RefineJointly(robust, point, quick).point;
     median = measure(point);
   }
-  std::vector<int> odd;
+  std::vector<int> outlier;
   for (int c = 0; c < curves; ++c) {
-    const double limit = std::max(kOdd * median, visible);
+    const double limit = std::max(kOutlier * median, visible);
     const double noise = std::max(median, 1e-9 * problem.current_scale_A);
     const bool far = rmse[c] > limit;
-    if (far && !ReadingsExplain(problem, point, c, noise, limit, proceed)) odd.push_back(c);
+    if (far && !ReadingsExplain(problem, point, c, noise, limit, proceed)) outlier.push_back(c);
   }
   // More than a third cannot be the exception.
-  if (3 * static_cast<int>(odd.size()) > curves) odd.clear();
-  return odd;
+  if (3 * static_cast<int>(outlier.size()) > curves) outlier.clear();
+  return outlier;
 }
 
 }  // namespace lyrefit

@@ -11,7 +11,7 @@
 namespace lyrefit {
 
 // Curves fitted one by one.
-struct FreeFits {
+struct IndividualFits {
   std::vector<std::optional<Expected<FitReport>>> reports;  // empty: interrupted before
   double seconds = 0;
   bool interrupted = false;
@@ -20,11 +20,11 @@ struct FreeFits {
 // How a curve of the family is fitted by itself, with the diodes alone and without intervals.
 FitOptions OwnFitOptions(const FamilyOptions& options);
 
-FreeFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
+IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer);
 
 // What of a fit of its own goes into the family report, effects in the units of people.
-void FillFreeFit(const FitReport& fit, FamilyCurve* curve);
+void FillIndividualFit(const FitReport& fit, FamilyCurve* curve);
 
 // Id, points and conditions as stated.
 FamilyCurve DescribeCurve(const IvCurve& curve);

@@ -1,4 +1,4 @@
-#include "lyrefit/family/fit_free.h"
+#include "lyrefit/family/fit_individually.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class FitFreeTest : public testing::Test {
+class FitIndividuallyTest : public testing::Test {
  protected:
   void SetUp() override {
     options_.search.population = 8;
@@ -25,10 +25,10 @@ class FitFreeTest : public testing::Test {
   FamilyOptions options_;
 };
 
-TEST_F(FitFreeTest, IsAFitOfEveryCurve) {
+TEST_F(FitIndividuallyTest, IsAFitOfEveryCurve) {
   options_.intervals = true;
   options_.threads = 2;
-  const FamilyReport report = *FitFree(set_, options_);
+  const FamilyReport report = *FitIndividually(set_, options_);
   FitOptions single;
   single.search = options_.search;
   single.random_baseline = false;
@@ -37,21 +37,21 @@ TEST_F(FitFreeTest, IsAFitOfEveryCurve) {
     const FitReport fit = *Fit(set_.curves[c], single);
     EXPECT_EQ(report.curves[c].id, set_.curves[c].name);
     EXPECT_EQ(report.curves[c].free_parameters, fit.refined);
-    EXPECT_EQ(report.curves[c].free_rmse.solved_current_A, fit.rmse.refined.solved_current_A);
-    EXPECT_EQ(report.curves[c].free_estimates[0].high_95, fit.estimates[0].high_95);
+    EXPECT_EQ(report.curves[c].individual_rmse.solved_current_A, fit.rmse.refined.solved_current_A);
+    EXPECT_EQ(report.curves[c].individual_estimates[0].high_95, fit.estimates[0].high_95);
   }
   EXPECT_TRUE(report.free);
   EXPECT_TRUE(report.usable);
   EXPECT_FALSE(report.interrupted);
 }
 
-TEST_F(FitFreeTest, SaysWhichCurvesCannotBeFitted) {
+TEST_F(FitIndividuallyTest, SaysWhichCurvesCannotBeFitted) {
   for (const int broken : {0, 3}) {
     set_.curves[broken].voltage_V.resize(2);
     set_.curves[broken].current_A.resize(2);
   }
   options_.leave_out = {"c2"};
-  const FamilyReport report = *FitFree(set_, options_);
+  const FamilyReport report = *FitIndividually(set_, options_);
   ASSERT_EQ(report.curves.size(), 6U);
   for (const int broken : {0, 3}) {
     EXPECT_EQ(report.curves[broken].role, CurveRole::kLeftOut);
@@ -64,24 +64,24 @@ TEST_F(FitFreeTest, SaysWhichCurvesCannotBeFitted) {
   EXPECT_TRUE(report.usable);
 }
 
-TEST_F(FitFreeTest, FailsWhereNoCurveCanBeFitted) {
+TEST_F(FitIndividuallyTest, FailsWhereNoCurveCanBeFitted) {
   options_.fixed["nonsense"] = 1;
-  ASSERT_FALSE(FitFree(set_, options_));
-  EXPECT_THAT(FitFree(set_, options_).error().ToString(), HasSubstr("nonsense"));
+  ASSERT_FALSE(FitIndividually(set_, options_));
+  EXPECT_THAT(FitIndividually(set_, options_).error().ToString(), HasSubstr("nonsense"));
   options_.fixed.clear();
   options_.leave_out = {"c9"};
-  EXPECT_THAT(FitFree(set_, options_).error().ToString(), HasSubstr("no curve c9"));
+  EXPECT_THAT(FitIndividually(set_, options_).error().ToString(), HasSubstr("no curve c9"));
   options_.leave_out.clear();
   set_.curves.clear();
-  EXPECT_THAT(FitFree(set_, options_).error().ToString(), HasSubstr("at least one curve"));
+  EXPECT_THAT(FitIndividually(set_, options_).error().ToString(), HasSubstr("at least one curve"));
 }
 
-TEST_F(FitFreeTest, StopsWhenAsked) {
+TEST_F(FitIndividuallyTest, StopsWhenAsked) {
   options_.threads = 1;
   const Observer observer = [](const Progress& now) {
     return now.iteration >= 2 ? ObserverAction::kStop : ObserverAction::kContinue;
   };
-  const FamilyReport report = *FitFree(set_, options_, observer);
+  const FamilyReport report = *FitIndividually(set_, options_, observer);
   EXPECT_TRUE(report.interrupted);
   ASSERT_EQ(report.curves.size(), 6U);
   for (int c = 0; c < 6; ++c) {

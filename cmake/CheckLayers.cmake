@@ -21,8 +21,8 @@ set(ALLOWED_report base curve law search certify fit family diagnose translate) 
 # A library of its own with its writers in study/report; what the core writes knows nothing of it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
 # Another: many curves, their rows and their page.
-set(ALLOWED_fleet base curve law fit effects family diagnose translate report)
-set(MODULES base curve law search refine certify effects fit family diagnose translate report study fleet)
+set(ALLOWED_batch base curve law fit effects family diagnose translate report)
+set(MODULES base curve law search refine certify effects fit family diagnose translate report study batch)
 
 set(PUBLIC)  # the headers that are installed
 if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
@@ -80,8 +80,8 @@ function(check_file module)
     elseif(header MATCHES "^CLI/")
       complain("the library must build without the app's dependencies (<${header}>)")
     endif()
-    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|fleet)[/.]")
-      complain("the core knows nothing of the studies and of fleets (\"${header}\")")
+    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|batch)[/.]")
+      complain("the core knows nothing of the studies and of batches (\"${header}\")")
     endif()
     if(module IN_LIST MODULES AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
       check_own_include(${module} "${header}")
@@ -145,7 +145,7 @@ foreach(FILE IN LISTS files)
     endif()
     check_file(${module})
   else()
-    check_file(top)  # lyrefit.h, study.h and fleet.h, the headers of every module
+    check_file(top)  # lyrefit.h, study.h and batch.h, the headers of every module
   endif()
 endforeach()
 

@@ -2,7 +2,7 @@
 #   cmake "-DSCRIPTS=a.js|b.js" -DSTYLE=plant.css -DOUT=plant_assets.cc -P EmbedPlantAssets.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(SOURCE "// Written by cmake/EmbedPlantAssets.cmake.\n#include \"lyrefit/fleet/plant_assets.h\"\n\nnamespace lyrefit {\n")
+set(SOURCE "// Written by cmake/EmbedPlantAssets.cmake.\n#include \"lyrefit/batch/plant_assets.h\"\n\nnamespace lyrefit {\n")
 # Texts of the files one after the other as the body of a function.
 function(embed function)
   set(text "")

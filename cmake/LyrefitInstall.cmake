@@ -122,7 +122,7 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/compare.h
   study/compare_options.h
   study/comparison.h
-  study/contenders.h
+  study/algorithms.h
   study/coverage.h
   study/coverage_options.h
   study/landscape.h
@@ -137,19 +137,19 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/report/coverage_csv.h
   study/report/coverage_json.h
   study/report/documents.h)
-set(LYREFIT_FLEET_PUBLIC_HEADERS
-  fleet.h
-  fleet/batch.h
-  fleet/batch_options.h
-  fleet/fleet_source.h
-  fleet/fleet_task.h
-  fleet/pack.h
-  fleet/history.h
-  fleet/plant_page.h
-  fleet/result_row.h
-  fleet/sketch.h
-  fleet/string_pages.h)
-foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYREFIT_FLEET_PUBLIC_HEADERS)
+set(LYREFIT_BATCH_PUBLIC_HEADERS
+  batch.h
+  batch/batch.h
+  batch/batch_options.h
+  batch/batch_source.h
+  batch/batch_task.h
+  batch/pack.h
+  batch/history.h
+  batch/plant_page.h
+  batch/result_row.h
+  batch/sparkline.h
+  batch/string_pages.h)
+foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYREFIT_BATCH_PUBLIC_HEADERS)
   get_filename_component(folder "lyrefit/${header}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}"
           COMPONENT dev)

@@ -138,12 +138,12 @@ BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
   return options;
 }
 
-Expected<FleetTask> MakeTask(const VerbLine& verb, const BatchRequest& request) {
-  TRY(FleetTask task, FindTask(request.task)->make(verb, request));
+Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& request) {
+  TRY(BatchTaskType task, FindTask(request.task)->make(verb, request));
   if (request.reference_inputs.empty()) return task;
-  FleetReadOptions reading = request.reading;
+  BatchReadOptions reading = request.reading;
   reading.shard = {};
-  TRY(const auto source, OpenFleet(request.reference_inputs, reading));
+  TRY(const auto source, OpenBatch(request.reference_inputs, reading));
   ConditionOptions module = request.conditions;  // light and temperature are today's
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
@@ -172,11 +172,11 @@ int ExitCode(const BatchSummary& summary) {
 Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   TRY(CheckRequest(verb, request));
   const BatchOptions options = Settled(verb, request);
-  FleetReadOptions reading = request.reading;
+  BatchReadOptions reading = request.reading;
   reading.shard = options.shard;
   const InterruptGuard guard;
-  TRY(const FleetTask task, MakeTask(verb, request));
-  TRY(const auto source, OpenFleet(request.inputs, reading));
+  TRY(const BatchTaskType task, MakeTask(verb, request));
+  TRY(const auto source, OpenBatch(request.inputs, reading));
   TRY(const BatchSummary summary,
       RunBatch(source.get(), task, options,
                TerminalObserver({"batch", "Ctrl-C keeps the rows that are done for --resume"})));

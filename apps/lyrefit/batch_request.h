@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "flags.h"
-#include "lyrefit/fleet.h"
+#include "lyrefit/batch.h"
 
 namespace lyrefit {
 
@@ -15,15 +15,15 @@ struct BatchRequest {
   std::string task = "fit";
   bool resume = false;
   BatchOptions options;
-  FleetReadOptions reading;
+  BatchReadOptions reading;
   ConditionOptions conditions;
   std::vector<std::string> reference_inputs;
   ReferenceOptions reference;
-  FitOptions fit = FleetFitOptions();
+  FitOptions fit = BatchFitOptions();
   bool auto_model = false;
   std::string bounds = "physical";
   DiagnoseOptions diagnose;  // of a field test too
-  TranslateOptions translate = FleetTranslateOptions();
+  TranslateOptions translate = BatchTranslateOptions();
   std::string coefficients_file;
   std::string html_file;
   std::string plant;  // its name
@@ -37,7 +37,7 @@ struct BatchTask {
   void (*declare)(VerbLine* verb, BatchRequest* request);
   // The first flag on the line that is of this task and no other; empty: none was given.
   std::string (*given)(const VerbLine& verb);
-  Expected<FleetTask> (*make)(const VerbLine& verb, const BatchRequest& request);
+  Expected<BatchTaskType> (*make)(const VerbLine& verb, const BatchRequest& request);
   const char* takes = "";  // another task, whose flags it understands too
 };
 

@@ -45,7 +45,7 @@ std::string GivenFitFlag(const VerbLine& verb) {
   return flag.empty() ? GivenOf(verb, kSearchOptionTable, SearchOptions()) : flag;
 }
 
-Expected<FleetTask> MakeFit(const VerbLine& verb, const BatchRequest& request) {
+Expected<BatchTaskType> MakeFit(const VerbLine& verb, const BatchRequest& request) {
   FitOptions options = request.fit;
   const auto ranges = options.bounds.overrides;
   TRY(options.bounds, NamedBounds(request.bounds, request.inputs.front()));
@@ -71,7 +71,7 @@ std::string GivenDiagnoseFlag(const VerbLine& verb) {
   return GivenOf(verb, kDiagnoseOptionTable, DiagnoseOptions());
 }
 
-Expected<FleetTask> MakeDiagnose(const VerbLine& /*verb*/, const BatchRequest& request) {
+Expected<BatchTaskType> MakeDiagnose(const VerbLine& /*verb*/, const BatchRequest& request) {
   TRY(CheckEffects("--effects", request.diagnose.effects));
   return DiagnoseTask(request.diagnose);
 }
@@ -113,7 +113,7 @@ std::string GivenFieldTestFlag(const VerbLine& verb) {
   return flag == "--draws" ? "" : flag;
 }
 
-Expected<FleetTask> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {
+Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {
   TRY(CheckEffects("--effects", request.diagnose.effects));
   TranslateOptions options = request.translate;
   options.diagnosis = request.diagnose;

@@ -62,33 +62,33 @@ Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
   return budgets;
 }
 
-Expected<std::vector<Contender>> BudgetContenders(const StudyFlags& study,
+Expected<std::vector<ComparedAlgorithm>> BudgetAlgorithms(const StudyFlags& study,
                                                   const std::string& budget_list) {
   TRY(const auto names, ParseList("--algorithms", study.algorithms));
   TRY(const auto budgets, ParseBudgets(budget_list));
-  std::vector<Contender> contenders;
+  std::vector<ComparedAlgorithm> algorithms;
   for (const std::string& name : names) {
-    if (name == ToText(ContenderKind::kShape) || name == ToText(ContenderKind::kDefault)) {
-      contenders.push_back(*ParseContender(name, study.search, study.candidates));  // has no budget
+    if (name == ToText(AlgorithmKind::kShape) || name == ToText(AlgorithmKind::kDefault)) {
+      algorithms.push_back(*ParseAlgorithm(name, study.search, study.candidates));  // has no budget
       continue;
     }
     for (const std::int64_t budget : budgets) {
-      TRY(Contender contender,
-          ParseContender(name, BudgetSearch(budget, study.search), study.candidates));
-      contender.name = fmt::format("{}@{}", name, budget);
-      contender.budget = budget;
-      contenders.push_back(std::move(contender));
+      TRY(ComparedAlgorithm compared,
+          ParseAlgorithm(name, BudgetSearch(budget, study.search), study.candidates));
+      compared.name = fmt::format("{}@{}", name, budget);
+      compared.budget = budget;
+      algorithms.push_back(std::move(compared));
     }
   }
-  return contenders;
+  return algorithms;
 }
 
 Expected<int> RunBudget(VerbLine& verb, BudgetRequest& request) {
   StudyFlags& study = request.study;
   TRY(CheckLandscape(verb, &study));
   const bool usual = study.landscape.empty() || verb.Given("--budgets");
-  TRY(const auto contenders, BudgetContenders(study, usual ? request.budgets : kLandscapeBudgets));
-  return RunStudy(verb, study, contenders, BudgetDocument, {{study.output.plot_file, PlotBudget}});
+  TRY(const auto algorithms, BudgetAlgorithms(study, usual ? request.budgets : kLandscapeBudgets));
+  return RunStudy(verb, study, algorithms, BudgetDocument, {{study.output.plot_file, PlotBudget}});
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ void DeclareCompare(VerbLine* verb, CompareRequest* request) {
 }
 
 Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
-  TRY(const auto contenders, ParseContenders(request.study));
+  TRY(const auto algorithms, ParseAlgorithms(request.study));
   return RunStudy(
-      verb, request.study, contenders, CompareDocument,
+      verb, request.study, algorithms, CompareDocument,
       {{request.study.output.plot_file, PlotBoxes}, {request.convergence_file, PlotConvergence}});
 }
 

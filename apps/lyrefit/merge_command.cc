@@ -1,6 +1,6 @@
 #include "flags.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/fleet.h"
+#include "lyrefit/batch.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -8,8 +8,8 @@
 #include "interrupt.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/fleet/fleet_source.h"
-#include "lyrefit/fleet/pack.h"
+#include "lyrefit/batch/batch_source.h"
+#include "lyrefit/batch/pack.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -29,7 +29,7 @@ constexpr char kPackFooter[] =
 
 struct PackRequest {
   std::vector<std::string> inputs;
-  FleetReadOptions options;
+  BatchReadOptions options;
   std::string out_file;
   int threads = 0;
 };
@@ -72,7 +72,7 @@ Expected<int> RunPack(VerbLine& verb, PackRequest& request) {
   TRY(const PackFormat format, FormatOf(request.out_file));
   TRY(verb.CheckFiles());
   const InterruptGuard guard;
-  TRY(const auto source, OpenFleet(request.inputs, request.options));
+  TRY(const auto source, OpenBatch(request.inputs, request.options));
   PrintRemarks(source->Remarks());
   const Observer observer = TerminalObserver({"pack", "Ctrl-C ends it, and nothing is written"});
   const PackSink to_output = [](std::string_view text) {
@@ -80,8 +80,8 @@ Expected<int> RunPack(VerbLine& verb, PackRequest& request) {
   };
   auto packed =
       request.out_file == "-"
-          ? PackFleet(source.get(), format, request.threads, to_output, observer)
-          : PackFleetInto(request.out_file, source.get(), format, request.threads, observer);
+          ? PackBatch(source.get(), format, request.threads, to_output, observer)
+          : PackBatchInto(request.out_file, source.get(), format, request.threads, observer);
   TRY(const PackReport report, std::move(packed));
   if (report.interrupted) return kExitInterrupted;
   if (verb.TextWanted()) TRY(WriteOutput("-", Summary(report, request.out_file)));

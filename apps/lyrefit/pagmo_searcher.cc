@@ -110,7 +110,7 @@ std::string PagmoNames() {
   return names;
 }
 
-Expected<Contender> PagmoContender(const std::string& name, const SearchOptions& search) {
+Expected<ComparedAlgorithm> PagmoAlgorithm(const std::string& name, const SearchOptions& search) {
   const std::vector<PagmoPeer>& peers = PagmoPeers();
   const auto peer = std::find_if(peers.begin(), peers.end(),
                                  [&](const PagmoPeer& row) { return name == row.name; });
@@ -124,12 +124,12 @@ Expected<Contender> PagmoContender(const std::string& name, const SearchOptions&
     return Fail(
         fmt::format("pagmo:{} with a population of {}: {}", name, search.population, objection));
   }
-  Contender contender{"pagmo:" + name, "pagmo:" + name, search, {}};
-  contender.searcher = [&peer = *peer](const ObjectiveFunction& objective, const Box& box,
+  ComparedAlgorithm compared{"pagmo:" + name, "pagmo:" + name, search, {}};
+  compared.searcher = [&peer = *peer](const ObjectiveFunction& objective, const Box& box,
                                        const SearchOptions& options, const Observer& observer) {
     return RunPeer(peer, objective, box, options, observer);
   };
-  return contender;
+  return compared;
 }
 
 }  // namespace lyrefit
@@ -140,7 +140,7 @@ namespace lyrefit {
 
 std::string PagmoNames() { return ""; }
 
-Expected<Contender> PagmoContender(const std::string& name, const SearchOptions& /*search*/) {
+Expected<ComparedAlgorithm> PagmoAlgorithm(const std::string& name, const SearchOptions& /*search*/) {
   return Fail(fmt::format(
       "pagmo:{}: this build has no pagmo2: install libpagmo-dev and build again", name));
 }

@@ -44,7 +44,7 @@ Expected<int> RunSensitivity(VerbLine& verb, SensitivityRequest& request) {
   TRY(const auto coefficients,
       ParseNumbers("--distance-coefficients", request.distance_coefficients));
   return RunStudy(verb, request.study,
-                  SensitivityContenders(rates, coefficients, request.study.search),
+                  SensitivityAlgorithms(rates, coefficients, request.study.search),
                   SensitivityDocument, {});
 }
 

@@ -47,7 +47,7 @@ void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {
 void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags) {
   for (OptionRow<SearchOptions> row : kSearchOptionTable) {
     if (std::find(names.begin(), names.end(), row.name) == names.end()) continue;
-    row.traits = row.traits | OptionTrait::kUnchecked;  // the study names the contender as well
+    row.traits = row.traits | OptionTrait::kUnchecked;  // the study names the compared as well
     AddRowFlag(verb, row, "Search", &flags->search);
   }
 }
@@ -69,14 +69,14 @@ Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::s
   return numbers;
 }
 
-Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
+Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
                                    SearchVariables candidates) {
-  for (const ContenderKind kind : {ContenderKind::kShape, ContenderKind::kDefault}) {
-    if (name == ToText(kind)) return OwnContender(kind);
+  for (const AlgorithmKind kind : {AlgorithmKind::kShape, AlgorithmKind::kDefault}) {
+    if (name == ToText(kind)) return OwnAlgorithm(kind);
   }
   const std::string pagmo = "pagmo:";
   if (name.rfind(pagmo, 0) == 0) {
-    auto peer = PagmoContender(name.substr(pagmo.size()), search);
+    auto peer = PagmoAlgorithm(name.substr(pagmo.size()), search);
     if (peer) peer->candidates = candidates;
     return peer;
   }
@@ -86,19 +86,19 @@ Expected<Contender> ParseContender(const std::string& name, const SearchOptions&
         fmt::format("--algorithms: expected a list of {}, shape, default or pagmo:NAME, found '{}'",
                     AllTexts<Algorithm>(), name));
   }
-  Contender contender = PlainContenders({*algorithm}, search)[0];
-  contender.candidates = candidates;
-  return contender;
+  ComparedAlgorithm compared = PlainAlgorithms({*algorithm}, search)[0];
+  compared.candidates = candidates;
+  return compared;
 }
 
-Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags) {
+Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags) {
   TRY(const auto names, ParseList("--algorithms", flags.algorithms));
-  std::vector<Contender> contenders;
+  std::vector<ComparedAlgorithm> algorithms;
   for (const std::string& name : names) {
-    TRY(Contender contender, ParseContender(name, flags.search, flags.candidates));
-    contenders.push_back(std::move(contender));
+    TRY(ComparedAlgorithm compared, ParseAlgorithm(name, flags.search, flags.candidates));
+    algorithms.push_back(std::move(compared));
   }
-  return contenders;
+  return algorithms;
 }
 
 }  // namespace lyrefit

@@ -8,7 +8,7 @@
 #include "flags.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 
 namespace lyrefit {
 
@@ -77,9 +77,9 @@ Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // One algorithm by its name, and those of --algorithms, with these settings.
-Expected<Contender> ParseContender(const std::string& name, const SearchOptions& search,
+Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
                                    SearchVariables candidates);
-Expected<std::vector<Contender>> ParseContenders(const StudyFlags& flags);
+Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags);
 
 // One file to write when all is done.
 struct StudyPicture {
@@ -89,7 +89,7 @@ struct StudyPicture {
 
 // Reads the curves, compares, writes what is wanted; returns the exit code.
 Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
-                       const std::vector<Contender>& contenders,
+                       const std::vector<ComparedAlgorithm>& algorithms,
                        Document (*document)(const Comparison&),
                        const std::vector<StudyPicture>& pictures);
 

@@ -8,7 +8,7 @@
 namespace lyrefit {
 
 Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
-                       const std::vector<Contender>& contenders,
+                       const std::vector<ComparedAlgorithm>& algorithms,
                        Document (*document)(const Comparison&),
                        const std::vector<StudyPicture>& pictures) {
   CompareOptions options = flags.options;
@@ -20,7 +20,7 @@ Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
   TRY(const auto curves, ReadStudyCurves(flags));
   const InterruptGuard guard;
   TRY(const Comparison comparison,
-      Compare(curves, contenders, options, TerminalObserver({"compare"})));
+      Compare(curves, algorithms, options, TerminalObserver({"compare"})));
   PrintRemarks(comparison.remarks);
   TRY(WriteWanted(flags.output.json_file, [&] { return CompareJson(comparison); }));
   TRY(WriteWanted(flags.output.csv_file, [&] { return CompareCsv(comparison); }));

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/fleet/fleet_task.h"
+#include "lyrefit/batch/batch_task.h"
 
 namespace lyrefit::python {
 namespace {

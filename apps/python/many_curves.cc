@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "curves.h"
-#include "lyrefit/fleet/fleet_source.h"
+#include "lyrefit/batch/batch_source.h"
 #include "work.h"
 
 namespace lyrefit::python {
@@ -309,18 +309,18 @@ std::vector<CurveToFit> FromFrame(py::handle frame, Said said) {
 }
 
 // A folder or file with many, as the command's batch reads them.
-std::vector<CurveToFit> FromFleet(py::handle path, const Said& said) {
-  FleetReadOptions options;
+std::vector<CurveToFit> FromBatch(py::handle path, const Said& said) {
+  BatchReadOptions options;
   options.reading = said.common.reading;
   const std::string file = TextOf("curves", path);
-  auto opened = Must(Unlocked([&] { return OpenFleet({file}, options); }));
-  const std::shared_ptr<FleetSource> source = std::move(opened);
+  auto opened = Must(Unlocked([&] { return OpenBatch({file}, options); }));
+  const std::shared_ptr<BatchSource> source = std::move(opened);
   std::vector<CurveToFit> list;
   const ConditionOptions told = said.Of(0).told;
   while (auto item = Must(Unlocked([&] { return source->Next(); }))) {
-    const auto kept = std::make_shared<const FleetItem>(*std::move(item));
+    const auto kept = std::make_shared<const BatchItem>(*std::move(item));
     list.push_back({kept->id, "", [source, kept, told]() -> Expected<IvCurve> {
-                      FleetCurve read = source->Read(*kept);
+                      BatchCurve read = source->Read(*kept);
                       if (!read.curve) return std::move(read.curve);
                       const Expected<void> applied = ApplyConditions(told, &*read.curve);
                       if (!applied) return tl::unexpected(applied.error());
@@ -335,7 +335,7 @@ std::vector<CurveToFit> FromFleet(py::handle path, const Said& said) {
 std::vector<CurveToFit> TakeManyCurves(py::handle curves, py::handle current, Keywords* keywords) {
   const Said said = ReadSaid(keywords);
   if (!current.is_none()) return FromArrays(curves, current, said);
-  if (IsPath(curves)) return FromFleet(curves, said);
+  if (IsPath(curves)) return FromBatch(curves, said);
   if (IsFrame(curves)) return FromFrame(curves, said);
   if (IsGroupBy(curves)) return FromMapping(FramesOf(curves), said);
   if (py::isinstance<py::dict>(curves)) return FromMapping(curves, said);

@@ -6,7 +6,7 @@
 #include "frames.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/report/compare_csv.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/report/compare_plot.h"
@@ -49,7 +49,7 @@ struct CompareAsked {
   CompareOptions options;
   SearchOptions search;
   SearchVariables candidates = SearchVariables::kAll;
-  std::vector<Contender> contenders;
+  std::vector<ComparedAlgorithm> algorithms;
   std::string bounds = "physical";
   BoundsSpec box;
   BoundsSpec::Table ranges;
@@ -57,9 +57,9 @@ struct CompareAsked {
   Faults faults;
 };
 
-Contender NamedContender(const std::string& name, const CompareAsked& asked) {
-  for (const ContenderKind kind : {ContenderKind::kShape, ContenderKind::kDefault}) {
-    if (name == ToText(kind)) return OwnContender(kind);
+ComparedAlgorithm NamedAlgorithm(const std::string& name, const CompareAsked& asked) {
+  for (const AlgorithmKind kind : {AlgorithmKind::kShape, AlgorithmKind::kDefault}) {
+    if (name == ToText(kind)) return OwnAlgorithm(kind);
   }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
   if (!algorithm) {
@@ -67,39 +67,39 @@ Contender NamedContender(const std::string& name, const CompareAsked& asked) {
                ", shape, default or functions, found '" + name + "'",
            {}});
   }
-  Contender contender = PlainContenders({*algorithm}, asked.search).front();
-  contender.candidates = asked.candidates;
-  return contender;
+  ComparedAlgorithm compared = PlainAlgorithms({*algorithm}, asked.search).front();
+  compared.candidates = asked.candidates;
+  return compared;
 }
 
-Contender OwnSearch(const std::string& name, py::handle search, CompareAsked* asked) {
+ComparedAlgorithm OwnSearch(const std::string& name, py::handle search, CompareAsked* asked) {
   auto fault = std::make_shared<Fault>();
-  Contender contender;
-  contender.name = name;
-  contender.search = asked->search;
-  contender.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault);
-  contender.candidates = asked->candidates;
+  ComparedAlgorithm compared;
+  compared.name = name;
+  compared.search = asked->search;
+  compared.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault);
+  compared.candidates = asked->candidates;
   asked->faults.Add(std::move(fault));
-  return contender;
+  return compared;
 }
 
 // Names, functions, a dict of functions by name, or a list of these.
-void AddContenders(py::handle value, CompareAsked* asked) {
+void AddAlgorithms(py::handle value, CompareAsked* asked) {
   if (py::isinstance<py::str>(value)) {
     const auto names = SplitList(value.cast<std::string>());
     if (!names) Raise({"algorithms: " + names.error().message, {}});
     for (const std::string& name : *names) {
-      asked->contenders.push_back(NamedContender(name, *asked));
+      asked->algorithms.push_back(NamedAlgorithm(name, *asked));
     }
   } else if (py::isinstance<py::dict>(value)) {
     for (const auto& [name, search] : py::reinterpret_borrow<py::dict>(value)) {
-      asked->contenders.push_back(OwnSearch(TextOf("algorithms", name), search, asked));
+      asked->algorithms.push_back(OwnSearch(TextOf("algorithms", name), search, asked));
     }
   } else if (PyCallable_Check(value.ptr()) != 0) {
     const std::string name = py::str(value.attr("__name__")).cast<std::string>();
-    asked->contenders.push_back(OwnSearch(name, value, asked));
+    asked->algorithms.push_back(OwnSearch(name, value, asked));
   } else {
-    for (const py::handle member : value) AddContenders(member, asked);
+    for (const py::handle member : value) AddAlgorithms(member, asked);
   }
 }
 
@@ -147,7 +147,7 @@ CompareAsked ReadCompareKeywords(Keywords* keywords) {
   keywords->Read(kCompareOptionTable, &options);
   keywords->Read(kSearchOptionTable, &asked.search);
   asked.faults = FaultsOf(asked.own);
-  AddContenders(algorithms, &asked);
+  AddAlgorithms(algorithms, &asked);
   if (!asked.faults.empty()) options.threads = 1;
   return asked;
 }
@@ -190,17 +190,17 @@ CompareResult CompareAll(py::handle curves, const py::kwargs& given) {
   keywords.Finish();
   const std::vector<CompareCurve> subjects = Subjects(curves, said, asked);
   Expected<Comparison> comparison = WorkWith(asked.faults, progress, [&](const Observer& observer) {
-    return Compare(subjects, asked.contenders, asked.options, observer);
+    return Compare(subjects, asked.algorithms, asked.options, observer);
   });
   return CompareResult(HoldWith(Must(std::move(comparison)), asked.own));
 }
 
-// A row for each contender on each problem.
+// A row for each compared on each problem.
 py::object RankFrame(const CompareResult& result) {
   py::list rows;
   for (const ProblemResult& problem : result.comparison().problems) {
-    for (std::size_t c = 0; c < problem.contenders.size(); ++c) {
-      const ContenderResult& contender = problem.contenders[c];
+    for (std::size_t c = 0; c < problem.algorithms.size(); ++c) {
+      const AlgorithmResult& compared = problem.algorithms[c];
       const auto rank = [c](const Ranking& ranking) -> py::object {
         const std::vector<double>& ranks = ranking.friedman.mean_rank;
         return c < ranks.size() ? py::object(py::float_(ranks[c])) : py::object(py::none());
@@ -208,15 +208,15 @@ py::object RankFrame(const CompareResult& result) {
       py::dict row;
       row["curve"] = problem.curve_name;
       row["model"] = ToText(problem.model);
-      row["algorithm"] = contender.name;
+      row["algorithm"] = compared.name;
       row["rank_searched"] = rank(problem.searched);
       row["rank_polished"] = rank(problem.polished);
-      row["median_searched_A"] = contender.searched.median;
-      row["median_polished_A"] = contender.polished.median;
-      row["within_1e9"] = contender.polished.within_1e9;
-      row["runs"] = contender.runs.size();
-      row["evaluations"] = contender.evaluations;
-      row["target_hits"] = contender.target_hits;
+      row["median_searched_A"] = compared.searched.median;
+      row["median_polished_A"] = compared.polished.median;
+      row["within_1e9"] = compared.polished.within_1e9;
+      row["runs"] = compared.runs.size();
+      row["evaluations"] = compared.evaluations;
+      row["target_hits"] = compared.target_hits;
       row["reference_A"] = problem.reference.rmse_A;
       rows.append(row);
     }

@@ -8,7 +8,7 @@
 
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/coverage.h"
 #include "lyrefit/study/landscape.h"
 #include "lyrefit/study/report/audit_csv.h"

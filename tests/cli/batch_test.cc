@@ -4,7 +4,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "../fleet/strings.h"
+#include "../batch/strings.h"
 #include "run_app.h"
 #include "start_app.h"
 

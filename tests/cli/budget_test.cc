@@ -26,14 +26,14 @@ TEST(BudgetVerb, SpendsTheBudgetExactlyAndPolishesPlainlyToo) {
                                   "--json -");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json j = json::parse(result.out, nullptr, false);
-  const json& contenders = j["problems"][0]["contenders"];
-  ASSERT_EQ(contenders.size(), 4U);
-  EXPECT_EQ(contenders[1]["name"], "de@17");
-  EXPECT_EQ(contenders[1]["algorithm"], "de");
-  EXPECT_EQ(contenders[1]["settings"]["max_evaluations"], 17);
-  for (const json& contender : contenders) {
-    for (const json& run : contender["runs"]) {
-      EXPECT_EQ(run["evaluations"], contender["settings"]["max_evaluations"]);
+  const json& algorithms = j["problems"][0]["algorithms"];
+  ASSERT_EQ(algorithms.size(), 4U);
+  EXPECT_EQ(algorithms[1]["name"], "de@17");
+  EXPECT_EQ(algorithms[1]["algorithm"], "de");
+  EXPECT_EQ(algorithms[1]["settings"]["max_evaluations"], 17);
+  for (const json& compared : algorithms) {
+    for (const json& run : compared["runs"]) {
+      EXPECT_EQ(run["evaluations"], compared["settings"]["max_evaluations"]);
       EXPECT_TRUE(run["plain_polished_A"].is_number());
     }
   }

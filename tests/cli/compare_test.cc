@@ -94,13 +94,13 @@ TEST(CompareVerb, GoesByTheFlags) {
   EXPECT_EQ(j["seed"], 9);
   EXPECT_EQ(j["target_gap"], 0.5);
   EXPECT_EQ(j["polish"], false);
-  const json& mlo = j["problems"][0]["contenders"][0];
+  const json& mlo = j["problems"][0]["algorithms"][0];
   EXPECT_EQ(mlo["name"], "mlo");
   EXPECT_EQ(mlo["runs"].size(), 2U);
   EXPECT_EQ(mlo["settings"]["population"], 12);
   EXPECT_EQ(mlo["settings"]["memory_rate"], 0.75);
   EXPECT_TRUE(mlo["refined"].is_null());
-  const json& de = j["problems"][0]["contenders"][1];
+  const json& de = j["problems"][0]["algorithms"][1];
   EXPECT_EQ(de["settings"]["de_scale"], 0.6);
   EXPECT_EQ(de["runs"][0]["evaluations"], 12 * 16);
 }
@@ -118,7 +118,7 @@ TEST(CompareVerb, AgreesWithASingleFit) {
   const json fit = FitJson(kRtc +
                            " --model dd --objective measured-current --population 10 "
                            "--iterations 20 --seed 4 --run 2");
-  const json& run = j["problems"][0]["contenders"][0]["runs"][2];
+  const json& run = j["problems"][0]["algorithms"][0]["runs"][2];
   EXPECT_EQ(run["searched_A"], fit["rmse"]["searched"]["measured_current_A"]);
   EXPECT_EQ(run["refined_A"], fit["rmse"]["refined"]["measured_current_A"]);
 }

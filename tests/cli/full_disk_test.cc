@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "../file_limit.h"
-#include "../fleet/strings.h"
+#include "../batch/strings.h"
 #include "run_app.h"
 
 namespace lyrefit {

@@ -93,9 +93,9 @@ TEST_P(InterruptTest, KeepsTheRunsOfAComparison) {
   EXPECT_EQ(j["interrupted"], true);
   ASSERT_EQ(j["problems"].size(), 1U) << "of the one it was at";
   EXPECT_EQ(j["problems"][0]["complete"], false);
-  EXPECT_EQ(j["problems"][0]["contenders"].size(), 3U);
-  EXPECT_GE(j["problems"][0]["contenders"][2]["runs"].size(), 2U);
-  EXPECT_GT(j["problems"][0]["contenders"][0]["refined"]["min_A"], 9e-4);
+  EXPECT_EQ(j["problems"][0]["algorithms"].size(), 3U);
+  EXPECT_GE(j["problems"][0]["algorithms"][2]["runs"].size(), 2U);
+  EXPECT_GT(j["problems"][0]["algorithms"][0]["refined"]["min_A"], 9e-4);
 }
 
 TEST_P(InterruptTest, SaysThatAComparisonIsNotComplete) {

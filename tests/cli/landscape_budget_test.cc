@@ -61,11 +61,11 @@ TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
   EXPECT_EQ(pools[0]["problem"], "strings_2");
   EXPECT_EQ(pools[0]["devices"], 2);
   EXPECT_EQ(pools[1]["certified"], 2) << "three diodes, measured current";
-  ASSERT_EQ(pools[0]["contenders"].size(), 5U);
-  EXPECT_EQ(pools[0]["contenders"][0]["kind"], "shape");
-  EXPECT_TRUE(pools[0]["contenders"][0]["searched"].is_null());
-  for (const json& contender : pools[0]["contenders"]) {
-    const json& level = contender["refined"];
+  ASSERT_EQ(pools[0]["algorithms"].size(), 5U);
+  EXPECT_EQ(pools[0]["algorithms"][0]["kind"], "shape");
+  EXPECT_TRUE(pools[0]["algorithms"][0]["searched"].is_null());
+  for (const json& compared : pools[0]["algorithms"]) {
+    const json& level = compared["refined"];
     EXPECT_EQ(level["runs"], 2);
     const int missed = level.contains("failures") ? int(level["failures"]["runs"]) : 0;
     EXPECT_EQ(int(level["hits"]) + missed, 2);

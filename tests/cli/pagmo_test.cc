@@ -37,18 +37,18 @@ TEST(Pagmo, EveryAlgorithmSpendsTheSameBudgetFromTheSameFirstPoints) {
   for (const auto& [budget, evaluations] : budgets) {
     const json j = CompareJson(kRtc + " --models dd --runs 1 --population 40 --algorithms mlo," +
                                kEverybody + " " + budget);
-    const json& contenders = j["problems"][0]["contenders"];
-    ASSERT_EQ(contenders.size(), 15U);
-    const json first = contenders[0]["median_trace"]["best_A"][0];
-    for (std::size_t c = 1; c < contenders.size(); ++c) {
-      const json& contender = contenders[c];
-      SCOPED_TRACE(contender["name"].dump() + " " + budget);
-      EXPECT_EQ(contender["runs"][0]["evaluations"], evaluations);
-      EXPECT_EQ(contender["median_trace"]["evaluations"][0], 40);
-      EXPECT_EQ(contender["median_trace"]["best_A"][0], first);
-      EXPECT_DOUBLE_EQ(contender["median_trace"]["best_A"].back().get<double>(),
-                       contender["runs"][0]["searched_A"].get<double>());
-      EXPECT_LE(contender["runs"][0]["searched_A"], first);
+    const json& algorithms = j["problems"][0]["algorithms"];
+    ASSERT_EQ(algorithms.size(), 15U);
+    const json first = algorithms[0]["median_trace"]["best_A"][0];
+    for (std::size_t c = 1; c < algorithms.size(); ++c) {
+      const json& compared = algorithms[c];
+      SCOPED_TRACE(compared["name"].dump() + " " + budget);
+      EXPECT_EQ(compared["runs"][0]["evaluations"], evaluations);
+      EXPECT_EQ(compared["median_trace"]["evaluations"][0], 40);
+      EXPECT_EQ(compared["median_trace"]["best_A"][0], first);
+      EXPECT_DOUBLE_EQ(compared["median_trace"]["best_A"].back().get<double>(),
+                       compared["runs"][0]["searched_A"].get<double>());
+      EXPECT_LE(compared["runs"][0]["searched_A"], first);
     }
   }
 }
@@ -65,7 +65,7 @@ TEST(Pagmo, GivesTheSameBitsForTheSameSeedOnAnyNumberOfThreads) {
   EXPECT_EQ(one, two) << json::diff(one, two).dump();
   for (int c = 0; c < 14; ++c) {
     const auto searched = [c](const json& j) {
-      return j["problems"][0]["contenders"][c]["runs"][0]["searched_A"];
+      return j["problems"][0]["algorithms"][c]["runs"][0]["searched_A"];
     };
     EXPECT_NE(searched(one), searched(other)) << kEverybody;
   }

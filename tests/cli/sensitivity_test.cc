@@ -26,8 +26,8 @@ TEST(SensitivityVerb, SharesTheCornerWithThePlainOptimizer) {
                                .out;
   const std::string plain =
       RunApp("compare " + kRtc + kSmallStudy + "--algorithms lo --json -").out;
-  const json a = json::parse(grid, nullptr, false)["problems"][0]["contenders"][0];
-  const json b = json::parse(plain, nullptr, false)["problems"][0]["contenders"][0];
+  const json a = json::parse(grid, nullptr, false)["problems"][0]["algorithms"][0];
+  const json b = json::parse(plain, nullptr, false)["problems"][0]["algorithms"][0];
   EXPECT_EQ(a["name"], "Pm=0 gamma=0");
   EXPECT_EQ(a["searched"], b["searched"]);
 }

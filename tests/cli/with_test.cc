@@ -130,10 +130,10 @@ TEST(With, HardCandidatesAreSaidAndCounted) {
                                   " --with shading:w=0.3333 --models sd --algorithms random,shape "
                                   "--budgets 20 --runs 2 --multistart 2 --candidates hard --json -");
   ASSERT_EQ(budget.exit_code, 0) << budget.err;
-  const json contenders = json::parse(budget.out)["problems"][0]["contenders"];
-  EXPECT_EQ(contenders[0]["candidates"], "hard");
-  EXPECT_GT(contenders[0]["curve_evaluations"], 20);
-  EXPECT_EQ(contenders[1]["candidates"], "all") << "no search";
+  const json algorithms = json::parse(budget.out)["problems"][0]["algorithms"];
+  EXPECT_EQ(algorithms[0]["candidates"], "hard");
+  EXPECT_GT(algorithms[0]["curve_evaluations"], 20);
+  EXPECT_EQ(algorithms[1]["candidates"], "all") << "no search";
   const AppResult family = RunApp("fit " + kShaded + " --family free --candidates hard");
   EXPECT_EQ(family.exit_code, 1);
   EXPECT_THAT(family.err, HasSubstr("--candidates is for one curve, not for --family"));

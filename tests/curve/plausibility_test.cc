@@ -22,7 +22,7 @@ IvCurve ModuleWith(double isc_A, int strings = 1) {
   return curve;
 }
 
-std::string Said(const IvCurve& curve) { return WhyDoubtful(curve).value_or(""); }
+std::string Said(const IvCurve& curve) { return PlausibilityProblem(curve).value_or(""); }
 
 TEST(Plausibility, ModulesAndCellsHaveNoFindings) {
   for (const double isc_A : {0.3, 1.0, 9.0, 20.0}) {
@@ -98,15 +98,15 @@ TEST(Plausibility, DoubtsAFillFactorOfNoDiode) {
 
 TEST(Plausibility, DoubtsAPowerFarFromTheRating) {
   const IvCurve curve = ModuleWith(9);  // 216 W
-  EXPECT_FALSE(WhyDoubtful(curve));
-  EXPECT_FALSE(WhyDoubtful(curve, 250));
-  EXPECT_FALSE(WhyDoubtful(curve, 2500)) << "a string in deep shade";
-  EXPECT_THAT(WhyDoubtful(curve, 70).value_or(""), HasSubstr("times the rated power of 70 W"));
-  EXPECT_THAT(WhyDoubtful(ModuleWith(0.009), 300).value_or(""),
+  EXPECT_FALSE(PlausibilityProblem(curve));
+  EXPECT_FALSE(PlausibilityProblem(curve, 250));
+  EXPECT_FALSE(PlausibilityProblem(curve, 2500)) << "a string in deep shade";
+  EXPECT_THAT(PlausibilityProblem(curve, 70).value_or(""), HasSubstr("times the rated power of 70 W"));
+  EXPECT_THAT(PlausibilityProblem(ModuleWith(0.009), 300).value_or(""),
               HasSubstr("times the rated power of 300 W"));
   IvCurve dusk = ModuleWith(0.09);
   dusk.conditions.irradiance_W_m2 = 10;
-  EXPECT_FALSE(WhyDoubtful(dusk, 300));
+  EXPECT_FALSE(PlausibilityProblem(dusk, 300));
 }
 
 }  // namespace

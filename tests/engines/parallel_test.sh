@@ -12,12 +12,12 @@ mkdir -p -- "$work/bin"
 cd -- "$work"
 ln -s -- "$lyrefit" bin/lyrefit
 PATH=$work/bin:$PATH
-ln -s -- "$input" fleet.jsonl
+ln -s -- "$input" batch.jsonl
 
 line=$(sed -n '/^    seq .*parallel/,/[^\\]$/p' "$readme")
 [[ -n $line ]] || Fail "no line of parallel in $readme"
 Log "$line"
-lyrefit batch fleet.jsonl --out single > single.log 2>&1
+lyrefit batch batch.jsonl --out single > single.log 2>&1
 bash -c "$line" &> parallel.log &
 running=$!
 WaitFor 600 HasRows OUT/shards/shard-2-of-8.part || Fail "shard 2 does not get on its way: $(cat parallel.log)"

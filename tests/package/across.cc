@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "lyrefit/fleet.h"
+#include "lyrefit/batch.h"
 #include "lyrefit/lyrefit.h"
 #include "lyrefit/search/search.h"
 
@@ -15,10 +15,10 @@ struct Enough : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-class NoCurves : public lyrefit::FleetSource {
+class NoCurves : public lyrefit::BatchSource {
  public:
-  lyrefit::Expected<std::optional<lyrefit::FleetItem>> Next() override { return std::nullopt; }
-  lyrefit::FleetCurve Read(const lyrefit::FleetItem& /*item*/) const override { return {}; }
+  lyrefit::Expected<std::optional<lyrefit::BatchItem>> Next() override { return std::nullopt; }
+  lyrefit::BatchCurve Read(const lyrefit::BatchItem& /*item*/) const override { return {}; }
   std::int64_t size() const override { return 0; }
   lyrefit::Expected<std::string> Digest() const override { return "none"; }
   std::vector<std::string> Remarks() const override { return {}; }
@@ -49,8 +49,8 @@ bool CallsADerivedClass(const char* folder) {
   NoCurves none;
   lyrefit::BatchOptions options;
   options.folder = folder;
-  const auto done = lyrefit::RunBatch(&none, lyrefit::FitTask(lyrefit::FleetFitOptions()), options);
-  return done && done->rows == 0 && typeid(none) != typeid(lyrefit::FleetSource);
+  const auto done = lyrefit::RunBatch(&none, lyrefit::FitTask(lyrefit::BatchFitOptions()), options);
+  return done && done->rows == 0 && typeid(none) != typeid(lyrefit::BatchSource);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lyrefit/fleet.h"
+#include "lyrefit/batch.h"
 
 #include <cstdio>
 #include <string>
@@ -6,12 +6,12 @@
 // Fits every curve of the strings given into the folder given, writes the page of them, and succeeds
 // if every one has its row and none is broken.
 int main(int argc, char** argv) {
-  if (argc != 3) return std::puts("fleet STRINGS FOLDER"), 1;
-  const auto source = lyrefit::OpenFleet({argv[1]});
+  if (argc != 3) return std::puts("batch STRINGS FOLDER"), 1;
+  const auto source = lyrefit::OpenBatch({argv[1]});
   if (!source) return std::puts(source.error().ToString().c_str()), 1;
   lyrefit::BatchOptions options;
   options.folder = argv[2];
-  const auto task = lyrefit::FitTask(lyrefit::FleetFitOptions());
+  const auto task = lyrefit::FitTask(lyrefit::BatchFitOptions());
   const auto done = lyrefit::RunBatch(source->get(), task, options);
   if (!done) return std::puts(done.error().ToString().c_str()), 1;
   std::fputs(lyrefit::BatchText(*done).c_str(), stdout);

@@ -36,7 +36,7 @@ run(${CMAKE_COMMAND} -S ${HERE} -B ${WORK}/consumer -G ${GENERATOR}
 run(${CMAKE_COMMAND} --build ${WORK}/consumer --config ${CONFIG})
 run(${WORK}/consumer/consumer ${DATA})
 run(${WORK}/consumer/study ${DATA})
-run(${WORK}/consumer/fleet ${DATA}/../plant/strings.csv ${WORK}/results)
+run(${WORK}/consumer/batch ${DATA}/../plant/strings.csv ${WORK}/results)
 run(${WORK}/consumer/across ${WORK}/none)
 
 # pkg-config: once compiled, linked with the shared library and with the archive.

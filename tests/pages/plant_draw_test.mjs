@@ -1,5 +1,5 @@
 // What the plant's page draws with, without a browser:
-//   ASSETS=lib/lyrefit/fleet/assets node --test plant_draw_test.mjs
+//   ASSETS=lib/lyrefit/batch/assets node --test plant_draw_test.mjs
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';

@@ -1,4 +1,4 @@
-// The page of a plant in a browser, of made rows (tests/fleet/made_plant.h):
+// The page of a plant in a browser, of made rows (tests/batch/made_plant.h):
 //   MADE_PLANT_PAGE=made_plant_page CHROMIUM=chromium OUT=folder node --test plant_test.mjs
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';

@@ -78,12 +78,12 @@ Panel StripPanel(const CornerStudy& study, std::int64_t budget) {
     panel.series.push_back(std::move(series));
   }
   double place = 0;
-  for (const ContenderResult& contender : study.comparison.problems.at(0).contenders) {
-    if (contender.name != contender.algorithm + "@" + std::to_string(budget)) continue;
+  for (const AlgorithmResult& compared : study.comparison.problems.at(0).algorithms) {
+    if (compared.name != compared.algorithm + "@" + std::to_string(budget)) continue;
     ++place;
-    panel.x.ticks.push_back({contender.algorithm, place});
+    panel.x.ticks.push_back({compared.algorithm, place});
     for (int s = 0; s < 3; ++s) {
-      for (const RunRecord& run : contender.runs) {
+      for (const RunRecord& run : compared.runs) {
         const double x = place + 0.27 * (s - 1) + PlaceInStrip(run.run);
         panel.series[s].Add(x, run.*kStrips[s].end_A);
       }

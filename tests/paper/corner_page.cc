@@ -134,14 +134,14 @@ struct Count {
 
 Count CountOf(const CornerStudy& study, double RunRecord::*end_A, Whose whose = Whose::kAll) {
   Count count;
-  for (const ContenderResult& contender : study.comparison.problems.at(0).contenders) {
-    const bool random = contender.algorithm == ToText(Algorithm::kRandom);
+  for (const AlgorithmResult& compared : study.comparison.problems.at(0).algorithms) {
+    const bool random = compared.algorithm == ToText(Algorithm::kRandom);
     if (whose != Whose::kAll && random != (whose == Whose::kRandom)) continue;
-    const CornerEnds ends = CountEnds(study, contender, end_A);
+    const CornerEnds ends = CountEnds(study, compared, end_A);
     count.optimum += ends.optimum;
     count.between += ends.between;
     count.literature += ends.literature;
-    count.runs += static_cast<int>(contender.runs.size());
+    count.runs += static_cast<int>(compared.runs.size());
   }
   return count;
 }
@@ -188,11 +188,11 @@ Section EndsSection(const CornerStudy& study) {
       &section);
   Table table = {"lrrrrr", {{"search", "evaluations"}}};
   for (const Level& level : kLevels) table.heads[0].push_back(level.name);
-  for (const ContenderResult& contender : study.comparison.problems.at(0).contenders) {
-    const std::size_t at = contender.name.rfind('@');
-    Table::Row row = {contender.algorithm, contender.name.substr(at + 1)};
+  for (const AlgorithmResult& compared : study.comparison.problems.at(0).algorithms) {
+    const std::size_t at = compared.name.rfind('@');
+    Table::Row row = {compared.algorithm, compared.name.substr(at + 1)};
     for (const Level& level : kLevels) {
-      row.push_back(EndsText(CountEnds(study, contender, level.end_A)));
+      row.push_back(EndsText(CountEnds(study, compared, level.end_A)));
     }
     table.rows.push_back(std::move(row));
   }

@@ -9,7 +9,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/floor.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 
 namespace lyrefit {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 constexpr double kSame = 1e-6;  // relative
 
 // DE/rand/1/bin with the settings of the study that the page quotes.
-Contender QuotedDe() {
-  Contender quoted = PlainContenders({Algorithm::kDe}, {})[0];
+ComparedAlgorithm QuotedDe() {
+  ComparedAlgorithm quoted = PlainAlgorithms({Algorithm::kDe}, {})[0];
   quoted.search.population = 50;
   quoted.search.iterations = 1600;
   quoted.search.de_scale = 0.6;
@@ -28,8 +28,8 @@ Contender QuotedDe() {
   return quoted;
 }
 
-std::vector<Contender> Contenders(const CornerOptions& options) {
-  std::vector<Contender> all = BudgetContenders(
+std::vector<ComparedAlgorithm> Algorithms(const CornerOptions& options) {
+  std::vector<ComparedAlgorithm> all = BudgetAlgorithms(
       {Algorithm::kMlo, Algorithm::kLo, Algorithm::kDe, Algorithm::kRandom}, options.budgets);
   all.push_back(QuotedDe());
   all.insert(all.end(), options.peers.begin(), options.peers.end());
@@ -49,12 +49,12 @@ Expected<FitReport> FitOf(const CompareCurve& subject, Model model, Objective ob
 
 }  // namespace
 
-CornerEnds CountEnds(const CornerStudy& study, const ContenderResult& contender,
+CornerEnds CountEnds(const CornerStudy& study, const AlgorithmResult& compared,
                      double RunRecord::*end_A) {
   CornerEnds ends;
   const double optimum = study.optimum_A();
   const double literature = study.literature_A();
-  for (const RunRecord& run : contender.runs) {
+  for (const RunRecord& run : compared.runs) {
     const double end = run.*end_A;
     if (end <= optimum * (1 + kSame)) {
       ++ends.optimum;
@@ -94,7 +94,7 @@ Expected<CornerStudy> StudyCorner(const std::string& folder, const std::string& 
   compare.threads = options.threads;
   compare.journal = options.journal;
   compare.journal_section = "pwp201";
-  TRY(study.comparison, Compare({subject}, Contenders(options), compare, observer));
+  TRY(study.comparison, Compare({subject}, Algorithms(options), compare, observer));
   study.interrupted = study.comparison.interrupted || study.certificate.interrupted ||
                       study.one.interrupted || study.two.interrupted ||
                       study.two_solved.interrupted;

@@ -17,7 +17,7 @@ struct CornerOptions {
   std::uint64_t seed = 0;
   int runs = 30;  // of each search at each budget
   std::vector<std::int64_t> budgets = {1000, 10000, 100000, 1000000};
-  std::vector<Contender> peers;  // of another library, named and with budgets as ours
+  std::vector<ComparedAlgorithm> peers;  // of another library, named and with budgets as ours
   int threads = 0;
   std::string journal;  // see CompareOptions; empty: none
 };
@@ -47,7 +47,7 @@ struct CornerEnds {
 };
 
 // Of the figure that `end_A` names of every run.
-CornerEnds CountEnds(const CornerStudy& study, const ContenderResult& contender,
+CornerEnds CountEnds(const CornerStudy& study, const AlgorithmResult& compared,
                      double RunRecord::*end_A);
 
 // Reads the curve and its bounds of that name (NamedBounds) from `folder`; takes half a minute.

@@ -76,14 +76,14 @@ TEST(Pwp201Page, CountsEndsByWhereTheyLie) {
   study.certificate.models.resize(2);
   study.certificate.models[0].rmse_A = 2e-3;
   study.certificate.models[1].rmse_A = 1e-3;
-  ContenderResult contender;
+  AlgorithmResult compared;
   for (const double end : {1e-3, 1e-3 * (1 + 1e-7), 1.1e-3, 2e-3 * (1 - 2e-6), 2e-3 * (1 - 1e-7),
                            2e-3 * (1 + 1e-7), 2e-3 * (1 + 2e-6), 0.1, kUnknown}) {
     RunRecord run;
     run.searched_A = end;
-    contender.runs.push_back(run);
+    compared.runs.push_back(run);
   }
-  const CornerEnds ends = CountEnds(study, contender, &RunRecord::searched_A);
+  const CornerEnds ends = CountEnds(study, compared, &RunRecord::searched_A);
   EXPECT_EQ(ends.optimum, 2);
   EXPECT_EQ(ends.between, 2);
   EXPECT_EQ(ends.literature, 2);

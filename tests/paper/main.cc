@@ -21,7 +21,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
 #include "paper/corner_page.h"
@@ -47,7 +47,7 @@ Expected<void> AddPeers(const std::string& list, PaperStudyOptions* options) {
   search.iterations = options->iterations;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
-    TRY(Contender peer, PagmoContender(list.substr(begin, end - begin), search));
+    TRY(ComparedAlgorithm peer, PagmoAlgorithm(list.substr(begin, end - begin), search));
     options->peers.push_back(std::move(peer));
     begin = end + 1;
   }
@@ -103,7 +103,7 @@ Expected<CornerOptions> CornerOptionsOf(const PaperStudyOptions& options) {
   for (int i = 0; i < options.corner_budgets; ++i) corner.budgets.push_back(budget *= 10);
   if (PagmoNames().empty()) return corner;
   for (const std::int64_t evaluations : corner.budgets) {
-    TRY(Contender peer, PagmoContender("cmaes", BudgetSearch(evaluations)));
+    TRY(ComparedAlgorithm peer, PagmoAlgorithm("cmaes", BudgetSearch(evaluations)));
     peer.algorithm = peer.name;
     peer.name += fmt::format("@{}", evaluations);
     corner.peers.push_back(std::move(peer));

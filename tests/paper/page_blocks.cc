@@ -16,14 +16,14 @@ block::Table BudgetSummary(const PaperStudy& study) {
                           "and the best candidate's polish", "and all starts"}}};
   for (const ProblemResult& problem : study.budget.problems) {
     std::vector<block::Table::Row> rows;
-    for (const ContenderResult& contender : problem.contenders) {
-      const std::int64_t budget = std::stoll(contender.name.substr(contender.name.find('@') + 1));
-      if (rows.empty() || rows.back()[1] != contender.algorithm) {
-        rows.push_back({ToText(problem.model), contender.algorithm, "", "", "", ""});
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      const std::int64_t budget = std::stoll(compared.name.substr(compared.name.find('@') + 1));
+      if (rows.empty() || rows.back()[1] != compared.algorithm) {
+        rows.push_back({ToText(problem.model), compared.algorithm, "", "", "", ""});
       }
       if (budget != 10 && budget != 1000 && budget != 100000) continue;
-      const int hits[] = {contender.searched.within_1e6, contender.plain_polished.within_1e9,
-                          contender.own_polished.within_1e9, contender.polished.within_1e9};
+      const int hits[] = {compared.searched.within_1e6, compared.plain_polished.within_1e9,
+                          compared.own_polished.within_1e9, compared.polished.within_1e9};
       for (int level = 0; level < 4; ++level) {
         std::string& cell = rows.back()[2 + level];
         cell += (cell.empty() ? "" : " / ") + std::to_string(hits[level]);
@@ -68,7 +68,7 @@ block::Table CertifiedTable(const PaperStudy& study) {
 std::vector<block::Any> RankedTables(const PaperStudy& study) {
   std::vector<block::Any> tables;
   for (const ProblemResult& problem : study.ranked.problems) {
-    std::vector<std::size_t> order(problem.contenders.size());
+    std::vector<std::size_t> order(problem.algorithms.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const std::vector<double>& ranks = problem.searched.friedman.mean_rank;
     std::sort(order.begin(), order.end(),
@@ -77,12 +77,12 @@ std::vector<block::Any> RankedTables(const PaperStudy& study) {
                           {{"algorithm", "mean rank, search alone", "min", "mean", "max",
                             "mean rank, polished", "polished runs at the optimum"}}};
     for (const std::size_t i : order) {
-      const ContenderResult& contender = problem.contenders[i];
+      const AlgorithmResult& compared = problem.algorithms[i];
       table.rows.push_back(
-          {contender.name, fmt::format("{:.2f}", ranks[i]), Scientific(contender.searched.min, 6),
-           Scientific(contender.searched.mean, 6), Scientific(contender.searched.max, 6),
+          {compared.name, fmt::format("{:.2f}", ranks[i]), Scientific(compared.searched.min, 6),
+           Scientific(compared.searched.mean, 6), Scientific(compared.searched.max, 6),
            fmt::format("{:.2f}", problem.polished.friedman.mean_rank[i]),
-           fmt::format("{} of {}", contender.polished.within_1e9, contender.runs.size())});
+           fmt::format("{} of {}", compared.polished.within_1e9, compared.runs.size())});
     }
     tables.emplace_back(std::move(table));
   }

@@ -119,13 +119,13 @@ void AddS75Runs(const PaperStudy& study, Section* section) {
                  {{"curve", "algorithm", "min", "mean", "median", "max", "std",
                    "polished, min and max", "polished runs at the optimum"}}};
   for (const ProblemResult& problem : study.s75.problems) {
-    for (const ContenderResult& contender : problem.contenders) {
-      const RunSpread& s = contender.searched;
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      const RunSpread& s = compared.searched;
       table.rows.push_back(
-          {problem.curve_name, contender.name, Scientific(s.min, 5), Scientific(s.mean, 5),
+          {problem.curve_name, compared.name, Scientific(s.min, 5), Scientific(s.mean, 5),
            Scientific(s.median, 5), Scientific(s.max, 5), Scientific(s.std, 2),
-           Scientific(contender.polished.min, 5) + ", " + Scientific(contender.polished.max, 5),
-           fmt::format("{} of {}", contender.polished.within_1e9, contender.runs.size())});
+           Scientific(compared.polished.min, 5) + ", " + Scientific(compared.polished.max, 5),
+           fmt::format("{} of {}", compared.polished.within_1e9, compared.runs.size())});
     }
   }
   AddSentence("All runs on the constructed family, searched and polished:", section);
@@ -227,18 +227,18 @@ Section BudgetSection(const PaperStudy& study, const Remarks& remarks) {
   AddRemark(remarks, "budget", &section);
   for (const ProblemResult& problem : study.budget.problems) {
     Table table = {"l", {{"algorithm"}}};
-    for (const ContenderResult& contender : problem.contenders) {
-      const std::string budget = contender.name.substr(contender.name.find('@') + 1);
-      if (table.rows.empty() || table.rows.back()[0] != contender.algorithm) {
-        table.rows.push_back({contender.algorithm});
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      const std::string budget = compared.name.substr(compared.name.find('@') + 1);
+      if (table.rows.empty() || table.rows.back()[0] != compared.algorithm) {
+        table.rows.push_back({compared.algorithm});
       }
       if (table.rows.size() == 1) {
         table.heads[0].push_back(budget);
         table.alignment += 'r';
       }
       table.rows.back().push_back(fmt::format(
-          "{} / {} / {} / {}", contender.searched.within_1e6, contender.plain_polished.within_1e9,
-          contender.own_polished.within_1e9, contender.polished.within_1e9));
+          "{} / {} / {} / {}", compared.searched.within_1e6, compared.plain_polished.within_1e9,
+          compared.own_polished.within_1e9, compared.polished.within_1e9));
     }
     AddSentence(ProblemTitle(problem) + ":", &section);
     AddTable(std::move(table), &section);

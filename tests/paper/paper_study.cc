@@ -17,7 +17,7 @@
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 
 namespace lyrefit {
 namespace {
@@ -116,20 +116,20 @@ class PaperRun {
   }
 
   Expected<void> Study(const Expected<CompareCurve>& subject,
-                       const std::vector<Contender>& contenders, const CompareOptions& options,
+                       const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
                        Comparison PaperStudy::*result) {
     if (!subject) return tl::unexpected(subject.error());
-    return Study(std::vector<CompareCurve>{*subject}, contenders, options, result);
+    return Study(std::vector<CompareCurve>{*subject}, algorithms, options, result);
   }
 
   Expected<void> Study(const std::vector<CompareCurve>& subjects,
-                       const std::vector<Contender>& contenders, CompareOptions options,
+                       const std::vector<ComparedAlgorithm>& algorithms, CompareOptions options,
                        Comparison PaperStudy::*result) {
     options.journal = study_.options.journal;
     for (const Section& section : kSections) {
       if (section.comparison == result) options.journal_section = section.name;
     }
-    Expected<Comparison> comparison = Compare(subjects, contenders, options, observer_);
+    Expected<Comparison> comparison = Compare(subjects, algorithms, options, observer_);
     if (!comparison) return tl::unexpected(comparison.error());
     stopped_ = comparison->interrupted;
     for (const std::string& remark : comparison->remarks) {
@@ -204,18 +204,18 @@ class PaperRun {
 
   Expected<void> Msx60() {
     const int runs = study_.options.batch * study_.options.batches;
-    return Study(PaperMsx60(), PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
+    return Study(PaperMsx60(), PlainAlgorithms({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
                  Options(kModels, runs), &PaperStudy::msx60);
   }
 
   Expected<void> RtcFrance() {
     // Table 16's variants are the cells (Pm 0.25, gamma 0) and (Pm 0, gamma 0.5) of Table 17.
-    std::vector<Contender> contenders = PlainContenders(
+    std::vector<ComparedAlgorithm> algorithms = PlainAlgorithms(
         {Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss, Algorithm::kMlo}, PaperSearch());
-    contenders[1].search.memory_rate = 0.25;
-    contenders[2].search.distance_coefficient = 0.5;
+    algorithms[1].search.memory_rate = 0.25;
+    algorithms[2].search.distance_coefficient = 0.5;
     const int runs = study_.options.batch * study_.options.batches;
-    return Study(Subject("rtc_france", "literature"), contenders, Options(kModels, runs),
+    return Study(Subject("rtc_france", "literature"), algorithms, Options(kModels, runs),
                  &PaperStudy::rtc_france);
   }
 
@@ -225,7 +225,7 @@ class PaperRun {
         Options({Model::kTripleDiode}, study_.options.batch * study_.options.sensitivity_batches);
     options.polish = false;
     return Study(Subject("rtc_france", "literature"),
-                 SensitivityContenders(steps, steps, PaperSearch()), options,
+                 SensitivityAlgorithms(steps, steps, PaperSearch()), options,
                  &PaperStudy::sensitivity);
   }
 
@@ -246,24 +246,24 @@ class PaperRun {
       subjects.push_back(MakeSubject(std::move(curve), *bounds));
     }
     return Study(
-        subjects, PlainContenders({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
+        subjects, PlainAlgorithms({Algorithm::kLo, Algorithm::kMlo}, PaperSearch()),
         Options({Model::kSingleDiode}, study_.options.batch * study_.options.sensitivity_batches),
         &PaperStudy::s75);
   }
 
   Expected<void> Rank() {
-    std::vector<Contender> contenders =
-        PlainContenders({Algorithm::kMlo, Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss,
+    std::vector<ComparedAlgorithm> algorithms =
+        PlainAlgorithms({Algorithm::kMlo, Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss,
                          Algorithm::kDe, Algorithm::kRandom},
                         PaperSearch());
-    for (Contender peer : study_.options.peers) {
+    for (ComparedAlgorithm peer : study_.options.peers) {
       peer.search.population = PaperSearch().population;
       peer.search.iterations = PaperSearch().iterations;
-      contenders.push_back(std::move(peer));
+      algorithms.push_back(std::move(peer));
     }
     CompareOptions options = Options({Model::kTripleDiode}, study_.options.ranked_runs);
     options.rankings = true;
-    return Study(Subject("rtc_france", "literature"), contenders, options, &PaperStudy::ranked);
+    return Study(Subject("rtc_france", "literature"), algorithms, options, &PaperStudy::ranked);
   }
 
   Expected<void> Budget() {
@@ -273,7 +273,7 @@ class PaperRun {
     options.plain_polish = true;
     return Study(
         Subject("rtc_france", "paper"),
-        BudgetContenders({Algorithm::kMlo, Algorithm::kLo, Algorithm::kDe, Algorithm::kRandom},
+        BudgetAlgorithms({Algorithm::kMlo, Algorithm::kLo, Algorithm::kDe, Algorithm::kRandom},
                          budgets),
         options, &PaperStudy::budget);
   }

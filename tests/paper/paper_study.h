@@ -31,7 +31,7 @@ struct PaperStudyOptions {
   int sound_effort = 1000;
   int wide_problems = 100;
   int proof_effort = 10000;
-  std::vector<Contender> peers;  // further algorithms to rank, of another library
+  std::vector<ComparedAlgorithm> peers;  // further algorithms to rank, of another library
   int threads = 0;
   // A file that every finished run is written to, and that the study is taken up from; empty: none.
   std::string journal;

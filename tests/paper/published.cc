@@ -27,13 +27,13 @@ double Statistic(const std::vector<double>& values, const std::string& quantity)
 }
 
 // The statistic of every whole batch of the runs.
-std::vector<double> OverBatches(const ContenderResult& contender, const std::string& quantity,
+std::vector<double> OverBatches(const AlgorithmResult& compared, const std::string& quantity,
                                 int batch) {
   std::vector<double> statistics;
-  for (std::size_t begin = 0; begin + batch <= contender.runs.size(); begin += batch) {
+  for (std::size_t begin = 0; begin + batch <= compared.runs.size(); begin += batch) {
     std::vector<double> values(static_cast<std::size_t>(batch));
     for (std::size_t r = 0; r < values.size(); ++r) {
-      values[r] = contender.runs[begin + r].searched_A;
+      values[r] = compared.runs[begin + r].searched_A;
     }
     statistics.push_back(Statistic(values, quantity));
   }
@@ -60,11 +60,11 @@ void PredictBatch(const std::vector<double>& statistics, CheckedValue* checked) 
   }
 }
 
-const ContenderResult* Find(const Comparison& comparison, const PublishedValue& published) {
+const AlgorithmResult* Find(const Comparison& comparison, const PublishedValue& published) {
   for (const ProblemResult& problem : comparison.problems) {
     if (problem.curve_name != published.curve || problem.model != published.model) continue;
-    for (const ContenderResult& contender : problem.contenders) {
-      if (contender.name == published.algorithm) return &contender;
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      if (compared.name == published.algorithm) return &compared;
     }
   }
   return nullptr;
@@ -108,9 +108,9 @@ std::vector<CheckedValue> CheckPublished(const std::vector<PublishedValue>& publ
                                          const Comparison& comparison, int batch) {
   std::vector<CheckedValue> checked;
   for (const PublishedValue& value : published) {
-    const ContenderResult* contender = Find(comparison, value);
-    if (contender == nullptr) continue;
-    const std::vector<double> statistics = OverBatches(*contender, value.quantity, batch);
+    const AlgorithmResult* compared = Find(comparison, value);
+    if (compared == nullptr) continue;
+    const std::vector<double> statistics = OverBatches(*compared, value.quantity, batch);
     if (statistics.size() < 2 || std::isnan(statistics[0])) continue;
     CheckedValue one;
     one.published = value;

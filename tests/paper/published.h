@@ -15,7 +15,7 @@ struct PublishedValue {
   std::string table;  // "Table 12"
   std::string curve;  // name of the data set, "rtc_france"
   Model model = Model::kSingleDiode;
-  std::string algorithm;  // name of the contender, "mlo" or "Pm=0.5 gamma=0.25"
+  std::string algorithm;  // name of the compared, "mlo" or "Pm=0.5 gamma=0.25"
   std::string quantity;   // "min", "mean", "max", "std" of the searched RMSE in A; others are kept
   std::string text;       // as printed
   double value = 0;
@@ -53,7 +53,7 @@ struct CheckedValue {
   Check check = Check::kNotReproduced;  // reproduced: the printed value lies within
 };
 
-// Checks every value that `comparison` has a curve, model and contender for; the others are left
+// Checks every value that `comparison` has a curve, model and compared for; the others are left
 // out. Needs at least two batches of `batch` runs.
 std::vector<CheckedValue> CheckPublished(const std::vector<PublishedValue>& published,
                                          const Comparison& comparison, int batch);

@@ -40,20 +40,20 @@ TEST(ReadPublished, RefusesATableWithoutItsColumns) {
   EXPECT_THAT(values.error().ToString(), HasSubstr("expected a column 'model'"));
 }
 
-// Two batches of four runs of one contender.
+// Two batches of four runs of one compared.
 Comparison TwoBatches(const std::vector<double>& searched) {
   Comparison comparison;
   ProblemResult problem;
   problem.curve_name = "rtc";
   problem.model = Model::kTripleDiode;
-  ContenderResult contender;
-  contender.name = "mlo";
+  AlgorithmResult compared;
+  compared.name = "mlo";
   for (const double rmse : searched) {
     RunRecord run;
     run.searched_A = rmse;
-    contender.runs.push_back(run);
+    compared.runs.push_back(run);
   }
-  problem.contenders = {contender};
+  problem.algorithms = {compared};
   comparison.problems = {problem};
   return comparison;
 }

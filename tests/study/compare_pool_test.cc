@@ -8,7 +8,7 @@
 #include "../temp_folder.h"
 #include "json_keys.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/study/pool.h"
+#include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "pooled_study.h"
 
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 Comparison Compared(const std::vector<CompareCurve>& subjects, const CompareOptions& options,
                     const Observer& observer = {}) {
-  const auto comparison = Compare(subjects, PooledContenders(), options, observer);
+  const auto comparison = Compare(subjects, PooledAlgorithms(), options, observer);
   EXPECT_TRUE(comparison) << comparison.error().ToString();
   return *comparison;
 }
@@ -40,9 +40,9 @@ std::vector<CompareCurve> StringsAndFamilies() {
 }
 
 TEST(ComparePooled, HasNoHardCandidatesOfFamilies) {
-  std::vector<Contender> contenders = PooledContenders();
-  contenders[0].candidates = SearchVariables::kHard;
-  const auto comparison = Compare(StringsAndFamilies(), contenders, PooledOptions());
+  std::vector<ComparedAlgorithm> algorithms = PooledAlgorithms();
+  algorithms[0].candidates = SearchVariables::kHard;
+  const auto comparison = Compare(StringsAndFamilies(), algorithms, PooledOptions());
   ASSERT_FALSE(comparison);
   EXPECT_THAT(comparison.error().ToString(), HasSubstr("candidates hard is for curves"));
 }
@@ -51,7 +51,7 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
   SKIP_IF_SANITIZED();
   const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
   ASSERT_EQ(comparison.problems.size(), 3U);
-  const auto pools = PoolProblems(comparison);
+  const auto pools = SummariseProblems(comparison);
   ASSERT_EQ(pools.size(), 2U);
   EXPECT_EQ(pools[0].name, "strings_2");
   EXPECT_EQ(pools[0].devices.size(), 2U);
@@ -60,14 +60,14 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
     EXPECT_EQ(problem.objective, Objective::kSolvedCurrent);
     EXPECT_EQ(problem.reference.points, 2);
     EXPECT_EQ(problem.reference.parameters.size(), problem.parameters.size());
-    ASSERT_EQ(problem.contenders.size(), 6U);
-    for (const ContenderResult& contender : problem.contenders) {
-      const RunRecord& run = contender.runs.at(0);
-      EXPECT_GE(run.polished_A, problem.reference.rmse_A) << contender.name;
-      EXPECT_LE(run.polished_A, run.searched_A) << contender.name;
+    ASSERT_EQ(problem.algorithms.size(), 6U);
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      const RunRecord& run = compared.runs.at(0);
+      EXPECT_GE(run.polished_A, problem.reference.rmse_A) << compared.name;
+      EXPECT_LE(run.polished_A, run.searched_A) << compared.name;
       EXPECT_EQ(run.parameters.size(), problem.parameters.size());
-      if (contender.kind != ContenderKind::kSearch) continue;
-      EXPECT_LE(run.evaluations, contender.budget);
+      if (compared.kind != AlgorithmKind::kSearch) continue;
+      EXPECT_LE(run.evaluations, compared.budget);
       EXPECT_EQ(run.own_parameters.size(), problem.parameters.size());
       EXPECT_GE(run.plain_seconds, 0);
       EXPECT_LE(run.plain_polished_A, run.searched_A * (1 + 1e-9));
@@ -90,7 +90,7 @@ TEST(ComparePooled, RunsADefaultFitAsItIs) {
   fit.search = FitOptions::SearchBesideShapes();
   const auto report = Fit(subject.curve, fit);
   ASSERT_TRUE(report);
-  const RunRecord& run = comparison.problems[0].contenders[5].runs[0];
+  const RunRecord& run = comparison.problems[0].algorithms[5].runs[0];
   EXPECT_EQ(run.polished_A, report->rmse.refined.solved_current_A);
   EXPECT_EQ(run.evaluations, report->search.evaluations);
 }
@@ -125,7 +125,7 @@ TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
   options.journal = folder.Path("study.jsonl");
   Compared(MadeSubjects("strings_2", 1), options);
   const auto refusal = [&](const std::vector<CompareCurve>& subjects) {
-    const auto comparison = Compare(subjects, PooledContenders(), options);
+    const auto comparison = Compare(subjects, PooledAlgorithms(), options);
     return comparison ? "not refused" : comparison.error().ToString();
   };
   EXPECT_THAT(refusal(MadeSubjects("strings_2", 2)), HasSubstr("begun with number of curves: 1"));
@@ -142,7 +142,7 @@ TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
 TEST(ComparePooled, NamesWhatCannotBeFitted) {
   std::vector<CompareCurve> subjects = MadeSubjects("family_offsets", 1);
   subjects[0].set->curves.resize(1);
-  const auto comparison = Compare(subjects, PooledContenders(), PooledOptions());
+  const auto comparison = Compare(subjects, PooledAlgorithms(), PooledOptions());
   ASSERT_FALSE(comparison);
   EXPECT_THAT(comparison.error().ToString(), HasSubstr("cannot be compared on family_offsets 0"));
 }

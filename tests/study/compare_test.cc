@@ -24,9 +24,9 @@ void ExpectSameRuns(const Comparison& a, const Comparison& b) {
   ASSERT_EQ(a.problems.size(), b.problems.size());
   for (std::size_t p = 0; p < a.problems.size(); ++p) {
     EXPECT_TRUE(Same(a.problems[p].reference.rmse_A, b.problems[p].reference.rmse_A));
-    for (std::size_t c = 0; c < a.problems[p].contenders.size(); ++c) {
-      const ContenderResult& x = a.problems[p].contenders[c];
-      const ContenderResult& y = b.problems[p].contenders[c];
+    for (std::size_t c = 0; c < a.problems[p].algorithms.size(); ++c) {
+      const AlgorithmResult& x = a.problems[p].algorithms[c];
+      const AlgorithmResult& y = b.problems[p].algorithms[c];
       EXPECT_TRUE(Same(x.expected_evaluations, y.expected_evaluations));
       ASSERT_EQ(x.runs.size(), y.runs.size());
       for (std::size_t r = 0; r < x.runs.size(); ++r) {
@@ -46,9 +46,9 @@ void ExpectSameRuns(const Comparison& a, const Comparison& b) {
   }
 }
 
-Comparison Compared(const std::vector<Contender>& contenders, const CompareOptions& options,
+Comparison Compared(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
                     const Observer& observer = {}) {
-  auto comparison = Compare({RtcFrance()}, contenders, options, observer);
+  auto comparison = Compare({RtcFrance()}, algorithms, options, observer);
   EXPECT_TRUE(comparison) << comparison.error().ToString();
   return *comparison;
 }
@@ -57,14 +57,14 @@ TEST(Compare, GivesTheSameBitsOnAnyNumberOfThreads) {
   CompareOptions options = SmallOptions();
   options.plain_polish = true;
   options.threads = 1;
-  const Comparison one = Compared(SmallContenders(), options);
+  const Comparison one = Compared(SmallAlgorithms(), options);
   options.threads = 3;
-  ExpectSameRuns(one, Compared(SmallContenders(), options));
+  ExpectSameRuns(one, Compared(SmallAlgorithms(), options));
 }
 
-TEST(Compare, RunsEachContenderAsAFitOfItsOwnWould) {
+TEST(Compare, RunsEachAlgorithmAsAFitOfItsOwnWould) {
   const CompareOptions options = SmallOptions();
-  const Comparison comparison = Compared(SmallContenders(), options);
+  const Comparison comparison = Compared(SmallAlgorithms(), options);
   FitOptions fit;
   fit.model = Model::kDoubleDiode;
   fit.objective = options.objective;
@@ -75,30 +75,30 @@ TEST(Compare, RunsEachContenderAsAFitOfItsOwnWould) {
   fit.intervals = Intervals::kNone;
   const auto report = Fit(RtcFrance().curve, fit);
   ASSERT_TRUE(report);
-  const RunRecord& run = comparison.problems[1].contenders[1].runs[2];
+  const RunRecord& run = comparison.problems[1].algorithms[1].runs[2];
   EXPECT_EQ(run.searched_A, report->rmse.searched.measured_current_A);
   EXPECT_EQ(run.own_polished_A, report->rmse.refined_best_candidate.measured_current_A);
   EXPECT_EQ(run.polished_A, report->rmse.refined.measured_current_A);
   EXPECT_TRUE(std::isnan(run.plain_polished_A));
 }
 
-TEST(Compare, GivesAllContendersTheSameBudget) {
-  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
-  for (const ContenderResult& contender : comparison.problems[0].contenders) {
-    for (const RunRecord& run : contender.runs) {
-      EXPECT_LE(run.evaluations, 210) << contender.name;
+TEST(Compare, GivesAllAlgorithmsTheSameBudget) {
+  const Comparison comparison = Compared(SmallAlgorithms(), SmallOptions());
+  for (const AlgorithmResult& compared : comparison.problems[0].algorithms) {
+    for (const RunRecord& run : compared.runs) {
+      EXPECT_LE(run.evaluations, 210) << compared.name;
       // The best lyrebird has nobody to flee to: half of its moves cost nothing.
-      EXPECT_GE(run.evaluations, contender.name == "mlo" ? 185 : 210) << contender.name;
+      EXPECT_GE(run.evaluations, compared.name == "mlo" ? 185 : 210) << compared.name;
     }
   }
 }
 
-TEST(Compare, StartsAllContendersOfARunFromTheSamePoints) {
-  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
-  const auto& contenders = comparison.problems[0].contenders;
-  for (const ContenderResult& contender : contenders) {
-    EXPECT_EQ(contender.trace.front().evaluations, 10);
-    EXPECT_EQ(contender.trace.front().best_A, contenders[0].trace.front().best_A);
+TEST(Compare, StartsAllAlgorithmsOfARunFromTheSamePoints) {
+  const Comparison comparison = Compared(SmallAlgorithms(), SmallOptions());
+  const auto& algorithms = comparison.problems[0].algorithms;
+  for (const AlgorithmResult& compared : algorithms) {
+    EXPECT_EQ(compared.trace.front().evaluations, 10);
+    EXPECT_EQ(compared.trace.front().best_A, algorithms[0].trace.front().best_A);
   }
 }
 
@@ -106,7 +106,7 @@ TEST(Compare, OrdersProblemsByCurveThenModel) {
   CompareOptions options = SmallOptions();
   options.runs = 1;
   options.polish = false;
-  const auto comparison = Compare({RtcFrance(), RtcFrance("wide")}, SmallContenders(), options);
+  const auto comparison = Compare({RtcFrance(), RtcFrance("wide")}, SmallAlgorithms(), options);
   ASSERT_TRUE(comparison);
   std::vector<std::string> order;
   for (const ProblemResult& problem : comparison->problems) {
@@ -117,11 +117,11 @@ TEST(Compare, OrdersProblemsByCurveThenModel) {
 }
 
 TEST(Compare, MeasuresAgainstTheCertifiedOptimumOrTheBestOfAllRuns) {
-  const Comparison comparison = Compared(SmallContenders(), SmallOptions());
+  const Comparison comparison = Compared(SmallAlgorithms(), SmallOptions());
   for (const ProblemResult& problem : comparison.problems) {
     double best = kInfinity;
-    for (const ContenderResult& contender : problem.contenders) {
-      for (const RunRecord& run : contender.runs) best = std::min(best, run.polished_A);
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      for (const RunRecord& run : compared.runs) best = std::min(best, run.polished_A);
     }
     EXPECT_NEAR(problem.reference.rmse_A / best, 1, 1e-9);
     EXPECT_LE(problem.reference.rmse_A, best);
@@ -134,28 +134,28 @@ TEST(Compare, MeasuresAgainstTheCertifiedOptimumOrTheBestOfAllRuns) {
 TEST(Compare, LeavesOutWhatIsNotAskedFor) {
   CompareOptions options = SmallOptions();
   options.polish = false;
-  const Comparison pure = Compared(SmallContenders(), options);
+  const Comparison pure = Compared(SmallAlgorithms(), options);
   const ProblemResult& problem = pure.problems[0];
-  EXPECT_TRUE(std::isnan(problem.contenders[0].polished.min));
-  EXPECT_TRUE(std::isnan(problem.contenders[0].plain_polished.mean));
+  EXPECT_TRUE(std::isnan(problem.algorithms[0].polished.min));
+  EXPECT_TRUE(std::isnan(problem.algorithms[0].plain_polished.mean));
   EXPECT_FALSE(problem.searched.pairs.empty());
   EXPECT_TRUE(problem.polished.pairs.empty());
   options.rankings = false;
-  EXPECT_TRUE(Compared(SmallContenders(), options).problems[0].searched.pairs.empty());
+  EXPECT_TRUE(Compared(SmallAlgorithms(), options).problems[0].searched.pairs.empty());
 }
 
-TEST(Compare, RanksNothingForOneContenderOrOneRun) {
+TEST(Compare, RanksNothingForOneAlgorithmOrOneRun) {
   CompareOptions options = SmallOptions();
-  const Comparison alone = Compared({SmallContenders()[0]}, options);
+  const Comparison alone = Compared({SmallAlgorithms()[0]}, options);
   EXPECT_TRUE(alone.problems[0].searched.pairs.empty());
-  EXPECT_EQ(alone.problems[0].polished.friedman.contenders, 0);
+  EXPECT_EQ(alone.problems[0].polished.friedman.algorithms, 0);
   options.runs = 1;
-  const Comparison once = Compared(SmallContenders(), options);
+  const Comparison once = Compared(SmallAlgorithms(), options);
   EXPECT_TRUE(once.problems[0].searched.signed_ranks.empty());
 }
 
 TEST(Compare, TakesASearchOfTheUsersOwn) {
-  Contender own{"middle", {}, SmallSearch(), {}};
+  ComparedAlgorithm own{"middle", {}, SmallSearch(), {}};
   own.searcher = [](const ObjectiveFunction& objective, const Box& box, const SearchOptions&,
                     const Observer&) {
     SearchSummary summary;
@@ -167,8 +167,8 @@ TEST(Compare, TakesASearchOfTheUsersOwn) {
     summary.evaluations = 1;
     return summary;  // keeps no trace
   };
-  const Comparison comparison = Compared({own, SmallContenders()[0]}, SmallOptions());
-  const ContenderResult& result = comparison.problems[0].contenders[0];
+  const Comparison comparison = Compared({own, SmallAlgorithms()[0]}, SmallOptions());
+  const AlgorithmResult& result = comparison.problems[0].algorithms[0];
   EXPECT_EQ(result.algorithm, "middle");
   EXPECT_EQ(result.runs[0].evaluations, 1);
   EXPECT_EQ(result.searched.std, 0);
@@ -190,7 +190,7 @@ TEST(Compare, TellsTheObserverOfEveryRunOneThreadAtATime) {
     --inside;
     return ObserverAction::kContinue;
   };
-  Compared(SmallContenders(), SmallOptions(), observer);
+  Compared(SmallAlgorithms(), SmallOptions(), observer);
   std::vector<std::int64_t> all(25);
   for (int i = 0; i < 25; ++i) all[i] = i;
   EXPECT_EQ(done, all);
@@ -204,78 +204,78 @@ Observer StopAfter(std::int64_t runs) {
 
 TEST(Compare, KeepsEveryFinishedRunWhenStopped) {
   CompareOptions options = SmallOptions();
-  const Comparison whole = Compared(SmallContenders(), options);
+  const Comparison whole = Compared(SmallAlgorithms(), options);
   options.threads = 1;  // two could be beyond the run that ends it
-  const Comparison part = Compared(SmallContenders(), options, StopAfter(12 + 8));
+  const Comparison part = Compared(SmallAlgorithms(), options, StopAfter(12 + 8));
   EXPECT_TRUE(part.interrupted);
   ASSERT_EQ(part.problems.size(), 2U);
   EXPECT_TRUE(part.problems[0].complete);
-  EXPECT_EQ(part.problems[0].contenders[2].runs[3].polished_A,
-            whole.problems[0].contenders[2].runs[3].polished_A);
+  EXPECT_EQ(part.problems[0].algorithms[2].runs[3].polished_A,
+            whole.problems[0].algorithms[2].runs[3].polished_A);
   const ProblemResult& cut = part.problems[1];
   EXPECT_FALSE(cut.complete);
   EXPECT_FALSE(cut.reference.certified) << "the proof was not begun";
-  ASSERT_EQ(cut.contenders.size(), 3U);
+  ASSERT_EQ(cut.algorithms.size(), 3U);
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::vector<RunRecord>& runs = cut.contenders[c].runs;
-    ASSERT_EQ(runs.size(), c < 2 ? 3U : 2U) << "run by run, contender by contender";
+    const std::vector<RunRecord>& runs = cut.algorithms[c].runs;
+    ASSERT_EQ(runs.size(), c < 2 ? 3U : 2U) << "run by run, compared by compared";
     for (const RunRecord& run : runs) {
-      EXPECT_EQ(run.polished_A, whole.problems[1].contenders[c].runs[run.run].polished_A);
+      EXPECT_EQ(run.polished_A, whole.problems[1].algorithms[c].runs[run.run].polished_A);
     }
   }
   EXPECT_EQ(cut.searched.friedman.blocks, 2) << "what all have done";
-  const Comparison none = Compared(SmallContenders(), options, StopAfter(0));
+  const Comparison none = Compared(SmallAlgorithms(), options, StopAfter(0));
   EXPECT_TRUE(none.interrupted);
   EXPECT_TRUE(none.problems.empty());
   EXPECT_FALSE(whole.interrupted);
 }
 
-TEST(Compare, LeavesOutContendersWithoutARun) {
+TEST(Compare, LeavesOutAlgorithmsWithoutARun) {
   CompareOptions options = SmallOptions();
   options.threads = 1;
-  const Comparison part = Compared(SmallContenders(), options, StopAfter(2));
+  const Comparison part = Compared(SmallAlgorithms(), options, StopAfter(2));
   ASSERT_EQ(part.problems.size(), 1U);
-  ASSERT_EQ(part.problems[0].contenders.size(), 2U);
-  EXPECT_EQ(part.problems[0].contenders[1].name, "de");
+  ASSERT_EQ(part.problems[0].algorithms.size(), 2U);
+  EXPECT_EQ(part.problems[0].algorithms[1].name, "de");
   EXPECT_TRUE(part.problems[0].searched.pairs.empty());
 }
 
 TEST(Compare, StopsInsideALongRun) {
-  std::vector<Contender> contenders = {SmallContenders()[0]};
-  contenders[0].search.iterations = 100000000;
+  std::vector<ComparedAlgorithm> algorithms = {SmallAlgorithms()[0]};
+  algorithms[0].search.iterations = 100000000;
   CompareOptions options = SmallOptions();
   int calls = 0;
   const Observer observer = [&](const Progress&) {
     return ++calls > 1 ? ObserverAction::kStop : ObserverAction::kContinue;
   };
-  const Comparison stopped = Compared(contenders, options, observer);
+  const Comparison stopped = Compared(algorithms, options, observer);
   EXPECT_TRUE(stopped.interrupted);
   EXPECT_TRUE(stopped.problems.empty()) << "none is done";
 }
 
 // The sentence with which a comparison is refused; no run may have been made before.
 std::string Refusal(const std::vector<CompareCurve>& curves,
-                    const std::vector<Contender>& contenders, const CompareOptions& options) {
+                    const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options) {
   bool ran = false;
   const Observer observer = [&](const Progress&) {
     ran = true;
     return ObserverAction::kContinue;
   };
-  const auto comparison = Compare(curves, contenders, options, observer);
+  const auto comparison = Compare(curves, algorithms, options, observer);
   EXPECT_FALSE(ran);
   return comparison ? "not refused" : comparison.error().message;
 }
 
-TEST(Compare, RefusesBadContenders) {
+TEST(Compare, RefusesBadAlgorithms) {
   const CompareOptions options = SmallOptions();
   EXPECT_THAT(Refusal({RtcFrance()}, {}, options), HasSubstr("no algorithm"));
-  std::vector<Contender> twice = SmallContenders();
+  std::vector<ComparedAlgorithm> twice = SmallAlgorithms();
   twice[2].name = "mlo";
   EXPECT_EQ(Refusal({RtcFrance()}, twice, options), "the algorithm mlo is named twice");
-  std::vector<Contender> nameless = SmallContenders();
+  std::vector<ComparedAlgorithm> nameless = SmallAlgorithms();
   nameless[1].name = "";
   EXPECT_EQ(Refusal({RtcFrance()}, nameless, options), "an algorithm has no name");
-  std::vector<Contender> tiny = SmallContenders();
+  std::vector<ComparedAlgorithm> tiny = SmallAlgorithms();
   tiny[1].search.population = 2;
   EXPECT_EQ(Refusal({RtcFrance()}, tiny, options), "de: population = 2 is outside [4, 20000]");
 }
@@ -284,7 +284,7 @@ TEST(Compare, RefusesBadOptions) {
   const auto refusal = [](const auto& change) {
     CompareOptions options = SmallOptions();
     change(&options);
-    return Refusal({RtcFrance()}, SmallContenders(), options);
+    return Refusal({RtcFrance()}, SmallAlgorithms(), options);
   };
   EXPECT_THAT(refusal([](CompareOptions* o) { o->runs = 0; }), HasSubstr("runs = 0 is outside"));
   EXPECT_THAT(refusal([](CompareOptions* o) { o->models.clear(); }), HasSubstr("no model"));
@@ -294,18 +294,18 @@ TEST(Compare, RefusesBadOptions) {
   EXPECT_THAT(refusal([](CompareOptions* o) { o->target_gap = kUnknown; }),
               HasSubstr("target-gap"));
   EXPECT_THAT(refusal([](CompareOptions* o) { o->threads = -3; }), HasSubstr("threads = -3"));
-  EXPECT_THAT(Refusal({}, SmallContenders(), SmallOptions()), HasSubstr("no curve"));
+  EXPECT_THAT(Refusal({}, SmallAlgorithms(), SmallOptions()), HasSubstr("no curve"));
 }
 
 TEST(Compare, FindsTheMistakeInTheLastProblemBeforeTheFirstRun) {
   CompareCurve reversed = RtcFrance();
   reversed.bounds.overrides["n"] = {2, 1};
-  EXPECT_THAT(Refusal({RtcFrance(), reversed}, SmallContenders(), SmallOptions()),
+  EXPECT_THAT(Refusal({RtcFrance(), reversed}, SmallAlgorithms(), SmallOptions()),
               HasSubstr("sd cannot be compared on rtc_france: "));
   CompareCurve few = RtcFrance();  // enough for five parameters, not for seven
   few.curve.voltage_V.resize(6);
   few.curve.current_A.resize(6);
-  EXPECT_THAT(Refusal({RtcFrance(), few}, SmallContenders(), SmallOptions()),
+  EXPECT_THAT(Refusal({RtcFrance(), few}, SmallAlgorithms(), SmallOptions()),
               HasSubstr("dd cannot be compared on rtc_france: 6 points"));
 }
 

@@ -14,17 +14,17 @@ struct MadeRun {
   double hybrid;
 };
 
-inline ContenderResult MadeContender(const std::string& algorithm, std::int64_t budget,
+inline AlgorithmResult SyntheticAlgorithm(const std::string& algorithm, std::int64_t budget,
                                      const std::vector<MadeRun>& runs, double search_ms = 10) {
-  ContenderResult contender;
-  contender.algorithm = algorithm;
-  contender.name = budget > 0 ? algorithm + "@" + std::to_string(budget) : algorithm;
-  contender.budget = budget;
-  if (algorithm == "shape") contender.kind = ContenderKind::kShape;
-  if (algorithm == "default") contender.kind = ContenderKind::kDefault;
+  AlgorithmResult compared;
+  compared.algorithm = algorithm;
+  compared.name = budget > 0 ? algorithm + "@" + std::to_string(budget) : algorithm;
+  compared.budget = budget;
+  if (algorithm == "shape") compared.kind = AlgorithmKind::kShape;
+  if (algorithm == "default") compared.kind = AlgorithmKind::kDefault;
   for (const MadeRun& made : runs) {
     RunRecord run;
-    run.run = static_cast<int>(contender.runs.size());
+    run.run = static_cast<int>(compared.runs.size());
     run.searched_A = 2e-3 * made.searched;  // 2 mA: the reference of every made device
     run.plain_polished_A = run.searched_A;
     run.own_polished_A = 2e-3 * made.own;
@@ -34,20 +34,20 @@ inline ContenderResult MadeContender(const std::string& algorithm, std::int64_t 
     run.plain_seconds = 1e-3;
     run.own_seconds = 5e-3;
     run.polish_seconds = 30e-3;
-    contender.runs.push_back(std::move(run));
+    compared.runs.push_back(std::move(run));
   }
-  return contender;
+  return compared;
 }
 
 inline ProblemResult MadeDevice(const std::string& name, const std::string& problem,
-                                std::vector<ContenderResult> contenders) {
+                                std::vector<AlgorithmResult> algorithms) {
   ProblemResult device;
   device.curve_name = name;
   device.problem = problem;
   device.objective = Objective::kSolvedCurrent;
   device.reference.rmse_A = 2e-3;
   device.reference.origin = "best of all runs";
-  device.contenders = std::move(contenders);
+  device.algorithms = std::move(algorithms);
   return device;
 }
 

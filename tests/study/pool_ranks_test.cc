@@ -17,8 +17,8 @@ Comparison ThreeBlocks() {
   const auto device = [](const char* name, const char* problem, double de_own) {
     return MadeDevice(
         name, problem,
-        {MadeContender("shape", 0, {{9, 9, 1}}), MadeContender("mlo", 10, {{2, 1, 1}}),
-         MadeContender("de", 10, {{3, de_own, 1}}), MadeContender("mlo", 100, {{2, 1, 1}})});
+        {SyntheticAlgorithm("shape", 0, {{9, 9, 1}}), SyntheticAlgorithm("mlo", 10, {{2, 1, 1}}),
+         SyntheticAlgorithm("de", 10, {{3, de_own, 1}}), SyntheticAlgorithm("mlo", 100, {{2, 1, 1}})});
   };
   return MadeComparison(
       {device("x 0", "x", 1 + 0.9e-6), device("x 1", "x", 1.5), device("y 0", "y", 1)});
@@ -26,7 +26,7 @@ Comparison ThreeBlocks() {
 
 TEST(RankPools, RanksAllProblemsTogetherThenEach) {
   const Comparison comparison = ThreeBlocks();
-  const auto rankings = RankPools(PoolProblems(comparison));
+  const auto rankings = RankPools(SummariseProblems(comparison));
   ASSERT_EQ(rankings.size(), 2U) << "y has one block, and 100 evaluations one search";
   EXPECT_EQ(rankings[0].problem, "");
   EXPECT_EQ(rankings[0].budget, 10);
@@ -40,7 +40,7 @@ TEST(RankPools, RanksAllProblemsTogetherThenEach) {
 
 TEST(RankPools, TakesEndsOfABlockWithin1e6AsEqual) {
   const Comparison comparison = ThreeBlocks();
-  const auto rankings = RankPools(PoolProblems(comparison));
+  const auto rankings = RankPools(SummariseProblems(comparison));
   // 1.5 twice and 1 for mlo: 4 / 3.
   EXPECT_THAT(rankings[0].own.friedman.mean_rank,
               ElementsAre(DoubleEq(4.0 / 3), DoubleEq(5.0 / 3)));
@@ -50,8 +50,8 @@ TEST(RankPools, TakesEndsOfABlockWithin1e6AsEqual) {
 
 TEST(RankPools, LeavesOutBlocksThatNotAllHaveDone) {
   Comparison comparison = ThreeBlocks();
-  comparison.problems[1].contenders.erase(comparison.problems[1].contenders.begin() + 2);
-  const auto rankings = RankPools(PoolProblems(comparison));
+  comparison.problems[1].algorithms.erase(comparison.problems[1].algorithms.begin() + 2);
+  const auto rankings = RankPools(SummariseProblems(comparison));
   ASSERT_EQ(rankings.size(), 1U);
   EXPECT_EQ(rankings[0].searched.friedman.blocks, 2);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/landscape.h"
 
 namespace lyrefit {
@@ -21,12 +21,12 @@ inline std::vector<CompareCurve> MadeSubjects(const std::string& problem, int de
 }
 
 // Two searches of two budgets, and the shape's starts.
-inline std::vector<Contender> PooledContenders() {
-  std::vector<Contender> contenders =
-      BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {10, 40});
-  contenders.push_back(OwnContender(ContenderKind::kShape));
-  contenders.push_back(OwnContender(ContenderKind::kDefault));
-  return contenders;
+inline std::vector<ComparedAlgorithm> PooledAlgorithms() {
+  std::vector<ComparedAlgorithm> algorithms =
+      BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 40});
+  algorithms.push_back(OwnAlgorithm(AlgorithmKind::kShape));
+  algorithms.push_back(OwnAlgorithm(AlgorithmKind::kDefault));
+  return algorithms;
 }
 
 inline CompareOptions PooledOptions() {

@@ -11,7 +11,7 @@ import itertools
 import numpy as np
 from scipy import stats
 
-BLOCKS = {  # contender by contender, one value a block
+BLOCKS = {  # compared by compared, one value a block
     "Plain": [
         [0.91, 0.85, 0.77, 0.94, 0.60, 0.71, 0.83, 0.66, 0.79, 0.88],
         [0.95, 0.80, 0.81, 0.97, 0.72, 0.75, 0.89, 0.70, 0.78, 0.93],

@@ -81,7 +81,7 @@ class RankTests : public ::testing::TestWithParam<const BlockCase*> {};
 TEST_P(RankTests, FriedmanAgreesWithSciPy) {
   const BlockCase& expected = *GetParam();
   const Friedman friedman = FriedmanTest(expected.values);
-  EXPECT_EQ(friedman.contenders, static_cast<int>(expected.values.size()));
+  EXPECT_EQ(friedman.algorithms, static_cast<int>(expected.values.size()));
   EXPECT_EQ(friedman.blocks, static_cast<int>(expected.values[0].size()));
   EXPECT_THAT(friedman.mean_rank, Pointwise(DoubleNear(1e-13), expected.mean_rank));
   EXPECT_NEAR(friedman.chi_square / expected.chi_square, 1, 1e-12);
@@ -125,8 +125,8 @@ TEST(FriedmanTest, SaysNothingWhereAllValuesTie) {
 }
 
 TEST(FriedmanTestDeathTest, WantsFiniteValuesInEqualNumbers) {
-  EXPECT_DEATH(FriedmanTest({{1, 2}, {1}}), "every contender");
-  EXPECT_DEATH(FriedmanTest({{1, 2}}), "two contenders");
+  EXPECT_DEATH(FriedmanTest({{1, 2}, {1}}), "every compared");
+  EXPECT_DEATH(FriedmanTest({{1, 2}}), "two algorithms");
   EXPECT_DEATH(FriedmanTest({{1, NAN}, {1, 2}}), "finite");
 }
 
@@ -137,7 +137,7 @@ TEST(ComparePairs, ReproducesThePublishedTable) {
   const std::vector<double> printed = {4.87, 10.17, 8.60, 9.23, 9.63, 3.13,
                                        8.83, 1.90,  8.97, 5.40, 5.87, 1.40};
   Friedman friedman;
-  friedman.contenders = 12;
+  friedman.algorithms = 12;
   friedman.blocks = 30;
   for (const double rank : printed) friedman.mean_rank.push_back(std::round(30 * rank) / 30);
   EXPECT_DOUBLE_EQ(std::accumulate(friedman.mean_rank.begin(), friedman.mean_rank.end(), 0.0), 78);

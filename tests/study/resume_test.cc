@@ -30,7 +30,7 @@ class ResumeTest : public testing::Test {
 
   Expected<Comparison> Run(std::int64_t stop_after = 1 << 20) {
     runs_told_ = 0;
-    return Compare({RtcFrance()}, SmallContenders(), options_, [&](const Progress& progress) {
+    return Compare({RtcFrance()}, SmallAlgorithms(), options_, [&](const Progress& progress) {
       if (runs_told_++ == 0) first_ = progress.iteration;
       return progress.iteration >= stop_after ? ObserverAction::kStop : ObserverAction::kContinue;
     });
@@ -43,20 +43,20 @@ class ResumeTest : public testing::Test {
 };
 
 TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {
-  std::vector<Contender> contenders = SmallContenders();
+  std::vector<ComparedAlgorithm> algorithms = SmallAlgorithms();
   const auto run = [&](std::int64_t stop_after) {
-    return Compare({RtcFrance()}, contenders, options_, [&](const Progress& progress) {
+    return Compare({RtcFrance()}, algorithms, options_, [&](const Progress& progress) {
       return progress.iteration >= stop_after ? ObserverAction::kStop : ObserverAction::kContinue;
     });
   };
-  contenders[0].candidates = SearchVariables::kHard;
+  algorithms[0].candidates = SearchVariables::kHard;
   ASSERT_TRUE(run(7));
   const auto whole = run(1 << 20);
   ASSERT_TRUE(whole) << whole.error().ToString();
-  for (const ContenderResult& contender : whole->problems.at(0).contenders) {
-    const bool hard = contender.name == contenders[0].name;
-    EXPECT_EQ(contender.candidates, hard ? SearchVariables::kHard : SearchVariables::kAll);
-    for (const RunRecord& record : contender.runs) {
+  for (const AlgorithmResult& compared : whole->problems.at(0).algorithms) {
+    const bool hard = compared.name == algorithms[0].name;
+    EXPECT_EQ(compared.candidates, hard ? SearchVariables::kHard : SearchVariables::kAll);
+    for (const RunRecord& record : compared.runs) {
       if (hard) {
         EXPECT_GE(record.curve_evaluations, 2 * record.evaluations);
       } else {
@@ -64,7 +64,7 @@ TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {
       }
     }
   }
-  contenders[0].candidates = SearchVariables::kAll;
+  algorithms[0].candidates = SearchVariables::kAll;
   const auto other = run(1 << 20);
   ASSERT_FALSE(other);
   EXPECT_THAT(other.error().ToString(), HasSubstr("hard candidates"));
@@ -73,7 +73,7 @@ TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {
 TEST_F(ResumeTest, EndsWithTheBitsOfAStudyThatWasNeverInterrupted) {
   CompareOptions plain = options_;
   plain.journal.clear();
-  const auto whole = Compare({RtcFrance()}, SmallContenders(), plain);
+  const auto whole = Compare({RtcFrance()}, SmallAlgorithms(), plain);
   ASSERT_TRUE(whole);
   const auto part = Run(7);
   ASSERT_TRUE(part);
@@ -122,12 +122,12 @@ TEST_F(ResumeTest, NamesTheOptionThatDiffers) {
   const auto refusal = [this](const auto& change) {
     CompareOptions options = options_;
     std::vector<CompareCurve> curves = {RtcFrance()};
-    std::vector<Contender> contenders = SmallContenders();
-    change(&options, &curves[0], &contenders);
-    const auto comparison = Compare(curves, contenders, options);
+    std::vector<ComparedAlgorithm> algorithms = SmallAlgorithms();
+    change(&options, &curves[0], &algorithms);
+    const auto comparison = Compare(curves, algorithms, options);
     return comparison ? "not refused" : comparison.error().ToString();
   };
-  using C = std::vector<Contender>;
+  using C = std::vector<ComparedAlgorithm>;
   EXPECT_THAT(refusal([](CompareOptions* o, CompareCurve*, C*) { o->seed = 4; }),
               HasSubstr("study.jsonl:1: this study was begun with seed: 3; now it is 4"));
   EXPECT_THAT(refusal([](CompareOptions* o, CompareCurve*, C*) { o->polish = false; }),
@@ -183,10 +183,10 @@ TEST_F(ResumeTest, KeepsSeveralStudiesInOneFile) {
 TEST_F(ResumeTest, IsWrittenByOneProcessAtATime) {
   bool asked = false;
   std::string refusal;
-  const auto outer = Compare({RtcFrance()}, SmallContenders(), options_, [&](const Progress&) {
+  const auto outer = Compare({RtcFrance()}, SmallAlgorithms(), options_, [&](const Progress&) {
     if (!asked) {
       asked = true;
-      const auto inner = Compare({RtcFrance()}, SmallContenders(), options_);
+      const auto inner = Compare({RtcFrance()}, SmallAlgorithms(), options_);
       if (!inner) refusal = inner.error().message;
     }
     return ObserverAction::kContinue;

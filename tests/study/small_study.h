@@ -7,7 +7,7 @@
 
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 
 namespace lyrefit {
 
@@ -27,8 +27,8 @@ inline SearchOptions SmallSearch() {
   return search;
 }
 
-inline std::vector<Contender> SmallContenders() {
-  return PlainContenders({Algorithm::kMlo, Algorithm::kDe, Algorithm::kRandom}, SmallSearch());
+inline std::vector<ComparedAlgorithm> SmallAlgorithms() {
+  return PlainAlgorithms({Algorithm::kMlo, Algorithm::kDe, Algorithm::kRandom}, SmallSearch());
 }
 
 inline CompareOptions SmallOptions() {

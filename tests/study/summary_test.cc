@@ -98,7 +98,7 @@ TEST(Summarise, CountsExpectedEvaluationsAsCocoDoes) {
   std::vector<RunOutcome> outcomes = {Outcome({{0, 10, 5}, {1, 40, 1.0005}, {2, 100, 1}}),
                                       Outcome({{0, 10, 5}, {2, 100, 3}}),
                                       Outcome({{0, 10, 1}, {2, 100, 1}})};
-  const ContenderResult result = Summarise({"x", "", {}, {}}, &outcomes, 1, 1e-3);
+  const AlgorithmResult result = Summarise({"x", "", {}, {}}, &outcomes, 1, 1e-3);
   EXPECT_EQ(result.algorithm, "x");
   EXPECT_EQ(result.target_hits, 2);
   EXPECT_EQ(result.runs[0].evaluations_to_target, 40);
@@ -123,7 +123,7 @@ TEST(RankAll, RanksTheSmallestFirst) {
   EXPECT_GE(ranking.signed_ranks[2].p_holm, ranking.signed_ranks[2].test.p_value);
 }
 
-TEST(RankJoined, TakesAnswersWithin1e9AsEqualAcrossContenders) {
+TEST(RankJoined, TakesAnswersWithin1e9AsEqualAcrossAlgorithms) {
   const double x = 1e-3;
   const Ranking ranking = RankJoined({{x, x * (1 + 3e-10)}, {x * (1 + 6e-10), x}});
   EXPECT_THAT(ranking.friedman.mean_rank, ElementsAre(DoubleEq(1.5), DoubleEq(1.5)));
@@ -132,7 +132,7 @@ TEST(RankJoined, TakesAnswersWithin1e9AsEqualAcrossContenders) {
   EXPECT_THAT(apart.friedman.mean_rank, ElementsAre(DoubleEq(1), DoubleEq(2)));
 }
 
-TEST(RankAll, SaysNothingOfOneContenderOrOneRun) {
+TEST(RankAll, SaysNothingOfOneAlgorithmOrOneRun) {
   EXPECT_TRUE(RankAll({{1, 2, 3}}).signed_ranks.empty());
   EXPECT_TRUE(RankAll({{1}, {2}}).signed_ranks.empty());
 }

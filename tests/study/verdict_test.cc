@@ -11,15 +11,15 @@ namespace lyrefit {
 namespace {
 
 // Ten runs, so many of which hit by the best candidate's own polish and with all starts.
-ContenderResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
+AlgorithmResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
                      double search_ms = 10) {
   std::vector<MadeRun> runs;
   for (int r = 0; r < 10; ++r) runs.push_back({9, r < own ? 1.0 : 2, r < hybrid ? 1.0 : 2});
-  return MadeContender(algorithm, budget, runs, search_ms);
+  return SyntheticAlgorithm(algorithm, budget, runs, search_ms);
 }
 
-Comparison OfOne(std::vector<ContenderResult> contenders) {
-  return MadeComparison({MadeDevice("x 0", "x", std::move(contenders))});
+Comparison OfOne(std::vector<AlgorithmResult> algorithms) {
+  return MadeComparison({MadeDevice("x 0", "x", std::move(algorithms))});
 }
 
 TEST(EnoughHits, AreNinetySixOfAHundred) {
@@ -30,13 +30,13 @@ TEST(EnoughHits, AreNinetySixOfAHundred) {
   EXPECT_EQ(EnoughHits(25), 24);
 }
 
-TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
+TEST(JudgeProblem, TakesTheFastestWayThatIsEnough) {
   const Comparison comparison = OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100),
                                        Hits("de", 10, 9, 9), Hits("de", 100, 10, 10, 20)});
-  const auto pools = PoolProblems(comparison);
-  const SearchVerdict verdict = JudgePool(pools[0]);
+  const auto pools = SummariseProblems(comparison);
+  const SearchVerdict verdict = JudgeProblem(pools[0]);
   ASSERT_TRUE(verdict.search);
-  EXPECT_EQ(verdict.search->contender->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
+  EXPECT_EQ(verdict.search->compared->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
   EXPECT_EQ(verdict.search->level, PolishLevel::kOwn);
   EXPECT_EQ(verdict.needed, 10);
   EXPECT_FALSE(verdict.random);
@@ -44,41 +44,41 @@ TEST(JudgePool, TakesTheFastestWayThatIsEnough) {
   EXPECT_FALSE(verdict.shape);
 }
 
-TEST(JudgePool, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
+TEST(JudgeProblem, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100), Hits("mlo", 1000, 10, 0, 1000)});
-  const auto pools = PoolProblems(comparison);
-  EXPECT_EQ(JudgePool(pools[0]).search->contender->name, "mlo@1000");
+  const auto pools = SummariseProblems(comparison);
+  EXPECT_EQ(JudgeProblem(pools[0]).search->compared->name, "mlo@1000");
 }
 
-TEST(JudgePool, LeavesAllStartsOutWhereTheShapeIsEnough) {
+TEST(JudgeProblem, LeavesAllStartsOutWhereTheShapeIsEnough) {
   const Comparison with = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 3, 10)});
-  const auto pools = PoolProblems(with);
-  const SearchVerdict verdict = JudgePool(pools[0]);
+  const auto pools = SummariseProblems(with);
+  const SearchVerdict verdict = JudgeProblem(pools[0]);
   EXPECT_TRUE(verdict.shape_is_enough);
   EXPECT_TRUE(verdict.shape_wins);
   EXPECT_FALSE(verdict.search) << "it gets there by the shape's starts alone";
   EXPECT_EQ(verdict.best->figures().hits, 3);
   const Comparison without = OfOne({Hits("shape", 0, 0, 9, 0), Hits("mlo", 10, 3, 10)});
-  const auto other = PoolProblems(without);
-  EXPECT_EQ(JudgePool(other[0]).search->level, PolishLevel::kHybrid);
-  EXPECT_FALSE(JudgePool(other[0]).shape_wins);
+  const auto other = SummariseProblems(without);
+  EXPECT_EQ(JudgeProblem(other[0]).search->level, PolishLevel::kHybrid);
+  EXPECT_FALSE(JudgeProblem(other[0]).shape_wins);
 }
 
-TEST(JudgePool, LetsAFasterSearchWinAgainstTheShape) {
+TEST(JudgeProblem, LetsAFasterSearchWinAgainstTheShape) {
   const Comparison comparison = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 10, 10)});
-  const auto pools = PoolProblems(comparison);
-  EXPECT_FALSE(JudgePool(pools[0]).shape_wins) << "15 ms against 30 ms";
+  const auto pools = SummariseProblems(comparison);
+  EXPECT_FALSE(JudgeProblem(pools[0]).shape_wins) << "15 ms against 30 ms";
 }
 
-TEST(JudgePool, SetsRandomPointsBesideTheWinner) {
+TEST(JudgeProblem, SetsRandomPointsBesideTheWinner) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 10), Hits("random", 10, 5, 10), Hits("random", 100, 7, 7)});
-  const auto pools = PoolProblems(comparison);
-  const SearchVerdict verdict = JudgePool(pools[0]);
-  EXPECT_EQ(verdict.search->contender->name, "mlo@10");
+  const auto pools = SummariseProblems(comparison);
+  const SearchVerdict verdict = JudgeProblem(pools[0]);
+  EXPECT_EQ(verdict.search->compared->name, "mlo@10");
   ASSERT_TRUE(verdict.random);
-  EXPECT_EQ(verdict.random->contender->name, "random@10") << "most hits, though not enough on";
+  EXPECT_EQ(verdict.random->compared->name, "random@10") << "most hits, though not enough on";
   EXPECT_EQ(verdict.random->level, PolishLevel::kHybrid);
 }
 
@@ -88,10 +88,10 @@ TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
       OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:cmaes", 10, 2, 10, 1),
              Hits("pagmo:cmaes", 100, 10, 10, 115), Hits("pagmo:de", 100, 10, 10, 55),
              Hits("de", 10, 10, 10, 1)});
-  const auto pools = PoolProblems(comparison);
+  const auto pools = SummariseProblems(comparison);
   const auto ratio = CompareWithPeers(pools[0]);
   ASSERT_TRUE(ratio);
-  EXPECT_EQ(ratio->peer->contender->name, "pagmo:de@100") << "60 ms; 6 ms 15 times are 90 ms";
+  EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@100") << "60 ms; 6 ms 15 times are 90 ms";
   EXPECT_EQ(ratio->repeats, 1);
   EXPECT_DOUBLE_EQ(ratio->times, 2);
 }
@@ -99,17 +99,17 @@ TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
 TEST(CompareWithPeers, RepeatsWhatHitsLessOften) {
   const Comparison comparison = OfOne(
       {Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 8, 10), Hits("pagmo:de", 100, 7, 10)});
-  const auto pools = PoolProblems(comparison);
+  const auto pools = SummariseProblems(comparison);
   const auto ratio = CompareWithPeers(pools[0]);
-  EXPECT_EQ(ratio->peer->contender->name, "pagmo:de@10");
+  EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@10");
   EXPECT_EQ(ratio->repeats, 2) << "0.2^2 = 0.04";
   EXPECT_DOUBLE_EQ(ratio->times, 1) << "15 ms twice by 30 ms";
   const Comparison never = OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 0, 10)});
-  const auto nobody = PoolProblems(never);
+  const auto nobody = SummariseProblems(never);
   EXPECT_EQ(CompareWithPeers(nobody[0])->repeats, 0);
   EXPECT_TRUE(std::isnan(CompareWithPeers(nobody[0])->times));
   const Comparison none = OfOne({Hits("pagmo:de", 10, 8, 10)});
-  const auto others = PoolProblems(none);
+  const auto others = SummariseProblems(none);
   EXPECT_FALSE(CompareWithPeers(others[0]));
 }
 

@@ -21,7 +21,7 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve);
 // Why nobody should believe an answer about this curve: Pmax above 3 times or below 1/300 of the
 // rated power of the whole device (the lower one in proportion to the irradiance, from 200 W/m2
 // on), else the first finding of CheckPlausibility. None: nothing is implausible.
-std::optional<std::string> WhyDoubtful(const IvCurve& curve,
+std::optional<std::string> PlausibilityProblem(const IvCurve& curve,
                                        std::optional<double> rated_power_W = std::nullopt);
 
 }  // namespace lyrefit

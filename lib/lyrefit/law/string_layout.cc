@@ -107,13 +107,13 @@ bool Alike(const StringLayout::Cells& a, const StringLayout::Cells& b) {
 }
 
 // A part as it is written: `share` still counts cells.
-struct WrittenPart {
+struct WrittenCheckpoint {
   Part part;
   std::vector<StringLayout::Cells> kinds;
   double times = 1;
 };
 
-bool Alike(const WrittenPart& a, const WrittenPart& b) {
+bool Alike(const WrittenCheckpoint& a, const WrittenCheckpoint& b) {
   if (a.part.bypassed != b.part.bypassed || a.part.string != b.part.string) return false;
   if (a.part.bypassed && a.part.cells != b.part.cells) return false;
   if (a.kinds.size() != b.kinds.size()) return false;
@@ -125,9 +125,9 @@ bool Alike(const WrittenPart& a, const WrittenPart& b) {
   return true;
 }
 
-Expected<WrittenPart> ReadPart(const Node& node, int string) {
+Expected<WrittenCheckpoint> ReadPart(const Node& node, int string) {
   TRY(CheckKeys(node, {"bypass", "times", "cells"}));
-  WrittenPart written;
+  WrittenCheckpoint written;
   written.part.string = string;
   if (node.Has("bypass")) {
     if (!node.At("bypass").value->is_boolean()) return node.At("bypass").Refuse("true or false");
@@ -156,8 +156,8 @@ Expected<WrittenPart> ReadPart(const Node& node, int string) {
 }
 
 // The parts of all strings, equal ones of a string together; `cells` of each string.
-Expected<std::vector<WrittenPart>> ReadParts(const Node& strings, std::vector<double>* cells) {
-  std::vector<WrittenPart> parts;
+Expected<std::vector<WrittenCheckpoint>> ReadParts(const Node& strings, std::vector<double>* cells) {
+  std::vector<WrittenCheckpoint> parts;
   for (std::size_t s = 0; s < strings.value->size(); ++s) {
     const Node string = strings.At(s);
     if (!string.value->is_array() || string.value->empty()) {
@@ -168,7 +168,7 @@ Expected<std::vector<WrittenPart>> ReadParts(const Node& strings, std::vector<do
       TRY(auto part, ReadPart(string.At(k), static_cast<int>(s)));
       count += part.times * part.part.cells;
       const auto same = std::find_if(parts.begin(), parts.end(),
-                                     [&](const WrittenPart& other) { return Alike(other, part); });
+                                     [&](const WrittenCheckpoint& other) { return Alike(other, part); });
       if (same == parts.end()) {
         parts.push_back(std::move(part));
       } else {
@@ -205,7 +205,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
   }
   layout.strings = static_cast<int>(cells.size());
   layout.cells_in_series = static_cast<int>(cells.front());
-  for (const WrittenPart& written : parts) {
+  for (const WrittenCheckpoint& written : parts) {
     for (StringLayout::Cells kind : written.kinds) {
       kind.part = static_cast<int>(layout.parts.size());
       kind.share *= written.times / (cells.front() * layout.strings);

@@ -4,14 +4,14 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/study/compare_run.h"
-#include "lyrefit/study/contenders.h"
-#include "lyrefit/study/pool.h"
+#include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/problem_summary.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr std::int64_t kLongSearch = 200;  // evaluations for each random point
-constexpr int kFirstRun = 1000000000;      // far from the numbers of any contender's runs
+constexpr int kFirstRun = 1000000000;      // far from the numbers of any compared's runs
 
 // One point, wherever it falls.
 SearchSummary OnePoint(const ObjectiveFunction& objective, const Box& box,
@@ -38,21 +38,21 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
   how.plain_polish = true;
   // What one fit ends at; false where it was stopped. A fit that fails has nothing to add.
   std::vector<double> ends;
-  const auto run = [&](const Contender& contender, int number) {
-    const bool point = contender.starts == StartsFrom::kSearch;
+  const auto run = [&](const ComparedAlgorithm& compared, int number) {
+    const bool point = compared.starts == StartsFrom::kSearch;
     how.polish = !point;
-    const auto outcome = RunOnce(subject, problem, how, contender, kFirstRun + number, observer);
+    const auto outcome = RunOnce(subject, problem, how, compared, kFirstRun + number, observer);
     if (!outcome) return true;
     if (!*outcome) return false;
     const BestFound found = BestOf({{**outcome}});
     if (point) ends.push_back((*outcome)->record.own_polished_A);
     if (!(found.rmse_A < known.best.rmse_A)) return true;
     known.best = found;
-    known.found_by = contender.name;
+    known.found_by = compared.name;
     return true;
   };
   for (int k = 0; k < options.multistart && !known.interrupted; ++k) {
-    Contender point;
+    ComparedAlgorithm point;
     point.name = fmt::format("random point {}", k + 1);
     point.search.elites = 1;
     point.starts = StartsFrom::kSearch;
@@ -60,13 +60,13 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
     known.interrupted = !run(point, k);
   }
   const std::vector<Algorithm> algorithms = {Algorithm::kDe, Algorithm::kMlo, Algorithm::kRandom};
-  for (const Contender& long_search :
-       BudgetContenders(algorithms, {kLongSearch * options.multistart})) {
+  for (const ComparedAlgorithm& long_search :
+       BudgetAlgorithms(algorithms, {kLongSearch * options.multistart})) {
     if (known.interrupted) break;
     known.interrupted = !run(long_search, options.multistart);
   }
   known.points = static_cast<int>(ends.size());
-  for (const double end : ends) known.visits += end <= known.best.rmse_A * (1 + kPoolHit);
+  for (const double end : ends) known.visits += end <= known.best.rmse_A * (1 + kHit);
   return known;
 }
 
@@ -78,8 +78,8 @@ Reference BestKnownReference(const BestFound& runs, const BestKnown& known) {
   reference.interrupted = known.interrupted;
   reference.origin = "best of all runs";
   if (known.points > 0) {
-    const bool level = known.best.rmse_A <= reference.rmse_A * (1 + kPoolHit);
-    reference.by_multistart = known.best.rmse_A * (1 + kPoolHit) < runs.rmse_A;
+    const bool level = known.best.rmse_A <= reference.rmse_A * (1 + kHit);
+    reference.by_multistart = known.best.rmse_A * (1 + kHit) < runs.rmse_A;
     reference.points = known.points;
     reference.visits = level ? known.visits : 0;
     reference.origin +=

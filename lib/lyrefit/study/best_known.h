@@ -7,7 +7,7 @@
 
 namespace lyrefit {
 
-// The lowest end of a long multistart of its own, which no contender's runs are part of:
+// The lowest end of a long multistart of its own, which no compared's runs are part of:
 // CompareOptions::multistart random points, each polished by itself to its end, and the hybrid
 // after searches by DE, MLO and random points of 200 evaluations for each of these points.
 struct BestKnown {

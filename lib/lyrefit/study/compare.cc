@@ -30,7 +30,7 @@ struct Problem {
       : subject(subject_), outcomes(runs), left(runs), result(std::move(described)) {}
 
   const CompareCurve& subject;
-  std::vector<std::optional<RunOutcome>> outcomes;  // contender by contender
+  std::vector<std::optional<RunOutcome>> outcomes;  // compared by compared
   std::atomic<int> left;                            // runs that are not done
   std::optional<BestKnown> known;                   // where the journal has it
   ProblemResult result;
@@ -55,18 +55,18 @@ Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOpti
 }
 
 // What a run costs, in about evaluations of one diode; the polish is worth some thousands of them.
-double WorkOf(const Problem& problem, const Contender& contender) {
+double WorkOf(const Problem& problem, const ComparedAlgorithm& compared) {
   constexpr double kPolish = 3000;
-  const SearchOptions& search = contender.search;
+  const SearchOptions& search = compared.search;
   const double planned = static_cast<double>(search.population) * (search.iterations + 1.0);
   const double evaluations = std::min(planned, static_cast<double>(search.max_evaluations));
   return (evaluations + kPolish) * static_cast<double>(problem.result.model);
 }
 
-double WorkOfAll(const Problems& problems, const std::vector<Contender>& contenders, int runs) {
+double WorkOfAll(const Problems& problems, const std::vector<ComparedAlgorithm>& algorithms, int runs) {
   double work = 0;
   for (const auto& problem : problems) {
-    for (const Contender& contender : contenders) work += runs * WorkOf(*problem, contender);
+    for (const ComparedAlgorithm& compared : algorithms) work += runs * WorkOf(*problem, compared);
   }
   return work;
 }
@@ -75,13 +75,13 @@ double WorkOfAll(const Problems& problems, const std::vector<Contender>& contend
 // up.
 class Study {
  public:
-  Study(const std::vector<CompareCurve>& curves, const std::vector<Contender>& contenders,
+  Study(const std::vector<CompareCurve>& curves, const std::vector<ComparedAlgorithm>& algorithms,
         const CompareOptions& options, const Observer& observer)
-      : contenders_(contenders),
+      : algorithms_(algorithms),
         options_(options),
-        runs_per_problem_(static_cast<int>(contenders.size()) * options.runs),
+        runs_per_problem_(static_cast<int>(algorithms.size()) * options.runs),
         problems_(MakeProblems(curves, options, runs_per_problem_)),
-        watch_(observer, "compare", jobs(), WorkOfAll(problems_, contenders, options.runs)) {}
+        watch_(observer, "compare", jobs(), WorkOfAll(problems_, algorithms, options.runs)) {}
 
   // One cheap search each finds whatever a fit would object to.
   Expected<void> Try() const {
@@ -116,14 +116,14 @@ class Study {
       const RunPlace& at = run->place;
       if (at.run >= options_.runs) continue;  // more than are asked for this time
       if (at.problem < 0 || at.problem >= static_cast<int>(problems_.size()) || at.run < 0 ||
-          at.contender < 0 || at.contender >= static_cast<int>(contenders_.size())) {
+          at.compared < 0 || at.compared >= static_cast<int>(algorithms_.size())) {
         return Fail("this record is of no run of the study", journal_->path(), record.line);
       }
       std::optional<RunOutcome>& slot = SlotOf(at);
       if (slot) continue;
       slot = std::move(run->outcome);
       ++taken_up_;
-      watch_.SkipJob(WorkOf(*problems_[at.problem], contenders_[at.contender]));
+      watch_.SkipJob(WorkOf(*problems_[at.problem], algorithms_[at.compared]));
     }
     return {};
   }
@@ -138,7 +138,7 @@ class Study {
       const auto& problem = problems_[p];
       if (problem->left > 0) SumUp(p);
       comparison.interrupted = comparison.interrupted || !problem->result.complete;
-      if (problem->result.contenders.empty()) continue;
+      if (problem->result.algorithms.empty()) continue;
       comparison.problems.push_back(std::move(problem->result));
     }
     if (journal_) {
@@ -155,14 +155,14 @@ class Study {
   int jobs() const { return static_cast<int>(problems_.size()) * runs_per_problem_; }
 
   std::optional<RunOutcome>& SlotOf(const RunPlace& at) {
-    return problems_[at.problem]->outcomes[at.contender * options_.runs + at.run];
+    return problems_[at.problem]->outcomes[at.compared * options_.runs + at.run];
   }
 
-  // Run by run, so that wherever a study ends its contenders are about as far.
+  // Run by run, so that wherever a study ends its algorithms are about as far.
   RunPlace PlaceOf(int job) const {
-    const int contenders = static_cast<int>(contenders_.size());
+    const int algorithms = static_cast<int>(algorithms_.size());
     const int in_problem = job % runs_per_problem_;
-    return {job / runs_per_problem_, in_problem % contenders, in_problem / contenders};
+    return {job / runs_per_problem_, in_problem % algorithms, in_problem / algorithms};
   }
 
   void RunJob(int job) {
@@ -175,25 +175,25 @@ class Study {
     if (!slot) return;
     const std::int64_t evaluations = slot->record.evaluations;
     if (--problem->left == 0) SumUp(at.problem);
-    if (!taken_up) watch_.FinishJob(WorkOf(*problem, contenders_[at.contender]), evaluations);
+    if (!taken_up) watch_.FinishJob(WorkOf(*problem, algorithms_[at.compared]), evaluations);
   }
 
   // Nothing where it was stopped.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
-    const Contender& contender = contenders_[at.contender];
+    const ComparedAlgorithm& compared = algorithms_[at.compared];
     auto done =
-        RunOnce(problem.subject, problem.result, options_, contender, at.run, watch_.Inside());
+        RunOnce(problem.subject, problem.result, options_, compared, at.run, watch_.Inside());
     CHECK(done.has_value()) << done.error().ToString();  // Try() would have seen it
     if (!*done) return {};
     RunOutcome outcome = std::move(**done);
-    if (journal_) journal_->Append(WriteRun(at, problem.result, contender, options_, outcome));
+    if (journal_) journal_->Append(WriteRun(at, problem.result, compared, options_, outcome));
     return outcome;
   }
 
   // Of the runs that are done.
   void SumUp(int which) {
     Problem* problem = problems_[which].get();
-    std::vector<std::vector<RunOutcome>> outcomes(contenders_.size());
+    std::vector<std::vector<RunOutcome>> outcomes(algorithms_.size());
     bool any = false;
     for (std::size_t i = 0; i < problem->outcomes.size(); ++i) {
       std::optional<RunOutcome>& slot = problem->outcomes[i];
@@ -206,7 +206,7 @@ class Study {
     if (!any) return;
     result.reference = ReferenceOf(which, BestOf(outcomes));
     result.complete = result.complete && !result.reference.interrupted;
-    SumUpContenders(contenders_, options_, std::move(outcomes), &result);
+    SumUpAlgorithms(algorithms_, options_, std::move(outcomes), &result);
   }
 
   // Certified where that can be, else the best known.
@@ -235,7 +235,7 @@ class Study {
     return known;
   }
 
-  const std::vector<Contender>& contenders_;
+  const std::vector<ComparedAlgorithm>& algorithms_;
   const CompareOptions& options_;
   const Instant begin_ = Now();
   const int runs_per_problem_;
@@ -265,9 +265,9 @@ CompareCurve SubjectOf(LandscapeCase made) {
 }
 
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
-                             const std::vector<Contender>& contenders,
+                             const std::vector<ComparedAlgorithm>& algorithms,
                              const CompareOptions& options, const Observer& observer) {
-  if (auto checked = CheckComparison(curves, contenders, options); !checked) {
+  if (auto checked = CheckComparison(curves, algorithms, options); !checked) {
     return tl::unexpected(checked.error());
   }
   std::vector<IvCurve> readings;
@@ -277,11 +277,11 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
   }
   auto doubts = JudgeReadings(readings);
   if (!doubts) return tl::unexpected(doubts.error());
-  Study study(curves, contenders, options, observer);
+  Study study(curves, algorithms, options, observer);
   if (auto tried = study.Try(); !tried) return tl::unexpected(tried.error());
   if (!options.journal.empty()) {
     auto journal = Journal::Open(options.journal, options.journal_section,
-                                 CompareHead(curves, contenders, options));
+                                 CompareHead(curves, algorithms, options));
     if (!journal) return tl::unexpected(journal.error());
     if (auto taken = study.TakeUp(std::move(*journal)); !taken) {
       return tl::unexpected(taken.error());

@@ -17,13 +17,13 @@ CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
 // One of the made devices of a problem.
 CompareCurve SubjectOf(LandscapeCase made);
 
-// Runs every contender `runs` times on every curve with every model. Everything is checked before
-// the first run. Run r of all contenders comes before run r + 1 of any. The observer hears of stage
+// Runs every compared `runs` times on every curve with every model. Everything is checked before
+// the first run. Run r of all algorithms comes before run r + 1 of any. The observer hears of stage
 // "compare" at the beginning, after every run (iteration: runs done of those planned) and now and
 // then in between. Errors: an unusable curve, options outside their ranges, bounds that do not fit
-// a model, no or two equal contender names, a journal of another study.
+// a model, no or two equal compared names, a journal of another study.
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
-                             const std::vector<Contender>& contenders,
+                             const std::vector<ComparedAlgorithm>& algorithms,
                              const CompareOptions& options = {}, const Observer& observer = {});
 
 }  // namespace lyrefit

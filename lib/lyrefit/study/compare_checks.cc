@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostRuns = 1000000;
 
-Expected<void> CheckOptions(std::size_t curves, std::size_t contenders,
+Expected<void> CheckOptions(std::size_t curves, std::size_t algorithms,
                             const CompareOptions& options) {
   if (curves == 0) return Fail("no curve to compare on");
   if (options.models.empty()) return Fail("no model to compare on");
@@ -31,21 +31,21 @@ Expected<void> CheckOptions(std::size_t curves, std::size_t contenders,
     return Fail(fmt::format("target-gap = {:g} must be above 0", options.target_gap));
   }
   const double jobs = static_cast<double>(curves) * static_cast<double>(options.models.size()) *
-                      static_cast<double>(contenders) * options.runs;
+                      static_cast<double>(algorithms) * options.runs;
   if (jobs > std::numeric_limits<int>::max()) return Fail("more than 2147483647 runs in all");
   return {};
 }
 
-Expected<void> CheckContenders(const std::vector<Contender>& contenders) {
-  if (contenders.empty()) return Fail("no algorithm to compare");
-  for (auto contender = contenders.begin(); contender != contenders.end(); ++contender) {
-    if (contender->name.empty()) return Fail("an algorithm has no name");
-    const bool twice = std::any_of(contenders.begin(), contender, [&](const Contender& other) {
-      return other.name == contender->name;
+Expected<void> CheckAlgorithms(const std::vector<ComparedAlgorithm>& algorithms) {
+  if (algorithms.empty()) return Fail("no algorithm to compare");
+  for (auto compared = algorithms.begin(); compared != algorithms.end(); ++compared) {
+    if (compared->name.empty()) return Fail("an algorithm has no name");
+    const bool twice = std::any_of(algorithms.begin(), compared, [&](const ComparedAlgorithm& other) {
+      return other.name == compared->name;
     });
-    if (twice) return Fail(fmt::format("the algorithm {} is named twice", contender->name));
-    if (auto valid = ValidateOptions(contender->search, kSearchOptionTable); !valid) {
-      return Fail(fmt::format("{}: {}", contender->name, valid.error().message));
+    if (twice) return Fail(fmt::format("the algorithm {} is named twice", compared->name));
+    if (auto valid = ValidateOptions(compared->search, kSearchOptionTable); !valid) {
+      return Fail(fmt::format("{}: {}", compared->name, valid.error().message));
     }
   }
   return {};
@@ -54,15 +54,15 @@ Expected<void> CheckContenders(const std::vector<Contender>& contenders) {
 }  // namespace
 
 Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
-                               const std::vector<Contender>& contenders,
+                               const std::vector<ComparedAlgorithm>& algorithms,
                                const CompareOptions& options) {
-  if (auto checked = CheckContenders(contenders); !checked) return checked;
-  const bool hard = std::any_of(contenders.begin(), contenders.end(),
-                                [](const Contender& c) { return c.candidates != SearchVariables::kAll; });
+  if (auto checked = CheckAlgorithms(algorithms); !checked) return checked;
+  const bool hard = std::any_of(algorithms.begin(), algorithms.end(),
+                                [](const ComparedAlgorithm& c) { return c.candidates != SearchVariables::kAll; });
   const bool family = std::any_of(curves.begin(), curves.end(),
                                   [](const CompareCurve& curve) { return curve.set.has_value(); });
   if (hard && family) return Fail("candidates hard is for curves: families are searched completely");
-  return CheckOptions(curves.size(), contenders.size(), options);
+  return CheckOptions(curves.size(), algorithms.size(), options);
 }
 
 }  // namespace lyrefit

@@ -64,13 +64,13 @@ std::string BoundsText(const CompareCurve& subject, const CompareOptions& option
   return fmt::format("{} ({})", subject.bounds.name, Fingerprint(all));
 }
 
-std::string SettingsText(const Contender& contender) {
+std::string SettingsText(const ComparedAlgorithm& compared) {
   std::vector<OptionEcho> echoes;
-  AppendNonDefaults(contender.search, kSearchOptionTable, &echoes);
+  AppendNonDefaults(compared.search, kSearchOptionTable, &echoes);
   std::string text =
-      contender.searcher ? "a search of its own" : ToText(contender.search.algorithm);
-  if (contender.candidates != SearchVariables::kAll) text += ", " + ToText(contender.candidates) + " candidates";
-  if (contender.kind != ContenderKind::kSearch) text = ToText(contender.kind) + ": " + text;
+      compared.searcher ? "a search of its own" : ToText(compared.search.algorithm);
+  if (compared.candidates != SearchVariables::kAll) text += ", " + ToText(compared.candidates) + " candidates";
+  if (compared.kind != AlgorithmKind::kSearch) text = ToText(compared.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;
   }
@@ -80,7 +80,7 @@ std::string SettingsText(const Contender& contender) {
 }  // namespace
 
 JournalLine CompareHead(const std::vector<CompareCurve>& curves,
-                        const std::vector<Contender>& contenders, const CompareOptions& options) {
+                        const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options) {
   JournalLine head = {{"lyrefit", Version()},
                       {"seed", options.seed},
                       {"objective", ToText(options.objective)},
@@ -93,10 +93,10 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
   if (!effects.empty()) head["with"] = effects;
   if (options.multistart > 0) head["multistart"] = options.multistart;
   for (const Model model : options.models) models += (models.empty() ? "" : ",") + ToText(model);
-  for (const Contender& c : contenders) names += (names.empty() ? "" : ",") + c.name;
+  for (const ComparedAlgorithm& c : algorithms) names += (names.empty() ? "" : ",") + c.name;
   head["models"] = models;
   head["algorithms"] = names;
-  for (const Contender& c : contenders) head["algorithm " + c.name] = SettingsText(c);
+  for (const ComparedAlgorithm& c : algorithms) head["algorithm " + c.name] = SettingsText(c);
   head["number of curves"] = curves.size();
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const CompareCurve& subject = curves[i];
@@ -110,7 +110,7 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
 }
 
 JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
-                     const Contender& contender, const CompareOptions& options,
+                     const ComparedAlgorithm& compared, const CompareOptions& options,
                      const RunOutcome& outcome) {
   const RunRecord& record = outcome.record;
   JournalLine gains = JournalLine::array();
@@ -120,8 +120,8 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
   JournalLine line = {{"problem", place.problem},
                       {"curve", problem.curve_name},
                       {"model", ToText(problem.model)},
-                      {"contender", place.contender},
-                      {"algorithm", contender.name},
+                      {"compared", place.compared},
+                      {"algorithm", compared.name},
                       {"run", place.run},
                       {"seed", options.seed},
                       {"searched_A", ExactNumber(record.searched_A)},
@@ -133,7 +133,7 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
                       {"refine_seconds", ExactNumber(record.polish_seconds)},
                       {"parameters", ExactNumbers(outcome.parameters)},
                       {"trace", std::move(gains)}};
-  if (contender.candidates != SearchVariables::kAll) line["curve_evaluations"] = record.curve_evaluations;
+  if (compared.candidates != SearchVariables::kAll) line["curve_evaluations"] = record.curve_evaluations;
   if (problem.problem.empty()) return line;
   line["plain_seconds"] = ExactNumber(record.plain_seconds);
   line["best_candidate_seconds"] = ExactNumber(record.own_seconds);
@@ -145,7 +145,7 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   RecordReader read(journal, record);
   WrittenRun run;
   run.place.problem = static_cast<int>(read.Whole("problem"));
-  run.place.contender = static_cast<int>(read.Whole("contender"));
+  run.place.compared = static_cast<int>(read.Whole("compared"));
   run.place.run = static_cast<int>(read.Whole("run"));
   RunRecord& r = run.outcome.record;
   r.run = run.place.run;

@@ -12,17 +12,17 @@ namespace lyrefit {
 // Everything that a run of a comparison depends on. How many runs there are is not among it: a
 // study can be taken up with more. Everything must have been checked.
 JournalLine CompareHead(const std::vector<CompareCurve>& curves,
-                        const std::vector<Contender>& contenders, const CompareOptions& options);
+                        const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options);
 
 // Where a run stands in its comparison.
 struct RunPlace {
   int problem = 0;  // curves in the order given, each with all models
-  int contender = 0;
+  int compared = 0;
   int run = 0;
 };
 
 JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
-                     const Contender& contender, const CompareOptions& options,
+                     const ComparedAlgorithm& compared, const CompareOptions& options,
                      const RunOutcome& outcome);
 
 struct WrittenRun {

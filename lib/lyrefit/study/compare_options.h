@@ -21,28 +21,28 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What of the hybrid a contender is about.
-enum class ContenderKind {
+// What of the hybrid a compared is about.
+enum class AlgorithmKind {
   kSearch,   // a search; what becomes of its candidates is looked at by how far they are polished
   kShape,    // the places that the curve's shape suggests; its search is a token
   kDefault,  // the fit with its default settings, as it is
 };
 
 template <>
-struct EnumTable<ContenderKind> {
-  static constexpr EnumText<ContenderKind> kRows[] = {{ContenderKind::kSearch, "search"},
-                                                      {ContenderKind::kShape, "shape"},
-                                                      {ContenderKind::kDefault, "default"}};
+struct EnumTable<AlgorithmKind> {
+  static constexpr EnumText<AlgorithmKind> kRows[] = {{AlgorithmKind::kSearch, "search"},
+                                                      {AlgorithmKind::kShape, "shape"},
+                                                      {AlgorithmKind::kDefault, "default"}};
 };
 
 // One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
 // run r all of ours start from the same first candidates.
-struct Contender {
+struct ComparedAlgorithm {
   std::string name;         // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
   std::string algorithm;    // without its setting, "mlo"; empty: the name
   SearchOptions search;     // budget and settings
   SearchFunction searcher;  // empty: Search()
-  ContenderKind kind = ContenderKind::kSearch;
+  AlgorithmKind kind = AlgorithmKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
   SearchVariables candidates = SearchVariables::kAll;             // the same; kHard is for curves, not for families
   std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
@@ -52,7 +52,7 @@ struct Contender {
 struct CompareCurve {
   IvCurve curve;
   BoundsSpec bounds;
-  // Subjects with the same name here are devices of one problem, and summed up as one; see pool.h.
+  // Subjects with the same name here are devices of one problem, and summed up as one; see problem_summary.h.
   std::string problem;
   // What is its own instead of the comparison's, empty: as there. Effects are fitted to the solved
   // current, whatever is said here.
@@ -72,11 +72,11 @@ struct CompareOptions {
   std::vector<EffectUse> with;  // of every model; see FitOptions
   bool force_effects = false;
   std::uint64_t seed = 0;
-  int runs = 50;             // of each contender on each problem: runs 0 .. runs - 1 of the seed
+  int runs = 50;             // of each compared on each problem: runs 0 .. runs - 1 of the seed
   double target_gap = 1e-3;  // relative distance from the reference that counts as "reached"
   bool polish = true;
   bool plain_polish = false;  // see FitOptions
-  bool rankings = true;       // rank tests of the contenders against each other
+  bool rankings = true;       // rank tests of the algorithms against each other
   // Random points that are polished to their end, beside long searches, to find the best known
   // optimum of a problem that no certificate is at hand for; 0: the runs alone. See best_known.h.
   int multistart = 0;
@@ -111,7 +111,7 @@ inline constexpr OptionRow<CompareOptions> kCompareOptionTable[] = {
      OptionTrait::kQuiet | OptionTrait::kNoDefault | OptionTrait::kNoFlag},
     {"target-gap", "NUMBER", "relative distance from the reference that counts as reached",
      &CompareOptions::target_gap, OptionTrait::kUnchecked | OptionTrait::kNoFlag},
-    {"rankings", "", "rank tests of the contenders against each other", &CompareOptions::rankings,
+    {"rankings", "", "rank tests of the algorithms against each other", &CompareOptions::rankings,
      OptionTrait::kNoFlag},
     OptionRow<CompareOptions>("Polish"),
     {"polish", "", "the search alone", &CompareOptions::polish},

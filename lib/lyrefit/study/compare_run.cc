@@ -38,16 +38,16 @@ FamilyOptions FamilyOptionsOf(const CompareCurve& subject, const CompareOptions&
   return family;
 }
 
-// How a contender searches in `fit`, FitOptions or FamilyOptions.
+// How a compared searches in `fit`, FitOptions or FamilyOptions.
 template <class Options>
-void SetContender(const Contender& contender, const CompareOptions& options, int run,
+void SetAlgorithm(const ComparedAlgorithm& compared, const CompareOptions& options, int run,
                   Options* fit) {
-  if (contender.kind != ContenderKind::kDefault) fit->search = contender.search;
-  if (contender.kind != ContenderKind::kSearch) fit->plain_polish = false;
-  fit->starts = contender.starts;
+  if (compared.kind != AlgorithmKind::kDefault) fit->search = compared.search;
+  if (compared.kind != AlgorithmKind::kSearch) fit->plain_polish = false;
+  fit->starts = compared.starts;
   fit->search.seed = options.seed;
   fit->search.run = static_cast<std::uint64_t>(run);
-  fit->searcher = contender.searcher;
+  fit->searcher = compared.searcher;
 }
 
 void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
@@ -172,12 +172,12 @@ Expected<void> TryProblem(const CompareCurve& subject, const ProblemResult& prob
 Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
                                             const ProblemResult& problem,
                                             const CompareOptions& options,
-                                            const Contender& contender, int run,
+                                            const ComparedAlgorithm& compared, int run,
                                             const Observer& observer) {
   std::optional<RunOutcome> outcome;
   if (problem.family) {
     FamilyOptions family = FamilyOptionsOf(subject, options);
-    SetContender(contender, options, run, &family);
+    SetAlgorithm(compared, options, run, &family);
     const auto report = FitFamily(*subject.set, family, observer);
     if (!report) return tl::unexpected(report.error());
     if (!report->interrupted) outcome = OutcomeOf(*report, problem, run);
@@ -185,8 +185,8 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
   }
   FitOptions fit = FitOptionsOf(subject, problem, options);
   if (!problem.with.empty()) fit.search = FitOptions::SearchBesideShapes();
-  fit.candidates = contender.candidates;
-  SetContender(contender, options, run, &fit);
+  fit.candidates = compared.candidates;
+  SetAlgorithm(compared, options, run, &fit);
   const auto report = Fit(subject.curve, fit, observer);
   if (!report) return tl::unexpected(report.error());
   if (!report->interrupted) outcome = OutcomeOf(*report, problem, run);

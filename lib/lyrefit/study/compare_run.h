@@ -17,12 +17,12 @@ ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
 Expected<void> TryProblem(const CompareCurve& subject, const ProblemResult& problem,
                           const CompareOptions& options);
 
-// One run of a contender on a problem, on one thread. Nothing where the observer stopped it.
+// One run of a compared on a problem, on one thread. Nothing where the observer stopped it.
 // Errors: those of Fit() and FitFamily().
 Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
                                             const ProblemResult& problem,
                                             const CompareOptions& options,
-                                            const Contender& contender, int run,
+                                            const ComparedAlgorithm& compared, int run,
                                             const Observer& observer);
 
 }  // namespace lyrefit

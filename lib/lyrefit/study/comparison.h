@@ -33,7 +33,7 @@ struct RunRecord {
   std::vector<double> parameters;
 };
 
-// How a figure scatters over the runs of one contender.
+// How a figure scatters over the runs of one compared.
 struct RunSpread {
   double min = kUnknown;     // over all runs
   double mean = kUnknown;    // over all runs
@@ -50,12 +50,12 @@ struct MedianPoint {
   double best_A = kUnknown;  // median over the runs of the best so far
 };
 
-// What one contender made of one problem.
-struct ContenderResult {
-  std::string name;  // see Contender
+// What one compared made of one problem.
+struct AlgorithmResult {
+  std::string name;  // see ComparedAlgorithm
   std::string algorithm;
   SearchOptions search;  // as the runs had them
-  ContenderKind kind = ContenderKind::kSearch;
+  AlgorithmKind kind = AlgorithmKind::kSearch;
   SearchVariables candidates = SearchVariables::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
@@ -87,13 +87,13 @@ struct Reference {
   int visits = 0;                   // those that ended within 1e-6 (relative) of the reference
 };
 
-// Ranks of the contenders with the runs as blocks. Empty for fewer than two contenders or two runs.
+// Ranks of the algorithms with the runs as blocks. Empty for fewer than two algorithms or two runs.
 struct Ranking {
   Friedman friedman;
-  std::vector<RankPair> pairs;  // every pair of contenders
-  // Two contenders by Wilcoxon's test.
+  std::vector<RankPair> pairs;  // every pair of algorithms
+  // Two algorithms by Wilcoxon's test.
   struct SignedRank {
-    int first = 0;   // position among the contenders
+    int first = 0;   // position among the algorithms
     int second = 0;  // the same
     Wilcoxon test;
     double p_holm = 1;  // over all pairs
@@ -106,7 +106,7 @@ struct ProblemResult {
   std::string curve_name;  // or the set's
   Model model = Model::kSingleDiode;
   std::string bounds_name;  // "physical", "paper", ... or the file's name
-  // What it is pooled under (pool.h): the subject's own, else, of a curve with effects, the
+  // What it is pooled under (problem_summary.h): the subject's own, else, of a curve with effects, the
   // curve's name. Empty: a plain problem on its own.
   std::string problem;
   Objective objective = Objective::kMeasuredCurrent;
@@ -115,19 +115,19 @@ struct ProblemResult {
   std::vector<std::string> parameters;  // keys, in the order of Reference::parameters
   int first_effect = -1;                // where those of the effects begin; -1: none
   Reference reference;
-  std::vector<ContenderResult> contenders;  // in the order given
-  // Of the runs that every contender has done.
+  std::vector<AlgorithmResult> algorithms;  // in the order given
+  // Of the runs that every compared has done.
   Ranking searched;
   Ranking polished;  // the hybrid's figures; those within 1e-9 of each other count as equal
   // False where runs, or the proof of the reference, were cut short: only what was done is there,
-  // and contenders without a single run are left out.
+  // and algorithms without a single run are left out.
   bool complete = true;
 };
 
 // Their names, in the order of the results.
-inline std::vector<std::string> ContenderNames(const ProblemResult& problem) {
+inline std::vector<std::string> AlgorithmNames(const ProblemResult& problem) {
   std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) names.push_back(contender.name);
+  for (const AlgorithmResult& compared : problem.algorithms) names.push_back(compared.name);
   return names;
 }
 

@@ -11,27 +11,27 @@ namespace lyrefit {
 namespace {
 
 // The searches of a budget, in the order they came.
-std::vector<std::string> SearchesOf(const std::vector<const PooledProblem*>& pools,
+std::vector<std::string> SearchesOf(const std::vector<const ProblemSummary*>& pools,
                                     std::int64_t budget) {
   std::vector<std::string> names;
-  for (const PooledProblem* pool : pools) {
-    for (const PooledContender& contender : pool->contenders) {
-      if (contender.kind != ContenderKind::kSearch || contender.budget != budget) continue;
-      if (std::find(names.begin(), names.end(), contender.algorithm) != names.end()) continue;
-      names.push_back(contender.algorithm);
+  for (const ProblemSummary* pool : pools) {
+    for (const AlgorithmSummary& compared : pool->algorithms) {
+      if (compared.kind != AlgorithmKind::kSearch || compared.budget != budget) continue;
+      if (std::find(names.begin(), names.end(), compared.algorithm) != names.end()) continue;
+      names.push_back(compared.algorithm);
     }
   }
   return names;
 }
 
 // The figures of one device, run by run, of the runs that all have done.
-void AddBlocks(const ProblemResult& device, const PooledRanking& ranking, PolishLevel level,
+void AddBlocks(const ProblemResult& device, const SummaryRanking& ranking, PolishLevel level,
                std::vector<std::vector<double>>* values) {
   std::map<int, std::vector<double>> blocks;  // by run
   for (const std::string& name : ranking.names) {
-    for (const ContenderResult& contender : device.contenders) {
-      if (contender.algorithm != name || contender.budget != ranking.budget) continue;
-      for (const RunRecord& run : contender.runs) {
+    for (const AlgorithmResult& compared : device.algorithms) {
+      if (compared.algorithm != name || compared.budget != ranking.budget) continue;
+      for (const RunRecord& run : compared.runs) {
         const double rmse = RmseAt(run, level);
         if (!std::isnan(rmse)) {
           blocks[run.run].push_back(std::min(rmse / device.reference.rmse_A, 1e300));
@@ -41,45 +41,45 @@ void AddBlocks(const ProblemResult& device, const PooledRanking& ranking, Polish
   }
   for (auto& [run, block] : blocks) {
     if (block.size() != ranking.names.size()) continue;
-    block = JoinEqual(std::move(block), kPoolHit);
+    block = JoinEqual(std::move(block), kHit);
     for (std::size_t c = 0; c < block.size(); ++c) (*values)[c].push_back(block[c]);
   }
 }
 
-Ranking RankLevel(const std::vector<const PooledProblem*>& pools, const PooledRanking& ranking,
+Ranking RankLevel(const std::vector<const ProblemSummary*>& pools, const SummaryRanking& ranking,
                   PolishLevel level) {
   std::vector<std::vector<double>> values(ranking.names.size());
-  for (const PooledProblem* pool : pools) {
+  for (const ProblemSummary* pool : pools) {
     for (const ProblemResult* device : pool->devices) AddBlocks(*device, ranking, level, &values);
   }
   return RankAll(std::move(values));
 }
 
-void AddRankings(const std::vector<const PooledProblem*>& pools, const std::string& problem,
-                 std::vector<PooledRanking>* rankings) {
+void AddRankings(const std::vector<const ProblemSummary*>& pools, const std::string& problem,
+                 std::vector<SummaryRanking>* rankings) {
   std::set<std::int64_t> budgets;
-  for (const PooledProblem* pool : pools) {
-    for (const PooledContender& contender : pool->contenders) {
-      if (contender.budget > 0) budgets.insert(contender.budget);
+  for (const ProblemSummary* pool : pools) {
+    for (const AlgorithmSummary& compared : pool->algorithms) {
+      if (compared.budget > 0) budgets.insert(compared.budget);
     }
   }
   for (const std::int64_t budget : budgets) {
-    PooledRanking ranking{problem, budget, SearchesOf(pools, budget), {}, {}};
+    SummaryRanking ranking{problem, budget, SearchesOf(pools, budget), {}, {}};
     ranking.searched = RankLevel(pools, ranking, PolishLevel::kSearch);
     ranking.own = RankLevel(pools, ranking, PolishLevel::kOwn);
-    if (ranking.searched.friedman.contenders > 0) rankings->push_back(std::move(ranking));
+    if (ranking.searched.friedman.algorithms > 0) rankings->push_back(std::move(ranking));
   }
 }
 
 }  // namespace
 
-std::vector<PooledRanking> RankPools(const std::vector<PooledProblem>& pools) {
-  std::vector<PooledRanking> rankings;
-  std::vector<const PooledProblem*> all;
+std::vector<SummaryRanking> RankPools(const std::vector<ProblemSummary>& pools) {
+  std::vector<SummaryRanking> rankings;
+  std::vector<const ProblemSummary*> all;
   all.reserve(pools.size());
-  for (const PooledProblem& pool : pools) all.push_back(&pool);
+  for (const ProblemSummary& pool : pools) all.push_back(&pool);
   if (all.size() > 1) AddRankings(all, "", &rankings);
-  for (const PooledProblem* pool : all) AddRankings({pool}, pool->name, &rankings);
+  for (const ProblemSummary* pool : all) AddRankings({pool}, pool->name, &rankings);
   return rankings;
 }
 

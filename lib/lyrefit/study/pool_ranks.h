@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/pool.h"
+#include "lyrefit/study/problem_summary.h"
 
 namespace lyrefit {
 
 // Ranks of the searches of one budget on one problem or on all: the blocks are all its runs of all
-// devices, the figures RMSE / reference of the device. Figures of one block within kPoolHit of each
+// devices, the figures RMSE / reference of the device. Figures of one block within kHit of each
 // other are equal.
-struct PooledRanking {
+struct SummaryRanking {
   std::string problem;  // empty: all of them
   std::int64_t budget = 0;
   std::vector<std::string> names;  // of the algorithms, as the ranks count them
@@ -21,6 +21,6 @@ struct PooledRanking {
 // By rising budget: first of all problems together, where there are several, then of each in turn.
 // Blocks that not every search of a budget has done are left out, and budgets with fewer than two
 // searches or blocks.
-std::vector<PooledRanking> RankPools(const std::vector<PooledProblem>& pools);
+std::vector<SummaryRanking> RankPools(const std::vector<ProblemSummary>& pools);
 
 }  // namespace lyrefit

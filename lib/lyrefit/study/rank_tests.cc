@@ -48,11 +48,11 @@ DoubledRanks RankDoubled(const std::vector<double>& values) {
 }
 
 void CheckBlocks(const std::vector<std::vector<double>>& values) {
-  CHECK_GE(values.size(), 2U) << "ranks need two contenders";
+  CHECK_GE(values.size(), 2U) << "ranks need two algorithms";
   CHECK(!values[0].empty()) << "ranks need a block";
-  for (const std::vector<double>& contender : values) {
-    CHECK_EQ(contender.size(), values[0].size()) << "every contender needs a value in every block";
-    for (const double value : contender) CHECK(std::isfinite(value));
+  for (const std::vector<double>& compared : values) {
+    CHECK_EQ(compared.size(), values[0].size()) << "every compared needs a value in every block";
+    for (const double value : compared) CHECK(std::isfinite(value));
   }
 }
 
@@ -60,11 +60,11 @@ void CheckBlocks(const std::vector<std::vector<double>>& values) {
 DoubledRanks RankBlock(const std::vector<std::vector<double>>& values, std::size_t b) {
   std::vector<double> block;
   block.reserve(values.size());
-  for (const std::vector<double>& contender : values) block.push_back(contender[b]);
+  for (const std::vector<double>& compared : values) block.push_back(compared[b]);
   return RankDoubled(block);
 }
 
-// Half the variance of the difference of two contenders' ranks in a block, if every order is as
+// Half the variance of the difference of two algorithms' ranks in a block, if every order is as
 // likely: k (k + 1) / 12 without ties, the mean over the blocks with ties.
 double RankVariance(const std::vector<std::vector<double>>& values) {
   const auto k = static_cast<double>(values.size());
@@ -109,14 +109,14 @@ std::vector<double> JoinEqual(std::vector<double> values, double relative) {
 Friedman FriedmanTest(const std::vector<std::vector<double>>& values) {
   CheckBlocks(values);
   Friedman friedman;
-  friedman.contenders = static_cast<int>(values.size());
+  friedman.algorithms = static_cast<int>(values.size());
   friedman.blocks = static_cast<int>(values[0].size());
   std::vector<double> rank_sum(values.size(), 0.0);
   for (std::size_t b = 0; b < values[0].size(); ++b) {
     const DoubledRanks ranks = RankBlock(values, b);
     for (std::size_t c = 0; c < values.size(); ++c) rank_sum[c] += 0.5 * ranks.rank[c];
   }
-  const double expected = 0.5 * (friedman.contenders + 1);
+  const double expected = 0.5 * (friedman.algorithms + 1);
   double squares = 0;
   for (const double sum : rank_sum) {
     friedman.mean_rank.push_back(sum / friedman.blocks);
@@ -125,7 +125,7 @@ Friedman FriedmanTest(const std::vector<std::vector<double>>& values) {
   const double variance = RankVariance(values);
   if (!(variance > 0)) return friedman;
   friedman.chi_square = friedman.blocks * squares / variance;
-  friedman.p_value = ChiSquaredTail(friedman.chi_square, friedman.contenders - 1);
+  friedman.p_value = ChiSquaredTail(friedman.chi_square, friedman.algorithms - 1);
   return friedman;
 }
 
@@ -134,16 +134,16 @@ std::vector<RankPair> ComparePairs(const Friedman& friedman,
   CheckBlocks(values);
   CHECK_EQ(friedman.mean_rank.size(), values.size());
   CHECK_EQ(static_cast<std::size_t>(friedman.blocks), values[0].size());
-  const int contenders = friedman.contenders;
-  const double count = 0.5 * contenders * (contenders - 1);
+  const int algorithms = friedman.algorithms;
+  const double count = 0.5 * algorithms * (algorithms - 1);
   const double deviation = std::sqrt(2 * RankVariance(values) / friedman.blocks);
   // Sidak: 1 - (1 - each)^count = 0.05.
   const double each = -std::expm1(std::log1p(-0.05) / count);
   const double z_95 = NormalAbove(each / 2);
   std::vector<RankPair> pairs;
   std::vector<double> p_values;
-  for (int a = 0; a < contenders; ++a) {
-    for (int b = a + 1; b < contenders; ++b) {
+  for (int a = 0; a < algorithms; ++a) {
+    for (int b = a + 1; b < algorithms; ++b) {
       RankPair pair;
       pair.first = a;
       pair.second = b;

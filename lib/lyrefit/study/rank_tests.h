@@ -7,7 +7,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Rank statistics of repeated runs. A block is what all contenders share (one seed, one curve); in
+// Rank statistics of repeated runs. A block is what all algorithms share (one seed, one curve); in
 // a block the smallest value ranks first and equal values share the mean of their ranks. Values
 // must be finite (CHECKed).
 
@@ -16,15 +16,15 @@ namespace LYREFIT_PUBLIC lyrefit {
 // rounding are equal, not better or worse.
 std::vector<double> JoinEqual(std::vector<double> values, double relative);
 
-// Friedman's test (1937, doi:10.1080/01621459.1937.10503522) that all contenders rank alike, with
-// the correction for ties. `values[c][b]` is contender c in block b; at least two contenders and
+// Friedman's test (1937, doi:10.1080/01621459.1937.10503522) that all algorithms rank alike, with
+// the correction for ties. `values[c][b]` is compared c in block b; at least two algorithms and
 // one block (CHECKed).
 struct Friedman {
-  int contenders = 0;             // that were ranked
+  int algorithms = 0;             // that were ranked
   int blocks = 0;                 // in which they were
-  std::vector<double> mean_rank;  // of each contender
+  std::vector<double> mean_rank;  // of each compared
   double chi_square = 0;          // the statistic
-  double p_value = 1;  // chi-square with contenders - 1 degrees of freedom; 1 if all values tie
+  double p_value = 1;  // chi-square with algorithms - 1 degrees of freedom; 1 if all values tie
 };
 Friedman FriedmanTest(const std::vector<std::vector<double>>& values);
 
@@ -32,7 +32,7 @@ Friedman FriedmanTest(const std::vector<std::vector<double>>& values);
 // doi:10.1080/00401706.1964.10490181), with the tie-corrected variance of the ranks. `values` are
 // those of the test: their ties enter the variance.
 struct RankPair {
-  int first = 0;          // position among the contenders
+  int first = 0;          // position among the algorithms
   int second = 0;         // the same
   double difference = 0;  // mean rank of first - second
   double low_95 = 0;      // simultaneous 95 % interval (Sidak over all pairs)

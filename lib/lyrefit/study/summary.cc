@@ -30,7 +30,7 @@ std::vector<double> Column(const std::vector<RunRecord>& runs, T RunRecord::*fie
   return values;
 }
 
-void CountHits(ContenderResult* result) {
+void CountHits(AlgorithmResult* result) {
   double evaluations = 0;
   for (const RunRecord& run : result->runs) {
     const bool hit = run.evaluations_to_target >= 0;
@@ -88,8 +88,8 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
 
 BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
   BestFound best{kInfinity, {}};
-  for (const std::vector<RunOutcome>& contender : outcomes) {
-    for (const RunOutcome& outcome : contender) {
+  for (const std::vector<RunOutcome>& compared : outcomes) {
+    for (const RunOutcome& outcome : compared) {
       const RunRecord& run = outcome.record;
       for (const double rmse :
            {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
@@ -128,17 +128,17 @@ RunSpread SpreadOf(std::vector<double> values, double reference) {
 Ranking RankAll(std::vector<std::vector<double>> values) {
   Ranking ranking;
   if (values.size() < 2 || values[0].size() < 2) return ranking;
-  for (std::vector<double>& contender : values) {
-    for (double& value : contender) {
+  for (std::vector<double>& compared : values) {
+    for (double& value : compared) {
       value = std::min(value, std::numeric_limits<double>::max());
     }
   }
   ranking.friedman = FriedmanTest(values);
   ranking.pairs = ComparePairs(ranking.friedman, values);
-  const int contenders = static_cast<int>(values.size());
+  const int algorithms = static_cast<int>(values.size());
   std::vector<double> p_values;
-  for (int a = 0; a < contenders; ++a) {
-    for (int b = a + 1; b < contenders; ++b) {
+  for (int a = 0; a < algorithms; ++a) {
+    for (int b = a + 1; b < algorithms; ++b) {
       ranking.signed_ranks.push_back({a, b, WilcoxonTest(values[a], values[b]), 1});
       p_values.push_back(ranking.signed_ranks.back().test.p_value);
     }
@@ -150,27 +150,27 @@ Ranking RankAll(std::vector<std::vector<double>> values) {
 
 Ranking RankJoined(const std::vector<std::vector<double>>& values) {
   std::vector<double> all;
-  for (const auto& contender : values) all.insert(all.end(), contender.begin(), contender.end());
+  for (const auto& compared : values) all.insert(all.end(), compared.begin(), compared.end());
   all = JoinEqual(std::move(all), kEqual);
   std::vector<std::vector<double>> joined;
   auto next = all.begin();
-  for (const auto& contender : values) {
-    const auto end = next + static_cast<std::ptrdiff_t>(contender.size());
+  for (const auto& compared : values) {
+    const auto end = next + static_cast<std::ptrdiff_t>(compared.size());
     joined.emplace_back(next, end);
     next = end;
   }
   return RankAll(std::move(joined));
 }
 
-ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
+AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutcome>* outcomes,
                           double reference, double target_gap, bool keep_parameters) {
-  ContenderResult result;
-  result.name = contender.name;
-  result.algorithm = contender.algorithm.empty() ? contender.name : contender.algorithm;
-  result.search = contender.search;
-  result.kind = contender.kind;
-  result.candidates = contender.candidates;
-  result.budget = contender.budget;
+  AlgorithmResult result;
+  result.name = compared.name;
+  result.algorithm = compared.algorithm.empty() ? compared.name : compared.algorithm;
+  result.search = compared.search;
+  result.kind = compared.kind;
+  result.candidates = compared.candidates;
+  result.budget = compared.budget;
   for (RunOutcome& outcome : *outcomes) {
     outcome.record.evaluations_to_target =
         EvaluationsTo(reference * (1 + target_gap), outcome.gains);
@@ -192,22 +192,22 @@ ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* o
   return result;
 }
 
-void SumUpContenders(const std::vector<Contender>& contenders, const CompareOptions& options,
+void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
                      std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result) {
-  std::vector<int> done(options.runs, 0);  // by how many contenders
-  for (std::size_t c = 0; c < contenders.size(); ++c) {
+  std::vector<int> done(options.runs, 0);  // by how many algorithms
+  for (std::size_t c = 0; c < algorithms.size(); ++c) {
     if (outcomes[c].empty()) continue;
     for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];
-    result->contenders.push_back(Summarise(contenders[c], &outcomes[c], result->reference.rmse_A,
+    result->algorithms.push_back(Summarise(algorithms[c], &outcomes[c], result->reference.rmse_A,
                                            options.target_gap, !result->problem.empty()));
   }
   if (!options.rankings) return;
   std::vector<std::vector<double>> searched, polished;
-  for (const ContenderResult& contender : result->contenders) {
+  for (const AlgorithmResult& compared : result->algorithms) {
     searched.emplace_back();
     polished.emplace_back();
-    for (const RunRecord& run : contender.runs) {
-      if (done[run.run] < static_cast<int>(result->contenders.size())) continue;
+    for (const RunRecord& run : compared.runs) {
+      if (done[run.run] < static_cast<int>(result->algorithms.size())) continue;
       searched.back().push_back(run.searched_A);
       polished.back().push_back(run.polished_A);
     }

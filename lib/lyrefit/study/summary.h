@@ -25,28 +25,28 @@ std::int64_t EvaluationsTo(double target, const std::vector<TracePoint>& gains);
 // the logarithm, from where every run has a value to the end of the longest.
 std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, int marks = 60);
 
-// The lowest RMSE of all stages of all runs of all contenders; without parameters where there is no
+// The lowest RMSE of all stages of all runs of all algorithms; without parameters where there is no
 // run.
 BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes);
 
 // `values` must not be empty; all NaN if one is NaN.
 RunSpread SpreadOf(std::vector<double> values, double reference);
 
-// Ranks of `values[c][b]`, contender c in run b; empty for fewer than two of either. Infinity
+// Ranks of `values[c][b]`, compared c in run b; empty for fewer than two of either. Infinity
 // counts as the largest number.
 Ranking RankAll(std::vector<std::vector<double>> values);
 
 // The same with answers that agree within 1e-9 joined, whoever found them.
 Ranking RankJoined(const std::vector<std::vector<double>>& values);
 
-// Everything that the runs of one contender say together; fills their evaluations to target, and
+// Everything that the runs of one compared say together; fills their evaluations to target, and
 // where asked for the parameters they ended at.
-ContenderResult Summarise(const Contender& contender, std::vector<RunOutcome>* outcomes,
+AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutcome>* outcomes,
                           double reference, double target_gap, bool keep_parameters = false);
 
-// Contenders and rankings of a problem from what each contender has done, by rising number of the
-// run. Contenders without a run are left out; ranks are of the runs that all the others have done.
-void SumUpContenders(const std::vector<Contender>& contenders, const CompareOptions& options,
+// Algorithms and rankings of a problem from what each compared has done, by rising number of the
+// run. Algorithms without a run are left out; ranks are of the runs that all the others have done.
+void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
                      std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result);
 
 }  // namespace lyrefit

@@ -11,51 +11,51 @@ namespace {
 constexpr char kPeers[] = "pagmo:";
 
 // The way with the smallest budget of one algorithm at one level from which on all are enough.
-std::optional<Way> EnoughFrom(std::vector<const PooledContender*> contenders, PolishLevel level) {
-  std::sort(contenders.begin(), contenders.end(),
+std::optional<Configuration> EnoughFrom(std::vector<const AlgorithmSummary*> algorithms, PolishLevel level) {
+  std::sort(algorithms.begin(), algorithms.end(),
             [](const auto* a, const auto* b) { return a->budget > b->budget; });
-  std::optional<Way> from;
-  for (const PooledContender* contender : contenders) {
-    if (!contender->At(level) || !Way{contender, level}.IsEnough()) break;
-    from = Way{contender, level};
+  std::optional<Configuration> from;
+  for (const AlgorithmSummary* compared : algorithms) {
+    if (!compared->At(level) || !Configuration{compared, level}.IsEnough()) break;
+    from = Configuration{compared, level};
   }
   return from;
 }
 
 // What was not timed counts as the slowest.
-bool Faster(const Way& a, const Way& b) {
+bool Faster(const Configuration& a, const Configuration& b) {
   const double there = b.figures().seconds;
   return a.figures().seconds < there || (std::isnan(there) && !std::isnan(a.figures().seconds));
 }
 
-bool MoreHits(const Way& a, const Way& b) {
+bool MoreHits(const Configuration& a, const Configuration& b) {
   if (a.figures().hits != b.figures().hits) return a.figures().hits > b.figures().hits;
   return Faster(a, b);
 }
 
-void Keep(const std::optional<Way>& way, bool (*better)(const Way&, const Way&),
-          std::optional<Way>* best) {
+void Keep(const std::optional<Configuration>& way, bool (*better)(const Configuration&, const Configuration&),
+          std::optional<Configuration>* best) {
   if (way && (!*best || better(*way, **best))) *best = way;
 }
 
-std::optional<Way> OfKind(const PooledProblem& pool, ContenderKind kind) {
-  for (const PooledContender& contender : pool.contenders) {
-    if (contender.kind != kind || !contender.At(PolishLevel::kHybrid)) continue;
-    return Way{&contender, PolishLevel::kHybrid};
+std::optional<Configuration> OfKind(const ProblemSummary& pool, AlgorithmKind kind) {
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (compared.kind != kind || !compared.At(PolishLevel::kHybrid)) continue;
+    return Configuration{&compared, PolishLevel::kHybrid};
   }
   return {};
 }
 
 // 0: it never hits.
-int RepeatsToBeSure(const Way& way) {
-  const PooledLevel& figures = way.figures();
+int RepeatsToBeSure(const Configuration& way) {
+  const LevelSummary& figures = way.figures();
   if (figures.hits == 0) return 0;
   if (way.IsEnough()) return 1;
   const double misses = 1 - static_cast<double>(figures.hits) / figures.runs;
   return static_cast<int>(std::ceil(std::log(1 - kEnoughShare) / std::log(misses) - 1e-9));
 }
 
-bool SoonerSure(const Way& a, const Way& b) {
+bool SoonerSure(const Configuration& a, const Configuration& b) {
   const double here = TimeToBeSure(a), there = TimeToBeSure(b);
   return std::isinf(here) && std::isinf(there) ? Faster(a, b) : here < there;
 }
@@ -64,26 +64,26 @@ bool SoonerSure(const Way& a, const Way& b) {
 
 int EnoughHits(int runs) { return static_cast<int>(std::ceil(kEnoughShare * runs - 1e-9)); }
 
-SearchVerdict JudgePool(const PooledProblem& pool) {
+SearchVerdict JudgeProblem(const ProblemSummary& pool) {
   SearchVerdict verdict;
-  verdict.shape = OfKind(pool, ContenderKind::kShape);
+  verdict.shape = OfKind(pool, AlgorithmKind::kShape);
   verdict.shape_is_enough = verdict.shape && verdict.shape->IsEnough();
-  std::map<std::string, std::vector<const PooledContender*>> searches;
-  for (const PooledContender& contender : pool.contenders) {
-    if (contender.kind == ContenderKind::kSearch)
-      searches[contender.algorithm].push_back(&contender);
+  std::map<std::string, std::vector<const AlgorithmSummary*>> searches;
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (compared.kind == AlgorithmKind::kSearch)
+      searches[compared.algorithm].push_back(&compared);
   }
-  std::optional<Way> random_enough, random_best;
-  for (const auto& [name, contenders] : searches) {
+  std::optional<Configuration> random_enough, random_best;
+  for (const auto& [name, algorithms] : searches) {
     const bool is_random = name == ToText(Algorithm::kRandom);
     for (const PolishLevel level : kPolishLevels) {
       if (level == PolishLevel::kHybrid && verdict.shape_is_enough) continue;
-      const std::optional<Way> from = EnoughFrom(contenders, level);
+      const std::optional<Configuration> from = EnoughFrom(algorithms, level);
       Keep(from, Faster, &verdict.search);
       if (is_random) Keep(from, Faster, &random_enough);
-      for (const PooledContender* contender : contenders) {
-        if (!contender->At(level)) continue;
-        const Way way{contender, level};
+      for (const AlgorithmSummary* compared : algorithms) {
+        if (!compared->At(level)) continue;
+        const Configuration way{compared, level};
         verdict.needed = EnoughHits(way.figures().runs);
         Keep(way, MoreHits, &verdict.best);
         if (is_random) Keep(way, MoreHits, &random_best);
@@ -93,25 +93,25 @@ SearchVerdict JudgePool(const PooledProblem& pool) {
   verdict.shape_wins =
       verdict.shape_is_enough && (!verdict.search || !Faster(*verdict.search, *verdict.shape));
   if (verdict.search) verdict.best.reset();
-  const std::optional<Way>& winner = verdict.search ? verdict.search : verdict.best;
+  const std::optional<Configuration>& winner = verdict.search ? verdict.search : verdict.best;
   verdict.random = random_enough ? random_enough : random_best;
-  const bool wins = winner && winner->contender->algorithm == ToText(Algorithm::kRandom);
+  const bool wins = winner && winner->compared->algorithm == ToText(Algorithm::kRandom);
   if (wins) verdict.random.reset();
   return verdict;
 }
 
-double TimeToBeSure(const Way& way) {
+double TimeToBeSure(const Configuration& way) {
   const int repeats = RepeatsToBeSure(way);
   return repeats == 0 ? kInfinity : repeats * way.figures().seconds;
 }
 
-std::optional<PeerRatio> CompareWithPeers(const PooledProblem& pool) {
-  const std::optional<Way> self = OfKind(pool, ContenderKind::kDefault);
+std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& pool) {
+  const std::optional<Configuration> self = OfKind(pool, AlgorithmKind::kDefault);
   if (!self) return {};
   PeerRatio ratio{*self, {}, 0, kUnknown};
-  for (const PooledContender& contender : pool.contenders) {
-    if (contender.algorithm.rfind(kPeers, 0) != 0 || !contender.At(PolishLevel::kOwn)) continue;
-    Keep(Way{&contender, PolishLevel::kOwn}, SoonerSure, &ratio.peer);
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (compared.algorithm.rfind(kPeers, 0) != 0 || !compared.At(PolishLevel::kOwn)) continue;
+    Keep(Configuration{&compared, PolishLevel::kOwn}, SoonerSure, &ratio.peer);
   }
   if (!ratio.peer) return ratio;
   ratio.repeats = RepeatsToBeSure(*ratio.peer);

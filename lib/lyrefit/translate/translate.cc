@@ -128,7 +128,7 @@ Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& opt
   FieldMeasurement measurement;
   measurement.measured = KeyPointsBy(KeyPointMethod::kInterpolated, made.curve.points);
   measurement.inputs = made.inputs.values;
-  measurement.doubt = WhyDoubtful(report->curve).value_or("");
+  measurement.doubt = PlausibilityProblem(report->curve).value_or("");
   FieldTestOptions test = options.field_test;
   if (!test.power_coefficient_percent_K) {
     test.power_coefficient_percent_K = made.inputs.usual_gamma_percent_K;

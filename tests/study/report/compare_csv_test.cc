@@ -37,7 +37,7 @@ TEST(CompareCsv, HasOneRowARun) {
 TEST(CompareCsv, LeavesFieldsEmptyThatAreNotKnown) {
   Comparison comparison = SampleComparison();
   comparison.problems.pop_back();
-  RunRecord& run = comparison.problems[0].contenders[0].runs[0];
+  RunRecord& run = comparison.problems[0].algorithms[0].runs[0];
   run = {};
   run.evaluations = 5;
   run.curve_evaluations = 9;

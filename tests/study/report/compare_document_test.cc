@@ -38,14 +38,14 @@ void ExpectFitsTheTerminal(const std::string& text) {
   EXPECT_EQ(text.back(), '\n');
 }
 
-// Twelve contenders, with the longest names there are.
+// Twelve algorithms, with the longest names there are.
 Comparison LargeComparison() {
-  std::vector<Contender> contenders;
+  std::vector<ComparedAlgorithm> algorithms;
   for (int i = 0; i < 12; ++i) {
-    contenders.push_back(
+    algorithms.push_back(
         {"pagmo:simulated_annealin" + std::string(1, static_cast<char>('a' + i)), "", {}, {}});
   }
-  return SampleComparison(contenders);
+  return SampleComparison(algorithms);
 }
 
 TEST(CompareText, FitsATerminalOf100Columns) {
@@ -176,7 +176,7 @@ TEST(CompareText, CallsRoundingWhatIsRounding) {
   }
   ProblemResult& problem = comparison.problems[0];
   problem.searched = RankAll(values);
-  for (int c = 0; c < 2; ++c) problem.contenders[c].searched.within_1e9 = 4;
+  for (int c = 0; c < 2; ++c) problem.algorithms[c].searched.within_1e9 = 4;
   const std::string text = Unwrapped(CompareText(comparison));
   EXPECT_THAT(text, HasSubstr("mlo below de, random"));
   EXPECT_THAT(text,
@@ -189,7 +189,7 @@ TEST(CompareText, LeavesOutWhatWasNotDone) {
   comparison.options.polish = comparison.options.plain_polish = false;
   for (ProblemResult& problem : comparison.problems) {
     problem.polished = {};
-    for (ContenderResult& c : problem.contenders) {
+    for (AlgorithmResult& c : problem.algorithms) {
       c.polished = c.own_polished = c.plain_polished = {};
     }
   }
@@ -204,7 +204,7 @@ TEST(CompareText, StartsWithInterrupted) {
   Comparison comparison = SampleComparison();
   comparison.interrupted = true;
   comparison.problems[1].complete = false;
-  comparison.problems[1].contenders[2].runs.pop_back();
+  comparison.problems[1].algorithms[2].runs.pop_back();
   const std::string text = CompareText(comparison);
   EXPECT_THAT(text, StartsWith("INTERRUPTED"));
   EXPECT_THAT(text, HasSubstr("are of those.\n\nlyrefit"));
@@ -218,28 +218,28 @@ TEST(CompareText, StartsWithInterrupted) {
 
 TEST(BudgetText, LeavesACellOpenWhereNoRunWasDone) {
   Comparison comparison =
-      SampleComparison(BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {1000, 100, 10}));
+      SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {1000, 100, 10}));
   comparison.problems.pop_back();
   comparison.interrupted = true;
   comparison.problems[0].complete = false;
-  comparison.problems[0].contenders.pop_back();  // random@10
+  comparison.problems[0].algorithms.pop_back();  // random@10
   EXPECT_THAT(BudgetText(comparison), testing::ContainsRegex("random +- +[0-4] +[0-4]\n"));
 }
 
 // mlo and random at three budgets; `missed` runs of random at the largest one.
 Comparison BudgetComparison(int missed) {
   Comparison comparison =
-      SampleComparison(BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {10, 100, 1000}));
+      SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100, 1000}));
   comparison.problems.pop_back();
-  auto& contenders = comparison.problems[0].contenders;
-  for (ContenderResult& contender : contenders) {
-    contender.searched.within_1e6 = 0;
-    contender.plain_polished.within_1e9 = 2;
-    contender.polished.within_1e9 = contender.own_polished.within_1e9 = 4;
+  auto& algorithms = comparison.problems[0].algorithms;
+  for (AlgorithmResult& compared : algorithms) {
+    compared.searched.within_1e6 = 0;
+    compared.plain_polished.within_1e9 = 2;
+    compared.polished.within_1e9 = compared.own_polished.within_1e9 = 4;
   }
-  contenders[0].own_polished.within_1e9 = 3;
-  contenders[3].polished.within_1e9 = 3;
-  contenders[5].polished.within_1e9 -= missed;
+  algorithms[0].own_polished.within_1e9 = 3;
+  algorithms[3].polished.within_1e9 = 3;
+  algorithms[5].polished.within_1e9 -= missed;
   return comparison;
 }
 
@@ -264,7 +264,7 @@ TEST(BudgetText, SaysWhetherRandomPointsDoAsWell) {
   EXPECT_THAT(Unwrapped(BudgetText(BudgetComparison(1))),
               HasSubstr("Random points do not get there in every run."));
   Comparison level = BudgetComparison(0);
-  level.problems[0].contenders[3].polished.within_1e9 = 4;
+  level.problems[0].algorithms[3].polished.within_1e9 = 4;
   EXPECT_THAT(
       Unwrapped(BudgetText(level)),
       HasSubstr("With all starts: every algorithm hits in every run from 10 evaluations on. "
@@ -273,12 +273,12 @@ TEST(BudgetText, SaysWhetherRandomPointsDoAsWell) {
 
 TEST(BudgetText, CountsABudgetOnlyIfAllLargerOnesHitToo) {
   Comparison comparison = BudgetComparison(0);
-  comparison.problems[0].contenders[1].polished.within_1e9 = 2;
+  comparison.problems[0].algorithms[1].polished.within_1e9 = 2;
   EXPECT_THAT(Unwrapped(BudgetText(comparison)), HasSubstr("with mlo from 1000 evaluations on"));
 }
 
 TEST(SensitivityText, ShowsGridsOfPmAndGamma) {
-  const Comparison comparison = SampleComparison(SensitivityContenders({0, 0.5}, {0.25, 1}, {}));
+  const Comparison comparison = SampleComparison(SensitivityAlgorithms({0, 0.5}, {0.25, 1}, {}));
   const std::string text = SensitivityText(comparison);
   ExpectFitsTheTerminal(text);
   const std::string mean = Between(text, "mean RMSE in A (measured-current)", "\n\n");

@@ -26,20 +26,20 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
                  "polish", "plain_polish", "interrupted", "seconds", "warnings", "problems"}));
   const json& problem = j["problems"][0];
   EXPECT_EQ(Keys(problem),
-            (Set{"curve", "model", "bounds", "complete", "reference", "contenders", "ranking"}));
+            (Set{"curve", "model", "bounds", "complete", "reference", "algorithms", "ranking"}));
   EXPECT_EQ(Keys(problem["reference"]),
             (Set{"rmse_A", "certified", "lower_bound_A", "floor_A", "origin", "parameters"}));
-  const json& contender = problem["contenders"][0];
-  EXPECT_EQ(Keys(contender),
+  const json& compared = problem["algorithms"][0];
+  EXPECT_EQ(Keys(compared),
             (Set{"name", "algorithm", "settings", "searched", "plain_polished",
                  "refined_best_candidate", "refined", "evaluations", "curve_evaluations", "candidates",
                  "target", "search", "refine", "median_trace", "runs"}));
-  EXPECT_EQ(Keys(contender["settings"]),
+  EXPECT_EQ(Keys(compared["settings"]),
             (Set{"population", "iterations", "memory_rate", "distance_coefficient", "de_scale",
                  "de_crossover", "max_evaluations", "elites"}));
-  EXPECT_EQ(Keys(contender["searched"]),
+  EXPECT_EQ(Keys(compared["searched"]),
             (Set{"min_A", "mean_A", "median_A", "max_A", "std_A", "within_1e9", "within_1e6"}));
-  EXPECT_EQ(Keys(contender["runs"][0]),
+  EXPECT_EQ(Keys(compared["runs"][0]),
             (Set{"run", "searched_A", "plain_polished_A", "refined_best_candidate_A", "refined_A",
                  "evaluations", "curve_evaluations", "evaluations_to_target", "search", "refine"}));
   EXPECT_EQ(Keys(problem["ranking"]), (Set{"searched", "refined"}));
@@ -56,26 +56,26 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
 TEST(CompareJson, BringsBackTheSameBits) {
   const Comparison comparison = SampleComparison();
   const json j = Parsed(comparison);
-  const ContenderResult& random = comparison.problems[1].contenders[2];
-  const json& contender = j["problems"][1]["contenders"][2];
-  EXPECT_EQ(contender["name"], "random");
-  EXPECT_EQ(contender["searched"]["std_A"].get<double>(), random.searched.std);
-  EXPECT_EQ(contender["runs"][3]["refined_A"].get<double>(), random.runs[3].polished_A);
-  EXPECT_EQ(contender["runs"][3]["run"], 3);
-  EXPECT_EQ(contender["median_trace"]["best_A"].back().get<double>(), random.trace.back().best_A);
-  EXPECT_EQ(contender["median_trace"]["evaluations"].size(), random.trace.size());
+  const AlgorithmResult& random = comparison.problems[1].algorithms[2];
+  const json& compared = j["problems"][1]["algorithms"][2];
+  EXPECT_EQ(compared["name"], "random");
+  EXPECT_EQ(compared["searched"]["std_A"].get<double>(), random.searched.std);
+  EXPECT_EQ(compared["runs"][3]["refined_A"].get<double>(), random.runs[3].polished_A);
+  EXPECT_EQ(compared["runs"][3]["run"], 3);
+  EXPECT_EQ(compared["median_trace"]["best_A"].back().get<double>(), random.trace.back().best_A);
+  EXPECT_EQ(compared["median_trace"]["evaluations"].size(), random.trace.size());
   EXPECT_EQ(j["problems"][0]["reference"]["parameters"]["n"], 1.48);
 }
 
 TEST(CompareJson, WritesNullForWhatIsNotKnown) {
   Comparison comparison = SampleComparison();
-  ContenderResult& contender = comparison.problems[0].contenders[2];
-  contender.plain_polished = {};
-  contender.runs[0].plain_polished_A = kUnknown;
-  contender.runs[1].searched_A = kInfinity;
+  AlgorithmResult& compared = comparison.problems[0].algorithms[2];
+  compared.plain_polished = {};
+  compared.runs[0].plain_polished_A = kUnknown;
+  compared.runs[1].searched_A = kInfinity;
   comparison.problems[0].polished = {};
   const json j = Parsed(comparison);
-  const json& c = j["problems"][0]["contenders"][2];
+  const json& c = j["problems"][0]["algorithms"][2];
   EXPECT_TRUE(c["plain_polished"].is_null());
   EXPECT_TRUE(c["runs"][0]["plain_polished_A"].is_null());
   EXPECT_TRUE(c["runs"][1]["searched_A"].is_null());
@@ -94,10 +94,10 @@ TEST(CompareJson, KeepsWallClockTimesUnderSecondsOnly) {
   json first = Parsed(comparison);
   comparison.seconds = 77;
   comparison.options.threads = 9;
-  comparison.problems[0].contenders[0].search_seconds = 77;
-  comparison.problems[0].contenders[1].polish_seconds = 77;
-  comparison.problems[0].contenders[1].runs[2].search_seconds = 77;
-  comparison.problems[0].contenders[1].runs[2].polish_seconds = 77;
+  comparison.problems[0].algorithms[0].search_seconds = 77;
+  comparison.problems[0].algorithms[1].polish_seconds = 77;
+  comparison.problems[0].algorithms[1].runs[2].search_seconds = 77;
+  comparison.problems[0].algorithms[1].runs[2].polish_seconds = 77;
   json second = Parsed(comparison);
   EXPECT_NE(first, second);
   RemoveSeconds(&first);

@@ -21,7 +21,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 Comparison BudgetComparison() {
-  return SampleComparison(BudgetContenders({Algorithm::kMlo, Algorithm::kRandom}, {10, 100}));
+  return SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100}));
 }
 
 // Opening and closing tags balance.
@@ -85,13 +85,13 @@ TEST(ComparePlots, TakeRunsThatAreAllEqualOrEndless) {
   const TempFolder folder;
   Comparison comparison = SampleComparison();
   for (ProblemResult& problem : comparison.problems) {
-    for (ContenderResult& contender : problem.contenders) {
-      for (RunRecord& run : contender.runs) run.searched_A = run.polished_A = 1e-3;
-      contender.trace = {{10, 1e-3}};
+    for (AlgorithmResult& compared : problem.algorithms) {
+      for (RunRecord& run : compared.runs) run.searched_A = run.polished_A = 1e-3;
+      compared.trace = {{10, 1e-3}};
     }
     problem.reference.rmse_A = 1e-3;
   }
-  comparison.problems[0].contenders[0].runs[0].searched_A = kInfinity;
+  comparison.problems[0].algorithms[0].runs[0].searched_A = kInfinity;
   EXPECT_TRUE(PlotBoxes(comparison, folder.Path("box.svg")));
   EXPECT_TRUE(PlotConvergence(comparison, folder.Path("course.svg")));
 }
@@ -107,7 +107,7 @@ TEST(ComparePlots, DoWithoutAPolish) {
 TEST(ComparePlots, QuoteNamesForGnuplot) {
   Comparison comparison = SampleComparison();
   comparison.problems[0].curve_name = "it's\n_a^b{c}";
-  comparison.problems[0].contenders[0].name = "x_{y}'";
+  comparison.problems[0].algorithms[0].name = "x_{y}'";
   const TempFolder folder;
   const auto drawn = PlotConvergence(comparison, folder.Path("course.svg"));
   ASSERT_TRUE(drawn) << drawn.error().ToString();

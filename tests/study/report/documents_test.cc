@@ -18,7 +18,7 @@ TEST(StudyDocuments, AreWellFormedPages) {
   outlier.problems[0].curve_name = "<!-- & ]]> \"curve\"";
   outlier.interrupted = true;
   const Comparison pooled =
-      MadeComparison({MadeDevice("x 0", "x <1>", {MadeContender("random", 100, {{9, 2, 2}})})});
+      MadeComparison({MadeDevice("x 0", "x <1>", {SyntheticAlgorithm("random", 100, {{9, 2, 2}})})});
   const std::vector<Document> documents = {AuditDocument(SampleAudit()),
                                            CompareDocument(outlier),
                                            BudgetDocument(SampleComparison()),

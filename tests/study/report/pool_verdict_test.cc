@@ -20,19 +20,19 @@ struct PooledRow {
 Comparison Fifty(const std::vector<PooledRow>& rows) {
   std::vector<ProblemResult> devices;
   for (int d = 0; d < 50; ++d) {
-    std::vector<ContenderResult> contenders;
+    std::vector<AlgorithmResult> algorithms;
     for (const PooledRow& row : rows) {
       const MadeRun run = {9, d < row.own ? 1.0 : 2, d < row.hybrid ? 1.0 : 2};
-      contenders.push_back(MadeContender(row.algorithm, row.budget, {run}, row.search_ms));
+      algorithms.push_back(SyntheticAlgorithm(row.algorithm, row.budget, {run}, row.search_ms));
     }
-    devices.push_back(MadeDevice("x " + std::to_string(d), "x", std::move(contenders)));
+    devices.push_back(MadeDevice("x " + std::to_string(d), "x", std::move(algorithms)));
   }
   return MadeComparison(std::move(devices));
 }
 
 std::string Sentence(const std::vector<PooledRow>& rows) {
   const Comparison comparison = Fifty(rows);
-  return VerdictText(PoolProblems(comparison)[0]);
+  return VerdictText(SummariseProblems(comparison)[0]);
 }
 
 TEST(VerdictText, SaysThatNoSearchIsNeeded) {
@@ -72,19 +72,19 @@ TEST(VerdictText, SaysThatNobodyEverHits) {
 
 TEST(PeerText, SaysHowManyTimesFasterOrThatNoneHitsAsOften) {
   const Comparison equal = Fifty({{"default", 0, 0, 49, 2}, {"pagmo:de", 1000, 50, 50, 123}});
-  EXPECT_EQ(PeerText(PoolProblems(equal)[0]),
+  EXPECT_EQ(PeerText(SummariseProblems(equal)[0]),
             "default (49 of 50, 32 ms) is 4 times faster than pagmo:de@1000 (50 of 50, 128 ms)");
   const Comparison slower = Fifty({{"default", 0, 0, 49, 2}, {"pagmo:de", 1000, 50, 50, 11}});
-  EXPECT_EQ(PeerText(PoolProblems(slower)[0]),
+  EXPECT_EQ(PeerText(SummariseProblems(slower)[0]),
             "default (49 of 50, 32 ms) is 2 times slower than pagmo:de@1000 (50 of 50, 16 ms)");
   const Comparison fewer = Fifty({{"default", 0, 0, 49, 2}, {"pagmo:de", 1000, 40, 50, 123}});
-  EXPECT_EQ(PeerText(PoolProblems(fewer)[0]),
+  EXPECT_EQ(PeerText(SummariseProblems(fewer)[0]),
             "default (49 of 50, 32 ms) is 8 times faster than pagmo:de@1000 (40 of 50, 128 ms), "
             "run 2 times");
   const Comparison never = Fifty({{"default", 0, 0, 49, 2}, {"pagmo:de", 1000, 0, 0, 123}});
-  EXPECT_EQ(PeerText(PoolProblems(never)[0]), "default (49 of 50, 32 ms): no peer ever hits");
+  EXPECT_EQ(PeerText(SummariseProblems(never)[0]), "default (49 of 50, 32 ms): no peer ever hits");
   const Comparison none = Fifty({{"default", 0, 0, 49, 2}, {"mlo", 1000, 48, 50, 123}});
-  EXPECT_EQ(PeerText(PoolProblems(none)[0]), "");
+  EXPECT_EQ(PeerText(SummariseProblems(none)[0]), "");
 }
 
 std::string Drawn(block::Table table) { return DrawText({{}, {"", {std::move(table)}}}); }
@@ -95,11 +95,11 @@ TEST(VerdictTable, HasALineOfEachProblem) {
                                        {"mlo", 1000, 48, 50, 50},
                                        {"random", 1000, 30, 50, 50},
                                        {"pagmo:de", 1000, 47, 50, 123}});
-  const std::string table = Drawn(VerdictTable(PoolProblems(comparison)));
+  const std::string table = Drawn(VerdictTable(SummariseProblems(comparison)));
   EXPECT_THAT(table, ::testing::HasSubstr("50  50 (30 ms)  49 (32 ms)  mlo@1000 48 (55 ms)  "
                                           "random@1000 30 (55 ms)  pagmo:de@1000 47 (128 ms)"));
   const Comparison bare = Fifty({{"random", 100, 0, 1, 5}});
-  EXPECT_THAT(Drawn(VerdictTable(PoolProblems(bare))),
+  EXPECT_THAT(Drawn(VerdictTable(SummariseProblems(bare))),
               ::testing::HasSubstr("-        -  random@100 1 (35 ms)       -     -"));
 }
 

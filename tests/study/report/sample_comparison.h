@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/contenders.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/summary.h"
 
 namespace lyrefit {
 
 // Three algorithms with four runs each on two problems, made up; all polished runs agree but one.
-inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& contenders) {
+inline ProblemResult SampleProblem(Model model, const std::vector<ComparedAlgorithm>& algorithms) {
   constexpr double kBest = 9.8602187789e-4;
   ProblemResult problem;
   problem.curve_name = "sample_cell";
@@ -19,7 +19,7 @@ inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& co
       kBest, false, kUnknown, kUnknown, "best of all runs", {0.76, 3e-7, 1.48, 0.036, 53}};
   problem.parameters = {"photocurrent", "saturation_current", "n", "Rs", "Rsh"};
   std::vector<std::vector<double>> searched, polished;
-  for (std::size_t c = 0; c < contenders.size(); ++c) {
+  for (std::size_t c = 0; c < algorithms.size(); ++c) {
     std::vector<RunOutcome> outcomes(4);
     for (int r = 0; r < 4; ++r) {
       RunRecord& run = outcomes[r].record;
@@ -35,10 +35,10 @@ inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& co
       run.polish_seconds = 0.002;
       outcomes[r].gains = {{0, 10, 0.5}, {40, 410, 2e-3}, {100, 1010, run.searched_A}};
     }
-    problem.contenders.push_back(Summarise(contenders[c], &outcomes, kBest, 1e-3));
+    problem.algorithms.push_back(Summarise(algorithms[c], &outcomes, kBest, 1e-3));
     searched.emplace_back();
     polished.emplace_back();
-    for (const RunRecord& run : problem.contenders.back().runs) {
+    for (const RunRecord& run : problem.algorithms.back().runs) {
       searched.back().push_back(run.searched_A);
       polished.back().push_back(run.polished_A);
     }
@@ -48,15 +48,15 @@ inline ProblemResult SampleProblem(Model model, const std::vector<Contender>& co
   return problem;
 }
 
-inline Comparison SampleComparison(const std::vector<Contender>& contenders) {
+inline Comparison SampleComparison(const std::vector<ComparedAlgorithm>& algorithms) {
   Comparison comparison;
   comparison.version = "1.2.3";
   comparison.options.models = {Model::kSingleDiode, Model::kDoubleDiode};
   comparison.options.runs = 4;
   comparison.options.seed = 7;
   comparison.options.plain_polish = true;
-  comparison.problems = {SampleProblem(Model::kSingleDiode, contenders),
-                         SampleProblem(Model::kDoubleDiode, contenders)};
+  comparison.problems = {SampleProblem(Model::kSingleDiode, algorithms),
+                         SampleProblem(Model::kDoubleDiode, algorithms)};
   comparison.seconds = 1.5;
   return comparison;
 }
@@ -66,7 +66,7 @@ inline Comparison SampleComparison() {
   search.population = 10;
   search.iterations = 100;
   return SampleComparison(
-      PlainContenders({Algorithm::kMlo, Algorithm::kDe, Algorithm::kRandom}, search));
+      PlainAlgorithms({Algorithm::kMlo, Algorithm::kDe, Algorithm::kRandom}, search));
 }
 
 }  // namespace lyrefit

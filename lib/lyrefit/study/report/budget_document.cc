@@ -6,7 +6,7 @@
 
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
-#include "lyrefit/study/pool.h"
+#include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_parts.h"
 #include "lyrefit/study/report/documents.h"
 
@@ -17,35 +17,35 @@ namespace {
 struct Level {
   const char* title;
   const char* column;
-  RunSpread ContenderResult::*stage;
+  RunSpread AlgorithmResult::*stage;
   int RunSpread::*hits;
 };
 
 constexpr Level kLevels[] = {
-    {"Search alone, runs of {} within 1e-6", "search alone", &ContenderResult::searched,
+    {"Search alone, runs of {} within 1e-6", "search alone", &AlgorithmResult::searched,
      &RunSpread::within_1e6},
     {"One plain solve from the best candidate, runs of {} within 1e-9", "plain solve",
-     &ContenderResult::plain_polished, &RunSpread::within_1e9},
+     &AlgorithmResult::plain_polished, &RunSpread::within_1e9},
     {"The best candidate's own polish, runs of {} within 1e-9", "best candidate",
-     &ContenderResult::own_polished, &RunSpread::within_1e9},
-    {"All starts (hybrid), runs of {} within 1e-9", "all starts", &ContenderResult::polished,
+     &AlgorithmResult::own_polished, &RunSpread::within_1e9},
+    {"All starts (hybrid), runs of {} within 1e-9", "all starts", &AlgorithmResult::polished,
      &RunSpread::within_1e9},
 };
 
-// The contenders of one algorithm, by rising budget.
+// The algorithms of one algorithm, by rising budget.
 struct SearchRow {
   std::string algorithm;
-  std::vector<const ContenderResult*> cells;
+  std::vector<const AlgorithmResult*> cells;
 };
 
 std::vector<SearchRow> RowsOf(const ProblemResult& problem) {
   std::vector<SearchRow> rows;
-  for (const ContenderResult& contender : problem.contenders) {
+  for (const AlgorithmResult& compared : problem.algorithms) {
     auto row = std::find_if(rows.begin(), rows.end(), [&](const SearchRow& other) {
-      return other.algorithm == contender.algorithm;
+      return other.algorithm == compared.algorithm;
     });
-    if (row == rows.end()) row = rows.insert(rows.end(), {contender.algorithm, {}});
-    row->cells.push_back(&contender);
+    if (row == rows.end()) row = rows.insert(rows.end(), {compared.algorithm, {}});
+    row->cells.push_back(&compared);
   }
   for (SearchRow& row : rows) {
     std::stable_sort(row.cells.begin(), row.cells.end(), [](const auto* a, const auto* b) {
@@ -55,7 +55,7 @@ std::vector<SearchRow> RowsOf(const ProblemResult& problem) {
   return rows;
 }
 
-bool HitsAll(const ContenderResult& cell, const Level& level) {
+bool HitsAll(const AlgorithmResult& cell, const Level& level) {
   return (cell.*level.stage).*level.hits == static_cast<int>(cell.runs.size());
 }
 
@@ -72,12 +72,12 @@ std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) 
 block::Table HitTable(const std::vector<SearchRow>& rows, const Level& level, std::string caption) {
   block::Table table = {
       "l" + std::string(rows[0].cells.size(), 'r'), {{"algorithm"}}, {}, std::move(caption)};
-  for (const ContenderResult* cell : rows[0].cells) {
+  for (const AlgorithmResult* cell : rows[0].cells) {
     table.heads[0].push_back(std::to_string(cell->search.max_evaluations));
   }
   for (const SearchRow& row : rows) {
     block::Table::Row line = {row.algorithm};
-    for (const ContenderResult* head_cell : rows[0].cells) {
+    for (const AlgorithmResult* head_cell : rows[0].cells) {
       const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
         return other->search.max_evaluations == head_cell->search.max_evaluations;
       });
@@ -178,7 +178,7 @@ std::vector<Section> BudgetSections(const Comparison& comparison, const ProblemR
 }  // namespace
 
 Document BudgetDocument(const Comparison& comparison) {
-  const std::size_t pools = PoolProblems(comparison).size();
+  const std::size_t pools = SummariseProblems(comparison).size();
   std::string where = Plural(comparison.problems.size(), pools > 0 ? "device" : "problem");
   if (pools > 0) where += " of " + Plural(pools, "problem");
   Document document = {CompareBanners(comparison)};

@@ -10,21 +10,21 @@ namespace {
 
 struct DrawnLevel {
   const char* title;
-  RunSpread ContenderResult::*stage;
+  RunSpread AlgorithmResult::*stage;
   int RunSpread::*hits;
 };
 
 constexpr std::array<DrawnLevel, 4> kDrawnLevels = {
-    {{"search alone", &ContenderResult::searched, &RunSpread::within_1e6},
-     {"one plain solve", &ContenderResult::plain_polished, &RunSpread::within_1e9},
-     {"best candidate's polish", &ContenderResult::own_polished, &RunSpread::within_1e9},
-     {"all starts", &ContenderResult::polished, &RunSpread::within_1e9}}};
+    {{"search alone", &AlgorithmResult::searched, &RunSpread::within_1e6},
+     {"one plain solve", &AlgorithmResult::plain_polished, &RunSpread::within_1e9},
+     {"best candidate's polish", &AlgorithmResult::own_polished, &RunSpread::within_1e9},
+     {"all starts", &AlgorithmResult::polished, &RunSpread::within_1e9}}};
 
 std::vector<std::string> Algorithms(const ProblemResult& problem) {
   std::vector<std::string> names;
-  for (const ContenderResult& contender : problem.contenders) {
-    if (std::find(names.begin(), names.end(), contender.algorithm) == names.end()) {
-      names.push_back(contender.algorithm);
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    if (std::find(names.begin(), names.end(), compared.algorithm) == names.end()) {
+      names.push_back(compared.algorithm);
     }
   }
   return names;
@@ -40,13 +40,13 @@ Panel BudgetPanel(const ProblemResult& problem, const std::vector<std::string>& 
   const double step = std::min(1.8, 9.0 / count);
   for (int a = 0; a < count; ++a) {
     Series series = ShareLine(algorithms[a], a, 1.3 + step * (count - 1 - a));
-    for (const ContenderResult& contender : problem.contenders) {
-      if (contender.algorithm != algorithms[a]) continue;
-      const double budget = static_cast<double>(contender.search.max_evaluations);
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      if (compared.algorithm != algorithms[a]) continue;
+      const double budget = static_cast<double>(compared.search.max_evaluations);
       least = std::min(least, budget);
       most = std::max(most, budget);
-      series.Add(budget, 100.0 * ((contender.*level.stage).*level.hits) /
-                             static_cast<double>(contender.runs.size()));
+      series.Add(budget, 100.0 * ((compared.*level.stage).*level.hits) /
+                             static_cast<double>(compared.runs.size()));
     }
     panel.series.push_back(std::move(series));
   }

@@ -21,11 +21,11 @@ std::string CompareCsv(const Comparison& comparison) {
     const std::string begin =
         fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),
                     ToText(problem.objective), CsvField(problem.bounds_name));
-    for (const ContenderResult& contender : problem.contenders) {
-      for (const RunRecord& run : contender.runs) {
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      for (const RunRecord& run : compared.runs) {
         const std::int64_t to_target = run.evaluations_to_target;
         fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{},{}", begin,
-                       CsvField(contender.name), run.run, comparison.options.seed,
+                       CsvField(compared.name), run.run, comparison.options.seed,
                        CsvField(run.searched_A), CsvField(run.plain_polished_A),
                        CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
                        run.curve_evaluations, to_target < 0 ? "" : std::to_string(to_target),

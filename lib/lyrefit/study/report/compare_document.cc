@@ -17,23 +17,23 @@ constexpr int kOverviewDigits = 4;  // what fits a terminal; the tables of each 
 constexpr std::size_t kLongName = 18;  // from here on less fits beside it
 
 bool LongNames(const ProblemResult& problem) {
-  return std::any_of(problem.contenders.begin(), problem.contenders.end(),
-                     [](const auto& contender) { return contender.name.size() >= kLongName; });
+  return std::any_of(problem.algorithms.begin(), problem.algorithms.end(),
+                     [](const auto& compared) { return compared.name.size() >= kLongName; });
 }
 
 // A count as whole number, "-" for NaN.
 std::string Whole(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
-block::Table SpreadTable(const ProblemResult& problem, RunSpread ContenderResult::*stage,
+block::Table SpreadTable(const ProblemResult& problem, RunSpread AlgorithmResult::*stage,
                          int digits, std::string caption) {
   block::Table table = {"lrrrrrrr",
                         {{"algorithm", "min", "mean", "median", "max", "std", "1e-9", "1e-6"}},
                         {},
                         std::move(caption)};
   if (LongNames(problem)) digits = 5;
-  for (const ContenderResult& contender : problem.contenders) {
-    const RunSpread& s = contender.*stage;
-    table.rows.push_back({contender.name, Scientific(s.min, digits), Scientific(s.mean, digits),
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    const RunSpread& s = compared.*stage;
+    table.rows.push_back({compared.name, Scientific(s.min, digits), Scientific(s.mean, digits),
                           Scientific(s.median, digits), Scientific(s.max, digits),
                           Scientific(s.std, 2), std::to_string(s.within_1e9),
                           std::to_string(s.within_1e6)});
@@ -54,7 +54,7 @@ block::Table CostTable(const CompareOptions& options, const ProblemResult& probl
   if (polish) head.insert(head.end(), {"polish", "all starts", "best candidate"});
   if (plain) head.emplace_back("plain");
   table.alignment.resize(head.size());
-  for (const ContenderResult& c : problem.contenders) {
+  for (const AlgorithmResult& c : problem.algorithms) {
     block::Table::Row row = {c.name, Whole(c.evaluations), Whole(c.expected_evaluations),
                              std::to_string(c.target_hits), Duration(c.search_seconds)};
     if (polish) {
@@ -73,9 +73,9 @@ std::vector<Section> CompareSections(const Comparison& comparison, const Problem
                        ObjectiveText(comparison.options), RunsText(comparison, problem));
   };
   Section section = ProblemSection(comparison, problem);
-  AddTable(SpreadTable(problem, &ContenderResult::searched, 6, caption("Search alone")), &section);
+  AddTable(SpreadTable(problem, &AlgorithmResult::searched, 6, caption("Search alone")), &section);
   if (comparison.options.polish) {
-    AddTable(SpreadTable(problem, &ContenderResult::polished, 7, caption("Search and polish")),
+    AddTable(SpreadTable(problem, &AlgorithmResult::polished, 7, caption("Search and polish")),
              &section);
   }
   AddTable(CostTable(comparison.options, problem), &section);
@@ -89,16 +89,16 @@ bool ManyCurves(const Comparison& comparison) {
   });
 }
 
-block::Table::Row OverviewRow(const ContenderResult& contender, bool polish, bool brief) {
-  const RunSpread& s = contender.searched;
-  block::Table::Row row = {contender.name,
+block::Table::Row OverviewRow(const AlgorithmResult& compared, bool polish, bool brief) {
+  const RunSpread& s = compared.searched;
+  block::Table::Row row = {compared.name,
                            Scientific(s.min, kOverviewDigits),
                            Scientific(s.mean, kOverviewDigits),
                            Scientific(s.median, kOverviewDigits),
                            Scientific(s.max, kOverviewDigits),
                            Scientific(s.std, 2)};
   if (polish) {
-    const RunSpread& p = contender.polished;
+    const RunSpread& p = compared.polished;
     row.push_back(Scientific(p.min, kOverviewDigits));
     if (!brief) row.push_back(Scientific(p.max, kOverviewDigits));
     row.push_back(std::to_string(p.within_1e9));
@@ -120,8 +120,8 @@ Section OverviewSection(const Comparison& comparison) {
   table.alignment.resize(head.size());
   for (const ProblemResult& problem : comparison.problems) {
     table.spans.push_back({table.rows.size(), ProblemTitle(problem)});
-    for (const ContenderResult& contender : problem.contenders) {
-      table.rows.push_back(OverviewRow(contender, polish, brief));
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      table.rows.push_back(OverviewRow(compared, polish, brief));
     }
   }
   return {fmt::format("All curves: RMSE in A ({}) of {} runs of the search alone{}",
@@ -149,8 +149,8 @@ std::string PolishVerdicts(const Comparison& comparison) {
 
 std::string Title(const Comparison& comparison) {
   if (comparison.problems.empty()) return "nothing was completed";
-  const std::size_t contenders = comparison.problems[0].contenders.size();
-  return fmt::format("{}, {} each, on {}", Plural(contenders, "algorithm"),
+  const std::size_t algorithms = comparison.problems[0].algorithms.size();
+  return fmt::format("{}, {} each, on {}", Plural(algorithms, "algorithm"),
                      Plural(comparison.options.runs, "run"),
                      Plural(comparison.problems.size(), "problem"));
 }

@@ -21,7 +21,7 @@ void to_json(Json& j, const RunSpread& spread) {
        {"within_1e6", spread.within_1e6}};
 }
 
-// The settings that tell contenders apart; seed and run stand elsewhere.
+// The settings that tell algorithms apart; seed and run stand elsewhere.
 void to_json(Json& j, const SearchOptions& search) {
   const bool limited = search.max_evaluations < SearchOptions().max_evaluations;
   j = {{"population", search.population},
@@ -76,46 +76,46 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
   return list;
 }
 
-Json ContenderJson(const ContenderResult& contender, bool pooled) {
+Json AlgorithmJson(const AlgorithmResult& compared, bool pooled) {
   Json evaluations = Json::array(), best = Json::array();
-  for (const MedianPoint& point : contender.trace) {
+  for (const MedianPoint& point : compared.trace) {
     evaluations.push_back(point.evaluations);
     best.push_back(point.best_A);
   }
   return {
-      {"name", contender.name},
-      {"algorithm", contender.algorithm},
-      {"settings", contender.search},
-      {"candidates", contender.candidates},
-      {"searched", contender.searched},
-      {"plain_polished", contender.plain_polished},
-      {"refined_best_candidate", contender.own_polished},
-      {"refined", contender.polished},
-      {"evaluations", contender.evaluations},
-      {"curve_evaluations", contender.curve_evaluations},
+      {"name", compared.name},
+      {"algorithm", compared.algorithm},
+      {"settings", compared.search},
+      {"candidates", compared.candidates},
+      {"searched", compared.searched},
+      {"plain_polished", compared.plain_polished},
+      {"refined_best_candidate", compared.own_polished},
+      {"refined", compared.polished},
+      {"evaluations", compared.evaluations},
+      {"curve_evaluations", compared.curve_evaluations},
       {"target",
-       {{"hits", contender.target_hits}, {"expected_evaluations", contender.expected_evaluations}}},
-      {"search", Seconds(contender.search_seconds)},
-      {"refine", Seconds(contender.polish_seconds)},
+       {{"hits", compared.target_hits}, {"expected_evaluations", compared.expected_evaluations}}},
+      {"search", Seconds(compared.search_seconds)},
+      {"refine", Seconds(compared.polish_seconds)},
       {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
-      {"runs", RunsJson(contender.runs, pooled)}};
+      {"runs", RunsJson(compared.runs, pooled)}};
 }
 
 }  // namespace
 
 void to_json(Json& j, const ProblemResult& problem) {
   const bool pooled = !problem.problem.empty();
-  const std::vector<std::string> names = ContenderNames(problem);
-  Json contenders = Json::array();
-  for (const ContenderResult& c : problem.contenders) {
-    contenders.push_back(ContenderJson(c, pooled));
+  const std::vector<std::string> names = AlgorithmNames(problem);
+  Json algorithms = Json::array();
+  for (const AlgorithmResult& c : problem.algorithms) {
+    algorithms.push_back(AlgorithmJson(c, pooled));
   }
   j = {{"curve", problem.curve_name},
        {"model", problem.model},
        {"bounds", problem.bounds_name},
        {"complete", problem.complete},
        {"reference", ReferenceJson(problem)},
-       {"contenders", std::move(contenders)},
+       {"algorithms", std::move(algorithms)},
        {"ranking",
         {{"searched", RankingJson(names, problem.searched)},
          {"refined", RankingJson(names, problem.polished)}}}};

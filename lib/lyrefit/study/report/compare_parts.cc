@@ -19,13 +19,13 @@ std::string Budget(const SearchOptions& search) {
   return text + fmt::format(": {} evaluations at most", std::min(planned, search.max_evaluations));
 }
 
-// The budget of all contenders; empty where they differ.
+// The budget of all algorithms; empty where they differ.
 std::string CommonBudget(const Comparison& comparison) {
   if (comparison.problems.empty()) return "";
-  const auto& contenders = comparison.problems[0].contenders;
-  const std::string budget = Budget(contenders[0].search);
-  const bool same = std::all_of(contenders.begin(), contenders.end(), [&](const auto& contender) {
-    return Budget(contender.search) == budget;
+  const auto& algorithms = comparison.problems[0].algorithms;
+  const std::string budget = Budget(algorithms[0].search);
+  const bool same = std::all_of(algorithms.begin(), algorithms.end(), [&](const auto& compared) {
+    return Budget(compared.search) == budget;
   });
   return same ? budget : "";
 }
@@ -45,10 +45,10 @@ std::string ProblemTitle(const ProblemResult& problem) {
 
 std::string RunsText(const Comparison& comparison, const ProblemResult& problem) {
   if (problem.complete) return std::to_string(comparison.options.runs);
-  std::size_t fewest = problem.contenders[0].runs.size(), most = fewest;
-  for (const ContenderResult& contender : problem.contenders) {
-    fewest = std::min(fewest, contender.runs.size());
-    most = std::max(most, contender.runs.size());
+  std::size_t fewest = problem.algorithms[0].runs.size(), most = fewest;
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    fewest = std::min(fewest, compared.runs.size());
+    most = std::max(most, compared.runs.size());
   }
   const std::string done =
       fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);

@@ -35,14 +35,14 @@ std::string MeanRanks(const std::vector<std::string>& names, const Friedman& fri
   const bool level = friedman.mean_rank[order.front()] == friedman.mean_rank[order.back()];
   if (level) text = fmt::format("all {:.2f}", friedman.mean_rank[0]);
   return text + fmt::format("; chi-square {:.4g} with {} degrees of freedom, p = {}",
-                            friedman.chi_square, friedman.contenders - 1, PText(friedman.p_value));
+                            friedman.chi_square, friedman.algorithms - 1, PText(friedman.p_value));
 }
 
 // Differences that are significant and mean nothing: both algorithms always end at the reference.
 std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
   const auto always_there = [&](int c) {
-    const ContenderResult& contender = problem.contenders[c];
-    return contender.searched.within_1e9 == static_cast<int>(contender.runs.size());
+    const AlgorithmResult& compared = problem.algorithms[c];
+    return compared.searched.within_1e9 == static_cast<int>(compared.runs.size());
   };
   const auto count = std::count_if(
       ranking.signed_ranks.begin(), ranking.signed_ranks.end(), [&](const SignedRank& pair) {
@@ -54,7 +54,7 @@ std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
       count, count == 1 ? "is" : "are");
 }
 
-// "50", or "3 to 50" where pairs of contenders differ in that.
+// "50", or "3 to 50" where pairs of algorithms differ in that.
 struct Differing {
   int fewest = std::numeric_limits<int>::max();
   int most = 0;
@@ -74,7 +74,7 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
   Differing differing;
   double smallest_p = 1;
   bool all = true;
-  for (int c = 0; c < static_cast<int>(problem.contenders.size()); ++c) {
+  for (int c = 0; c < static_cast<int>(problem.algorithms.size()); ++c) {
     std::string like;
     double smallest_here = 1;
     Differing here;
@@ -82,7 +82,7 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
       if (pair.first != c) continue;
       all = all && pair.p_holm >= kSignificant;
       if (pair.p_holm < kSignificant) continue;
-      like += (like.empty() ? "" : ", ") + problem.contenders[pair.second].name;
+      like += (like.empty() ? "" : ", ") + problem.algorithms[pair.second].name;
       smallest_here = std::min(smallest_here, pair.p_holm);
       here.Add(pair);
       differing.Add(pair);
@@ -90,7 +90,7 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
     smallest_p = std::min(smallest_p, smallest_here);
     if (like.empty()) continue;
     sentences.push_back(fmt::format("{} not told from {} (p at least {}; {} of {} runs differ)",
-                                    problem.contenders[c].name, like, PText(smallest_here),
+                                    problem.algorithms[c].name, like, PText(smallest_here),
                                     here.Text(), runs));
   }
   if (!all) return sentences;
@@ -102,8 +102,8 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
 // Who is first, and which pairs are told apart; `note` is to be said of the latter.
 void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* stage,
               const std::string& note, Section* section) {
-  if (ranking.friedman.contenders == 0) return;
-  const std::vector<std::string> names = ContenderNames(problem);
+  if (ranking.friedman.algorithms == 0) return;
+  const std::vector<std::string> names = AlgorithmNames(problem);
   const auto told_apart = [](const RankPair& pair) { return pair.p_sidak < kSignificant; };
   section->blocks.push_back(
       block::Entry{fmt::format("Ranks, {}: Friedman over {} runs", stage, ranking.friedman.blocks),
@@ -152,21 +152,21 @@ Section RankSection(const ProblemResult& problem) {
 }
 
 Section PolishVerdict(const ProblemResult& problem) {
-  if (std::isnan(problem.contenders[0].polished.min)) return {};
+  if (std::isnan(problem.algorithms[0].polished.min)) return {};
   std::size_t runs = 0, hits = 0;
   std::string missing;
-  for (const ContenderResult& contender : problem.contenders) {
-    runs += contender.runs.size();
-    hits += contender.polished.within_1e9;
-    const std::size_t missed = contender.runs.size() - contender.polished.within_1e9;
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    runs += compared.runs.size();
+    hits += compared.polished.within_1e9;
+    const std::size_t missed = compared.runs.size() - compared.polished.within_1e9;
     if (missed == 0) continue;
-    missing += fmt::format("{}{} {}", missing.empty() ? "" : ", ", contender.name, missed);
+    missing += fmt::format("{}{} {}", missing.empty() ? "" : ", ", compared.name, missed);
   }
   const std::string where = fmt::format("{} of {} runs end within 1e-9 of {} A", hits, runs,
                                         Scientific(problem.reference.rmse_A, 10));
   if (missing.empty()) {
-    const std::size_t count = problem.contenders.size();
-    const std::string who = count == 1   ? problem.contenders[0].name + " always gets there"
+    const std::size_t count = problem.algorithms.size();
+    const std::string who = count == 1   ? problem.algorithms[0].name + " always gets there"
                             : count == 2 ? std::string("both algorithms tie")
                                          : fmt::format("all {} algorithms tie", count);
     return {"", {block::Sentence{fmt::format("After the polish {}: {}.", who, where)}}, 1};

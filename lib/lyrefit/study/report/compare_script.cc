@@ -54,10 +54,10 @@ std::string HeightLabel(const Comparison& comparison) {
 Panel ConvergencePanel(const Comparison& comparison, const ProblemResult& problem) {
   Panel panel{PanelTitle(problem)};
   LogRange x, y;
-  for (const ContenderResult& contender : problem.contenders) {
+  for (const AlgorithmResult& compared : problem.algorithms) {
     Series series{SeriesKind::kLine, LookOf(static_cast<int>(panel.series.size())), 2};
-    series.name = contender.name;
-    for (const MedianPoint& point : contender.trace) {
+    series.name = compared.name;
+    for (const MedianPoint& point : compared.trace) {
       if (!(point.best_A < 1e300)) continue;
       const auto evaluations = static_cast<double>(point.evaluations);
       const double above = AboveReference(point.best_A, problem);
@@ -75,16 +75,16 @@ Panel ConvergencePanel(const Comparison& comparison, const ProblemResult& proble
   return panel;
 }
 
-// Two boxes a contender; the data are clipped at the floor before gnuplot takes quartiles.
+// Two boxes a compared; the data are clipped at the floor before gnuplot takes quartiles.
 Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
   const bool polish = comparison.options.polish;
   Panel panel{PanelTitle(problem)};
   LogRange y;
-  const auto add_box = [&](const ContenderResult& contender, double x, double RunRecord::*end_A,
+  const auto add_box = [&](const AlgorithmResult& compared, double x, double RunRecord::*end_A,
                            int colour) {
     Series box{SeriesKind::kBox, LookOf(colour), 0.32};
-    box.name = contender.name;
-    for (const RunRecord& run : contender.runs) {
+    box.name = compared.name;
+    for (const RunRecord& run : compared.runs) {
       const double above = AboveReference(run.*end_A, problem);
       y.Add(above);
       box.Add(x, std::min(above, 1e300));
@@ -93,11 +93,11 @@ Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
   };
   const double shift = polish ? 0.2 : 0;
   double place = 0;
-  for (const ContenderResult& contender : problem.contenders) {
+  for (const AlgorithmResult& compared : problem.algorithms) {
     ++place;
-    add_box(contender, place - shift, &RunRecord::searched_A, 0);
-    if (polish) add_box(contender, place + shift, &RunRecord::polished_A, 1);
-    panel.x.ticks.push_back({contender.name, place});
+    add_box(compared, place - shift, &RunRecord::searched_A, 0);
+    if (polish) add_box(compared, place + shift, &RunRecord::polished_A, 1);
+    panel.x.ticks.push_back({compared.name, place});
   }
   panel.x.slanted = true;
   panel.x.low = 0.4;
@@ -111,7 +111,7 @@ Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
 Figure ConvergenceFigure(const Comparison& comparison) {
   Figure figure{fmt::format("Median of {} runs; dotted: target of {:g} above the reference",
                             comparison.options.runs, comparison.options.target_gap),
-                LegendOf(ContenderNames(comparison.problems[0]), LegendMark::kLine)};
+                LegendOf(AlgorithmNames(comparison.problems[0]), LegendMark::kLine)};
   figure.columns = Columns(comparison);
   for (const ProblemResult& problem : comparison.problems) {
     figure.panels.push_back(ConvergencePanel(comparison, problem));
@@ -123,7 +123,7 @@ Figure BoxFigure(const Comparison& comparison) {
   std::vector<std::string> legend = {"search alone"};
   if (comparison.options.polish) legend.emplace_back("after the polish");
   std::size_t longest = 0;
-  for (const std::string& name : ContenderNames(comparison.problems[0])) {
+  for (const std::string& name : AlgorithmNames(comparison.problems[0])) {
     longest = std::max(longest, name.size());
   }
   Figure figure{fmt::format("{} runs each; lowest line: equal to the reference within {:g}",

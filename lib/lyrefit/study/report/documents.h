@@ -26,12 +26,12 @@ std::string BriefAudit(const AuditReport& report);
 Document CompareDocument(const Comparison& comparison);
 std::string CompareText(const Comparison& comparison);
 
-// Contenders of BudgetContenders(): hits by algorithm and budget, one table a polish level; then
+// Algorithms of BudgetAlgorithms(): hits by algorithm and budget, one table a polish level; then
 // problems of many local optima, summed up over their devices.
 Document BudgetDocument(const Comparison& comparison);
 std::string BudgetText(const Comparison& comparison);
 
-// Contenders of SensitivityContenders(): grids of Pm and gamma.
+// Algorithms of SensitivityAlgorithms(): grids of Pm and gamma.
 Document SensitivityDocument(const Comparison& comparison);
 std::string SensitivityText(const Comparison& comparison);
 

@@ -19,34 +19,34 @@ std::string InPercent(double share) {
   return std::isnan(share) ? "-" : Significant(100 * share, 3);
 }
 
-// Every budget, 0 first where there are contenders without one.
-std::vector<std::int64_t> BudgetsOf(const PooledProblem& pool) {
+// Every budget, 0 first where there are algorithms without one.
+std::vector<std::int64_t> BudgetsOf(const ProblemSummary& pool) {
   std::set<std::int64_t> budgets;
-  for (const PooledContender& contender : pool.contenders) budgets.insert(contender.budget);
+  for (const AlgorithmSummary& compared : pool.algorithms) budgets.insert(compared.budget);
   return {budgets.begin(), budgets.end()};
 }
 
-std::vector<std::string> AlgorithmsOf(const PooledProblem& pool) {
+std::vector<std::string> AlgorithmsOf(const ProblemSummary& pool) {
   std::vector<std::string> names;
-  for (const PooledContender& contender : pool.contenders) {
-    if (std::find(names.begin(), names.end(), contender.algorithm) == names.end()) {
-      names.push_back(contender.algorithm);
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (std::find(names.begin(), names.end(), compared.algorithm) == names.end()) {
+      names.push_back(compared.algorithm);
     }
   }
   return names;
 }
 
-const PooledLevel* Cell(const PooledProblem& pool, const std::string& algorithm,
+const LevelSummary* Cell(const ProblemSummary& pool, const std::string& algorithm,
                         std::int64_t budget, PolishLevel level) {
-  for (const PooledContender& contender : pool.contenders) {
-    if (contender.algorithm != algorithm || contender.budget != budget) continue;
-    if (contender.At(level)) return &*contender.At(level);
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (compared.algorithm != algorithm || compared.budget != budget) continue;
+    if (compared.At(level)) return &*compared.At(level);
   }
   return nullptr;
 }
 
 // Hits and median time of a run, some budgets.
-block::Table HitTable(const PooledProblem& pool, PolishLevel level,
+block::Table HitTable(const ProblemSummary& pool, PolishLevel level,
                       const std::vector<std::int64_t>& budgets) {
   block::Table table = {"l" + std::string(budgets.size(), 'r'), {{"algorithm"}}};
   for (const std::int64_t budget : budgets) {
@@ -56,7 +56,7 @@ block::Table HitTable(const PooledProblem& pool, PolishLevel level,
     block::Table::Row line = {algorithm};
     bool any = false;
     for (const std::int64_t budget : budgets) {
-      const PooledLevel* cell = Cell(pool, algorithm, budget, level);
+      const LevelSummary* cell = Cell(pool, algorithm, budget, level);
       any = any || cell;
       line.push_back(cell ? fmt::format("{} ({})", cell->hits, Duration(cell->seconds)) : "");
     }
@@ -66,10 +66,10 @@ block::Table HitTable(const PooledProblem& pool, PolishLevel level,
 }
 
 // Under one caption; nothing where no run was taken to this level.
-void AddHits(const PooledProblem& pool, PolishLevel level, Section* section) {
+void AddHits(const ProblemSummary& pool, PolishLevel level, Section* section) {
   int runs = 0;
-  for (const PooledContender& contender : pool.contenders) {
-    if (contender.At(level)) runs = std::max(runs, contender.At(level)->runs);
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (compared.At(level)) runs = std::max(runs, compared.At(level)->runs);
   }
   if (runs == 0) return;
   const std::vector<std::int64_t> budgets = BudgetsOf(pool);
@@ -86,29 +86,29 @@ void AddHits(const PooledProblem& pool, PolishLevel level, Section* section) {
 }
 
 // Of each algorithm its largest budget.
-bool IsLargest(const PooledProblem& pool, const PooledContender& contender) {
+bool IsLargest(const ProblemSummary& pool, const AlgorithmSummary& compared) {
   return std::none_of(
-      pool.contenders.begin(), pool.contenders.end(), [&](const PooledContender& other) {
-        return other.algorithm == contender.algorithm && other.budget > contender.budget;
+      pool.algorithms.begin(), pool.algorithms.end(), [&](const AlgorithmSummary& other) {
+        return other.algorithm == compared.algorithm && other.budget > compared.budget;
       });
 }
 
-void AddFailures(const PooledProblem& pool, Section* section) {
+void AddFailures(const ProblemSummary& pool, Section* section) {
   block::Table table = {
       "llrrrrrrrr",
-      {{"contender", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
+      {{"compared", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
         "worst"}},
       {},
       "Cost of failure, largest budgets: runs that missed, the wrong local optima they ended in, runs in "
       "the commonest and how far its RMSE is above the best known one (%); median and worst of "
       "that over all that missed; and median and worst of how far their most deviating parameter "
       "is from its value there (%)"};
-  for (const PooledContender& contender : pool.contenders) {
-    if (!IsLargest(pool, contender)) continue;
+  for (const AlgorithmSummary& compared : pool.algorithms) {
+    if (!IsLargest(pool, compared)) continue;
     for (const PolishLevel level : {PolishLevel::kOwn, PolishLevel::kHybrid}) {
-      if (!contender.At(level) || contender.At(level)->failures.runs == 0) continue;
-      const Failures& failures = contender.At(level)->failures;
-      table.rows.push_back({contender.name, ToText(level), std::to_string(failures.runs),
+      if (!compared.At(level) || compared.At(level)->failures.runs == 0) continue;
+      const Failures& failures = compared.At(level)->failures;
+      table.rows.push_back({compared.name, ToText(level), std::to_string(failures.runs),
                             std::to_string(failures.local_optima), std::to_string(failures.commonest),
                             InPercent(failures.commonest_excess), InPercent(failures.median_excess),
                             InPercent(failures.worst_excess), InPercent(failures.median_deviation),
@@ -118,13 +118,13 @@ void AddFailures(const PooledProblem& pool, Section* section) {
   if (!table.rows.empty()) AddTable(std::move(table), section);
 }
 
-std::string EffectsOfPool(const PooledProblem& pool) {
+std::string EffectsOfPool(const ProblemSummary& pool) {
   std::string text;
   for (const EffectUse& use : pool.devices[0]->with) text += ", with " + DescribeUse(use);
   return text;
 }
 
-std::string ReferenceText(const PooledProblem& pool) {
+std::string ReferenceText(const ProblemSummary& pool) {
   if (pool.devices.size() == 1) return pool.devices[0]->reference.origin;
   int multistart = 0;
   std::int64_t points = 0, visits = 0;
@@ -144,7 +144,7 @@ std::string ReferenceText(const PooledProblem& pool) {
              Significant(100 * static_cast<double>(visits) / static_cast<double>(points), 3));
 }
 
-Section PoolSection(const PooledProblem& pool) {
+Section PoolSection(const ProblemSummary& pool) {
   const ProblemResult& first = *pool.devices[0];
   Section section = {fmt::format("{}, {} model{}, {}{}", pool.name, ModelTitle(first.model),
                                  first.family ? " of a family" : "",
@@ -162,20 +162,20 @@ Section PoolSection(const PooledProblem& pool) {
 
 // "1.83", "-" where nothing was ranked.
 std::string MeanRank(const Ranking& ranking, std::size_t c) {
-  return ranking.friedman.contenders == 0 ? "-"
+  return ranking.friedman.algorithms == 0 ? "-"
                                           : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
 }
 
 std::string FriedmanP(const Ranking& ranking) {
-  return ranking.friedman.contenders == 0 ? "-" : fmt::format("{:.1g}", ranking.friedman.p_value);
+  return ranking.friedman.algorithms == 0 ? "-" : fmt::format("{:.1g}", ranking.friedman.p_value);
 }
 
 // Mean ranks, a column a budget.
-block::Table RankTable(const std::vector<PooledRanking>& rankings) {
+block::Table RankTable(const std::vector<SummaryRanking>& rankings) {
   block::Table table = {"l" + std::string(rankings.size(), 'r'), {{"algorithm"}}};
   block::Table::Row last = {"p"};
   std::vector<std::string> names;
-  for (const PooledRanking& ranking : rankings) {
+  for (const SummaryRanking& ranking : rankings) {
     table.heads[0].push_back(std::to_string(ranking.budget));
     last.push_back(FriedmanP(ranking.searched) + " / " + FriedmanP(ranking.own));
     for (const std::string& name : ranking.names) {
@@ -184,7 +184,7 @@ block::Table RankTable(const std::vector<PooledRanking>& rankings) {
   }
   for (const std::string& name : names) {
     block::Table::Row line = {name};
-    for (const PooledRanking& ranking : rankings) {
+    for (const SummaryRanking& ranking : rankings) {
       const auto at = std::find(ranking.names.begin(), ranking.names.end(), name);
       const auto c = static_cast<std::size_t>(at - ranking.names.begin());
       const bool there = at != ranking.names.end();
@@ -197,7 +197,7 @@ block::Table RankTable(const std::vector<PooledRanking>& rankings) {
 }
 
 // Which are better than others beyond chance, by the best candidate's polish and by the search alone.
-void AddPairs(const PooledRanking& ranking, Section* section) {
+void AddPairs(const SummaryRanking& ranking, Section* section) {
   for (const bool own : {false, true}) {
     std::vector<std::string> winners =
         WinnerSentences(ranking.names, own ? ranking.own : ranking.searched);
@@ -209,12 +209,12 @@ void AddPairs(const PooledRanking& ranking, Section* section) {
 }
 
 // The rankings of one problem, or of all, from `first` to `last`.
-Section RankingSection(const PooledRanking* first, const PooledRanking* last, bool with_pairs) {
+Section RankingSection(const SummaryRanking* first, const SummaryRanking* last, bool with_pairs) {
   Section section = {fmt::format("{}, {} blocks",
                                  first->problem.empty() ? "All problems" : first->problem,
                                  first->searched.friedman.blocks)};
-  for (const PooledRanking* begin = first; begin < last;) {
-    const PooledRanking* end = begin + std::min<std::ptrdiff_t>(kColumns, last - begin);
+  for (const SummaryRanking* begin = first; begin < last;) {
+    const SummaryRanking* end = begin + std::min<std::ptrdiff_t>(kColumns, last - begin);
     AddTable(RankTable({begin, end}), &section);
     begin = end;
   }
@@ -222,18 +222,18 @@ Section RankingSection(const PooledRanking* first, const PooledRanking* last, bo
   return section;
 }
 
-std::vector<Section> RankingSections(const std::vector<PooledProblem>& pools) {
-  const std::vector<PooledRanking> rankings = RankPools(pools);
+std::vector<Section> RankingSections(const std::vector<ProblemSummary>& pools) {
+  const std::vector<SummaryRanking> rankings = RankPools(pools);
   if (rankings.empty()) return {};
   std::vector<Section> sections = {
       {"",
        {block::Legend{"Mean ranks of RMSE / reference, search alone / best candidate's polish, and p of "
                       "Friedman's test; blocks are device and run, figures within 1e-6 of each "
                       "other equal; pairs by Wilcoxon's test, Holm-corrected"}}}};
-  const PooledRanking* const end = rankings.data() + rankings.size();
-  for (const PooledRanking* first = rankings.data(); first != end;) {
-    const PooledRanking* const next = std::find_if(
-        first, end, [&](const PooledRanking& other) { return other.problem != first->problem; });
+  const SummaryRanking* const end = rankings.data() + rankings.size();
+  for (const SummaryRanking* first = rankings.data(); first != end;) {
+    const SummaryRanking* const next = std::find_if(
+        first, end, [&](const SummaryRanking& other) { return other.problem != first->problem; });
     sections.push_back(RankingSection(first, next, first->problem.empty() || pools.size() == 1));
     first = next;
   }
@@ -241,9 +241,9 @@ std::vector<Section> RankingSections(const std::vector<PooledProblem>& pools) {
 }
 
 // The default fit against others' searches, a sentence a problem.
-Section PeerSection(const std::vector<PooledProblem>& pools) {
+Section PeerSection(const std::vector<ProblemSummary>& pools) {
   Section section;
-  for (const PooledProblem& pool : pools) {
+  for (const ProblemSummary& pool : pools) {
     const std::string peer = PeerText(pool);
     if (peer.empty()) continue;
     if (section.blocks.empty()) {
@@ -260,10 +260,10 @@ Section PeerSection(const std::vector<PooledProblem>& pools) {
 }  // namespace
 
 std::vector<Section> PoolSections(const Comparison& comparison) {
-  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  const std::vector<ProblemSummary> pools = SummariseProblems(comparison);
   if (pools.empty()) return {};
   Section which = {"Which search, from which budget, or none"};
-  for (const PooledProblem& pool : pools) AddSentence(VerdictText(pool) + ".", &which);
+  for (const ProblemSummary& pool : pools) AddSentence(VerdictText(pool) + ".", &which);
   std::vector<Section> sections = {
       {"",
        {block::Legend{"Hits and median time of a run: of starts from the curve's shape alone, of "
@@ -273,7 +273,7 @@ std::vector<Section> PoolSections(const Comparison& comparison) {
         VerdictTable(pools)}},
       std::move(which),
       PeerSection(pools)};
-  for (const PooledProblem& pool : pools) sections.push_back(PoolSection(pool));
+  for (const ProblemSummary& pool : pools) sections.push_back(PoolSection(pool));
   for (Section& section : RankingSections(pools)) sections.push_back(std::move(section));
   return sections;
 }

@@ -20,7 +20,7 @@ void to_json(Json& j, const Failures& failures) {
          {"parameter", failures.worst_parameter}}}};
 }
 
-void to_json(Json& j, const PooledLevel& level) {
+void to_json(Json& j, const LevelSummary& level) {
   const RunSpread& excess = level.excess;
   j = {{"runs", level.runs},
        {"hits", level.hits},
@@ -34,27 +34,27 @@ void to_json(Json& j, const PooledLevel& level) {
   if (level.failures.runs > 0) j["failures"] = level.failures;
 }
 
-// Null are the levels a contender does not have.
-void to_json(Json& j, const PooledContender& contender) {
-  j = {{"name", contender.name},
-       {"algorithm", contender.algorithm},
-       {"kind", contender.kind},
-       {"budget", contender.budget > 0 ? Json(contender.budget) : Json()},
-       {"evaluations", contender.evaluations},
-       {"curve_evaluations", contender.curve_evaluations},
-       {"searched", contender.At(PolishLevel::kSearch)},
-       {"plain_polished", contender.At(PolishLevel::kPlain)},
-       {"refined_best_candidate", contender.At(PolishLevel::kOwn)},
-       {"refined", contender.At(PolishLevel::kHybrid)}};
+// Null are the levels a compared does not have.
+void to_json(Json& j, const AlgorithmSummary& compared) {
+  j = {{"name", compared.name},
+       {"algorithm", compared.algorithm},
+       {"kind", compared.kind},
+       {"budget", compared.budget > 0 ? Json(compared.budget) : Json()},
+       {"evaluations", compared.evaluations},
+       {"curve_evaluations", compared.curve_evaluations},
+       {"searched", compared.At(PolishLevel::kSearch)},
+       {"plain_polished", compared.At(PolishLevel::kPlain)},
+       {"refined_best_candidate", compared.At(PolishLevel::kOwn)},
+       {"refined", compared.At(PolishLevel::kHybrid)}};
 }
 
 namespace {
 
-Json AnswerJson(const PooledProblem& pool) {
+Json AnswerJson(const ProblemSummary& pool) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
   Json answer = {{"sentence", VerdictText(pool)}};
   if (!ratio || !ratio->peer) return answer;
-  answer["peer"] = {{"name", ratio->peer->contender->name},
+  answer["peer"] = {{"name", ratio->peer->compared->name},
                     {"hits", ratio->peer->figures().hits},
                     {"repeats", ratio->repeats},
                     {"times_faster", ratio->times},
@@ -62,9 +62,9 @@ Json AnswerJson(const PooledProblem& pool) {
   return answer;
 }
 
-Json RankingsJson(const std::vector<PooledProblem>& pools) {
+Json RankingsJson(const std::vector<ProblemSummary>& pools) {
   Json list = Json::array();
-  for (const PooledRanking& ranking : RankPools(pools)) {
+  for (const SummaryRanking& ranking : RankPools(pools)) {
     list.push_back({{"problem", ranking.problem.empty() ? Json() : Json(ranking.problem)},
                     {"budget", ranking.budget},
                     {"algorithms", ranking.names},
@@ -77,17 +77,17 @@ Json RankingsJson(const std::vector<PooledProblem>& pools) {
 }  // namespace
 
 Json PoolsJson(const Comparison& comparison) {
-  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  const std::vector<ProblemSummary> pools = SummariseProblems(comparison);
   if (pools.empty()) return Json::object();
   Json problems = Json::array();
-  for (const PooledProblem& pool : pools) {
+  for (const ProblemSummary& pool : pools) {
     problems.push_back({{"problem", pool.name},
                         {"objective", pool.devices[0]->objective},
                         {"devices", pool.devices.size()},
                         {"certified", pool.certified},
-                        {"hit_within", kPoolHit},
+                        {"hit_within", kHit},
                         {"answer", {{"seconds", AnswerJson(pool)}}},
-                        {"contenders", pool.contenders}});
+                        {"algorithms", pool.algorithms}});
   }
   return {{"problems", std::move(problems)}, {"rankings", RankingsJson(pools)}};
 }

@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// Problems that are summed up over their devices (study/pool.h), an object each, and the ranks of
+// Problems that are summed up over their devices (study/problem_summary.h), an object each, and the ranks of
 // their searches; an empty object where there are none. What follows from wall-clock times stands
 // under a key named `seconds` too.
 Json PoolsJson(const Comparison& comparison);

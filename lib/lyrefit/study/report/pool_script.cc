@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "lyrefit/study/pool.h"
+#include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_script.h"
 
 namespace lyrefit {
@@ -15,14 +15,14 @@ constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best ca
                                      "all starts"};
 
 // Of all problems, in the order they come: the searches first, then what has no budget.
-std::vector<std::string> AlgorithmsOf(const std::vector<PooledProblem>& pools) {
+std::vector<std::string> AlgorithmsOf(const std::vector<ProblemSummary>& pools) {
   std::vector<std::string> names;
   for (const bool search : {true, false}) {
-    for (const PooledProblem& pool : pools) {
-      for (const PooledContender& contender : pool.contenders) {
-        if ((contender.budget > 0) != search) continue;
-        if (std::find(names.begin(), names.end(), contender.algorithm) != names.end()) continue;
-        names.push_back(contender.algorithm);
+    for (const ProblemSummary& pool : pools) {
+      for (const AlgorithmSummary& compared : pool.algorithms) {
+        if ((compared.budget > 0) != search) continue;
+        if (std::find(names.begin(), names.end(), compared.algorithm) != names.end()) continue;
+        names.push_back(compared.algorithm);
       }
     }
   }
@@ -30,11 +30,11 @@ std::vector<std::string> AlgorithmsOf(const std::vector<PooledProblem>& pools) {
 }
 
 // With a tick at every budget.
-Axis AxisOf(const std::vector<PooledProblem>& pools) {
+Axis AxisOf(const std::vector<ProblemSummary>& pools) {
   std::set<std::int64_t> budgets;
-  for (const PooledProblem& pool : pools) {
-    for (const PooledContender& contender : pool.contenders) {
-      if (contender.budget > 0) budgets.insert(contender.budget);
+  for (const ProblemSummary& pool : pools) {
+    for (const AlgorithmSummary& compared : pool.algorithms) {
+      if (compared.budget > 0) budgets.insert(compared.budget);
     }
   }
   const bool none = budgets.empty();
@@ -49,20 +49,20 @@ Axis AxisOf(const std::vector<PooledProblem>& pools) {
   return axis;
 }
 
-// A contender without a budget is a line all across.
-Panel PoolPanel(const PooledProblem& pool, const std::vector<std::string>& names, std::size_t level,
+// A compared without a budget is a line all across.
+Panel PoolPanel(const ProblemSummary& pool, const std::vector<std::string>& names, std::size_t level,
                 const Axis& budgets) {
   Panel panel{fmt::format("{}: {}", pool.name, kLevelTitles[level]), budgets, ShareAxis()};
   const int count = static_cast<int>(names.size());
   const double step = std::min(1.2, 6.0 / count);
   for (int a = 0; a < count; ++a) {
     Series series = ShareLine(names[a], a, 1.2 + step * (count - 1 - a));
-    for (const PooledContender& contender : pool.contenders) {
-      const auto& at = contender.At(kPolishLevels[level]);
-      if (contender.algorithm != names[a] || !at) continue;
+    for (const AlgorithmSummary& compared : pool.algorithms) {
+      const auto& at = compared.At(kPolishLevels[level]);
+      if (compared.algorithm != names[a] || !at) continue;
       const double share = 100.0 * at->hits / std::max(at->runs, 1);
-      if (contender.budget > 0) {
-        series.Add(static_cast<double>(contender.budget), share);
+      if (compared.budget > 0) {
+        series.Add(static_cast<double>(compared.budget), share);
         continue;
       }
       series.kind = SeriesKind::kLine;
@@ -78,7 +78,7 @@ Panel PoolPanel(const PooledProblem& pool, const std::vector<std::string>& names
 }  // namespace
 
 Figure PoolFigure(const Comparison& comparison) {
-  const std::vector<PooledProblem> pools = PoolProblems(comparison);
+  const std::vector<ProblemSummary> pools = SummariseProblems(comparison);
   const std::vector<std::string> names = AlgorithmsOf(pools);
   const Axis budgets = AxisOf(pools);
   Figure figure{
@@ -86,7 +86,7 @@ Figure PoolFigure(const Comparison& comparison) {
       "equal lines the first is the widest; lines all across have no budget",
       LegendOf(names, LegendMark::kLineAndPoint)};
   figure.columns = static_cast<int>(kPolishLevels.size());
-  for (const PooledProblem& pool : pools) {
+  for (const ProblemSummary& pool : pools) {
     for (std::size_t level = 0; level < kPolishLevels.size(); ++level) {
       figure.panels.push_back(PoolPanel(pool, names, level, budgets));
       if (pools.size() > kFewRows) figure.panels.back().height = 180;

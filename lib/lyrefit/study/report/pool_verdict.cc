@@ -24,34 +24,34 @@ std::string LevelPhrase(PolishLevel level) {
 }
 
 // "48 of 50"
-std::string HitsText(const Way& way) {
+std::string HitsText(const Configuration& way) {
   return fmt::format("{} of {}", way.figures().hits, way.figures().runs);
 }
 
 // "with the best candidate's own polish from 1000 evaluations (310 ms)"
-std::string HowText(const Way& way, const char* from) {
+std::string HowText(const Configuration& way, const char* from) {
   return fmt::format("{} {} {} evaluations ({})", LevelPhrase(way.level), from,
-                     way.contender->budget, Duration(way.figures().seconds));
+                     way.compared->budget, Duration(way.figures().seconds));
 }
 
-std::string ShapeText(const Way& shape) {
+std::string ShapeText(const Configuration& shape) {
   return fmt::format("starts from the curve's shape alone hit {} ({})", HitsText(shape),
                      Duration(shape.figures().seconds));
 }
 
 std::string SearchText(const SearchVerdict& verdict) {
   if (verdict.search) {
-    return fmt::format("of the searches {} reaches {} {}", verdict.search->contender->algorithm,
+    return fmt::format("of the searches {} reaches {} {}", verdict.search->compared->algorithm,
                        HitsText(*verdict.search), HowText(*verdict.search, "from"));
   }
   const int runs = verdict.best->figures().runs;
   if (verdict.best->figures().hits == 0) return "the searches never hit";
   return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
-                     verdict.needed, runs, verdict.best->contender->algorithm,
+                     verdict.needed, runs, verdict.best->compared->algorithm,
                      verdict.best->figures().hits, HowText(*verdict.best, "at"));
 }
 
-std::string RandomText(const Way& random) {
+std::string RandomText(const Configuration& random) {
   if (random.IsEnough()) {
     return fmt::format("random points reach {} {}", HitsText(random), HowText(random, "from"));
   }
@@ -61,24 +61,24 @@ std::string RandomText(const Way& random) {
 }
 
 // "50 (12 ms)", of a search "lo@3000 49 (299 ms)"
-std::string WayText(const std::optional<Way>& way, bool named) {
+std::string ConfigurationText(const std::optional<Configuration>& way, bool named) {
   if (!way) return "-";
-  const PooledLevel& figures = way->figures();
-  return (named ? way->contender->name + " " : "") +
+  const LevelSummary& figures = way->figures();
+  return (named ? way->compared->name + " " : "") +
          fmt::format("{} ({})", figures.hits, Duration(figures.seconds));
 }
 
 std::string Headline(const SearchVerdict& verdict) {
   if (verdict.shape_wins) return "no search is needed";
   if (!verdict.search) return "nothing is enough";
-  const std::string& name = verdict.search->contender->algorithm;
+  const std::string& name = verdict.search->compared->algorithm;
   return name == ToText(Algorithm::kRandom) ? "random points will do" : name + " will do";
 }
 
 }  // namespace
 
-std::string VerdictText(const PooledProblem& pool) {
-  const SearchVerdict verdict = JudgePool(pool);
+std::string VerdictText(const ProblemSummary& pool) {
+  const SearchVerdict verdict = JudgeProblem(pool);
   std::string text = fmt::format("{}: {}", pool.name, Headline(verdict));
   const char* separator = ": ";
   const auto add = [&](const std::string& part) {
@@ -91,30 +91,30 @@ std::string VerdictText(const PooledProblem& pool) {
   return text;
 }
 
-block::Table VerdictTable(const std::vector<PooledProblem>& pools) {
+block::Table VerdictTable(const std::vector<ProblemSummary>& pools) {
   block::Table table = {"lrrrrrr",
                         {{"problem", "runs", "shape", "default", "search", "random", "peer"}}};
-  for (const PooledProblem& pool : pools) {
-    const SearchVerdict verdict = JudgePool(pool);
+  for (const ProblemSummary& pool : pools) {
+    const SearchVerdict verdict = JudgeProblem(pool);
     const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
-    const std::optional<Way>& search = verdict.search ? verdict.search : verdict.best;
+    const std::optional<Configuration>& search = verdict.search ? verdict.search : verdict.best;
     int runs = 0;
-    for (const std::optional<Way>& way : {verdict.shape, search}) {
+    for (const std::optional<Configuration>& way : {verdict.shape, search}) {
       if (way) runs = way->figures().runs;
     }
-    table.rows.push_back({pool.name, std::to_string(runs), WayText(verdict.shape, false),
-                          WayText(ratio ? std::optional<Way>(ratio->self) : std::nullopt, false),
-                          WayText(search, true), WayText(verdict.random, true),
-                          WayText(ratio ? ratio->peer : std::nullopt, true)});
+    table.rows.push_back({pool.name, std::to_string(runs), ConfigurationText(verdict.shape, false),
+                          ConfigurationText(ratio ? std::optional<Configuration>(ratio->self) : std::nullopt, false),
+                          ConfigurationText(search, true), ConfigurationText(verdict.random, true),
+                          ConfigurationText(ratio ? ratio->peer : std::nullopt, true)});
   }
   return table;
 }
 
-std::string PeerText(const PooledProblem& pool) {
+std::string PeerText(const ProblemSummary& pool) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(pool);
   if (!ratio || !ratio->peer) return "";
-  const auto brief = [](const Way& way) {
-    return fmt::format("{} ({}, {})", way.contender->name, HitsText(way),
+  const auto brief = [](const Configuration& way) {
+    return fmt::format("{} ({}, {})", way.compared->name, HitsText(way),
                        Duration(way.figures().seconds));
   };
   if (ratio->repeats == 0) return brief(ratio->self) + ": no peer ever hits";

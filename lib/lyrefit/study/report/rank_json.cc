@@ -41,7 +41,7 @@ Json SignedRanksJson(const std::vector<std::string>& names, const Ranking& ranki
 }  // namespace
 
 Json RankingJson(const std::vector<std::string>& names, const Ranking& ranking) {
-  if (ranking.friedman.contenders == 0) return nullptr;
+  if (ranking.friedman.algorithms == 0) return nullptr;
   return {{"friedman",
            {{"blocks", ranking.friedman.blocks},
             {"mean_rank", ranking.friedman.mean_rank},

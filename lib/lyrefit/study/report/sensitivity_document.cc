@@ -14,15 +14,15 @@ namespace {
 
 std::vector<double> ValuesOf(const ProblemResult& problem, double SearchOptions::*setting) {
   std::vector<double> values;
-  for (const ContenderResult& contender : problem.contenders) {
-    values.push_back(contender.search.*setting);
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    values.push_back(compared.search.*setting);
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
-using CellText = std::function<std::string(const ContenderResult&)>;
+using CellText = std::function<std::string(const AlgorithmResult&)>;
 
 // Pm downwards, gamma to the right.
 block::Table Grid(const ProblemResult& problem, std::string caption, const CellText& cell) {
@@ -37,10 +37,10 @@ block::Table Grid(const ProblemResult& problem, std::string caption, const CellT
     block::Table::Row line = {fmt::format("Pm = {:g}", rate)};
     for (const double gamma : coefficients) {
       const auto found = std::find_if(
-          problem.contenders.begin(), problem.contenders.end(), [&](const ContenderResult& c) {
+          problem.algorithms.begin(), problem.algorithms.end(), [&](const AlgorithmResult& c) {
             return c.search.memory_rate == rate && c.search.distance_coefficient == gamma;
           });
-      line.push_back(found == problem.contenders.end() ? "-" : cell(*found));
+      line.push_back(found == problem.algorithms.end() ? "-" : cell(*found));
     }
     table.rows.push_back(std::move(line));
   }
@@ -50,7 +50,7 @@ block::Table Grid(const ProblemResult& problem, std::string caption, const CellT
 // The cell with the lowest mean, and how little the polish cares.
 std::string RateVerdict(const ProblemResult& problem) {
   const auto best = std::min_element(
-      problem.contenders.begin(), problem.contenders.end(),
+      problem.algorithms.begin(), problem.algorithms.end(),
       [](const auto& a, const auto& b) { return a.searched.mean < b.searched.mean; });
   std::string text =
       fmt::format("The lowest mean of the search alone is {} A at Pm = {:g}, gamma = {:g}.",
@@ -58,9 +58,9 @@ std::string RateVerdict(const ProblemResult& problem) {
                   best->search.distance_coefficient);
   if (std::isnan(best->polished.min)) return text;
   std::size_t hits = 0, runs = 0;
-  for (const ContenderResult& contender : problem.contenders) {
-    hits += contender.polished.within_1e9;
-    runs += contender.runs.size();
+  for (const AlgorithmResult& compared : problem.algorithms) {
+    hits += compared.polished.within_1e9;
+    runs += compared.runs.size();
   }
   return text +
          fmt::format(" After the polish {} of {} runs of all settings end within 1e-9 of {} A.",
@@ -74,7 +74,7 @@ std::vector<Section> SensitivitySections(const Comparison& comparison,
   Section section = ProblemSection(comparison, problem);
   const auto add = [&](const char* what, double RunSpread::*field, int digits) {
     AddTable(Grid(problem, fmt::format("Search alone: {} ({}) of {} runs", what, objective, runs),
-                  [field, digits](const ContenderResult& c) {
+                  [field, digits](const AlgorithmResult& c) {
                     return Scientific(c.searched.*field, digits);
                   }),
              &section);
@@ -86,7 +86,7 @@ std::vector<Section> SensitivitySections(const Comparison& comparison,
     AddTable(
         Grid(problem,
              fmt::format("Polished (all starts): runs of {} within 1e-9 ({})", runs, objective),
-             [](const ContenderResult& c) { return std::to_string(c.polished.within_1e9); }),
+             [](const AlgorithmResult& c) { return std::to_string(c.polished.within_1e9); }),
         &section);
   }
   return {std::move(section), {"", {block::Sentence{RateVerdict(problem)}}, 1}};

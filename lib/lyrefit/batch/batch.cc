@@ -1,0 +1,280 @@
+#include "lyrefit/batch/batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/curve/plausibility.h"
+#include "lyrefit/batch/finish.h"
+#include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/batch/pipeline.h"
+#include "lyrefit/batch/result_columns.h"
+#include "lyrefit/batch/row_text.h"
+
+namespace lyrefit {
+namespace {
+
+CheckpointHead OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
+  CheckpointHead json = {{"seed", options.seed},
+                   {"group-level", options.group_level},
+                   {"like-light", options.like_light}};
+  if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
+  if (options.interactive_pages) json["interactive-pages"] = true;
+  if (options.raw_csv) json["raw-csv"] = true;
+  // Of one that is given several times all values.
+  for (const auto* echoes : {&options.reading, &task.options}) {
+    for (const OptionEcho& echo : *echoes) {
+      CheckpointHead& value = json[echo.name];
+      value = value.is_string() ? value.get<std::string>() + " " + echo.value : echo.value;
+    }
+  }
+  return json;
+}
+
+std::vector<ResultColumn> RowColumns(const BatchTaskType& task, const BatchOptions& options) {
+  std::vector<ResultColumn> columns = CommonColumns();
+  columns.insert(columns.end(), task.columns.begin(), task.columns.end());
+  if (options.pages != PagesOf::kNone) {
+    columns.push_back({"page", "", CellType::kText,
+                       "the curve's own page: a path from the folder of the results"});
+  }
+  return columns;
+}
+
+Expected<CheckpointHead> HeadOf(const BatchSource& source, const BatchTaskType& task,
+                          const BatchOptions& options) {
+  TRY(const std::string digest, source.Digest());
+  if (digest.empty() && (options.start == BatchStart::kResume || options.shard.of > 1)) {
+    return Fail("standard input and pipes can neither be resumed nor done in shards: name a file");
+  }
+  CheckpointHead head = NewCheckpointHead();
+  head["version"] = Version();
+  head["task"] = task.name;
+  head["shard"] = options.shard.k;
+  head["of"] = options.shard.of;
+  head["input"] = digest;
+  head["options"] = OptionsJson(task, options);
+  head["columns"] = FieldsJson(RowColumns(task, options));
+  return head;
+}
+
+// Why a curve is broken, without the file, which is in a column of its own.
+std::string ReasonOf(const Error& error) {
+  if (error.line == 0) return error.message;
+  if (error.column == 0) return fmt::format("line {}: {}", error.line, error.message);
+  return fmt::format("line {}, column {}: {}", error.line, error.column, error.message);
+}
+
+void AddDoubt(const BatchCurve& curve, TaskResult* result) {
+  const std::optional<std::string> doubt = PlausibilityProblem(*curve.curve, RatedPowerBeside(curve));
+  if (!doubt) return;
+  if (result->status == RowStatus::kFine) result->status = RowStatus::kDoubtful;
+  if (result->reason.find(*doubt) != std::string::npos) return;
+  result->reason += (result->reason.empty() ? "" : "; ") + *doubt;
+}
+
+std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& columns) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const ResultColumn& c) { return c.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+// What makes a row of a curve. From any thread.
+class RowMaker {
+ public:
+  RowMaker(const BatchSource& source, const BatchTaskType& task, const BatchOptions& options)
+      : source_(source),
+        task_(task),
+        options_(options),
+        columns_(RowColumns(task, options)),
+        remark_(ColumnNamed("remark", columns_)) {}
+
+  PipelineStep Make(const BatchItem& item, const std::function<bool()>& stopped) const {
+    BatchCurve curve = source_.Read(item);
+    if (curve.curve) Settle(&curve);
+    TaskResult result{RowStatus::kBroken, "", {}, false};
+    if (curve.curve) {
+      const Observer observer = [&stopped](const Progress&) {
+        return stopped() ? ObserverAction::kStop : ObserverAction::kContinue;
+      };
+      result = task_.run(curve, SeedOf(options_.seed, curve.id), observer);
+      AddDoubt(curve, &result);
+    } else {
+      result.reason = ReasonOf(curve.curve.error());
+    }
+    ResultRow row = {CommonCells(curve, item, result.status, result.reason)};
+    result.cells.resize(task_.columns.size());
+    for (ResultCell& cell : result.cells) row.cells.push_back(std::move(cell));
+    PipelineStep step;
+    step.broken = result.status == RowStatus::kBroken;
+    step.interrupted = result.interrupted;
+    if (options_.pages != PagesOf::kNone) {
+      row.cells.emplace_back();
+      if (!result.interrupted) AddPage(curve.id, result, &row);
+    }
+    step.text = RowJson(columns_, row) + "\n";
+    return step;
+  }
+
+ private:
+  // The curve's page, which is written before the row that names it in its last cell. One that
+  // cannot be written is a remark on the row.
+  void AddPage(const std::string& id, const TaskResult& result, ResultRow* row) const {
+    if (!result.page || (options_.pages == PagesOf::kFailed && !result.failed)) return;
+    const std::string path = StringPagePath(id);
+    const auto written =
+        WriteStringPage(options_.folder, path, result.page({options_.interactive_pages}));
+    if (written) {
+      row->cells.back() = path;
+      return;
+    }
+    ResultCell& remark = row->cells[remark_];
+    const auto* const before = std::get_if<std::string>(&remark);
+    remark = (before == nullptr ? "" : *before + "; ") + "no page: " + written.error().message;
+  }
+
+  // What is known besides, and whether the readings can be worked with at all.
+  void Settle(BatchCurve* curve) const {
+    Expected<void> settled;
+    if (options_.prepare) settled = options_.prepare(&*curve->curve);
+    if (settled) settled = Validate(*curve->curve);
+    if (!settled) curve->curve = tl::unexpected(settled.error());
+  }
+
+  const BatchSource& source_;
+  const BatchTaskType& task_;
+  const BatchOptions& options_;
+  const std::vector<ResultColumn> columns_;
+  const std::size_t remark_;  // the column of remarks
+};
+
+Expected<PipelineEnd> WriteRows(BatchSource* source, const BatchTaskType& task,
+                                const BatchOptions& options, const Observer& observer,
+                                CheckpointFile* part) {
+  const Instant begin = Now();
+  const RowMaker maker(*source, task, options);
+  const std::int64_t before = part->rows();
+  Pipeline pipeline;
+  pipeline.threads = options.threads;
+  pipeline.skip = before;
+  pipeline.work = [&maker](const BatchItem& item, const std::function<bool()>& stopped) {
+    return maker.Make(item, stopped);
+  };
+  pipeline.write = [part](const std::string& texts, std::int64_t rows) {
+    return part->Append(texts, rows);
+  };
+  pipeline.stop = [&](const PipelineProgress& done) {
+    Progress progress;
+    progress.stage = "batch";
+    progress.iteration = before + done.rows;
+    progress.seconds = SecondsSince(begin);
+    if (source->size() > 0) {
+      progress.part = static_cast<double>(done.end) / static_cast<double>(source->size());
+    }
+    const std::string note =
+        fmt::format("{:.0f} a second, {} broken",
+                    static_cast<double>(done.rows) / std::max(progress.seconds, 1e-3), done.broken);
+    progress.note = note;
+    return StopRequested(observer, progress);
+  };
+  return Run(pipeline, source);
+}
+
+std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePlace>& place) {
+  if (!place) return std::nullopt;
+  return std::make_pair(place->input, place->number);
+}
+
+// Whether there is nothing left to do: the results of this very run are there.
+Expected<bool> AreThere(const CheckpointHead& head, const BatchOptions& options) {
+  if (options.start != BatchStart::kResume || options.shard.of > 1) return false;
+  if (std::filesystem::exists(CheckpointPath(options.folder, options.shard))) return false;
+  const CheckpointHead there = ResultsHead(options.folder);
+  if (there.is_null()) return false;
+  if (there == ResultsHeadOf(head)) return true;
+  return Fail(
+      "the results that are there are of another run: name another folder, or say --force "
+      "to replace them",
+      options.folder);
+}
+
+Expected<void> CheckBatch(const BatchTaskType& task, const BatchOptions& options) {
+  TRY(ValidateOptions(options, kBatchOptionTable));
+  TRY(ValidateThreads(options.threads));
+  if (options.folder.empty()) return Fail("no folder for the results");
+  const Shard& shard = options.shard;
+  if (shard.k < 1 || shard.k > shard.of) {
+    return Fail(fmt::format("expected a shard from 1 to {}, found {}", shard.of, shard.k));
+  }
+  return task.run ? Expected<void>() : Fail("the task '" + task.name + "' does nothing");
+}
+
+}  // namespace
+
+std::uint64_t SeedOf(std::uint64_t seed, const std::string& id) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  // SplitMix64, as in base/random.cc.
+  std::uint64_t z = hash + 0x9e3779b97f4a7c15ULL * (seed + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
+                                const BatchOptions& options, const Observer& observer,
+                                const RowObserver& row_observer) {
+  const Instant begin = Now();
+  TRY(CheckBatch(task, options));
+  BatchSummary summary;
+  summary.version = Version();
+  summary.task = task.name;
+  summary.folder = options.folder;
+  summary.seed = options.seed;
+  const bool shard = options.shard.of > 1;
+  TRY(PrepareFolder(options.folder, shard || options.start != BatchStart::kNew));
+  TRY(const CheckpointHead head, HeadOf(*source, task, options));
+  TRY(summary.was_complete, AreThere(head, options));
+  if (summary.was_complete) return summary;
+  const PartStart start = options.start == BatchStart::kNew      ? PartStart::kNew
+                          : options.start == BatchStart::kResume ? PartStart::kResume
+                                                                 : PartStart::kReplace;
+  const std::string path = CheckpointPath(options.folder, options.shard);
+  TRY(const auto part, CheckpointFile::Open(path, head, start));
+  summary.rows_before = part->rows();
+  summary.was_complete = shard && part->complete();
+  if (!part->complete()) {
+    const auto end = WriteRows(source, task, options, observer, part.get());
+    if (!end) {
+      if (part->rows() == 0) TRY(part->Remove());
+      return tl::unexpected(end.error());
+    }
+    summary.interrupted = !end->complete;
+    if (end->complete) TRY(part->Finish({part->rows(), Pair(end->first), Pair(end->last)}));
+  }
+  summary.rows = part->rows();
+  summary.seconds = SecondsSince(begin);
+  if (summary.interrupted) return summary;
+  if (shard) {
+    TRY(CountRows(path, &summary));
+  } else {
+    const BatchSummary before = summary;
+    TRY(WriteResults({path}, options.folder, observer, row_observer, &summary));
+    if (summary.interrupted) {  // what was counted is not all
+      summary = before;
+      summary.interrupted = true;
+      return summary;
+    }
+    TRY(part->Remove());
+  }
+  summary.seconds = SecondsSince(begin);
+  return summary;
+}
+
+}  // namespace lyrefit

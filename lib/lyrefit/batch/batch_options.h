@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/batch/batch_source.h"
+#include "lyrefit/batch/string_pages.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// What to do where a run was not finished, or results are there.
+enum class BatchStart {
+  kNew,      // refuse
+  kResume,   // go on with a run of the same input, options and version; done already is fine too
+  kReplace,  // begin anew
+};
+
+// How many curves are worked on, and where the rows go.
+struct BatchOptions {
+  std::string folder;  // where the results go; made if it is not there
+  Shard shard;         // which the source was opened with
+  BatchStart start = BatchStart::kNew;
+  std::uint64_t seed = 0;  // of the run; each curve's comes from it and its id
+  int threads = 0;         // 0: all cores; never changes a result
+  // Of the comparison of strings with their neighbours: see neighbours.h.
+  double group_level = 0.001;
+  double like_light = 0.05;
+  // Pages of single curves, in the folder of the results: see string_pages.h.
+  PagesOf pages = PagesOf::kNone;
+  bool interactive_pages = false;
+  // Texts of results.csv as they are, also those that a spreadsheet would run as formulas.
+  bool raw_csv = false;
+  // What is known of every curve besides, put into each as it is read.
+  std::function<Expected<void>(IvCurve* curve)> prepare;
+  // How the curves were read and prepared, for the digest of the run.
+  std::vector<OptionEcho> reading;
+};
+
+inline constexpr OptionRow<BatchOptions> kBatchOptionTable[] = {
+    OptionRow<BatchOptions>("Batch"),
+    {"seed", "", "seed of the run; each curve's comes from it and the curve's id",
+     &BatchOptions::seed, 0, 1.8446744073709552e19},
+    {"threads", "N", "0: all cores; never changes a result", &BatchOptions::threads, 0,
+     kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
+    {"group-level", "", "rate at which healthy strings differ from those of their combiner",
+     &BatchOptions::group_level, 1e-6, 0.2},
+    {"like-light", "", "how far apart irradiances may be that are compared, in parts",
+     &BatchOptions::like_light, 0.001, 0.5},
+    {"pages", "WHICH",
+     "a page each, DIR/pages/ID.html, for those that failed or show a cause, or all",
+     EnumOption<&BatchOptions::pages>()},
+    {"interactive-pages", "", "with charts to hover over, half a megabyte more each",
+     &BatchOptions::interactive_pages},
+    {"raw-csv", "",
+     "texts in results.csv as they are; else an apostrophe stands before those that a spreadsheet "
+     "would run as formulas",
+     &BatchOptions::raw_csv},
+};
+
+}  // namespace lyrefit

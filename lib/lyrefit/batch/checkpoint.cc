@@ -1,0 +1,238 @@
+#include "lyrefit/batch/checkpoint.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr char kHeadBegin[] = "{\"lyrefit_batch\"";
+constexpr char kEndBegin[] = "{\"end\"";
+constexpr char kNoPart[] = "expected the rows of a batch, found another file";
+constexpr char kNoSums[] =
+    "these rows have no checksums, as an older lyrefit wrote them: finish and merge them with that "
+    "one, or begin anew with batch --force";
+constexpr AppendLog::Kind kKind = {"rows", "these rows", "rows of a batch", kHeadBegin, kNoPart};
+
+// {"lyrefit_batch":2, ...}. Files of format 1 have no checksums.
+constexpr int kFormat = 2;
+
+// ,"crc":"0123abcd"}
+constexpr char kSumBegin[] = ",\"crc\":\"";
+constexpr std::size_t kSumSize = sizeof kSumBegin - 1 + 8 + 2;
+
+std::string Because() { return std::generic_category().message(errno); }
+
+bool Begins(const std::string& line, const std::string& with) {
+  return line.compare(0, with.size(), with) == 0;
+}
+
+std::string ValueText(const CheckpointHead& value) {
+  if (value.is_null()) return "nothing";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// How heads call things, and how people do.
+std::string Spoken(const std::string& key) {
+  if (key == "version") return "by lyrefit";
+  if (key == "input") return "on an input with the digest";
+  return "with " + key;
+}
+
+nlohmann::ordered_json PlaceJson(const std::optional<std::pair<int, std::int64_t>>& place) {
+  if (!place) return nullptr;
+  return {place->first, place->second};
+}
+
+std::optional<std::pair<int, std::int64_t>> PlaceOf(const nlohmann::json& json) {
+  const bool pair = json.is_array() && json.size() == 2 && json[0].is_number_integer() &&
+                    json[1].is_number_integer();
+  if (!pair) return std::nullopt;
+  return std::make_pair(json[0].get<int>(), json[1].get<std::int64_t>());
+}
+
+// What a head says, whose checksum is the first.
+Expected<CheckpointHead> HeadOf(const std::string& line, LineSums* sums, const std::string& path) {
+  const CheckpointHead as_it_is = CheckpointHead::parse(line, nullptr, false);
+  if (!as_it_is.is_object()) return Fail(kNoPart, path, 1);
+  if (as_it_is.value("lyrefit_batch", CheckpointHead()) == 1) return Fail(kNoSums, path, 1);
+  const auto checked = sums->Check(line);
+  if (!checked) return Fail(checked.error().message, path, 1);
+  return CheckpointHead::parse(*checked, nullptr, false);
+}
+
+}  // namespace
+
+unsigned long LineSums::Add(std::string_view line) {
+  for (const std::string_view part : {line, std::string_view("\n")}) {
+    crc_ = ::crc32_z(crc_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+  }
+  return crc_;
+}
+
+std::string LineSums::Seal(std::string_view line) {
+  return fmt::format("{}{}{:08x}\"}}", line.substr(0, line.size() - 1), kSumBegin, Add(line));
+}
+
+Expected<std::string> LineSums::Check(std::string_view line) {
+  const std::size_t begin = line.size() < kSumSize ? line.size() : line.size() - kSumSize;
+  std::string plain = std::string(line.substr(0, begin)) + "}";
+  const std::string sum = fmt::format("{}{:08x}\"}}", kSumBegin, Add(plain));
+  if (line.substr(begin) == sum) return plain;
+  return Fail(
+      "the checksum of this line is not that of what stands up to here: a line was changed, moved "
+      "or lost; begin anew with batch --force");
+}
+
+CheckpointHead NewCheckpointHead() { return {{"lyrefit_batch", kFormat}}; }
+
+std::string CheckpointPath(const std::string& folder, const Shard& shard) {
+  if (shard.of == 1) return folder + "/results.part";
+  return fmt::format("{}/shard-{}-of-{}.part", folder, shard.k, shard.of);
+}
+
+Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now, const std::string& path) {
+  const auto differs = [&path](const std::string& what, const CheckpointHead& old_value,
+                               const CheckpointHead& new_value) {
+    return Fail(fmt::format("these rows were begun {} {}, now it is {}: go on as it was begun, or "
+                            "say --force to begin anew",
+                            what, ValueText(old_value), ValueText(new_value)),
+                path, 1);
+  };
+  const auto compare = [&](const CheckpointHead& a, const CheckpointHead& b) -> Expected<void> {
+    for (const auto& [key, value] : b.items()) {
+      if (key == "options" || key == "columns") continue;
+      if (!a.contains(key) || a[key] != value) {
+        return differs(Spoken(key), a.value(key, CheckpointHead()), value);
+      }
+    }
+    for (const auto& [key, value] : a.items()) {
+      if (!b.contains(key)) return differs(Spoken(key), value, CheckpointHead());
+    }
+    return {};
+  };
+  TRY(compare(before, now));
+  TRY(compare(before.value("options", CheckpointHead::object()), now.at("options")));
+  if (before.value("columns", CheckpointHead()) == now.at("columns")) return {};
+  return Fail("these rows were begun with other columns: say --force to begin anew", path, 1);
+}
+
+Expected<std::unique_ptr<CheckpointFile>> CheckpointFile::Open(const std::string& path, const CheckpointHead& head,
+                                                   PartStart start) {
+  TRY(auto log, AppendLog::Open(path, kKind));
+  std::unique_ptr<CheckpointFile> part(new CheckpointFile(std::move(log)));
+  if (!part->log_->empty() && start == PartStart::kNew) {
+    return Fail("a run was not finished here: say --resume to go on, or --force to begin anew",
+                path);
+  }
+  if (start == PartStart::kResume) {
+    TRY(part->log_->TakeUp(
+        [&](const std::string& line, int number) { return part->Take(line, number, head); }));
+  } else {
+    TRY(part->log_->Clear());
+  }
+  if (part->log_->empty()) {
+    TRY(part->Append(head.dump(-1, ' ', false, CheckpointHead::error_handler_t::replace) + "\n", 0));
+  }
+  return part;
+}
+
+Expected<void> CheckpointFile::Take(const std::string& line, int number, const CheckpointHead& head) {
+  if (number == 1) {
+    TRY(const CheckpointHead before, HeadOf(line, &sums_, path()));
+    return CheckSameHead(before, head, path());
+  }
+  if (complete_ || line.empty() || line.front() != '{' || line.back() != '}') {
+    return Fail("this line is no row, the file is damaged: say --force to begin anew", path(),
+                number);
+  }
+  if (const auto checked = sums_.Check(line); !checked) {
+    return Fail(checked.error().message, path(), number);
+  }
+  complete_ = Begins(line, kEndBegin);
+  if (!complete_) ++rows_;
+  return {};
+}
+
+Expected<void> CheckpointFile::Append(const std::string& lines, std::int64_t rows) {
+  LineSums sums = sums_;
+  std::string sealed;
+  sealed.reserve(lines.size() + static_cast<std::size_t>(rows + 1) * kSumSize);
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end + 1) {
+    end = lines.find('\n', begin);
+    sealed += sums.Seal(std::string_view(lines).substr(begin, end - begin)) + "\n";
+  }
+  TRY(log_->Append(sealed));
+  sums_ = sums;
+  rows_ += rows;
+  return {};
+}
+
+Expected<void> CheckpointFile::Finish(const PartEnd& end) {
+  const nlohmann::ordered_json line = {
+      {"end", rows_}, {"first", PlaceJson(end.first)}, {"last", PlaceJson(end.last)}};
+  if (!complete_) TRY(Append(line.dump() + "\n", 0));
+  complete_ = true;
+  return log_->Sync();
+}
+
+Expected<void> CheckpointFile::Remove() { return log_->Remove(); }
+
+Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path) {
+  constexpr std::streamoff kEnough = 4096;  // the last line of a part that is complete is short
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in) return Fail("cannot read the rows: " + Because(), path);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(size - kEnough, 0));
+  std::string text(static_cast<std::size_t>(std::min(size, kEnough)), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (text.empty() || text.back() != '\n') return std::nullopt;
+  text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  if (!Begins(text, kEndBegin)) return std::nullopt;
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json["end"].is_number_integer()) return std::nullopt;
+  return PartEnd{json["end"], PlaceOf(json.value("first", nlohmann::json())),
+                 PlaceOf(json.value("last", nlohmann::json()))};
+}
+
+Expected<CheckpointReader> CheckpointReader::Open(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return Fail("cannot read the rows: " + Because(), path);
+  CheckpointReader reader(path, std::move(in));
+  std::string line;
+  if (!std::getline(reader.in_, line) || !Begins(line, kHeadBegin)) return Fail(kNoPart, path, 1);
+  TRY(reader.head_, HeadOf(line, &reader.sums_, path));
+  reader.line_ = 1;
+  return reader;
+}
+
+Expected<std::optional<nlohmann::json>> CheckpointReader::Next() {
+  if (over_) return std::nullopt;
+  std::string line;
+  ++line_;
+  if (!std::getline(in_, line) || in_.eof()) {
+    return Fail("the run that wrote these rows has not finished", path_);
+  }
+  const auto checked = sums_.Check(line);
+  if (!checked) return Fail(checked.error().message, path_, line_);
+  nlohmann::json row = nlohmann::json::parse(*checked, nullptr, false);
+  if (!row.is_object()) return Fail("expected a row, found something else", path_, line_);
+  if (!Begins(line, kEndBegin)) {
+    ++rows_;
+    return row;
+  }
+  over_ = true;
+  if (row["end"] == rows_) return std::nullopt;
+  return Fail(fmt::format("expected {} rows before the end, found {}", row["end"].dump(), rows_),
+              path_, line_);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,80 @@
+#include "lyrefit/batch/count_rows.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace lyrefit {
+namespace {
+
+constexpr char kOthers[] = "other reasons";
+
+bool IsNumeral(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+std::size_t PlaceOf(const std::vector<ResultColumn>& columns, const char* name) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const ResultColumn& c) { return c.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+template <class T>
+const T* In(const ResultRow& row, std::size_t column) {
+  return column < row.cells.size() ? std::get_if<T>(&row.cells[column]) : nullptr;
+}
+
+}  // namespace
+
+RowCounter::RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* summary)
+    : status_(PlaceOf(columns, "status")),
+      reason_(PlaceOf(columns, "reason")),
+      where_(PlaceOf(columns, "where")),
+      zone_(PlaceOf(columns, "zone")),
+      cause_(PlaceOf(columns, "cause")),
+      about_(PlaceOf(columns, "cause_about")),
+      flag_(PlaceOf(columns, "group_flag")),
+      summary_(summary) {
+  summary_->rows = 0;
+}
+
+void RowCounter::Count(const ResultRow& row) {
+  ++summary_->rows;
+  if (const auto* status = In<std::string>(row, status_)) ++summary_->statuses[*status];
+  if (const auto* zone = In<std::string>(row, zone_)) ++summary_->zones[*zone];
+  if (const auto* cause = In<std::string>(row, cause_)) ++summary_->causes[*cause];
+  if (const auto* about = In<std::string>(row, about_)) ++summary_->abouts[*about];
+  if (const bool* flag = In<bool>(row, flag_)) {
+    ++summary_->compared;
+    summary_->flagged += *flag ? 1 : 0;
+  }
+  const auto* const reason = In<std::string>(row, reason_);
+  if (reason == nullptr) return;
+  std::string kind = WithoutNumbers(*reason);
+  auto& reasons = summary_->reasons;
+  if (reasons.count(kind) == 0 && reasons.size() >= kMostReasons) kind = kOthers;
+  ReasonCount& count = reasons[kind];
+  const auto* const where = In<std::string>(row, where_);
+  if (count.rows++ == 0 && where != nullptr) count.where = *where;
+}
+
+std::string WithoutNumbers(const std::string& sentence) {
+  std::string text;
+  for (std::size_t i = 0; i < sentence.size();) {
+    const char c = sentence[i];
+    const std::size_t close = c == '\'' ? sentence.find('\'', i + 1) : std::string::npos;
+    if (close != std::string::npos) {  // what was found there
+      text += "'N'";
+      i = close + 1;
+    } else if (IsNumeral(c)) {
+      const std::size_t end = sentence.find_first_not_of("0123456789.,eE+-", i);
+      std::size_t last = std::min(end, sentence.size());
+      while (!IsNumeral(sentence[last - 1])) --last;  // the point of the sentence stays
+      text += 'N';
+      i = last;
+    } else {
+      text += c;
+      ++i;
+    }
+  }
+  return text;
+}
+
+}  // namespace lyrefit

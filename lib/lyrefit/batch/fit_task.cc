@@ -1,0 +1,134 @@
+#include "lyrefit/fit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/law/device.h"
+#include "lyrefit/law/extension.h"
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/json.h"
+
+namespace lyrefit {
+namespace {
+
+// Of the largest model that a row can have.
+std::vector<ParameterInfo> FitParameters(const FitOptions& options, bool auto_model) {
+  const Model largest = auto_model ? Model::kTripleDiode : options.model;
+  std::vector<ParameterInfo> infos = MakeDevice(largest, {}).parameters;
+  AddInfos(options.with, &infos);
+  return infos;
+}
+
+std::vector<ResultColumn> FitColumns(const std::vector<ParameterInfo>& parameters) {
+  std::vector<ResultColumn> columns = {
+      {"model", "", CellType::kText, "number of diodes: sd, dd or td"}};
+  for (const ParameterInfo& info : parameters) {
+    const std::string name = info.symbol + (info.unit.empty() ? "" : "_" + info.unit);
+    columns.push_back({name, info.unit, CellType::kNumber, info.doc});
+    columns.push_back({name + "_se", info.unit, CellType::kNumber,
+                       "standard error of " + info.symbol +
+                           " under what `errors` says; none where it is held or at a bound"});
+  }
+  columns.push_back(
+      {"errors", "", CellType::kText,
+       "what the standard errors take the errors of the readings for. independent: of "
+       "one size and knowing nothing of each other. correlated: noise of current and "
+       "voltage and wandering light, as the residuals clearly say. stated: of the "
+       "sizes that were stated"});
+  columns.push_back({"rmse_searched_solved_current_A", "A", CellType::kNumber,
+                     "root mean square error of the search's best, by the solved current"});
+  columns.push_back({"rmse_refined_solved_current_A", "A", CellType::kNumber,
+                     "root mean square error of the answer, by the solved current"});
+  columns.push_back({"rmse_refined_measured_current_A", "A", CellType::kNumber,
+                     "the same by the measured current put into the law"});
+  columns.push_back({"warnings", "", CellType::kText, "in plain words, with '; ' between them"});
+  return columns;
+}
+
+// Under the errors that are believed.
+double StandardError(const FitReport& report, const Estimate& of) {
+  const auto k = static_cast<std::size_t>(&of - report.estimates.data());
+  return k < report.under_errors.size() ? report.under_errors[k].standard_error : of.standard_error;
+}
+
+std::string ErrorsOf(const FitReport& report) {
+  const bool told = std::any_of(report.estimates.begin(), report.estimates.end(),
+                                [](const Estimate& e) { return std::isfinite(e.standard_error); });
+  if (!told) return "";
+  if (!report.errors || !report.errors->believed) return "independent";
+  return report.errors->stated ? "stated" : "correlated";
+}
+
+std::vector<ResultCell> FitCells(const FitReport& report,
+                                 const std::vector<ParameterInfo>& parameters) {
+  std::vector<ResultCell> cells = {std::string(ToText(report.model))};
+  for (const ParameterInfo& info : parameters) {
+    const auto found = std::find_if(
+        report.estimates.begin(), report.estimates.end(),
+        [&info](const Estimate& estimate) { return estimate.info.symbol == info.symbol; });
+    const bool has = found != report.estimates.end();
+    cells.push_back(NumberCell(!has              ? kUnknown
+                               : report.polished ? found->refined
+                                                 : found->searched));
+    cells.push_back(NumberCell(has ? StandardError(report, *found) : kUnknown));
+  }
+  cells.push_back(TextCell(ErrorsOf(report)));
+  const RmsePair refined = report.polished ? report.rmse.refined : RmsePair();
+  cells.push_back(NumberCell(report.rmse.searched.solved_current_A));
+  cells.push_back(NumberCell(refined.solved_current_A));
+  cells.push_back(NumberCell(refined.measured_current_A));
+  cells.push_back(ListCell(report.warnings, "; "));
+  return cells;
+}
+
+std::vector<OptionEcho> FitEcho(const FitOptions& options, bool auto_model) {
+  std::vector<OptionEcho> echoes = {{"model", auto_model ? "auto" : ToText(options.model), ""}};
+  AppendNonDefaults(options, kFitOptionTable, &echoes);
+  return echoes;
+}
+
+}  // namespace
+
+FitOptions BatchFitOptions() {
+  FitOptions options;
+  options.intervals = Intervals::kSymmetric;
+  options.random_baseline = false;
+  return options;
+}
+
+BatchTaskType FitTask(const FitOptions& asked, bool auto_model) {
+  FitOptions options = asked;
+  options.threads = 1;
+  const std::vector<ParameterInfo> parameters = FitParameters(options, auto_model);
+  BatchTaskType task;
+  task.name = "fit";
+  task.columns = FitColumns(parameters);
+  task.options = FitEcho(options, auto_model);
+  task.run = [options, auto_model, parameters](const BatchCurve& curve, std::uint64_t seed,
+                                               const Observer& observer) {
+    FitOptions own = options;
+    own.search.seed = seed;
+    Expected<FitReport> report =
+        auto_model ? FitAuto(*curve.curve, own, observer) : Fit(*curve.curve, own, observer);
+    if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};
+    // Nobody's clock is in a page.
+    report->search.seconds = report->refine.seconds = kUnknown;
+    report->interval_seconds = report->plain_seconds = kUnknown;
+    report->refine.best_candidate_seconds = kUnknown;
+    TaskResult result{report->usable ? RowStatus::kFine : RowStatus::kNotUsable,
+                      report->not_usable_because, FitCells(*report, parameters),
+                      report->interrupted};
+    result.failed = !report->usable;
+    result.page =
+        [report = std::make_shared<const FitReport>(std::move(*report))](const PageOptions& page) {
+          return DrawPage(FitDocument(*report), JsonReport(*report), page);
+        };
+    return result;
+  };
+  return task;
+}
+
+}  // namespace lyrefit

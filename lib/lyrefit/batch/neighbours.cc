@@ -1,0 +1,152 @@
+#include "lyrefit/batch/neighbours.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/distributions.h"
+#include "lyrefit/base/median.h"
+#include "lyrefit/batch/batch_task.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kNormalMad = 1.4826;    // standard deviation over median of |x|, of a normal x
+constexpr double kMadEfficiency = 0.37;  // of that estimate
+// Bins of |deviation|, from kSmallest by factors of kStep.
+constexpr double kSmallest = 1e-7;
+constexpr double kStep = 1.01;
+constexpr int kBins = 2000;  // to 40
+
+int BinOf(double deviation) {
+  const double size = std::max(std::fabs(deviation), kSmallest);
+  const double bin = std::floor(std::log(size / kSmallest) / std::log(kStep));
+  return static_cast<int>(std::min(bin, kBins - 1.0));
+}
+
+bool Alike(double a, double b, double like_light) {
+  return std::fabs(a - b) <= like_light * std::max(a, b);
+}
+
+NeighbourDeviation DeviationOf(std::size_t i, const std::vector<Neighbour>& group,
+                               double like_light) {
+  NeighbourDeviation deviation;
+  std::array<std::vector<double>, kNeighbourQuantities> peers;
+  if (!(group[i].irradiance_W_m2 > 0)) return deviation;
+  int count = 0;
+  for (std::size_t j = 0; j < group.size(); ++j) {
+    const Neighbour& other = group[j];
+    const bool peer = j != i && other.irradiance_W_m2 > 0 &&
+                      Alike(group[i].irradiance_W_m2, other.irradiance_W_m2, like_light);
+    if (!peer) continue;
+    ++count;
+    for (int q = 0; q < kNeighbourQuantities; ++q) {
+      if (std::isfinite(other.values[q])) peers[q].push_back(other.values[q]);
+    }
+  }
+  bool compared = false;
+  for (int q = 0; q < kNeighbourQuantities; ++q) {
+    if (static_cast<int>(peers[q].size()) < kLeastPeers) continue;
+    const double usual = Median(peers[q]);
+    if (!(usual > 0) || !std::isfinite(group[i].values[q])) continue;
+    deviation.parts[q] = group[i].values[q] / usual - 1;
+    compared = true;
+  }
+  if (compared) deviation.peers = count;
+  return deviation;
+}
+
+// |deviations| of one quantity in one group.
+std::vector<double> Sizes(const std::vector<NeighbourDeviation>& group, int q) {
+  std::vector<double> sizes;
+  for (const NeighbourDeviation& one : group) {
+    if (std::isfinite(one.parts[q])) sizes.push_back(std::fabs(one.parts[q]));
+  }
+  return sizes;
+}
+
+}  // namespace
+
+std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& group,
+                                                double like_light) {
+  std::vector<NeighbourDeviation> deviations;
+  deviations.reserve(group.size());
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    deviations.push_back(DeviationOf(i, group, like_light));
+  }
+  return deviations;
+}
+
+NeighbourScatter::NeighbourScatter() {
+  for (Count& count : counts_) count.bins.resize(kBins);
+}
+
+void NeighbourScatter::Add(const std::vector<NeighbourDeviation>& group) {
+  for (int q = 0; q < kNeighbourQuantities; ++q) {
+    const std::vector<double> sizes = Sizes(group, q);
+    for (const double size : sizes) ++counts_[q].bins[BinOf(size)];
+    counts_[q].deviations += static_cast<std::int64_t>(sizes.size());
+    counts_[q].groups += sizes.empty() ? 0 : 1;
+  }
+}
+
+std::array<double, kNeighbourQuantities> NeighbourScatter::Limits(
+    const std::vector<NeighbourDeviation>& group, double level) const {
+  std::array<double, kNeighbourQuantities> limits{};
+  for (int q = 0; q < kNeighbourQuantities; ++q) {
+    const Count& count = counts_[q];
+    limits[q] = kInfinity;
+    const double degrees = kMadEfficiency * static_cast<double>(count.deviations - count.groups);
+    if (degrees < 1) continue;
+    std::int64_t below = 0;
+    int bin = 0;
+    while (2 * (below += count.bins[bin]) < count.deviations) ++bin;
+    const double plant = kSmallest * std::pow(kStep, bin + 0.5);
+    const double own = Median(Sizes(group, q));
+    const double t = StudentQuantile(1 - level / (2 * kNeighbourQuantities), degrees);
+    limits[q] = t * kNormalMad * std::fmax(plant, own);
+  }
+  return limits;
+}
+
+std::vector<ResultColumn> NeighbourColumns() {
+  constexpr CellType kNumber = CellType::kNumber;
+  return {
+      {"group_peers", "", CellType::kWhole,
+       "strings of the same combiner at like light that it is compared with; none: not compared"},
+      {"group_Isc_percent", "%", kNumber,
+       "short-circuit current per irradiance against the median of its peers"},
+      {"group_Voc_percent", "%", kNumber, "open-circuit voltage against the median of its peers"},
+      {"group_FF_percent", "%", kNumber, "fill factor against the median of its peers"},
+      {"group_deviation_percent", "%", kNumber,
+       "maximum power per irradiance against the median of its peers"},
+      {"group_flag", "", CellType::kTruth, "differs from its peers by more than is usual"},
+      {"group_outlier", "", CellType::kText, "in what it differs, with the limit of what is usual"},
+  };
+}
+
+std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
+                                       const std::array<double, kNeighbourQuantities>& limits) {
+  if (deviation.peers == 0) return std::vector<ResultCell>(kNeighbourQuantities + 3);
+  static constexpr const char* kNames[] = {"Isc/G", "Voc", "FF", "Pmax/G"};
+  std::vector<ResultCell> cells = {std::int64_t{deviation.peers}};
+  std::vector<std::string> outlier;
+  for (int q = 0; q < kNeighbourQuantities; ++q) {
+    const double part = deviation.parts[q];
+    cells.push_back(NumberCell(100 * part));
+    if (!(std::fabs(part) > limits[q])) continue;
+    outlier.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q], 100 * part,
+                              100 * limits[q]));
+  }
+  cells.emplace_back(!outlier.empty());
+  cells.push_back(ListCell(outlier, ", "));
+  return cells;
+}
+
+std::string ParentOf(const std::string& id) {
+  const std::size_t slash = id.rfind('/');
+  return slash == std::string::npos ? std::string() : id.substr(0, slash);
+}
+
+}  // namespace lyrefit

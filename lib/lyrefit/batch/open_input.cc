@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/curve/column.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_curve.h"
+#include "lyrefit/batch/batch_input.h"
+#include "lyrefit/batch/json_row.h"
+#include "lyrefit/batch/line_scanner.h"
+#include "lyrefit/batch/row_names.h"
+
+namespace lyrefit {
+namespace {
+
+enum class JsonShape { kRows, kList, kWhole };
+
+struct JsonHead {
+  JsonShape shape = JsonShape::kWhole;
+  std::optional<std::string> key;  // of the list
+};
+
+std::size_t SkipSpace(std::string_view text, std::size_t at) {
+  return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+}
+
+// Whether an object holds lists or objects, as a curve does and a reading does not.
+bool HoldsLists(std::string_view element) {
+  return element.find_first_of("[{", 1) != std::string_view::npos;
+}
+
+bool BeginsListOfCurves(std::string_view text, std::size_t at) {
+  if (at >= text.size() || text[at] != '[') return false;
+  const std::size_t first = SkipSpace(text, at + 1);
+  if (first >= text.size() || text[first] != '{') return false;
+  return HoldsLists(text.substr(first, SkipJsonValue(text, first) - first));
+}
+
+// Whether a line is an object for itself, cut or not, that has readings at its top.
+bool IsRow(std::string_view line) {
+  RowFields fields;
+  const bool whole = ParseJsonRow(line, &fields).has_value();
+  const bool readings =
+      std::any_of(fields.lists.begin(), fields.lists.end(), [](const RowList& list) {
+        const ColumnKind kind = MeaningOf(list.name).column.kind;
+        return kind != ColumnKind::kUnrecognised;
+      });
+  return readings || (whole && !fields.lists.empty());
+}
+
+// The key of an object under which a list of curves stands.
+std::optional<std::string> KeyOfList(std::string_view text, std::size_t at) {
+  for (++at; at < text.size();) {
+    at = SkipSpace(text, at);
+    if (at >= text.size() || text[at] != '"') return std::nullopt;
+    const std::size_t end = SkipJsonValue(text, at);
+    const std::string key(text.substr(at + 1, end - at - 2));
+    at = SkipSpace(text, end);
+    if (at >= text.size() || text[at] != ':') return std::nullopt;
+    at = SkipSpace(text, at + 1);
+    if (BeginsListOfCurves(text, at)) return key;
+    at = SkipSpace(text, SkipJsonValue(text, at));
+    if (at >= text.size() || text[at] != ',') return std::nullopt;
+    ++at;
+  }
+  return std::nullopt;
+}
+
+JsonHead LookAtJson(std::string_view text, std::size_t at) {
+  if (text[at] == '[') {
+    return {BeginsListOfCurves(text, at) ? JsonShape::kList : JsonShape::kWhole, {}};
+  }
+  // Rows: several lines that are objects for themselves, or one with readings at its top.
+  const std::size_t end = std::min(text.find('\n', at), text.size());
+  const std::size_t next = SkipSpace(text, end);
+  const std::string_view line = text.substr(at, end - at);
+  RowFields fields;
+  const bool whole = ParseJsonRow(line, &fields).has_value();
+  const bool more = next < text.size() && text[next] == '{';
+  if (more || IsRow(line)) return {JsonShape::kRows, {}};
+  if (const auto key = KeyOfList(text, at)) return {JsonShape::kList, key};
+  const bool one_line = whole && next >= text.size();
+  return {one_line && !fields.nested ? JsonShape::kRows : JsonShape::kWhole, {}};
+}
+
+// By its mark, or since every other byte of the first is zero.
+bool IsUtf16(std::string_view head) {
+  if (head.size() < 4) return false;
+  const std::string_view mark = head.substr(0, 2);
+  if (mark == "\xff\xfe" || mark == "\xfe\xff") return true;
+  return (head[0] == '\0') != (head[1] == '\0') && (head[2] == '\0') == (head[0] == '\0') &&
+         (head[3] == '\0') == (head[1] == '\0');
+}
+
+// The ending says rows: no other shape is looked for.
+bool IsRowsFile(const std::string& path) {
+  const std::string ending = LowerCase(std::filesystem::path(path).extension().string());
+  return ending == ".jsonl" || ending == ".ndjson";
+}
+
+// A file that was looked at.
+struct LookedAt {
+  const std::string& path;
+  const ReadOptions& options;
+  std::unique_ptr<LineScanner>* scanner;
+  bool stream = IsReadOnce(path);
+
+  // A stream cannot be opened again; a file is, when its turn comes: there may be many, and each
+  // that is open holds a block of memory.
+  std::unique_ptr<LineScanner> Scanner() const {
+    if (stream) return std::move(*scanner);
+    return std::make_unique<LineScanner>(path, options.largest_file_bytes);
+  }
+};
+
+// Of what can be read once.
+const char* Within(const std::string& path) {
+  return path == "-" ? "on standard input" : "in a pipe";
+}
+
+Expected<std::unique_ptr<BatchInput>> OpenJson(const LookedAt& file, std::string_view head,
+                                               std::size_t at) {
+  const auto& [path, options, scanner, stream] = file;
+  const JsonHead json = IsRowsFile(path) ? JsonHead{JsonShape::kRows, {}} : LookAtJson(head, at);
+  if (json.shape == JsonShape::kRows) return JsonRowsInput(path, file.Scanner(), options);
+  if (stream) {
+    return Fail(fmt::format("expected rows {}, found a JSON document: name its file", Within(path)),
+                path);
+  }
+  if (json.shape == JsonShape::kList) return JsonListInput(path, json.key, options);
+  return JsonWholeInput(path, options);
+}
+
+Expected<std::unique_ptr<BatchInput>> OpenText(const LookedAt& file, std::string_view head) {
+  const auto& [path, options, scanner, stream] = file;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (head.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    head.remove_prefix(kByteOrderMark.size());
+  }
+  const std::size_t at = SkipSpace(head, 0);
+  const bool json = at < head.size() && (head[at] == '{' || (head[at] == '[' && !IsTable(path)));
+  if (json || IsRowsFile(path)) return OpenJson(file, head, at);
+  const CsvHead csv = FindCsvHead(head, options);
+  switch (csv.shape) {
+    case CsvShape::kRows:
+      return CsvRowsInput(path, file.Scanner(), csv, options);
+    case CsvShape::kLong:
+      return LongTableInput(path, file.Scanner(), csv, options);
+    case CsvShape::kNoHead:
+      return Fail(
+          "expected a header that names the columns, such as id,voltage_V,current_A, found a row "
+          "of a curve",
+          path, static_cast<int>(csv.line), 1);
+    case CsvShape::kNone:
+      break;
+  }
+  if (stream) {
+    return Fail(fmt::format("expected one curve a row or a long table {}, found another shape",
+                            Within(path)),
+                path);
+  }
+  return OneCurveInput(path, options);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const std::string& prefix,
+                                                const ReadOptions& options) {
+  if (IsFolder(path)) return FolderTreeInput(path, prefix, options);
+  if (path != "-" && !IsFile(path)) return Fail("the file does not exist", path);
+  auto scanner = std::make_unique<LineScanner>(path, options.largest_file_bytes);
+  TRY(const std::string_view head, scanner->Head());
+  if (IsUtf16(head)) {
+    // A single curve is decoded; of rows the bytes are needed.
+    const std::size_t lines = std::count(head.begin(), head.end(), '\n');
+    const bool one = !IsReadOnce(path) &&
+                     SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&
+                     !IsRowsFile(path) && lines > 0;
+    if (one) return OneCurveInput(path, options);
+    return Fail("expected rows in UTF-8, found UTF-16: save the file as UTF-8", path);
+  }
+  return OpenText({path, options, &scanner}, head);
+}
+
+}  // namespace lyrefit

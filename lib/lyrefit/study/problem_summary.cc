@@ -1,0 +1,216 @@
+#include "lyrefit/study/problem_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/study/summary.h"
+
+namespace lyrefit {
+namespace {
+
+// A run and the device it was made on.
+struct SummaryRun {
+  const ProblemResult* device = nullptr;
+  const RunRecord* run = nullptr;
+  double Ratio(PolishLevel level) const {
+    const double ratio = RmseAt(*run, level) / device->reference.rmse_A;
+    return std::min(ratio, 1e300);
+  }
+};
+
+const std::vector<double>& ParametersAt(const RunRecord& run, PolishLevel level) {
+  static const std::vector<double> kNone;
+  if (level == PolishLevel::kOwn) return run.own_parameters;
+  return level == PolishLevel::kHybrid ? run.parameters : kNone;
+}
+
+// Runs of one device that ended in the same wrong local optimum.
+struct WrongOptimum {
+  const ProblemResult* device;
+  double ratio;  // the lowest of them
+  int runs;
+};
+
+std::vector<WrongOptimum> GroupByEnd(std::vector<SummaryRun> runs, PolishLevel level) {
+  std::stable_sort(runs.begin(), runs.end(), [&](const SummaryRun& a, const SummaryRun& b) {
+    if (a.device != b.device) return a.device < b.device;
+    return a.Ratio(level) < b.Ratio(level);
+  });
+  std::vector<WrongOptimum> local_optima;
+  double last = 0;
+  for (const SummaryRun& run : runs) {
+    const double ratio = run.Ratio(level);
+    const bool same =
+        !local_optima.empty() && local_optima.back().device == run.device && ratio <= last * (1 + kHit);
+    if (same) {
+      ++local_optima.back().runs;
+    } else {
+      local_optima.push_back({run.device, ratio, 1});
+    }
+    last = ratio;
+  }
+  return local_optima;
+}
+
+Failures SumUpFailures(const std::vector<SummaryRun>& missed, PolishLevel level) {
+  Failures failures;
+  failures.runs = static_cast<int>(missed.size());
+  if (missed.empty()) return failures;
+  const std::vector<WrongOptimum> local_optima = GroupByEnd(missed, level);
+  failures.local_optima = static_cast<int>(local_optima.size());
+  const auto rarer = [](const WrongOptimum& a, const WrongOptimum& b) {
+    return a.runs != b.runs ? a.runs < b.runs : a.ratio > b.ratio;
+  };
+  const WrongOptimum& commonest = *std::max_element(local_optima.begin(), local_optima.end(), rarer);
+  failures.commonest = commonest.runs;
+  failures.commonest_device = commonest.device->curve_name;
+  failures.commonest_excess = commonest.ratio - 1;
+  std::vector<double> excess, deviations;
+  for (const SummaryRun& run : missed) {
+    excess.push_back(run.Ratio(level) - 1);
+    const Deviation deviation = LargestDeviation(*run.device, ParametersAt(*run.run, level));
+    if (deviation.parameter < 0) continue;
+    deviations.push_back(deviation.value);
+    if (deviation.value < failures.worst_deviation) continue;  // false at first
+    failures.worst_deviation = deviation.value;
+    failures.worst_parameter = run.device->parameters[deviation.parameter];
+  }
+  failures.worst_excess = *std::max_element(excess.begin(), excess.end());
+  failures.median_excess = Median(std::move(excess));
+  if (!deviations.empty()) failures.median_deviation = Median(std::move(deviations));
+  return failures;
+}
+
+std::optional<LevelSummary> PoolLevel(const std::vector<SummaryRun>& runs, PolishLevel level) {
+  std::vector<double> ratios, seconds;
+  std::vector<SummaryRun> missed;
+  for (const SummaryRun& run : runs) {
+    const double ratio = run.Ratio(level);
+    if (std::isnan(RmseAt(*run.run, level))) return {};
+    ratios.push_back(ratio);
+    seconds.push_back(SecondsAt(*run.run, level));
+    if (ratio > 1 + kHit) missed.push_back(run);
+  }
+  LevelSummary pooled;
+  pooled.runs = static_cast<int>(runs.size());
+  pooled.hits = pooled.runs - static_cast<int>(missed.size());
+  pooled.excess = SpreadOf(std::move(ratios), 1);
+  for (double* figure :
+       {&pooled.excess.min, &pooled.excess.mean, &pooled.excess.median, &pooled.excess.max}) {
+    *figure -= 1;
+  }
+  const bool timed =
+      std::none_of(seconds.begin(), seconds.end(), [](double value) { return std::isnan(value); });
+  if (timed) pooled.seconds = Median(std::move(seconds));
+  pooled.failures = SumUpFailures(missed, level);
+  return pooled;
+}
+
+AlgorithmSummary Pool(const AlgorithmResult& compared, const std::vector<SummaryRun>& runs) {
+  AlgorithmSummary pooled;
+  pooled.name = compared.name;
+  pooled.algorithm = compared.algorithm;
+  pooled.kind = compared.kind;
+  pooled.budget = compared.budget;
+  std::vector<double> evaluations, of_curves;
+  for (const SummaryRun& run : runs) {
+    evaluations.push_back(static_cast<double>(run.run->evaluations));
+    of_curves.push_back(static_cast<double>(run.run->curve_evaluations));
+  }
+  pooled.evaluations = Median(std::move(evaluations));
+  pooled.curve_evaluations = Median(std::move(of_curves));
+  for (const PolishLevel level : kPolishLevels) {
+    if (compared.kind != AlgorithmKind::kSearch && level != PolishLevel::kHybrid) continue;
+    pooled.levels[static_cast<std::size_t>(level)] = PoolLevel(runs, level);
+  }
+  return pooled;
+}
+
+// By the first device that has them, in its order.
+void SummariseAlgorithms(ProblemSummary* problem) {
+  for (const ProblemResult* first : problem->devices) {
+    for (const AlgorithmResult& compared : first->algorithms) {
+      const auto& done = problem->algorithms;
+      if (std::any_of(done.begin(), done.end(),
+                      [&](const auto& other) { return other.name == compared.name; })) {
+        continue;
+      }
+      std::vector<SummaryRun> runs;
+      for (const ProblemResult* device : problem->devices) {
+        for (const AlgorithmResult& same : device->algorithms) {
+          if (same.name != compared.name) continue;
+          for (const RunRecord& run : same.runs) runs.push_back({device, &run});
+        }
+      }
+      problem->algorithms.push_back(Pool(compared, runs));
+    }
+  }
+}
+
+}  // namespace
+
+double RmseAt(const RunRecord& run, PolishLevel level) {
+  switch (level) {
+    case PolishLevel::kSearch:
+      return run.searched_A;
+    case PolishLevel::kPlain:
+      return run.plain_polished_A;
+    case PolishLevel::kOwn:
+      return run.own_polished_A;
+    case PolishLevel::kHybrid:
+      return run.polished_A;
+  }
+  return kUnknown;
+}
+
+double SecondsAt(const RunRecord& run, PolishLevel level) {
+  switch (level) {
+    case PolishLevel::kSearch:
+      return run.search_seconds;
+    case PolishLevel::kPlain:
+      return run.search_seconds + run.plain_seconds;
+    case PolishLevel::kOwn:
+      return run.search_seconds + run.own_seconds;
+    case PolishLevel::kHybrid:
+      return run.search_seconds + run.polish_seconds;
+  }
+  return kUnknown;
+}
+
+Deviation LargestDeviation(const ProblemResult& device, const std::vector<double>& parameters) {
+  const std::vector<double>& there = device.reference.parameters;
+  Deviation largest;
+  if (parameters.size() != there.size()) return largest;
+  const std::size_t begin = std::max(device.first_effect, 0);
+  for (std::size_t i = begin; i < there.size() && i < device.parameters.size(); ++i) {
+    const double apart = std::fabs(parameters[i] - there[i]);
+    double value = there[i] == 0 ? 1.0 : apart / std::fabs(there[i]);
+    if (apart == 0) value = 0;
+    if (value <= largest.value) continue;  // false at first
+    largest = {value, static_cast<int>(i)};
+  }
+  return largest;
+}
+
+std::vector<ProblemSummary> SummariseProblems(const Comparison& comparison) {
+  std::vector<ProblemSummary> pools;
+  for (const ProblemResult& device : comparison.problems) {
+    if (device.problem.empty()) continue;
+    auto pool = std::find_if(pools.begin(), pools.end(), [&](const ProblemSummary& other) {
+      return other.name == device.problem;
+    });
+    if (pool == pools.end()) {
+      pools.emplace_back();
+      pool = pools.end() - 1;
+      pool->name = device.problem;
+    }
+    pool->devices.push_back(&device);
+    pool->certified += device.reference.certified;
+  }
+  for (ProblemSummary& pool : pools) SummariseAlgorithms(&pool);
+  return pools;
+}
+
+}  // namespace lyrefit

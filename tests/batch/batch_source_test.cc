@@ -1,0 +1,401 @@
+#include "lyrefit/batch/batch_source.h"
+
+#include <sys/stat.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "read_batch.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(JsonRows, HoldACurveEachWithWhatStandsBeside) {
+  const TempFolder folder;
+  const std::string row = GoodRow("a/b/c");
+  const std::string file =
+      folder.Write("s.jsonl", row.substr(0, row.size() - 1) +
+                                  R"(,"date":"2026-05-01","rated_power_W":320,"technology":"mono"})"
+                                  "\n\n" +
+                                  GoodRow("d"));
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 2U);
+  ExpectGood(items[0].curve, "a/b/c");
+  ExpectGood(items[1].curve, "d");
+  EXPECT_EQ(items[0].curve.curve->notes.technology, "mono");
+  EXPECT_EQ(items[0].curve.beside.at("date"), "2026-05-01");
+  EXPECT_EQ(items[0].curve.beside.at("rated_power_W"), "320");
+  EXPECT_EQ(items[0].curve.beside.size(), 2U);
+  EXPECT_EQ(items[1].item.where, file + ":3");
+  EXPECT_EQ(items[0].curve.curve->source, file);
+}
+
+TEST(JsonRows, TakeOtherNamesUnitsAndNesting) {
+  const TempFolder folder;
+  const std::string file = folder.Write(
+      "s.jsonl",
+      R"x({"site":"p","string":7,"inverter":"i1","G":912,"T (K)":320.15,"cells":60,"V (mV)":[0,10000,20000,30000,36000],"I":["8.5","8.49","8.4",6,0.1]})x"
+      "\n"
+      R"({"name":"x","poa":912,"t_cell":47,"ns":60,"iv":{"voltage_V":[0,10,20,30,36],"current_A":[8.5,8.49,8.4,6,0.1]}})"
+      "\n"
+      R"({"voltage_V":[0,10,20,30,36],"current_A":[-8.5,-8.49,-8.4,-6,-0.1]})"
+      "\n");
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 3U);
+  ExpectGood(items[0].curve, "p/i1/7");
+  EXPECT_FALSE(items[0].curve.curve->current_unit_known);
+  EXPECT_TRUE(items[0].curve.curve->voltage_unit_known);
+  ASSERT_TRUE(items[1].curve.curve) << MessageOf(items[1].curve.curve);
+  EXPECT_EQ(items[1].curve.id, "x");
+  EXPECT_EQ(items[1].curve.curve->current_A, kCurrent);
+  EXPECT_EQ(items[2].curve.id, "s:3");
+  ASSERT_TRUE(items[2].curve.curve);
+  EXPECT_EQ(items[2].curve.curve->current_A, kCurrent);  // load sign turned
+  EXPECT_FALSE(items[2].curve.curve->irradiance_known);
+}
+
+TEST(CsvRows, HoldListsInManyWays) {
+  const TempFolder folder;
+  const std::string conditions = "912,47,60";
+  const std::string file =
+      folder.Write("rows.csv",
+                   "\xef\xbb\xbfid,irradiance_W_m2,cell_temperature_C,cells_in_series,voltage_V,"
+                   "current_A,note\r\n"
+                   "a," +
+                       conditions +
+                       ",0 10 20 30 36,8.5 8.49 8.4 6 0.1,x\r\n"
+                       "b," +
+                       conditions +
+                       ",0;10;20;30;36,8.5;8.49;8.4;6;0.1,\r\n"
+                       "c," +
+                       conditions +
+                       ",0|10|20|30|36|,8.5|8.49|8.4|6|0.1|,\r\n"
+                       "d," +
+                       conditions +
+                       ",\"[0, 10, 20, 30, 36]\",\"[8.5, 8.49, 8.4, 6, 0.1]\",\"a \"\"b\"\"\"\r\n"
+                       "e," +
+                       conditions +
+                       ",\"8.5\",\r\n"
+                       "f," +
+                       conditions + ",[0. 10. 20. 30. 36.],[8.5 8.49 8.4 6. 0.1],y");
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 6U);
+  for (const int i : {0, 1, 2, 3, 5}) ExpectGood(items[i].curve, std::string(1, "abcdef"[i]));
+  EXPECT_EQ(items[3].curve.beside.at("note"), "a \"b\"");
+  EXPECT_THAT(items[4].curve.curve.error().ToString(),
+              HasSubstr("rows.csv:6:1: expected 7 fields as in the header, found 6"));
+}
+
+TEST(CsvRows, HoldPairsInOneColumnAsSunsVocDoes) {
+  const TempFolder folder;
+  const std::string file =
+      folder.Write("wbw.csv",
+                   "tmst,ivdf,modt,poa\n"
+                   "2016-05-01 10:00:00,V*I#0*8.5#10*8.49#20*8.4#30*6#36*0.1#,47,912\n"
+                   "2016-05-01 10:05:00,I*V#8.5*0#8.49*10#8.4*20#6*30#0.1*36#,47,912\n"
+                   "2016-05-01 10:10:00,NA,47,912\n");
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 3U);
+  for (const int i : {0, 1}) {
+    ASSERT_TRUE(items[i].curve.curve) << MessageOf(items[i].curve.curve);
+    EXPECT_EQ(items[i].curve.curve->voltage_V, kVoltage);
+    EXPECT_EQ(items[i].curve.curve->current_A, kCurrent);
+    EXPECT_EQ(items[i].curve.curve->conditions.irradiance_W_m2, 912);
+    EXPECT_EQ(items[i].curve.curve->conditions.cell_temperature_K, 320.15);
+  }
+  EXPECT_EQ(items[0].curve.id, "wbw:2");
+  EXPECT_EQ(items[0].curve.beside.at("tmst"), "2016-05-01 10:00:00");
+  EXPECT_THAT(MessageOf(items[2].curve.curve), HasSubstr("found neither among"));
+}
+
+std::string LongRows(const std::string& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < kVoltage.size(); ++i) {
+    text += ids + ";912;47;60;" + std::to_string(kVoltage[i]) + ";" + std::to_string(kCurrent[i]) +
+            ";2026-05-01\n";
+  }
+  return text;
+}
+
+constexpr char kLongHead[] = "site;inverter;string;irradiance;temperature_C;cells;V;I;date\n";
+
+TEST(LongTable, HoldsCurvesWhoseRowsStandTogether) {
+  const TempFolder folder;
+  const std::string file =
+      folder.Write("long.csv", "# exported\n" + (kLongHead + LongRows("p;1;1")) +
+                                   LongRows("p;1;2") + "\n" + LongRows("p;2;1"));
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 3U);
+  ExpectGood(items[0].curve, "p/1/1");
+  ExpectGood(items[1].curve, "p/1/2");
+  ExpectGood(items[2].curve, "p/2/1");
+  EXPECT_EQ(items[1].item.where, file + ":8");
+  EXPECT_EQ(items[2].curve.beside.at("date"), "2026-05-01");
+}
+
+TEST(LongTable, RefusesWhatComesAgainAndSaysTheLineOfABadReading) {
+  const TempFolder folder;
+  const std::string file =
+      folder.Write("long.csv", kLongHead + LongRows("p;1;1") +
+                                   "p;1;2;912;47;60;0;8.5;\n\np;1;2;912;47;60;x;8.4;\n" +
+                                   LongRows("p;1;1") + "p;1;3;912;47;60;0;8.5;\n");
+  EXPECT_THAT(
+      LinesOf(ReadBatch({file})),
+      ElementsAre("p/1/1: ok",
+                  "p/1/2: " + file + ":9:17: expected a finite number in \"V\"[1], found 'x'",
+                  HasSubstr(":10: the id 'p/1/1' was used before, in " + file + ":2"),
+                  HasSubstr(":15: expected at least two points, found 1")));
+}
+
+TEST(JsonList, GivesTheEntriesOfIvcurvesWithTheBrokenOnes) {
+  const TempFolder folder;
+  const std::string entry =
+      R"(,"Temperature":320.15,"Irradiance":912,"Voltages":["0","10","20","30","36"],"Currents":[8.5,8.49,8.4,6,0.1]})";
+  const std::string file = folder.Write(
+      "case.json", "{\"Manufacturer\":\"x\",\n \"IV Curves\": [\n{\"Index\":1" + entry +
+                       ",\n {\"Index\":2,\"Voltages\":[1],\n\"Currents\":[]}, 7,\n{\"Index\":4" +
+                       entry + "], \"cells_in_series\": 60}");
+  const auto items = ReadBatch({file});
+  ASSERT_EQ(items.size(), 4U);
+  const std::string stem = items[0].curve.id.substr(0, items[0].curve.id.size() - 2);
+  ExpectGood(items[0].curve, stem + "_1");
+  EXPECT_EQ(stem.substr(stem.size() - 5), "/case");
+  EXPECT_THAT(items[1].curve.curve.error().ToString(),
+              HasSubstr(":4: expected as many Currents as Voltages in \"IV Curves\"[1]"));
+  EXPECT_THAT(MessageOf(items[2].curve.curve), HasSubstr("expected a curve that begins with '{'"));
+  ExpectGood(items[3].curve, stem + "_4");
+}
+
+TEST(JsonList, GivesObjectsOfAListAndSaysWhereItIsCut) {
+  const TempFolder folder;
+  const std::string whole = "[" + GoodRow("a") + ",\n" + GoodRow("b") + "]";
+  EXPECT_THAT(LinesOf(ReadBatch({folder.Write("l.json", whole)})), ElementsAre("a: ok", "b: ok"));
+  const std::string around = R"({"irradiance_W_m2":912,"strings":[)" + GoodRow("a") + "]}";
+  EXPECT_THAT(LinesOf(ReadBatch({folder.Write("m.json", around)})), ElementsAre("a: ok"));
+  EXPECT_THAT(
+      LinesOf(ReadBatch({folder.Write("n.json", whole.substr(0, whole.size() - 9))})),
+      ElementsAre("a: ok", HasSubstr("it is cut off"), HasSubstr("the list of curves is cut off")));
+}
+
+TEST(JsonWhole, GivesAllCurvesOfADocumentOfAnyShape) {
+  const std::string data = std::string(LYREFIT_DATA_DIR) + "/formats/";
+  const auto items = ReadBatch({data + "nomad.json", data + "records.json", data + "plain.csv"});
+  ASSERT_EQ(items.size(), 4U);
+  for (const ReadItem& one : items) EXPECT_TRUE(one.curve.curve) << MessageOf(one.curve.curve);
+}
+
+void WriteTree(const TempFolder& folder) {
+  const std::string table = "voltage_V,current_A\n0,8.5\n10,8.49\n20,8.4\n30,6\n36,0.1\n";
+  const std::string sidecar =
+      R"({"cells_in_series":60,"nominal_temperature_C":47,"nominal_irradiance_Wm2":912})";
+  for (const char* name : {"t/inv10/str1", "t/inv2/str10", "t/inv2/str9"}) {
+    folder.Write(std::string(name) + ".csv", table);
+    folder.Write(std::string(name) + ".json", sidecar);
+  }
+  folder.Write("t/inv2/str11/curve.csv", table);
+  folder.Write("t/inv2/broken.txt", "nothing\n");
+  folder.Write("t/inv2/.hidden.csv", table);
+  folder.Write("t/inv2/index.csv", "a,b\n");
+  folder.Write("t/inv2/photo.jpg", "x");
+  folder.Write("t/inv2/empty.csv", "");
+}
+
+TEST(Tree, PathsAreTheIdsInNaturalOrder) {
+  const TempFolder folder;
+  WriteTree(folder);
+  const auto items = ReadBatch({folder.Path("t")});
+  EXPECT_THAT(IdsOf(items), ElementsAre("inv2/broken", "inv2/empty", "inv2/str9", "inv2/str10",
+                                        "inv2/str11", "inv10/str1"));
+  ASSERT_TRUE(items[2].curve.curve);
+  EXPECT_EQ(items[2].curve.curve->conditions.cells_in_series, 60);
+  EXPECT_EQ(items[2].curve.curve->voltage_V, kVoltage);
+  EXPECT_THAT(MessageOf(items[0].curve.curve), HasSubstr("expected a header"));
+  EXPECT_THAT(MessageOf(items[1].curve.curve), HasSubstr("the file is empty"));
+  const auto source = OpenBatch({folder.Path("t")});
+  EXPECT_THAT((*source)->Remarks(),
+              ElementsAre(HasSubstr("1 file of other kinds left aside (1 .jpg)")));
+}
+
+TEST(Tree, SaysLoopsDeadLinksAndClosedFolders) {
+  const TempFolder folder;
+  WriteTree(folder);
+  namespace fs = std::filesystem;
+  fs::create_directory_symlink(folder.Path("t"), folder.Path("t/inv10/again"));
+  fs::create_symlink("nowhere", folder.Path("t/inv10/dead.csv"));
+  fs::create_directory(folder.Path("t/zlocked"));
+  ::chmod(folder.Path("t/zlocked").c_str(), 0);
+  const auto lines = LinesOf(ReadBatch({folder.Path("t")}));
+  ::chmod(folder.Path("t/zlocked").c_str(), 0700);
+  EXPECT_THAT(lines,
+              Contains(HasSubstr("the folder is a link that leads back to " + folder.Path("t"))));
+  EXPECT_THAT(lines, Contains(HasSubstr("dead.csv: the link leads nowhere")));
+  if (::geteuid() != 0) {
+    EXPECT_THAT(lines, Contains(HasSubstr("cannot read the folder: Permission denied")));
+  }
+}
+
+TEST(Batch, SeveralInputsStandOneBehindTheOther) {
+  const TempFolder folder;
+  WriteTree(folder);
+  const std::string rows = folder.Write("a.jsonl", GoodRow("x") + "\n" + GoodRow("inv10/str1"));
+  const auto lines = LinesOf(ReadBatch({rows, folder.Path("t")}));
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_EQ(lines[0], "x: ok");
+  EXPECT_THAT(lines[7], HasSubstr("the id 'inv10/str1' was used before, in " + rows + ":2"));
+  // Their names tell folders apart.
+  folder.Write("u/s.csv", "V,I\n0,1\n1,0\n");
+  EXPECT_THAT(IdsOf(ReadBatch({folder.Path("u") + "/", folder.Path("t")})), Contains("u/s"));
+}
+
+TEST(Examples, EveryShapeHoldsTheSameCurves) {
+  const std::string folder = std::string(LYREFIT_DATA_DIR) + "/formats/batch/";
+  const auto rows = ReadBatch({folder + "rows.jsonl"});
+  ASSERT_EQ(rows.size(), 3U);
+  for (const char* name :
+       {"rows.csv", "pairs.csv", "long.csv", "list.json", "ivcurves.json", "tree"}) {
+    SCOPED_TRACE(name);
+    const auto items = ReadBatch({folder + name});
+    ASSERT_EQ(items.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_TRUE(items[i].curve.curve) << MessageOf(items[i].curve.curve);
+      ASSERT_TRUE(rows[i].curve.curve);
+      const IvCurve& curve = *items[i].curve.curve;
+      const IvCurve& same = *rows[i].curve.curve;
+      EXPECT_EQ(curve.voltage_V, same.voltage_V);
+      EXPECT_EQ(curve.current_A, same.current_A);
+      EXPECT_EQ(curve.conditions.irradiance_W_m2, same.conditions.irradiance_W_m2);
+      EXPECT_NEAR(curve.conditions.cell_temperature_K, same.conditions.cell_temperature_K, 1e-9);
+      EXPECT_EQ(curve.conditions.cells_in_series, 60);
+      if (name == std::string("ivcurves.json")) continue;  // has but numbers
+      const std::string id = rows[i].curve.id;
+      EXPECT_EQ(items[i].curve.id, name == std::string("tree") ? id.substr(6) : id);
+      EXPECT_EQ(items[i].curve.beside.at("date"), "2026-05-01");
+    }
+  }
+}
+
+// The same items in the same order, however many shards.
+void ExpectSameInShards(const std::vector<std::string>& inputs) {
+  const std::vector<std::string> whole = LinesOf(ReadBatch(inputs));
+  for (const int of : {1, 3, 8}) {
+    std::vector<std::string> parts;
+    std::int64_t size = 0;
+    for (int k = 1; k <= of; ++k) {
+      BatchReadOptions options;
+      options.shard = {k, of};
+      const auto lines = LinesOf(ReadBatch(inputs, options));
+      parts.insert(parts.end(), lines.begin(), lines.end());
+      size += (*OpenBatch(inputs, options))->size();
+    }
+    EXPECT_EQ(parts, whole) << of;
+    EXPECT_EQ(size, (*OpenBatch(inputs))->size());
+  }
+}
+
+TEST(Shards, TogetherGiveWhatOneRunGives) {
+  const TempFolder folder;
+  WriteTree(folder);
+  std::string rows;
+  std::string table = kLongHead;
+  std::string list = "[";
+  for (int i = 0; i < 30; ++i) {
+    const std::string id = std::to_string(i % 28);
+    rows += i % 7 == 3 ? "{broken\n" : GoodRow(id) + "\n";
+    table += LongRows("p;" + id + ";1");
+    list += (i == 0 ? "\n" : ",\n") + GoodRow(id);
+  }
+  const std::string jsonl = folder.Write("r.jsonl", rows);
+  const std::string csv = folder.Write("l.csv", table);
+  const std::string json = folder.Write("l.json", list + "]");
+  ExpectSameInShards({jsonl});
+  ExpectSameInShards({csv});
+  ExpectSameInShards({json});
+  ExpectSameInShards({folder.Path("t")});
+  ExpectSameInShards({folder.Path("t"), csv, jsonl, json});
+}
+
+TEST(Digest, ChangesWithTheBytesAndNamesOfTheShard) {
+  const TempFolder folder;
+  WriteTree(folder);
+  const auto digest = [](const std::string& path, Shard shard) {
+    BatchReadOptions options;
+    options.shard = shard;
+    return (*OpenBatch({path}, options))->Digest().value();
+  };
+  const std::string file = folder.Write("r.jsonl", GoodRow("a") + "\n" + GoodRow("b") + "\n");
+  const std::string before = digest(file, {});
+  EXPECT_EQ(digest(file, {}), before);
+  const std::string first = digest(file, {1, 2});
+  EXPECT_NE(first, before);
+  folder.Write("r.jsonl", GoodRow("a") + "\n" + GoodRow("c") + "\n");
+  EXPECT_NE(digest(file, {}), before);
+  EXPECT_EQ(digest(file, {1, 2}), first);  // its bytes are the same
+  const std::string tree = digest(folder.Path("t"), {});
+  folder.Write("t/inv2/str9.json", R"({"cells_in_series":72})");
+  const std::string other = digest(folder.Path("t"), {});
+  EXPECT_NE(other, tree);
+  std::filesystem::rename(folder.Path("t/inv2/str9.csv"), folder.Path("t/inv2/str8.csv"));
+  EXPECT_NE(digest(folder.Path("t"), {}), other);
+}
+
+// What a pipe gives can be read once: nothing may take a look at it before.
+TEST(Pipes, GiveEveryRow) {
+  const TempFolder folder;
+  const std::string pipe = folder.Path("rows.jsonl");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string rows;
+  for (int i = 0; i < 500; ++i) rows += GoodRow(std::to_string(i)) + "\n";
+  std::thread writer([&] {
+    std::ofstream(pipe) << rows << R"({"voltage_V":[1]})"
+                        << "\n";
+  });
+  const auto source = OpenBatch({pipe});
+  ASSERT_TRUE(source) << MessageOf(source);
+  EXPECT_EQ(*(*source)->Digest(), "") << "cannot be known without reading it";
+  EXPECT_EQ((*source)->size(), 0);
+  std::string last;
+  int count = 0;
+  for (auto item = (*source)->Next(); item && *item; item = (*source)->Next()) {
+    last = (*item)->id;
+    ++count;
+  }
+  writer.join();
+  EXPECT_EQ(count, 501);
+  EXPECT_EQ(last, "input:501") << "as on standard input";
+  BatchReadOptions part;
+  part.shard = {1, 2};
+  EXPECT_THAT(MessageOf(OpenBatch({pipe}, part)), HasSubstr("cannot be split into shards"));
+}
+
+TEST(Pipes, AreBrokenRowsOfAFolder) {
+  const TempFolder folder;
+  folder.Write("t/b.csv", "V,I\n0,8\n10,8\n20,7.9\n30,6\n36,0\n");
+  ASSERT_EQ(mkfifo(folder.Path("t/a.csv").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(folder.Path("t/b.json").c_str(), 0600), 0);  // a sidecar
+  const auto items = ReadBatch({folder.Path("t")});
+  ASSERT_THAT(IdsOf(items), ElementsAre("a", "b"));
+  for (const ReadItem& one : items) {
+    EXPECT_EQ(MessageOf(one.curve.curve), "expected a file, found a pipe, a socket or a device");
+  }
+}
+
+TEST(Inputs, WithoutAnyCurveAreRefused) {
+  const TempFolder folder;
+  for (const char* text : {"", "\n\n"}) {
+    const auto source = OpenBatch({folder.Write("none.jsonl", text)});
+    ASSERT_TRUE(source) << MessageOf(source);
+    EXPECT_EQ(MessageOf((*source)->Next()), "expected at least one curve, found none");
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,35 @@
+#include "batch/made_plant.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "temp_folder.h"
+
+namespace made {
+namespace {
+
+using lyrefit::FileText;
+using lyrefit::TempFolder;
+
+TEST(MadePlant, IsTheSameOnAnyNumberOfThreads) {
+  const TempFolder folder;
+  PlantRequest request;
+  request.strings = 2;
+  request.packed = folder.Path("one.csv");
+  request.tree = folder.Path("tree");
+  request.threads = 1;
+  ASSERT_EQ(WritePlant(request), "");
+  request.packed = folder.Path("two.csv");
+  request.tree.clear();
+  request.threads = 2;
+  ASSERT_EQ(WritePlant(request), "");
+  EXPECT_EQ(FileText(folder.Path("one.csv")), FileText(folder.Path("two.csv")));
+  EXPECT_THAT(FileText(folder.Path("one.csv")), testing::HasSubstr("\nelm/inv01/comb01/str02,"));
+  EXPECT_THAT(FileText(folder.Path("tree/elm/inv01/comb01/str02.csv")),
+              testing::HasSubstr("Number of cells,1200"));
+}
+
+TEST(MadePlant, HasTwelveKindsOfFaults) { EXPECT_EQ(PlantFaults().size(), 12u); }
+
+}  // namespace
+}  // namespace made

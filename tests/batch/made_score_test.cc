@@ -1,0 +1,72 @@
+#include "batch/made_score.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "temp_folder.h"
+
+namespace made {
+namespace {
+
+using lyrefit::TempFolder;
+
+using testing::HasSubstr;
+
+std::string ScoreOf(const std::string& results) {
+  const TempFolder folder;
+  folder.Write("results.csv", results);
+  folder.Write("truth.csv",
+               "id,fault,accepted,shows_in,loss_percent,words\n"
+               "a/1,pole_shadow,shading|substrings,curve,5,shade\n"
+               "a/2,missing_module,temp_offset|Voc-,neighbours,5,missing\n");
+  std::string text;
+  EXPECT_EQ(Score({folder.Path("results.csv"), folder.Path("truth.csv")}, &text), "");
+  return text;
+}
+
+TEST(MadeScore, CountsWhatIsFoundAndUnderWhichName) {
+  const std::string text = ScoreOf(
+      "id,cause,equivalents,group_flag,group_outlier\n"
+      "a/1,weak_cell,\"shading, transient\",false,\n"
+      "a/2,,,true,\"FF -1.00 % (usual: within 0.5 %), Voc +5.00 % (usual: within 0.5 %)\"\n"
+      "a/3,,,false,\n");
+  EXPECT_THAT(text, HasSubstr("2 of 2 hidden faults found, 1 under a right name\n0 false alarms "
+                              "among 1 healthy strings"));
+  EXPECT_THAT(text, HasSubstr("(5 %): beside its neighbours FF -1.00 %"));
+  EXPECT_THAT(text, HasSubstr("[another name]"));
+}
+
+TEST(MadeScore, NamesTheSideOnWhichAStringDiffers) {
+  const std::string text = ScoreOf(
+      "id,cause,equivalents,group_flag,group_outlier\na/1,,,false,\n"
+      "a/2,,,true,Voc -5.00 % (usual: within 0.5 %)\n");
+  EXPECT_THAT(text, HasSubstr("1 of 2 hidden faults found, 1 under a right name"));
+  EXPECT_THAT(text, HasSubstr("not found"));
+}
+
+TEST(MadeScore, AWrongCauseIsNotMadeRightByTheNeighbours) {
+  const std::string text = ScoreOf(
+      "id,cause,group_flag,group_outlier\na/1,,false,\n"
+      "a/2,transient,true,Voc -5.00 % (usual: within 0.5 %)\n");
+  EXPECT_THAT(text, HasSubstr("1 of 2 hidden faults found, 0 under a right name"));
+}
+
+TEST(MadeScore, CountsFalseAlarms) {
+  const std::string text =
+      ScoreOf("id,cause,zone\na/1,,\na/2,,\na/3,drift,fail\na/4,outliers,pass\na/5,,pass\n");
+  EXPECT_THAT(text, HasSubstr("2 false alarms among 3 healthy strings (cause 2, neighbours 0, zone "
+                              "1); 1 of them of the instrument alone"));
+  EXPECT_THAT(text, HasSubstr("  a/3: drift; fail"));
+}
+
+TEST(MadeScore, RefusesATableWithoutIds) {
+  const TempFolder folder;
+  folder.Write("results.csv", "name\na\n");
+  folder.Write("truth.csv", "id\n");
+  std::string text;
+  EXPECT_THAT(Score({folder.Path("results.csv"), folder.Path("truth.csv")}, &text),
+              testing::EndsWith("results.csv has no column id"));
+}
+
+}  // namespace
+}  // namespace made

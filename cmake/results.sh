@@ -11,7 +11,7 @@ Configure build -DLYREFIT_BUILD_TESTS=ON
 Build build --target lyrefit_paper
 
 command=(build/tests/paper/lyrefit_paper data/paper)
-for page in README.md data/README.md data/landscapes/README.md data/field/README.md lib/lyrefit/certify/README.md; do
+for page in apps/lyrefit/verbs/certify.md data/README.md data/landscapes/README.md data/field/README.md lib/lyrefit/certify/README.md; do
   command+=(--update "$page")
 done
 if [[ -n ${LYREFIT_FIELD_DATA:-} ]]; then

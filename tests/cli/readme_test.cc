@@ -124,6 +124,15 @@ TEST_P(Page, CommandsRunWithWhatShipsAndPrintWhatIsShown) {
 }
 
 constexpr const char* kPages[] = {"README.md",
+                                  "apps/lyrefit/verbs/audit.md",
+                                  "apps/lyrefit/verbs/batch.md",
+                                  "apps/lyrefit/verbs/certify.md",
+                                  "apps/lyrefit/verbs/compare.md",
+                                  "apps/lyrefit/verbs/diagnose.md",
+                                  "apps/lyrefit/verbs/family.md",
+                                  "apps/lyrefit/verbs/fit.md",
+                                  "apps/lyrefit/verbs/simulate.md",
+                                  "apps/lyrefit/verbs/translate.md",
                                   "data/README.md",
                                   "data/json.md",
                                   "data/diagnosis/README.md",
@@ -217,7 +226,7 @@ TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
   const struct {
     const char* page;
     const char* block;
-  } kBlocks[] = {{"README.md", "proofs-short"},
+  } kBlocks[] = {{"apps/lyrefit/verbs/certify.md", "proofs-short"},
                  {"data/README.md", "certified"},
                  {"data/README.md", "proofs"},
                  {"data/field/README.md", "proofs-measured"},

@@ -20,7 +20,7 @@ Effect BackContact() {
                       .Between(0, 60)
                       .CurrentPower(-1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
-    constexpr double kSmallest = 1e-2;  // below it the tangent goes on
+    constexpr double kSmallest = 1e-2;  // below it the tangent replaces the logarithm
     const auto inside = 1.0 + current * p[0];
     const auto within = Larger(inside, kSmallest);
     return cell.thermal_voltage * (log(within) + (inside - within) * (1 / kSmallest));

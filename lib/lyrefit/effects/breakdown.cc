@@ -17,7 +17,7 @@ Effect Breakdown() {
   e.acts = "at the most negative voltages";
   e.confused_with = {"nonohmic_shunt"};
   e.separate_by = "reverse bias closer to breakdown, or another irradiance";
-  // Inside: the current at the most negative reading, and that voltage as a part of Vbr.
+  // Internal units: current at the most negative reading, and that voltage as a fraction of Vbr.
   e.parameters = {
       Parameter("a", "breakdown_factor", "conductance of a cell at 0 V")
           .Unit("S")

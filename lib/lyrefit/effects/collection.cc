@@ -19,7 +19,7 @@ Effect Collection() {
       Parameter("chi", "d2mutau", "loss parameter of a cell").Unit("V").Between(0, 0.3)};
   e.junction = [](const auto* p, const auto&, const auto& photocurrent, const auto& voltage) {
     constexpr double kBuiltIn = 0.9;
-    constexpr double kClosest = 0.03;  // beyond it the tangent goes on
+    constexpr double kClosest = 0.03;  // closer to it the tangent replaces the pole
     const auto gap = kBuiltIn - voltage;
     const auto within = Larger(gap, kClosest);
     return -(1.0 / within + (within - gap) * (1 / (kClosest * kClosest))) * (photocurrent * p[0]);

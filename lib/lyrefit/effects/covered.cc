@@ -5,7 +5,7 @@
 namespace lyrefit {
 
 double ShareLeft(double share, int which, int groups, int first) {
-  constexpr double kMost = 0.999;  // cells without it are part of the law
+  constexpr double kMost = 0.999;  // the law needs cells without the effect
   const double taken = std::clamp(share * groups - (which - first), 0.0, which < first ? 0.0 : 1.0);
   return std::min((share - taken / groups) * groups / (groups - 1), kMost);
 }

@@ -17,7 +17,7 @@ Effect NonohmicShunt() {
   e.acts = "where |V| is large, also in reverse";
   e.confused_with = {"collection", "breakdown", "second_diode"};
   e.separate_by = "a dark curve or points in reverse bias: this part does not scale with light";
-  // Inside, the strength is the current at the largest voltage of the readings.
+  // Internal units: the strength is the current at the largest voltage of the readings.
   e.parameters = {
       Parameter("k", "shunt_strength", "current at 1 V of a cell")
           .Unit("A/V^m")

@@ -12,10 +12,11 @@ constexpr EffectParameter kChains =
         .AbsentAt(1)
         .Only(Whole::kCount);
 
-// A few cells of one substring have a light and a leak of their own. Other substrings are never in
-// reverse; where all cells are one substring it has no bypass diode. `deficit`: what the substring
-// lacks because of them; of several chains (1 or 2) one is concerned, whose cells are dark where
-// that is all they could lack.
+// Sets `count` cells of one substring to a light and a leak of their own. Other substrings are
+// never in reverse. If all cells are one substring it has no bypass diode. `deficit`: fraction of
+// the substring's light that is missing because of these cells. `chains`: parallel chains of a
+// substring (1 or 2), of which one is affected. Its cells are dark if the deficit exceeds their
+// light.
 template <class S>
 void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chains, Cell<S>* cell) {
   const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;

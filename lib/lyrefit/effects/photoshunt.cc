@@ -31,7 +31,7 @@ Effect Photoshunt() {
   };
   e.cell = [](const auto* p, auto* cell) {
     const auto linear = cell->conductance + p[0] * cell->irradiance;
-    // PVsyst: Rsh = base + (Rdark - base) exp(-5.5 g), from 1 / Gsh in the dark.
+    // PVsyst's law, with Rdark = 1 / Gsh: Rsh = base + (Rdark - base) exp(-5.5 g).
     const double fade = std::exp(-5.5);
     const auto dark = 1.0 / (cell->conductance + 1e-6);
     const auto lit = 1.0 / (cell->conductance + p[0] + 1e-6);

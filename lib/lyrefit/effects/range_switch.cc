@@ -3,8 +3,8 @@
 
 namespace lyrefit {
 
-// An offset of the finer range, c, is a gain of c / Ir where the range ends, and near the open
-// circuit a shift of the voltage: one sweep does not tell it from a gain.
+// An offset c of the finer range cannot be separated from a gain in one sweep. It equals a gain of
+// c / Ir at the end Ir of that range, and a shift of the voltage near open circuit.
 Effect RangeSwitch() {
   Effect e;
   e.id = "range_switch";

@@ -24,7 +24,7 @@ Effect RsCurrent() {
                       .CellsPower(1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     const auto size = abs(current);
-    // No cell's resistance falls below 0: where Rs + 2 Rs1 |I| would, the tangent goes on.
+    // Resistance does not fall below 0: where Rs + 2 Rs1 |I| would, the tangent replaces the law.
     const auto most = -0.5 * cell.resistance / p[0];
     const auto drop = (2.0 * size - most) * (p[0] * most);
     const auto beyond = 2.0 * size * p[0] + cell.resistance < 0.0;

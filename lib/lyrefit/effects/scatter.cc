@@ -18,9 +18,10 @@ enum {
   kScatterBypass
 };
 
-// The dimmest cells one by one, where so many draws of a distribution lie on average (Blom 1958),
-// in widths beside the mean; the others alike. The distribution: normal, or lopsided: most cells a
-// little above the mean and few far below it, as an exponential has them.
+// The dimmest cells, one group each, and all others as one group. Their lights are the mean order
+// statistics of a distribution (Blom 1958), as deviations from the mean in standard deviations. The
+// distribution is normal, or lopsided: an exponential one with most cells a little above the mean
+// and few far below it.
 struct Dimmest {
   int count = 0;
   std::array<double, kMostKinds> normal{}, lopsided{};
@@ -39,7 +40,8 @@ Dimmest DimmestOf(int cells, int most) {
   return dimmest;
 }
 
-// Dealt out to the substrings in turn, of which the last is never in reverse.
+// Distributes the dimmest cells over the substrings in turn. The last substring is never in
+// reverse.
 template <class S>
 void SetScatter(const S* p, Cell<S>* cell) {
   const int cells = static_cast<int>(std::lround(cell->cells));
@@ -98,9 +100,9 @@ std::vector<EffectParameter> ScatterParameters() {
 std::vector<ShapeStart> ScatterStarts(const CurveShape& shape) {
   std::vector<ShapeStart> starts;
   constexpr double kLeastHalfway = 0.85;
-  if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // nothing small
-  // The dimmest cell decides where the current bends: each side of its place is a local optimum of its
-  // own, and so are cells that conduct in reverse and cells that do not.
+  if (shape.At(0.5) < kLeastHalfway * shape.At(0.05)) return starts;  // no small scatter
+  // The dimmest cell determines where the current bends. Positions on either side of its place are
+  // separate local optima, and so are cells that conduct in reverse and cells that do not.
   for (const double lopsided : {0.0, 1.0}) {
     for (const double width : {0.015, 0.04}) {
       starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});

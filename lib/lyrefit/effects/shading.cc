@@ -7,8 +7,8 @@
 namespace lyrefit {
 namespace {
 
-// Shares of the substrings that can be shaded: j of k. Where nobody said how many bypass diodes
-// there are, two and three.
+// Possible shares of shaded substrings: j of k. If the number k of bypass diodes is unknown, 2 and
+// 3 are tried.
 std::vector<double> Shares(const DataTraits& traits) {
   std::vector<double> shares;
   const int first = traits.substrings > 1 ? traits.substrings : 2;
@@ -20,7 +20,7 @@ std::vector<double> Shares(const DataTraits& traits) {
 }
 
 std::vector<ShapeStart> ShadingStarts(const CurveShape& shape, const DataTraits& traits) {
-  constexpr double kMiddle = 0.36, kEnd = 0.3;  // of a substring's part of the voltage
+  constexpr double kMiddle = 0.36, kEnd = 0.3;  // of each plateau's voltage range
   std::vector<ShapeStart> starts;
   for (const double share : Shares(traits)) {
     const double full = shape.At(kMiddle * (1 - share));

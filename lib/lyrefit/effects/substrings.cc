@@ -16,12 +16,13 @@ enum { kDrop = 2 * kGroups, kCovered, kParameters };
 
 using ShareList = std::vector<double>;
 
-// Lights from the middles of the plateaus that groups of such shares have, the brightest (the rest)
-// first and then in the order given; `shares` by their place among the parameters.
+// Adds a start with the light of each group from the middle of its plateau. The brightest group
+// (the rest) has the first plateau, the others follow in the given order. `shares`: by position
+// among the parameters; `order`: positions.
 void AddStart(const CurveShape& shape, const ShareList& shares, const std::vector<int>& order,
               std::vector<ShapeStart>* starts) {
-  constexpr double kMiddle = 0.36;  // of a plateau: before the knee that ends it
-  constexpr double kBright = 0.02;  // of the voltage: tracers hurry through the first plateau
+  constexpr double kMiddle = 0.36;  // of a plateau, before its final knee
+  constexpr double kBright = 0.02;  // of Voc: tracers take few points on the first plateau
   const double full = shape.At(kBright);
   if (!(full > 0)) return;
   ShapeStart start{Probe(kParameters, 0.0), {}};
@@ -50,13 +51,15 @@ std::vector<int> InOrder(std::size_t count) {
   return order;
 }
 
-// A light for each of so many equal substrings, or for the brightest of them and four more.
+// Adds a start with a light for each of `substrings` equal substrings. For more than five, only
+// four groups differ from the brightest.
 void AddEqual(const CurveShape& shape, int substrings, std::vector<ShapeStart>* starts) {
   const int groups = std::min(substrings - 1, kGroups);
   AddStart(shape, ShareList(groups, 1.0 / substrings), InOrder(groups), starts);
 }
 
-// All ways to give `groups` groups at least one of the substrings and the brightest at least one.
+// Adds starts for all divisions of the substrings into `groups` groups and the brightest one, with
+// at least one substring each.
 void AddShares(const CurveShape& shape, int substrings, std::size_t groups, ShareList* shares,
                std::vector<ShapeStart>* starts) {
   if (shares->size() == groups) {
@@ -73,7 +76,7 @@ void AddShares(const CurveShape& shape, int substrings, std::size_t groups, Shar
   }
 }
 
-// As was asked for: so many groups, with shares that are told or to be found.
+// Starts of a requested fit: the requested number of groups, with shares fixed or to be found.
 std::vector<ShapeStart> AskedStarts(const CurveShape& shape, const DataTraits& traits,
                                     const std::vector<ParameterBounds>& asked) {
   std::vector<ShapeStart> starts;
@@ -182,7 +185,7 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
   if (!asked.empty()) return AskedStarts(shape, traits, asked);
   std::vector<ShapeStart> starts;
   const int known = traits.substrings;
-  for (int k = 3; k <= 4; ++k) {  // with two substrings it is the shade of one
+  for (int k = 3; k <= 4; ++k) {  // with two substrings this is shading
     if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
   }
   return starts;

@@ -4,7 +4,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNothing = 1e-9;  // beside z^2: keeps its logarithm finite
+constexpr double kNothing = 1e-9;  // added to z^2: keeps its logarithm finite
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Effect Transient() {
           .Between(0.01, 0.13)
           .From(0.05)
           .BelowUpper(),
-      // Clouds have any shape: which, is asked once a dip is there.
+      // The shape of a cloud is arbitrary: skew and flatness are fitted only after a dip is found.
       Parameter("k", "skew", "how much slower it goes than it comes").Between(-0.7, 0.7).Held(),
       Parameter("q", "flatness", "2: a bell, more: flat with steep sides")
           .Between(1, 6)

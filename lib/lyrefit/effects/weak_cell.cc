@@ -33,7 +33,7 @@ std::vector<EffectParameter> WeakCellParameters() {
           .From(0.5)
           .Held(),
       Parameter("a", "breakdown_factor", "of reverse breakdown").Between(0, 10).From(0.1).Held(),
-      // Towards no breakdown at all, and an exponent towards 1, it is a leak.
+      // At its upper bound (no breakdown), or with an exponent near 1, the law describes a leak.
       Parameter("Vbr", "breakdown_voltage", "of a cell, its size")
           .Unit("V")
           .Between(3, 60)
@@ -54,16 +54,17 @@ std::vector<EffectParameter> WeakCellParameters() {
   };
 }
 
-// `asked`: a fit of it by name looks further.
+// `asked`: the fit was requested by name, which adds starts.
 std::vector<ShapeStart> WeakCellStarts(const CurveShape& shape, bool asked) {
   std::vector<ShapeStart> starts;
-  // Cells that hardly conduct in reverse are far from those that do.
+  // Cells that hardly conduct in reverse form a separate local optimum.
   std::vector<double> soft = {3.2};
   if (asked) soft.push_back(10);
   const double full = shape.At(0.05);
   if (!(full > 0)) return starts;
   std::vector<double> deficits = {0.06, 0.2, 0.45, 0.75};
-  // A plateau before the knee, or a tail towards open circuit where the cell conducts in reverse.
+  // Light from a plateau before the knee, or from a tail towards Voc if the cell conducts in
+  // reverse.
   for (const double place : {0.75, 0.95}) {
     deficits.push_back(std::clamp(1 - shape.At(place) / full, 0.01, 0.97));
   }

@@ -2,12 +2,13 @@
 
 #include "lyrefit/law/effect.h"
 
-// A plain stage among those that are templates over their number type.
+// Evaluates a plain stage (plain_stage.h) inside laws written as templates over their number type.
 namespace lyrefit {
 
-// Eight numbers of each derivative: by x, photocurrent, thermal voltage, then by the parameters.
+// Arguments and results of one call of a plain stage, for a block of eight readings. The
+// derivatives are by x, photocurrent and thermal voltage, then by each parameter of the effect.
 struct StageBlocks {
-  static constexpr int kParameters = 20;  // more than a law may have
+  static constexpr int kParameters = 20;  // at least the parameters of any law
   Block x;
   Block photocurrent;
   Block thermal_voltage;
@@ -19,7 +20,9 @@ struct StageBlocks {
   Block by_p[kParameters];
 };
 
-// Calls `stage` at numbers that `blocks` hold; `all`: with every derivative, else by x alone.
+// Calls `stage` on the inputs in `blocks` and writes value and derivatives there. `all`: fills all
+// derivatives, otherwise only the derivative by x. `parameters`: number of the effect's parameters.
+// `reach`: largest |voltage| of the readings, V per cell; `cells`: cells in series.
 void CallPlainStage(const PlainStage& stage, int parameters, double reach, double cells, bool all,
                     StageBlocks* blocks);
 
@@ -29,7 +32,8 @@ void AddChain(const Block& slope, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
   for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + by * x.v[k];
 }
 
-// What the stage of an effect of `size` parameters adds at x, with the derivatives of the number type.
+// Value of a stage at x, with the derivatives that the number type S carries. `size`: number of
+// parameters of the effect.
 template <class S>
 Tangent<S> CallStage(const PlainStage& stage, int size, const S* p, const Cell<S>& cell,
                      const S& photocurrent, const Tangent<S>& x) {

@@ -10,15 +10,18 @@
 #include "lyrefit/law/reading.h"
 #include "lyrefit/law/term.h"
 
-// The law of one cell, over any number type: what string.h puts in series and law.cc solves.
+// Terms of the terminal law of one cell, over any number type. string.h solves cells in series with
+// them, law.cc differentiates them.
 namespace lyrefit {
 
-// Scales per volt that a junction always conducts: so little that nobody sees it, and, of a cell in
-// a string, enough to carry the others' current in reverse, if at a huge voltage.
+// Conductance that every junction keeps, in current scales per volt. The first value applies when
+// all cells are alike and is negligible in any result. The second applies to cells of a string: it
+// lets a cell carry the string current in reverse, at a very large voltage.
 constexpr double kLeastConductance = 1e-13;
 constexpr double kLeastLeak = 1e-8;
 
-// The parameters' view of a law: where each effect's stretch begins.
+// A law, its readings and its parameters. `offsets`: position in `p` of the first parameter of each
+// effect.
 template <class S>
 struct EvaluationContext {
   const Law& law;
@@ -38,7 +41,7 @@ EvaluationContext<S> MakeWeightedData(const Law& law, const Readings& readings, 
   return context;
 }
 
-// Of the photocurrent, relative.
+// Temperature coefficient of the photocurrent, relative, in 1/K.
 template <class S>
 S TempcoOf(const EvaluationContext<S>& context) {
   if (!context.law.free_tempco) return S(context.readings.isc_tempco_per_K);
@@ -59,8 +62,9 @@ Sky<S> SkyAt(const EvaluationContext<S>& context, const ReadingBlock& readings) 
   return sky;
 }
 
-// Diodes of the base at a temperature: `warmer` is what that makes of the first one's saturation
-// current, `warmer_2` of one that recombines in the junction.
+// Adds the diodes of the base in pivot parameters (BaseParameter of law.h) at one temperature.
+// `warmer` is the factor of the first diode's saturation current between the reference and that
+// temperature. Saturation current of the second diode follows `saturation_2_unit` of the cell.
 template <class S>
 void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer, Cell<S>* cell) {
   const double k_eV = ThermalVoltage(1.0);
@@ -84,7 +88,7 @@ void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, con
   }
 }
 
-// A cell at a temperature, its light still to come.
+// Sets all fields of a cell that depend on the temperature but not on the irradiance.
 template <class S>
 void CellUnder(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
@@ -112,7 +116,8 @@ void CellUnder(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* 
   cell->substring_cells = cell->cells / SubstringsOf(traits);
 }
 
-// What the light decides in a cell whose temperature is settled.
+// Sets the fields that depend on the irradiance: photocurrent and shunt conductance. CellUnder must
+// have run before.
 template <class S>
 void Light(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
@@ -128,7 +133,7 @@ void Light(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell
   cell->conductance = inverse ? conductance * sky.irradiance : conductance;
 }
 
-// Cells as a layout has them.
+// Sets cell groups, substrings, bypass diodes and reverse law from a layout.
 template <class S>
 void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
   cell->kinds = static_cast<int>(layout.kinds.size());
@@ -148,7 +153,7 @@ void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
   cell->reverse_exponent = S(layout.reverse_exponent);
 }
 
-// What layout and effects make of a cell under a sky.
+// Applies the layout and the cell stages of all effects to a cell at its operating conditions.
 template <class S>
 void ApplyCellStages(const EvaluationContext<S>& context, Cell<S>* cell) {
   if (context.law.layout != nullptr) {
@@ -165,20 +170,20 @@ T Cut(const T& exponent) {
   return Smaller(exponent, T(kLargestExponent));
 }
 
-// What a cell adds in reverse to what its shunt carries.
+// Current that a cell adds in reverse beside its shunt current, in current scales.
 template <class S>
 Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
   using T = Tangent<S>;
-  constexpr double kLeast = 1e-9;  // of the voltage: below it nothing flows
+  constexpr double kLeast = 1e-9;  // of reverse_voltage; smaller depths count as this
   if (!Any(voltage < 0.0)) return T(0.0);
   const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
   if (cell.reverse == ReverseLaw::kSoft) {
     const T current = exp(log(depth) * cell.reverse_exponent) * cell.photocurrent;
     return Choose(voltage < 0.0, current, T(0.0));
   }
-  constexpr double kClosest = 0.02;  // nearer to breakdown the tangent goes on
+  constexpr double kClosest = 0.02;  // above 1 - this depth a tangent replaces the pole
   const T gap = Larger(1.0 - depth, kClosest);
-  const T edge = -(1.0 - gap) * cell.reverse_voltage;  // the voltage, or where the tangent begins
+  const T edge = -(1.0 - gap) * cell.reverse_voltage;  // limited to the tangent's start
   const T factor = exp(-log(gap) * cell.reverse_exponent);
   const T slope = factor * (1.0 - edge * (cell.reverse_exponent / cell.reverse_voltage) / gap);
   const T current =
@@ -186,7 +191,7 @@ Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
   return Choose(voltage < 0.0, current, T(0.0));
 }
 
-// What stands beside photocurrent, diodes and shunt over the junction.
+// Whether the junction has terms beside photocurrent, diodes and shunt.
 template <class S>
 bool HasMore(const EvaluationContext<S>& context, const Cell<S>& cell) {
   if (cell.reverse != ReverseLaw::kShunt) return true;
@@ -212,7 +217,7 @@ Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
   return current;
 }
 
-// F(Vj) of one kind of cell: the current it delivers, with its slope.
+// F(Vj): the current that one cell group delivers at its junction voltage, with its slope.
 inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
                                      const Dual<1, Pack>& voltage) {
   const bool alike = cell.kinds == 1;
@@ -226,7 +231,7 @@ inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, con
   return HasMore(context, cell) ? current + MoreCurrent(context, cell, light, voltage) : current;
 }
 
-// D(I): what stands between junction and terminal beside Rs.
+// Whether the series drop D(I) has terms beside I Rs.
 template <class S>
 bool HasMoreDrop(const EvaluationContext<S>& context) {
   for (const Effect* effect : context.law.effects) {
@@ -254,8 +259,8 @@ inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Ce
   return HasMoreDrop(context) ? drop + MoreDrop(context, cell, current) : drop;
 }
 
-// Current through the bypass diode beside a part, per voltage `reverse` of one of its cells against
-// their own direction.
+// Current through the bypass diode beside a substring of `cells` cells, in current scales.
+// `reverse`: reverse voltage per cell, in V.
 template <class S>
 Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
   const S inverse = (1 / cell.bypass_ideality) / cell.thermal_voltage;

@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kSteps = 200;
 
-using Points = std::vector<std::pair<double, double>>;  // voltage and current, voltages rising
+using Points = std::vector<std::pair<double, double>>;  // voltage (rising) and current
 
-// Of five neighbours each.
+// Running median of five currents.
 Points Medians(const Points& points) {
   Points smooth = points;
   const int count = static_cast<int>(points.size());

@@ -7,17 +7,18 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A lit curve as it looks, without a model: current over voltage between short and open circuit,
-// sweeps up and down taken together.
+// A lit curve between short and open circuit, current over voltage, without a model. Up and down
+// sweeps are merged.
 struct CurveShape {
   double open_circuit = 0;      // per cell, V
-  std::vector<double> current;  // at equal steps of the voltage from 0 to open circuit, in scales
+  std::vector<double> current;  // in current scales, at equal voltage steps from 0 to Voc
 
-  // At a part of the open-circuit voltage, 0 to 1.
+  // Current at `part` (0 to 1) of the open-circuit voltage, in current scales.
   double At(double part) const;
 };
 
-// Smoothed by medians, which keep steps where they are.
+// Curve of all lit readings, smoothed by a running median of five, which keeps steps sharp. Empty
+// for fewer than two lit readings.
 CurveShape ShapeOf(const Readings& readings);
 
 }  // namespace lyrefit

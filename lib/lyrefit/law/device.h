@@ -14,7 +14,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How many diodes stand in parallel.
+// Number of diodes in parallel.
 enum class Model { kSingleDiode = 1, kDoubleDiode = 2, kTripleDiode = 3 };
 
 template <>
@@ -26,8 +26,8 @@ struct EnumTable<Model> {
   };
 };
 
-// Which residual is squared (they have different optima, and figures of one kind must never be
-// compared with figures of the other):
+// Which residual is squared. The two have different optima, so RMSE values of one must never be
+// compared with those of the other:
 //   measured-current  r = F(V, I_measured) - I_measured, the right-hand side at what was measured
 //   solved-current    r = I(V) - I_measured, with I the root of I = F(V, I)
 enum class Objective { kMeasuredCurrent, kSolvedCurrent };
@@ -42,20 +42,21 @@ struct EnumTable<Objective> {
 
 struct Extension;
 
-// A device model: a sum of terms over the junction voltage behind one series resistance. Parameter
+// A device model: a sum of terms over the junction voltage, behind one series resistance. Parameter
 // vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3,
-// n3, so that a model's vector starts with that of the model with one diode less; what
-// AddRecombination appends stands last. Resistances are those of the whole module, n is per cell.
+// n3. A model's vector therefore starts with the vector of the model with one diode less.
+// AddRecombination appends its parameters at the end. Resistances are of the whole module, n is per
+// cell.
 struct Device {
   std::vector<ParameterInfo> parameters;
   std::vector<Term> terms;              // summed over the junction voltage
   int resistance_series = -1;           // position of Rs
   double module_thermal_voltage_V = 0;  // Ns Vt
-  // Effects beside the diodes, and the measurement in which they act; see extension.h. Their
-  // parameters stand last. None: the device alone.
+  // Effects beside the diodes, and the measurement in which they act (extension.h). Their
+  // parameters are the last ones. Null: no effects.
   std::shared_ptr<const Extension> extension;
 
-  // How many parameters it has.
+  // Number of parameters.
   int size() const { return static_cast<int>(parameters.size()); }
   // Position of the parameter with this symbol ("Rs") or name ("resistance_series").
   std::optional<int> Find(const std::string& symbol_or_name) const;
@@ -65,17 +66,17 @@ struct Device {
 Device MakeDevice(Model model, const Conditions& conditions,
                   ConstantSet constants = ConstantSet::kCodata);
 
-// Appends PVsyst's recombination in the i-layer (TermKind::kRecombination) and its parameters
-// d2mutau and NsVbi, both in volt, at the end. Once per device.
+// Appends PVsyst's recombination in the i-layer (TermKind::kRecombination). Its parameters d2mutau
+// and NsVbi, both in volt, become the last ones. To be called once per device.
 void AddRecombination(Device* device);
 
-// Positions every diode device has.
+// Parameter positions that all models share.
 constexpr int kIph = 0;
 constexpr int kRs = 3;
 constexpr int kRsh = 4;
 constexpr int SaturationCurrentIndex(int diode) { return diode == 0 ? 1 : 3 + 2 * diode; }
 constexpr int IdealityIndex(int diode) { return SaturationCurrentIndex(diode) + 1; }
-// How many diodes stand in parallel.
+// Number of diodes in parallel.
 inline int DiodeCount(const Device& device) {
   int count = 0;
   for (const Term& term : device.terms) count += term.kind == TermKind::kDiode ? 1 : 0;
@@ -94,7 +95,7 @@ T JunctionCurrent(const Device& device, const S* p, const T& vd) {
   return current;
 }
 
-// The right-hand side at terminal voltage V and a given current I: F(V + I Rs).
+// The right-hand side F(V + I Rs) at terminal voltage V and a given current I.
 template <class S>
 S ExplicitCurrent(const Device& device, const S* p, double voltage_V, double current_A) {
   return JunctionCurrent(device, p, S(voltage_V + current_A * p[device.resistance_series]));

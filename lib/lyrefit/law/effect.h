@@ -18,20 +18,20 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The terminal law, reading by reading (voltages per cell, currents in parts of the scale; I is
-// delivered, Vj the junction voltage of a cell):
+// The terminal law, one stage after the other, for each reading. Voltages are per cell in volt,
+// currents in current scales. I is the delivered current, Vj the junction voltage of a cell:
 //
-//   sky         what really held when the reading was taken: irradiance, temperature, voltage
-//   cell        the five parameters there
-//   junction    I = Iph - Is (exp(Vj / n Vt) - 1) - Gsh Vj + what effects add over Vj
-//   series      Vj = V + I Rs + what effects drop at I
-//   instrument  the current as it was recorded
+//   sky         operating conditions at the reading: irradiance, temperature, voltage
+//   cell        the five parameters at these conditions
+//   junction    I = Iph - Is (exp(Vj / n Vt) - 1) - Gsh Vj + terms that effects add over Vj
+//   series      Vj = V + I Rs + drops that effects add at I
+//   instrument  recorded current
 //
-// An effect is a named cause that changes one or several of these stages. It owns a stretch of the
-// parameter vector, `p` points to its beginning. Every hook is written once, as a lambda over its
-// number type: eight readings at a time for the solver, duals of as many for the derivatives. So
-// there is no `if` over a value: Choose(condition, yes, no) works out both (dual.h, pack.h).
-using Narrow = Dual<6, Pack>;   // models with up to 6 parameters
+// An effect is a named cause that changes one or several of these stages. It has its own range of
+// the parameter vector, and `p` points to the first of them. Each hook is a lambda over its number
+// type: packs of eight readings for the solver, duals of packs for derivatives. Hooks must not
+// branch on values: Choose(condition, yes, no) evaluates both sides (dual.h, pack.h).
+using Narrow = Dual<6, Pack>;   // laws with up to 6 parameters
 using Middle = Dual<10, Pack>;  // up to 10
 using Wide = Dual<20, Pack>;    // up to 20
 
@@ -39,16 +39,16 @@ using Wide = Dual<20, Pack>;    // up to 20
 struct ReadingBlock {
   Pack voltage;     // per cell, V
   Pack current;     // in current scales
-  Pack irradiance;  // as the sensor said, in suns
+  Pack irradiance;  // sensor value, in suns
   Pack temperature_K;
   Pack x;               // as in Reading
   Pack rate;            // as in Reading
   int first = 0;        // position of the block's first reading
-  int count = 0;        // readings from `first` on; lanes beyond repeat the last of them
+  int count = 0;        // number of readings from `first` on; unused lanes repeat the last one
   bool one_sky = true;  // irradiance and temperature are the same in all lanes
 };
 
-// What really held when a reading was taken: a stage may correct it.
+// Operating conditions of a reading. A sky stage corrects the sensor values.
 template <class S>
 struct Sky {
   S voltage;        // at the terminals, per cell
@@ -65,113 +65,117 @@ struct Diode {
   S inverse_n_vt;  // 1 / (n Vt)
 };
 
-// What stands in the way of a current that a cell in reverse does not deliver.
+// Current of a cell in reverse, beside photocurrent and diodes.
 enum class ReverseLaw {
-  kShunt,   // the shunt alone
+  kShunt,   // the shunt only
   kBishop,  // I = ... - Gsh a Vj (1 - Vj / Vbr)^-m doi:10.1016/0379-6787(88)90059-2
-  kSoft,    // I = ... + Iph (-Vj / A)^m, Iph of a cell under full light
+  kSoft,    // I = ... + Iph (-Vj / A)^m, Iph of an unshaded cell
 };
 
-// Cells in series that are alike. A part of a string is what shares a bypass diode (or has none);
-// kinds of one part carry one current. In half-cut modules a part is two such chains side by side,
-// each of half the current: its kinds are one, and one kind that stands `beside` them the other.
+// A cell group: identical cells in series. A substring (Part) is a set of cells that share one
+// bypass diode or none. The cell groups of one substring carry the same current. In half-cut
+// modules a substring is two parallel chains of half the current each: its groups form one chain,
+// and the one group with `beside` set forms the other.
 constexpr int kMostKinds = 8;
 template <class S>
 struct Kind {
-  S share;              // of all cells of the device
-  S light;              // part of the photocurrent
-  S leak;               // conductance beside that of the others
-  int part = 0;         // of the string that it lies in
-  bool beside = false;  // the second chain of a half-cut part
+  S share;              // fraction of all cells of the device
+  S light;              // factor of the photocurrent
+  S leak;               // additional shunt conductance, scales per volt of a cell
+  int part = 0;         // position of its substring
+  bool beside = false;  // forms the second chain of a half-cut substring
 };
-// What shares a bypass diode, or has none.
+// A substring: cells that share a bypass diode, or none.
 struct Part {
-  bool bypassed = false;  // it has a diode
-  double cells = 1;       // that one bypass diode spans
-  int string = 0;         // strings of different number stand in parallel
-  bool paired = false;    // one of its kinds stands beside the others
+  bool bypassed = false;  // has a bypass diode
+  double cells = 1;       // number of cells that one bypass diode spans
+  int string = 0;         // its string; strings are in parallel
+  bool paired = false;    // half-cut: one of its cell groups is `beside` the others
 };
 
-// The cells under one sky, in the units of Reading: a stage may change any of it.
+// A cell at its operating conditions, in the units of Reading. A cell stage may change any field.
 template <class S>
 struct Cell {
-  static constexpr int kMostDiodes = 4;  // side by side
+  static constexpr int kMostDiodes = 4;  // in parallel
   S irradiance;                          // in suns
   S photocurrent;                        // Iph, in scales
-  int diodes = 0;                        // that are there
-  Diode<S> diode[kMostDiodes];           // the first `diodes` of them count
+  int diodes = 0;                        // number of diodes
+  Diode<S> diode[kMostDiodes];           // first `diodes` valid
   S saturation_2_unit;  // saturation current of a diode with n = 2 that carries 1 at the pivot
   S conductance;        // Gsh, in scales per volt of a cell
   S resistance;         // Rs, in volt of a cell per scale
   S thermal_voltage;    // k T / q, V
-  double reach = 1;     // largest |voltage| of the readings: where shunts are quoted
+  double reach = 1;     // largest |voltage| of the readings, V per cell, where shunts are reported
   double cells = 1;     // in series
   double substring_cells = 1;    // cells that share a bypass diode
-  int kinds = 1;                 // one: all cells are alike, in one part without bypass diode
-  int parts = 1;                 // of the string
-  int strings = 1;               // side by side, which differ
-  Kind<S>* kind = nullptr;       // kMostKinds of them
-  Part part[kMostKinds];         // `parts` of them
-  S bypass;                      // voltage over a bypass diode that carries the current scale
-  double bypass_ideality = 1.2;  // of that diode
+  int kinds = 1;                 // number of cell groups; 1: all cells alike, no bypass diode
+  int parts = 1;                 // number of substrings
+  int strings = 1;               // number of different strings in parallel
+  Kind<S>* kind = nullptr;       // kMostKinds entries
+  Part part[kMostKinds];         // the first `parts` are valid
+  S bypass;                      // voltage of a bypass diode at one current scale, V
+  double bypass_ideality = 1.2;  // of the bypass diode
   ReverseLaw reverse = ReverseLaw::kShunt;
   S reverse_strength;  // Bishop's a
-  S reverse_voltage;   // Bishop's -Vbr, the soft law's A; above 0
-  S reverse_exponent;  // m
-  // Every cell in two halves, the second reached through a lateral resistance.
+  S reverse_voltage;   // -Vbr of Bishop's law or A of the soft law, V, above 0
+  S reverse_exponent;  // m of either law
+  // Every cell has two halves; the second is connected through a lateral resistance.
   bool halved = false;
-  S lateral;  // in the unit of `resistance`
+  S lateral;  // lateral resistance, in the unit of `resistance`
 };
 
-// Readings solved for: what instruments make of them.
+// Solved readings, the input and output of instrument stages.
 template <class S>
 struct Solved {
-  S current;            // to be changed into the recorded one
+  S current;            // in current scales; a stage changes it to the recorded current
   S diode_conductance;  // of the junction, d(diode current)/dVj
   S conductance;        // of the junction, all terms
   S resistance;         // Rs of the cell
 };
 
-// The number type in which a stage is differentiated along its voltage or current: plain parameters
-// carry that one slope, duals have it in the chain already.
+// Number type in which a stage is differentiated by its voltage or current. With plain parameters
+// that type is a dual of one slope. With dual parameters the chain rule gives the slope, so S
+// suffices.
 template <class S>
 struct TangentOf {
-  // The type itself.
+  // The number type.
   using Type = S;
 };
-// Of plain parameters: with the slope.
+// Plain parameters: a dual with one slope.
 template <>
 struct TangentOf<Pack> {
-  // The type with a slope.
+  // The number type.
   using Type = Dual<1, Pack>;
 };
 // See TangentOf.
+// Short name of TangentOf<S>::Type.
 template <class S>
 using Tangent = typename TangentOf<S>::Type;
 
-// Changes what held when the readings were taken.
+// Corrects the operating conditions of the readings.
 template <class S>
 using SkyStage = void (*)(const S* p, const ReadingBlock& readings, Sky<S>* sky);
-// Changes the cells under that sky.
+// Changes a cell at its operating conditions.
 template <class S>
 using CellStage = void (*)(const S* p, Cell<S>* cell);
-// Current that is added over the junction voltage, of a cell under the light of its own.
+// Current added to a cell at its junction voltage, in current scales. `photocurrent` is that of the
+// cell's own group.
 template <class S>
 using JunctionStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const S& photocurrent,
                                      const Tangent<S>& voltage);
-template <class S>  // voltage that is added to V + I Rs at the delivered current
+template <class S>  // voltage added to V + I Rs at the delivered current, V per cell
 using SeriesStage = Tangent<S> (*)(const S* p, const Cell<S>& cell, const Tangent<S>& current);
-// Changes the currents that were solved for into those recorded.
+// Changes solved currents to recorded currents.
 template <class S>
 using InstrumentStage = void (*)(const S* p, const ReadingBlock& readings, Solved<S>* solved);
 
-// One stage of an effect, for every number type; empty where the effect leaves the stage alone.
+// One stage of an effect, for every number type. Empty: the effect does not change this stage.
 template <template <class> class Stage>
 struct Hook {
-  Stage<Pack> value = nullptr;     // for currents alone
-  Stage<Narrow> narrow = nullptr;  // with derivatives
-  Stage<Middle> middle = nullptr;  // the same
-  Stage<Wide> wide = nullptr;      // the same
+  Stage<Pack> value = nullptr;     // currents only
+  Stage<Narrow> narrow = nullptr;  // up to 6 derivatives
+  Stage<Middle> middle = nullptr;  // up to 10
+  Stage<Wide> wide = nullptr;      // up to 20
 
   Hook() = default;
   // A lambda over its number type, without captures.
@@ -180,7 +184,7 @@ struct Hook {
 
   // Whether the effect has this stage.
   explicit operator bool() const { return value != nullptr; }
-  // The one for this number type.
+  // The stage for number type S.
   template <class S>
   Stage<S> For() const {
     if constexpr (std::is_same_v<S, Pack>) {
@@ -195,50 +199,50 @@ struct Hook {
   }
 };
 
-// What a parameter that is not any number can only be.
+// Restriction of a parameter to whole numbers.
 enum class Whole {
   kNo,
   kCount,       // 1, 2, ...
-  kSubstrings,  // a share of the cells: of whole substrings, where their number was stated
+  kSubstrings,  // shares of cells in whole substrings, if their number is stated
 };
 
-// A parameter of an effect, in the units of Reading. What a person reads is the value times
-// factor x current_A^current x cells^cells x rate^rate of the measurement's scale, or `convert` of
-// it, in `unit`. The catalogue makes them field by field, by name:
+// A parameter of an effect, in the units of Reading. The reported value, in `unit`, is the value
+// times factor x current_A^current x cells^cells x rate^rate of the measurement's scale, times
+// `convert` if set. Entries of the catalogue are built field by field:
 //   Parameter("a", "factor", "conductance of a cell at 0 V").Unit("S").Between(0, 3).From(1)
 struct EffectParameter {
   const char* symbol = "";  // "k"
   const char* name = "";    // "shunt_strength"
   const char* unit = "";    // of the reported value, "A/V^m"
-  const char* doc = "";     // what it says, one line
+  const char* doc = "";     // meaning, one line
   double lower = 0;
   double upper = 0;
-  double neutral = 0;  // where the effect is not there (of the strength); where to start (others)
-  bool searched = false;  // settled by trying the probes' values, not by descent: a step's time
+  double neutral = 0;  // value without the effect (strength), or start value (others)
+  bool searched = false;  // selected among probe values, not fitted: a step's time
   double factor = 1;      // see above
   int current = 0;        // power of the current scale
   int cells = 0;          // power of the number of cells
   int rate = 0;           // power of the rate scale
-  // What the value is multiplied by besides, given all of the effect's parameters.
+  // Additional factor of the reported value, as a function of all parameters of the effect.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
-  // A fit keeps it at its neutral value unless it is asked for by name.
+  // By default a fit keeps it fixed at its neutral value. A request by name frees it.
   bool held = false;
-  // How much it differs from part to part in modules as they are sold, a standard deviation: no
-  // curve of a module says it better.
+  // Standard deviation among sound modules or substrings, from production. The curve of one module
+  // cannot reduce it. 0: none.
   double scatter = 0;
-  // A fit that ends at such a bound is not this effect but bends to another.
+  // A fit that ends at such a bound is rejected: there the effect imitates another one.
   bool below_upper = false;
   bool above_lower = false;
-  // Where a parameter that can be absent is: there it is not reported.
+  // Value that means the parameter is absent: it is then not reported.
   double absent_at = kUnknown;
-  Whole whole = Whole::kNo;  // where a fit of it by name searches among these
+  Whole whole = Whole::kNo;  // a fit requested by name searches these values
 
-  // What the value is multiplied by where a person reads it.
+  // Factor from the value to the reported value. `p`: all parameters of the effect.
   double ReportedFactor(const double* p, const ReadingScale& scale) const;
 
-  // Of the reported value: sets `unit`.
+  // Sets `unit`, that of the reported value.
   constexpr EffectParameter& Unit(const char* text) { return unit = text, *this; }
-  // Its bounds: sets `lower` and `upper`, in the units of Reading.
+  // Sets `lower` and `upper`, in the units of Reading.
   constexpr EffectParameter& Between(double low, double high) {
     return lower = low, upper = high, *this;
   }
@@ -246,7 +250,7 @@ struct EffectParameter {
   constexpr EffectParameter& From(double value) { return neutral = value, *this; }
   // Sets `searched`.
   constexpr EffectParameter& Searched() { return searched = true, *this; }
-  // Sets `factor`, then the powers of the scales in the reported value.
+  // Set `factor`, then the powers of the scales in the reported value.
   constexpr EffectParameter& Times(double value) { return factor = value, *this; }
   constexpr EffectParameter& CurrentPower(int power) { return current = power, *this; }
   constexpr EffectParameter& CellsPower(int power) { return cells = power, *this; }
@@ -259,7 +263,7 @@ struct EffectParameter {
   constexpr EffectParameter& Held() { return held = true, *this; }
   // Sets `scatter`.
   constexpr EffectParameter& Scatter(double deviation) { return scatter = deviation, *this; }
-  // A fit at its upper bound, or its lower one, is not this effect.
+  // Set `below_upper` or `above_lower`: a fit at that bound is rejected.
   constexpr EffectParameter& BelowUpper() { return below_upper = true, *this; }
   constexpr EffectParameter& AboveLower() { return above_lower = true, *this; }
   // Sets `absent_at`.
@@ -268,7 +272,7 @@ struct EffectParameter {
   constexpr EffectParameter& Only(Whole kind) { return whole = kind, *this; }
 };
 
-// A parameter of an effect: its symbol in tables and flags, its name in code, what it says.
+// Starts a parameter: symbol in tables and flags, name in code, meaning.
 constexpr EffectParameter Parameter(const char* symbol, const char* name, const char* doc) {
   EffectParameter made;
   made.symbol = symbol;
@@ -277,7 +281,7 @@ constexpr EffectParameter Parameter(const char* symbol, const char* name, const 
   return made;
 }
 
-// What an effect belongs to.
+// Origin of an effect.
 enum class Where { kDevice, kSweep, kInstrument, kConditions, kNowhere };
 
 template <>
@@ -289,74 +293,75 @@ struct EnumTable<Where> {
                                               {Where::kNowhere, "unknown"}};
 };
 
-// How a diagnosis comes upon an effect.
+// How a diagnosis finds an effect.
 enum class FoundBy {
-  kFit,            // by its score on the residuals, and a fit
-  kWaves,          // by smooth waves in the residuals that nothing else explains
-  kSingleReading,  // by single readings far off
-  kValues,         // by the values or parameters themselves: nothing is fitted
-  kRequest,        // not at all: it is fitted or simulated where somebody asks for it
+  kFit,            // by its score on the residuals, then a fit
+  kWaves,          // by smooth waves in the residuals that no other effect explains
+  kSingleReading,  // by single outliers
+  kValues,         // by values or parameters, without a fit
+  kRequest,        // never: it is fitted or simulated only on request
 };
 
-// A place from which an effect is tried: a full set of its parameters at a strength that shows.
+// A start of a fit: a full parameter set of an effect, at a strength visible in the data.
 using Probe = std::vector<double>;
 
-// The same as the shape of a curve suggests it, for fits that stand on no other fit.
+// A start derived from the shape of a curve. It does not need a previous fit.
 struct ShapeStart {
-  Probe p;                 // where to begin
-  std::vector<int> freed;  // parameters to descend in although fits usually keep them
+  Probe p;                 // start values
+  std::vector<int> freed;  // parameters to fit although they are fixed by default
 };
 
-// A named cause that changes the terminal law: what it is called, what it does, what shows it.
+// A named cause that changes the terminal law: its text for reports, parameters, stages and starts.
 struct Effect {
   const char* id = "";     // "nonohmic_shunt"
   const char* title = "";  // "non-ohmic shunt"
   Where where = Where::kDevice;
-  const char* equation = "";                // as reports print it
-  const char* reference = "";               // where it is from: DOI or clause
-  const char* sentence = "";                // what a technician understands
-  const char* needs = "";                   // data that show it
-  const char* acts = "";                    // where on the curve it shows
-  std::vector<const char*> confused_with;   // ids, most alike first
-  const char* separate_by = "";             // the measurement that would tell it from them
-  std::vector<EffectParameter> parameters;  // the first is the strength, unless said
-  // Sets of them that may change places without changing a curve (groups of cells): reports have
-  // the sets in order of the first of each.
+  const char* equation = "";                // as printed in reports
+  const char* reference = "";               // source: DOI or clause
+  const char* sentence = "";                // for a technician
+  const char* needs = "";                   // data that can show it
+  const char* acts = "";                    // region of the curve where it shows
+  std::vector<const char*> confused_with;   // ids, most similar first
+  const char* separate_by = "";             // measurement that separates it from them
+  std::vector<EffectParameter> parameters;  // the first is the strength, by default
+  // Sets of parameters that can be exchanged without changing a curve (cell groups). Reports sort
+  // the sets by the first parameter of each.
   std::vector<std::vector<int>> alike;
   Hook<SkyStage> sky;
   Hook<CellStage> cell;
   Hook<JunctionStage> junction;
   Hook<SeriesStage> series;
   Hook<InstrumentStage> instrument;
-  // Beside these two, or in their place, as functions of plain numbers (plain_stage.h).
+  // Junction and series stages as functions of plain numbers (plain_stage.h), in addition to the
+  // hooks.
   PlainStage plain_junction;
   PlainStage plain_series;
-  // Why data of this kind cannot show the effect; nothing where they can, none where all can.
+  // Reason why data of this type cannot show the effect; empty if they can. Null: any data can.
   std::optional<std::string> (*why_not)(const DataTraits&) = nullptr;
-  // Where fits of it begin, full sets of its parameters each; the data decide how many.
+  // Starts of fits, a full parameter set each. Their number depends on the data.
   std::function<std::vector<Probe>(const DataTraits&)> probes;
-  // Where one lit condition was measured. `asked`: bounds of the parameters in a fit that was asked
-  // for by name; empty in a diagnosis.
+  // Starts from the shape of a curve, for one lit condition. `asked`: parameter bounds of a fit
+  // that was requested by name; empty in a diagnosis.
   std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&,
                                     const std::vector<ParameterBounds>& asked) = nullptr;
-  // What becomes of the effect, which begins in the first of `groups` bypass groups, while group
-  // `which` stands covered and the others work alone: its parameters, changed to theirs; false
-  // where it is gone. None where all cells have it alike.
+  // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
+  // covered and only the other groups generate. The effect begins in the first group. Returns false
+  // if the effect vanishes. Null: the effect is the same in all cells.
   bool (*covered)(double* p, int which, int groups) = nullptr;
 
   FoundBy found_by = FoundBy::kFit;
-  // Splits the cells of a string into kinds: only one effect of a law can.
+  // Divides the cells into cell groups: only one effect of a law may.
   bool groups = false;
-  bool momentary = false;  // lasts a moment of the sweep: it can bend to any single reading
-  int diode = 0;           // it is this diode of a device: a base of so many has it already
+  bool momentary = false;  // short compared with the sweep: it can imitate any outlier
+  int diode = 0;           // number of the diode it adds; a base with that many diodes includes it
 
-  // How many parameters it has.
+  // Number of parameters.
   int size() const { return static_cast<int>(parameters.size()); }
-  // Why such data cannot show it; nothing where they can.
+  // Reason why these data cannot show the effect; empty if they can.
   std::optional<std::string> WhyNot(const DataTraits& traits) const {
     return why_not != nullptr ? why_not(traits) : std::nullopt;
   }
-  // False of what is found in the values alone: nothing of the law changes.
+  // All three are false for an effect that is found in the values only: it does not change the law.
   bool ChangesJunction() const { return junction || plain_junction; }
   bool ChangesSeries() const { return series || plain_series; }
   bool HasStage() const {
@@ -364,7 +369,7 @@ struct Effect {
   }
 };
 
-// Whether two different effects cannot stand in one law.
+// Whether two different effects are incompatible in one law: both divide the cells into groups.
 inline bool Exclude(const Effect& a, const Effect& b) { return a.groups && b.groups; }
 
 }  // namespace lyrefit

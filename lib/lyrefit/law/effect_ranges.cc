@@ -27,13 +27,13 @@ std::string SymbolsOf(const Effect& effect) {
   return list.empty() ? "none" : list;
 }
 
-// "0.3", or "0.2:0.4".
+// Text of a range: "0.3", or "0.2:0.4".
 std::string RangeText(const std::pair<double, double>& range) {
   if (range.first == range.second) return fmt::format("{:g}", range.first);
   return fmt::format("{:g}:{:g}", range.first, range.second);
 }
 
-// The range that was asked for parameter k, if one was.
+// The requested range of parameter k, if any.
 std::optional<std::pair<double, double>> RangeOf(const EffectUse& use, int k) {
   const EffectParameter& info = use.effect->parameters[k];
   for (const char* key : {info.symbol, info.name}) {
@@ -42,7 +42,7 @@ std::optional<std::pair<double, double>> RangeOf(const EffectUse& use, int k) {
   return std::nullopt;
 }
 
-// The middle of what was asked for, the neutral values where nothing was; in the effect's numbers.
+// Internal values: the middle of each requested range, else the neutral value.
 std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale) {
   std::vector<double> neutral;
   for (const EffectParameter& info : use.effect->parameters) neutral.push_back(info.neutral);
@@ -53,8 +53,8 @@ std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale)
   return InnerValues(*use.effect, reported, scale);
 }
 
-// Of a parameter that is a whole number of something: bounds that are, and how far apart such
-// numbers lie. One that is held stays as it was asked for.
+// Restricts the bounds of a whole-number parameter to whole numbers and sets their distance. A
+// fixed parameter keeps its requested value.
 Expected<void> KeepWhole(const EffectUse& use, int k, const DataTraits& traits,
                          ParameterBounds* bounds) {
   const EffectParameter& info = use.effect->parameters[k];
@@ -80,7 +80,7 @@ Expected<void> KeepWhole(const EffectUse& use, int k, const DataTraits& traits,
   return {};
 }
 
-// Bounds of parameter k: the effect's own, narrower where that was asked for.
+// Bounds of parameter k: those of the effect, narrowed to a requested range.
 Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vector<double>& usual,
                                    const ReadingScale& scale, const DataTraits& traits) {
   const Effect& effect = *use.effect;

@@ -7,15 +7,16 @@
 
 namespace lyrefit {
 
-// From what was asked for of an effect's parameters to bounds in numbers of its own.
-// CheckParameter, CheckFitRanges and DescribeUse of extension.h are defined beside it.
+// Bounds of an effect's parameters in internal units, from requested ranges in reporting units.
+// CheckParameter, CheckFitRanges and DescribeUse of extension.h are defined in effect_ranges.cc.
 
-// "weak_cell: why"
+// Error with the effect's id in front: "weak_cell: why".
 Error Unfit(const Effect& effect, const std::string& why);
 
-// Adds the bounds of one effect, narrower where that was asked for and between whole numbers where
-// a parameter is one, and where a fit begins. `extension` has its readings. Errors: a key that is
-// no parameter, a range that is reversed, outside the effect's own or without a whole number.
+// Appends the bounds and start values of one effect to `extension`, whose readings must be set. A
+// requested range narrows the bounds; a whole-number parameter is restricted to whole numbers.
+// Errors: a key that is no parameter, a reversed range, a range outside the effect's bounds, a
+// range without a whole number.
 Expected<void> AddUse(const EffectUse& use, Extension* extension);
 
 }  // namespace lyrefit

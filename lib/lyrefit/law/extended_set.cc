@@ -13,10 +13,10 @@
 namespace lyrefit {
 namespace {
 
-// What the conditions say counts: a curve of irradiance 0 is dark, however little light there is in
-// the others.
+// Applies the stated irradiances. A curve of irradiance 0 is dark, even if all other curves have
+// very little light.
 void TakeConditions(const CurveSet& set, Readings* readings) {
-  constexpr double kOrdinary_suns = 0.02;  // below it MakeReadings goes by the readings
+  constexpr double kOrdinary_suns = 0.02;  // below it MakeReadings decides by the readings
   for (Reading& r : readings->points) {
     const double stated = set.curves[r.curve].conditions.irradiance_W_m2 / 1000;
     r.dark = stated <= 0;
@@ -24,7 +24,7 @@ void TakeConditions(const CurveSet& set, Readings* readings) {
   }
 }
 
-// The same device at other readings; not a copy of all, of which a set may have many.
+// The device at other readings. It does not copy the readings of the whole set, which may be many.
 Device At(const Device& device, std::vector<Reading> points) {
   const Extension& whole = *device.extension;
   Extension extension;
@@ -47,7 +47,7 @@ Device At(const Device& device, std::vector<Reading> points) {
 }  // namespace
 
 Expected<Readings> SetReadings(const CurveSet& set, double reference_K) {
-  std::vector<std::string> contradictions;  // the readers of the curves have said them already
+  std::vector<std::string> contradictions;  // discarded: the readers of the curves report them
   TRY(Readings readings, MakeReadings(set, &contradictions));
   const int cells = set.curves.front().conditions.cells_in_series;
   const double ratio = readings.scale.cells / static_cast<double>(cells);
@@ -127,7 +127,7 @@ std::vector<double> ExtendedParameters(const Translation& translation, const dou
 
 namespace {
 
-// Shared parameters whose device's `change` changes.
+// Shared parameters after `change` was applied to those of the extended device.
 template <class F>
 std::vector<double> Changed(const Translation& translation, std::vector<double> shared,
                             const F& change) {

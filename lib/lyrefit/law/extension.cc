@@ -15,7 +15,8 @@
 namespace lyrefit {
 namespace {
 
-// As a fit of one curve has it: at its own irradiance and temperature.
+// Readings of one curve at its own temperature. Irradiances are relative to their mean, so
+// parameters are those at the curve's own conditions.
 Expected<Readings> ReadingsOf(const IvCurve& curve) {
   auto readings = SetReadings(SetOfOne(curve), curve.conditions.cell_temperature_K);
   if (!readings) return readings;
@@ -48,7 +49,8 @@ Expected<void> CheckTogether(const std::vector<EffectUse>& uses, int base_size) 
   return {};
 }
 
-// Shares of cells, named share..., that are held at more than there is.
+// Error if the lower bounds of an effect's cell shares (parameters named share...) sum to 1 or
+// more.
 Expected<void> CheckShares(const Extension& extension) {
   int at = 0;
   for (const EffectUse& use : extension.uses) {
@@ -181,7 +183,7 @@ bool InAmpere(const Law& law, const Readings& readings, const std::vector<Readin
   return true;
 }
 
-// The same measurement at other voltages.
+// Readings of the same measurement at other voltages.
 Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage_V) {
   Readings other = readings;
   const Reading usual = readings.points.front();

@@ -4,12 +4,12 @@
 
 namespace lyrefit {
 
-// What a joint fit holds where nobody says otherwise.
+// Default values of parameters that a joint fit keeps fixed.
 constexpr double kHeldBandgap_eV = 1.121;  // crystalline silicon at 25 C (De Soto 2006)
 constexpr double kHeldBandgapSlope_per_K = kDeSotoBandgapSlope_per_K;
 constexpr double kHeldShuntExponent = 5.5;  // PVsyst's default
 constexpr double kHeldIdeality2 = 2;        // recombination in the depletion region
-constexpr double kHeldBuiltIn_V = 0.9;      // a cell, PVsyst's default for thin films
+constexpr double kHeldBuiltIn_V = 0.9;      // V per cell, PVsyst's default for thin films
 constexpr double kHeldTempco_per_K = 5e-4;  // relative alpha_sc of silicon
 
 }  // namespace lyrefit

@@ -102,7 +102,7 @@ Expected<const Kernel*> KernelNamed(const std::string& name) {
 
 namespace {
 
-// Weighted like the kernels' sums.
+// Mean squared residual of a device with effects, with the weights of the kernels.
 double ExtendedMeanSquare(const Device& device, Objective objective, const double* p,
                           const PointSet& points) {
   if (objective == Objective::kMeasuredCurrent) return kUnknown;  // no explicit right-hand side

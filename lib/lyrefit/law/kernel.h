@@ -11,31 +11,31 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Points of a curve laid out for kernels; the last block is filled up with copies of the last point
-// at weight 0.
+// Points of a curve in blocks for the kernels. Copies of the last point at weight 0 fill the last
+// block.
 struct PointSet {
   int size = 0;             // points
   double inverse_size = 0;  // 1 / size
   double largest_voltage_V = 0;
   std::vector<Block> voltage_V;
   std::vector<Block> current_A;
-  std::vector<Block> weight;  // of the squared residual; mean 1 over the points
+  std::vector<Block> weight;  // of the squared residual, mean 1
 };
 
 // `weights` may be empty (all 1) or as long as the points; it is scaled to mean 1.
 PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                       const std::vector<double>& weights = {});
 
-// The heavy loops, compiled once per instruction set from one source without fused multiply-add and
-// with a fixed order of summation: all of them give the same bits for the same input.
+// The inner loops, compiled once per instruction set from one source. They use no fused
+// multiply-add and a fixed order of summation, so all kernels give the same bits for the same
+// input.
 struct Kernel {
   const char* name;  // "portable", "avx2", "avx512"
-  // Mean over the points of weight x (F(V, I) - I)^2.
+  // Mean of weight x (F(V, I) - I)^2, A^2.
   double (*measured_mean_square)(const PreparedDevice&, const PointSet&);
-  // Mean of weight x (I(V) - I)^2. `diode_limit` as from JunctionVoltageLimit for the largest
-  // voltage.
+  // Mean of weight x (I(V) - I)^2, A^2. `diode_limit`: JunctionVoltageLimit at the largest voltage.
   double (*solved_mean_square)(const PreparedDevice&, const PointSet&, double diode_limit);
-  // I(V) of every point into `current` (as many blocks as the set).
+  // Writes I(V) of every point to `current`, which has as many blocks as the set.
   void (*solve_currents)(const PreparedDevice&, const PointSet&, double diode_limit,
                          Block* current);
 };
@@ -47,9 +47,9 @@ std::string KernelNames();  // "portable, avx2"
 // Errors: no such kernel, or one this processor cannot run.
 Expected<const Kernel*> KernelNamed(const std::string& name);
 
-// Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. Of
-// an extended device (extension.h) the points are its measurement's, and there is no
-// measured-current residual: NaN.
+// Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. For
+// a device with effects (extension.h) the points must be those of its measurement, and the
+// measured-current residual is NaN.
 double MeanSquare(const Device& device, Objective objective, const double* p,
                   const PointSet& points, const Kernel& kernel = FastestKernel());
 
@@ -57,7 +57,7 @@ double MeanSquare(const Device& device, Objective objective, const double* p,
 std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
                                   const Kernel& kernel = FastestKernel());
 
-// The same for plain voltages; of an extended device as a sweep over them in their order.
+// I(V) in ampere at plain voltages. For a device with effects they are one sweep in this order.
 std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V,
                                   const Kernel& kernel = FastestKernel());

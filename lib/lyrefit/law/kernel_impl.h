@@ -1,7 +1,7 @@
-// The loops of every kernel. Included once by each kernel_*.cc with LYREFIT_KERNEL (its namespace)
-// and LYREFIT_KERNEL_WIDTH (doubles in a register) defined. Everything here lives in that namespace
-// or is forced inline: a function that two kernels shared would be compiled for the newer processor
-// only.
+// The loops of every kernel. Each kernel_*.cc includes this file once, with LYREFIT_KERNEL (its
+// namespace) and LYREFIT_KERNEL_WIDTH (doubles per register) defined. Everything here is in that
+// namespace or forced inline. A function shared by two kernels would otherwise exist once, compiled
+// for the newer processor, and fail on the older one.
 
 #include "lyrefit/law/kernel.h"
 
@@ -15,8 +15,8 @@ struct Constant {
   static constexpr int value = kValue;
 };
 
-// Squared residuals of `kCount` blocks; the count is a constant, so that the loops unroll and the
-// chains of all blocks are in flight at once.
+// Weighted sum of squared residuals of `kCount` blocks. The count is a constant, so that the loops
+// unroll and the dependency chains of all blocks overlap.
 template <int kCount>
 LYREFIT_OP Pack MeasuredSquares(const PreparedDevice& d, const Block* voltage, const Block* current,
                                 const Block* weight) {
@@ -39,8 +39,7 @@ LYREFIT_OP Pack MeasuredSquares(const PreparedDevice& d, const Block* voltage, c
   return sum;
 }
 
-// Calls work(constant 4 .. 1, first block) over all blocks, four at a time as long as there are
-// four.
+// Calls work(constant 4 .. 1, first block) over all blocks, four at a time while four are left.
 template <class Work>
 LYREFIT_OP void OverBlocks(const PointSet& points, const Work& work) {
   const int blocks = (points.size + Block::kLanes - 1) / Block::kLanes;

@@ -12,8 +12,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNear_V = 2;       // a former root farther from a plain guess is no start
-constexpr double kBeside_V = 0.25;  // between readings that follow each other
+constexpr double kNear_V = 2;       // larger distance from the guess: no start
+constexpr double kBeside_V = 0.25;  // largest distance of consecutive readings
 
 bool IsSame(const Pack& a, const Pack& b) { return All((!(a < b)) & (!(b < a))); }
 template <int N>
@@ -25,18 +25,18 @@ bool IsSame(const Dual<N, Pack>& a, const Dual<N, Pack>& b) {
   return true;
 }
 
-// Cells are the same for readings under the same sky: the last one is kept, and what its
-// temperature decided for readings under other light.
+// Reuses cells: readings at the same operating conditions share one cell. The temperature-dependent
+// fields are also reused at other irradiances.
 template <class S>
 class CellKeeper {
  public:
-  CellKeeper(const CellKeeper&) = delete;  // cells point into it
+  CellKeeper(const CellKeeper&) = delete;  // `warm_` and its copies point into this object
   explicit CellKeeper(const EvaluationContext<S>& context) : bench_(context) {
     warm_.kind = kinds_;
     for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->sky;
   }
 
-  // Whether the cell differs from that of the block before.
+  // Updates the cell for `block`; returns whether it changed.
   bool Settle(const ReadingBlock& block) {
     sky_ = SkyAt(bench_, block);
     const bool same = known_ && block.one_sky && last_.one_sky &&
@@ -65,7 +65,7 @@ class CellKeeper {
   ReadingBlock last_;
   Sky<S> sky_;
   Sky<S> warm_sky_;
-  Cell<S> warm_;  // at that sky's temperature
+  Cell<S> warm_;  // fields for the temperature of warm_sky_ only
   Cell<S> cell_;
   Kind<S> kinds_[kMostKinds];
 };
@@ -91,7 +91,8 @@ S Recorded(const EvaluationContext<S>& context, const ReadingBlock& block, const
   return solved.current;
 }
 
-// From where the last evaluation ended if that is near a plain guess, else from the guess.
+// Start from the solution of the last evaluation in lanes where it is near the guess, else from the
+// guess.
 void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBlock& block,
            const Pack& voltage, bool fresh, StringState* state) {
   StringState guess;
@@ -114,8 +115,8 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
   }
 }
 
-// From where the last reading of the block before ended: with cells that are not alike a better
-// place than any guess. False where that is no neighbour.
+// Start from the solution of the last reading in the previous block. For unlike cells that is
+// better than any guess. Returns false if that reading is not a neighbour.
 bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
                  const Cell<Pack>& cell, StringState* state) {
   constexpr int kLast = Block::kLanes - 1;
@@ -143,13 +144,13 @@ bool HasInstrument(const Law& law) {
   return false;
 }
 
-// Adds `part` times the derivatives of x.
+// Adds `part` times the derivatives of x to `sum`.
 template <int N>
 void Add(const Pack& part, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
   for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + part * x.v[k];
 }
 
-// What the law is at a root, in duals and in plain numbers.
+// The cell and its context at a root, in duals and in plain numbers.
 template <class S>
 struct Place {
   const EvaluationContext<S>& context;
@@ -157,7 +158,7 @@ struct Place {
   const Cell<Pack>& plain;
 };
 
-// `part` times the derivatives of F(voltage) of a kind, at a voltage that is held.
+// Adds `part` times the derivatives of F of a cell group, at a fixed junction voltage.
 template <class S>
 void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& part, S* sum) {
   const Cell<S>& cell = at.cell;
@@ -178,7 +179,8 @@ void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& 
   if (HasMore(at.context, cell)) Add(part, MoreCurrent(at.context, cell, light, S(voltage)), sum);
 }
 
-// The same of a kind's current.
+// Adds `part` times the derivatives of a cell group's current, of both halves where cells are
+// halved.
 template <class S>
 void AddKind(const Place<S>& at, const StringState& state, const KindPoint& point, int kind,
              const Pack& part, S* sum) {
@@ -190,7 +192,7 @@ void AddKind(const Place<S>& at, const StringState& state, const KindPoint& poin
   Add(0.5 * far * point.far.v[0] * point.far.a, at.cell.lateral, sum);
 }
 
-// The delivered current with its derivatives, by the slopes at the root.
+// The delivered current with its derivatives, from the slopes at the root.
 template <class S>
 S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& state,
                        const StringRoot& root) {
@@ -221,7 +223,7 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   return current;
 }
 
-// Junction voltage of the first kind, where the cells carry `current`.
+// Junction voltage of the first cell group at cell current `current`, with derivatives.
 template <class S>
 S DifferentiateJunction(const Place<S>& at, const StringState& state, const StringRoot& root,
                         const S& current) {
@@ -251,7 +253,7 @@ void StoreRows(const Pack& values, const ReadingBlock& block, int stride, double
 struct LawWorkspace::State {
   std::vector<ReadingBlock> own;
   const std::vector<ReadingBlock>* blocks = nullptr;
-  std::vector<StringState> strings;  // of each block, as the last evaluation left them; or none
+  std::vector<StringState> strings;  // per block, from the last evaluation; may be empty
   bool fresh = true;
   GiveUp give_up = GiveUp::kNever;
 };
@@ -305,7 +307,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     const bool kept = !state.strings.empty();
     StringState& at = kept ? state.strings[b] : unkept;
     const Pack& voltage = plain_cells.sky().voltage;
-    // Of another number of kinds the last evaluation says nothing.
+    // A state with other numbers of groups, substrings or strings cannot be reused.
     const bool fresh = state.fresh || !at.Fits(cell);
     const bool follows =
         fresh && b > 0 &&

@@ -12,84 +12,85 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Base model and causes together: one parameter vector for a whole measurement. Base parameters
-// first, then those of each effect in turn.
+// A law: base model and effects with one parameter vector for a whole measurement. The parameters
+// of the base come first, then those of each effect in turn.
 //
-// Base: one diode (or a second with n = 2), five parameters for all readings, translated
-// as law/translation.h does for De Soto, Klein and Beckman 2006
-// (doi:10.1016/j.solener.2005.06.010):
+// The base has one diode, or a second one with n = 2. Its five parameters serve all readings and
+// are translated by De Soto, Klein and Beckman 2006 (law/translation.h,
+// doi:10.1016/j.solener.2005.06.010):
 //   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
 //   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
-//   n and Rs constant, Gsh = 1 / Rsh constant or in proportion to g
-// What nobody stated of alpha and EgRef is a parameter as well. The recombination diode follows
-// (T / Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
+//   n and Rs constant, Gsh = 1 / Rsh constant or proportional to g
+// alpha and EgRef are parameters too if they are not stated. The recombination diode follows (T /
+// Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
 enum BaseParameter {
-  kBasePhotocurrent = 0,  // at g = 1 and Tref
-  kBasePivot = 1,  // ln of the first diode's current at the pivot voltage: unlike ln Is it is
-                   // almost uncorrelated with n
+  kBasePhotocurrent = 0,  // at g = 1 and Tref, in current scales
+  kBasePivot = 1,  // ln of the first diode's current at the pivot voltage, in current scales; in
+                   // contrast to ln Is, almost uncorrelated with n
   kBaseIdeality = 2,
   kBaseResistance = 3,
   kBaseConductance = 4,
-  kBaseSecond = 5,  // dd: the second diode's current at the pivot voltage
-  // Then those of alpha (1/K, relative) and EgRef (eV) that are free: see Law.
+  kBaseSecond = 5,  // dd: current of the second diode at the pivot voltage
+  // Free alpha (1/K, relative) and free EgRef (eV) follow: see Law.
 };
 
-// What a law may have: derivatives are carried for so many.
+// Maximum number of parameters of a law: the derivative types hold as many.
 constexpr int kMostParameters = 20;
 
-// The terminal law of a measurement: a base of diodes and the effects beside them.
+// The terminal law of a measurement.
 struct Law {
   Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
-  // The base with its parameters as device.h orders them, in its units, at the reference and at
-  // irradiance 1 instead; every model. A free alpha is in A/K.
+  // The base has the parameters of device.h, in their order and units, at the reference temperature
+  // and irradiance 1, instead of BaseParameter. All models are supported. A free alpha is in A/K.
   bool natural = false;
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;          // in the order of their parameters
-  std::shared_ptr<const StringLayout> layout;  // of cells that are not alike; none: all are
+  std::shared_ptr<const StringLayout> layout;  // groups of unlike cells; null: all cells alike
   double bandgap_slope_per_K = 0;              // dEgdT
   ShuntLaw shunt = ShuntLaw::kConstant;        // or kInverse
   bool free_tempco = false;                    // alpha is a parameter
   bool free_bandgap = false;                   // EgRef is a parameter
-  // Parameters of effects that are descended in although fits keep them where they are.
+  // Parameters of effects, by position, that are fitted although they are fixed by default.
   std::vector<std::pair<const Effect*, int>> freed;
 
-  // Where alpha stands among the parameters, where it is free.
+  // Position of alpha among the parameters, if free.
   int TempcoAt() const {
     const int diodes = static_cast<int>(model);
     return natural ? 3 + 2 * diodes : 4 + diodes;
   }
-  int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // where free
-  // Parameters of the base: those of the effects follow.
+  int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // EgRef, if free
+  // Number of parameters of the base.
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
-  // All of them.
+  // Number of all parameters.
   int size() const;
-  int Offset(int effect) const;  // of its first parameter
-  // Bounds of all parameters.
+  int Offset(int effect) const;  // position of its first parameter
+  // Bounds of any parameter.
   double Lower(int parameter) const;
   double Upper(int parameter) const;
-  bool Searched(int parameter) const;  // not to be descended in, unless asked for
+  bool Searched(int parameter) const;  // not fitted by descent by default
 };
 
-// Who would rather have no current than look for it in brackets, some ten thousand times as long.
+// Whether an evaluation may stop without a current, instead of the bracketed search (some ten
+// thousand times as long).
 enum class GiveUp {
   kNever,
-  kAbsurd,  // where cells drive more than a million scales through their own bypass diode
-  kSlow,    // wherever steps lead to no end
+  kAbsurd,  // if cells drive over a million scales through their own bypass diode
+  kSlow,    // if Newton's steps do not converge
 };
 
-// The readings laid out for the law, and where the last evaluation of it ended: from there the next
-// starts. For one law and one set of readings, which must not change in between.
+// Readings in blocks, and the solution of the last evaluation as the start of the next one. Serves
+// one law and one set of readings, which must not change in between.
 class LawWorkspace {
  public:
   // Empty: the first evaluation fills it.
   explicit LawWorkspace(GiveUp give_up = GiveUp::kAbsurd);
-  // On blocks that stand already (reading_blocks.h) and outlive this; every evaluation starts
-  // afresh, and none is given up.
+  // Uses existing blocks (reading_blocks.h) that must outlive this object. Every evaluation starts
+  // from a guess, and none stops early.
   explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
   ~LawWorkspace();
 
   struct State;
-  // What evaluations keep for these readings; made at the first call.
+  // The state for these readings, created at the first call.
   State* Of(const Readings& readings);
 
  private:
@@ -97,16 +98,17 @@ class LawWorkspace {
   GiveUp give_up_ = GiveUp::kNever;
 };
 
-// Recorded current of every reading. `jacobian`, where given, receives its derivatives by all
-// parameters, row by row; those that are `held` (1) get 0 instead, which takes less time. False
-// where it cannot be had (a step left the physical range).
+// Recorded current of every reading, in current scales. `jacobian`, if not null, receives the
+// derivatives by all parameters, row-major, readings x parameters. Columns of parameters with
+// `held` 1 are 0, which saves time. Returns false if there is no result (a step left the physical
+// range).
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
                  double* current, double* jacobian, const std::vector<char>* held = nullptr);
 
-// Saturation current (in scales) and thermal voltage at the reference, as in the base law.
+// Saturation current (current scales) of the first diode at the reference, base law.
 double SaturationCurrent(const Law& law, const Readings& readings, const double* p);
 
-// exp(-pivot / 2 Vt): saturation current of a diode with n = 2 that carries 1 at the pivot.
+// Saturation current exp(-pivot / 2 Vt) of a diode with n = 2 that carries 1 at the pivot voltage.
 double Saturation2Unit(const Readings& readings);
 
 }  // namespace lyrefit

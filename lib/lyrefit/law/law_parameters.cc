@@ -11,7 +11,7 @@ struct Bound {
   double lower;
   double upper;
 };
-// The photocurrent is that of a sun: down to 0.1 W/m2 a curve's own is no more than the bound.
+// The photocurrent refers to 1000 W/m2: its bound admits curves down to 0.1 W/m2.
 constexpr Bound kBaseBounds[] = {{0, 1.2e4}, {-60, 40}, {0.2, 8}, {0, 3}, {0, 50}, {0, 20}};
 constexpr Bound kTempcoBound = {-0.01, 0.01}, kBandgapBound = {0.3, 2.5};
 

@@ -17,7 +17,7 @@
 namespace lyrefit {
 
 int SubstringsOf(const DataTraits& traits) {
-  constexpr int kUsual = 24, kMost = 3;  // cells of a group, groups of a module
+  constexpr int kUsual = 24, kMost = 3;  // cells per bypass group, groups per module
   if (traits.substrings > 0) return traits.substrings;
   if (traits.bypass_known) return 1;
   return std::min(std::max((traits.cells + kUsual - 1) / kUsual, 1), kMost);
@@ -38,9 +38,9 @@ bool Varies(const std::vector<double>& values, double part) {
   return *high - *low > part * std::max(std::fabs(*high), std::fabs(*low));
 }
 
-// Whether a curve is dark, by its readings; says so where its metadata disagree.
+// Decides from its readings whether a curve is dark. Warns if the metadata disagree.
 bool DecideDark(const IvCurve& curve, std::vector<std::string>* warnings) {
-  constexpr double kOffset_W_m2 = 20;  // a sensor may show as much in the dark
+  constexpr double kOffset_W_m2 = 20;  // possible offset of an irradiance sensor in the dark
   const bool dark = IsDark(curve);
   if (!dark && IsStatedDark(curve)) {
     warnings->push_back(curve.name +
@@ -55,7 +55,7 @@ bool DecideDark(const IvCurve& curve, std::vector<std::string>* warnings) {
 }
 
 struct CurveLayout {
-  std::vector<double> clock;  // time or count
+  std::vector<double> clock;  // time in s, or reading number
   bool times = false;
   std::vector<int> turns;
 };
@@ -83,7 +83,7 @@ CurveLayout LayOut(const IvCurve& curve, std::vector<std::string>* warnings) {
   return layout;
 }
 
-// dV/dt of a cell, central inside a monotone stretch.
+// dV/dt per cell, a central difference within a monotone stretch of voltage.
 double Rate(const IvCurve& curve, const CurveLayout& layout, int cells, int k, int first,
             int last) {
   const int before = std::max(k - 1, first), after = std::min(k + 1, last);
@@ -129,7 +129,7 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
   if (layout.times) readings->scale.span_s = std::max(readings->scale.span_s, span);
 }
 
-// Also of values that lie so close together that no gap parts them.
+// Number of levels `apart` from each other; also defined for values without gaps.
 int Levels(std::vector<double> values, double apart) {
   std::sort(values.begin(), values.end());
   int levels = 0;
@@ -142,7 +142,8 @@ int Levels(std::vector<double> values, double apart) {
   return levels;
 }
 
-// Voltage at which a lit curve's current changes sign, per cell; 0 where it does not, or is dark.
+// Open-circuit voltage of a lit curve, per cell, by linear interpolation; 0 if there is no zero
+// crossing or the curve is dark.
 double OpenCircuit(const std::vector<Reading>& points, int curve) {
   std::vector<std::pair<double, double>> sorted;
   for (const Reading& r : points) {
@@ -215,8 +216,8 @@ void FindTraits(const CurveSet& set, Readings* readings) {
   SetRangeCurrents(readings);
 }
 
-// The number of cells to reckon with. No junction gives more than some 1.6 V: where the stated
-// number would need it, or nobody stated one, the open-circuit voltage says how many there are.
+// Number of cells used in the computation. A junction gives at most some 1.6 V. If the stated or
+// assumed number contradicts this, the number follows from the open-circuit voltage.
 int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>* warnings) {
   constexpr double kMost_V = 1.6;
   const IvCurve& first = set.curves.front();
@@ -225,7 +226,7 @@ int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>
   double voc = 0;
   for (const IvCurve& curve : set.curves) {
     const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
-    // A sweep that ends before open circuit says that this is more.
+    // For a sweep that ends before open circuit the largest voltage is a lower bound of Voc.
     voc = std::max(voc, points.open_circuit_voltage_V > 0
                             ? points.open_circuit_voltage_V
                             : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end()));
@@ -239,7 +240,7 @@ int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>
   return cells;
 }
 
-// What is stated of the device; else what a joint fit holds, if the temperature hardly varies.
+// Stated properties of the device, else the defaults of a joint fit.
 void TakeNotes(const CurveSet& set, Readings* readings) {
   readings->bandgap_eV = kHeldBandgap_eV;
   readings->isc_tempco_per_K = kHeldTempco_per_K;
@@ -265,7 +266,7 @@ void TakeNotes(const CurveSet& set, Readings* readings) {
   }
 }
 
-// No device or meter goes as far: such numbers are codes, and squares of them are no numbers.
+// Larger values than any device or meter gives are error codes, and their squares may overflow.
 Expected<void> CheckSizes(const IvCurve& curve) {
   constexpr double kLargest = 1e6;
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -297,7 +298,7 @@ void SetRangeCurrents(Readings* readings) {
   const std::vector<Reading>& points = readings->points;
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k].segment != points[k - 1].segment || points[k].dark) continue;
-    for (const double part : {0.25, 0.5, 0.75}) {  // the jump moves one of the two
+    for (const double part : {0.25, 0.5, 0.75}) {  // a jump moves one of the two
       places.push_back(points[k].current + part * (points[k - 1].current - points[k].current));
     }
   }

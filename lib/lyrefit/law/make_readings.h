@@ -9,16 +9,17 @@
 
 namespace lyrefit {
 
-// The curves of one device laid out reading by reading; `warnings` receives, in plain sentences,
-// what of their metadata the data contradict. Errors: no usable curve, two devices (cell counts
-// differ), numbers no device gives.
+// The curves of one device as Readings. `warnings` receives a sentence for each statement in the
+// metadata that the data contradict. Errors: no usable curve, different cell counts (two devices),
+// values beyond any device.
 Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* warnings);
 
-// The times at which an irradiance step may lie, of one curve: between two of its readings.
+// Sets traits.step_times: the times, of one curve, at which an irradiance step may lie, between two
+// readings.
 void SetStepTimes(Readings* readings);
 
-// The currents at which a range may end: between two readings of a sweep, a percent of the scale
-// apart, none near the plateau or near zero.
+// Sets traits.range_currents: the currents at which a measuring range may end, between two readings
+// of a sweep. They are at least 1 % of the scale apart, none near the plateau or zero.
 void SetRangeCurrents(Readings* readings);
 
 }  // namespace lyrefit

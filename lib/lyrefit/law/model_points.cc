@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// Root of a falling function between a (where it is not negative) and b (where it is not positive),
+// Root of a falling function between a (value not negative) and b (value not positive), by
 // doi:10.1145/210089.210111.
 template <class F>
 double RootBetween(const F& f, double a, double b) {
@@ -28,7 +28,8 @@ double RootBetween(const F& f, double a, double b) {
   return 0.5 * (low + high);
 }
 
-// Of a fine sweep from short circuit to a little beyond open circuit.
+// Key points of a device with effects, from a fine sweep from short circuit to 5 % beyond the
+// base's Voc.
 KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
   constexpr int kPoints = 2000;
   Device base = device;
@@ -44,7 +45,7 @@ KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
 
 double ModelOpenCircuit(const Device& device, const double* p) {
   if (device.extension != nullptr) return ExtendedKeyPoints(device, p).open_circuit_voltage_V;
-  // No current flows through Rs: the junction sees V itself.
+  // At open circuit no current flows through Rs: the junction voltage is V.
   const auto junction = [&](double v) { return JunctionCurrent(device, p, v); };
   if (!(p[kIph] > 0)) return kUnknown;
   double above = device.module_thermal_voltage_V;
@@ -56,18 +57,18 @@ KeyPoints ModelKeyPoints(const Device& device, const double* p) {
   if (device.extension != nullptr) return ExtendedKeyPoints(device, p);
   KeyPoints points{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;
-  // In the dark the root at V = 0 is zero but for rounding.
+  // In the dark the current at V = 0 is zero except for rounding.
   if (!(points.short_circuit_current_A > 1e-15 * p[kIph])) return points;
   const double voc = ModelOpenCircuit(device, p);
   if (std::isnan(voc)) return points;
-  // Over the junction's voltage Vj everything is explicit: I = F(Vj), V = Vj - I Rs. The power falls
-  // where dP/dVj = I + (Vj - 2 I Rs) F'(Vj) does not, which has the sign of dP/dV.
+  // As functions of the junction voltage Vj, I = F(Vj) and V = Vj - I Rs are explicit. At the
+  // maximum power point dP/dVj = I + (Vj - 2 I Rs) F'(Vj) is 0; it has the sign of dP/dV.
   const double rs = p[device.resistance_series];
   const auto power_slope = [&](double v) {
     const Dual<1> current = JunctionCurrent(device, p, Dual<1>(v, 0));
     return current.a + (v - 2 * current.a * rs) * current.v[0];
   };
-  // Short circuit.
+  // Junction voltage at short circuit.
   const double lowest = points.short_circuit_current_A * rs;
   const double junction_V = RootBetween(power_slope, lowest, voc);
   points.open_circuit_voltage_V = voc;

@@ -5,12 +5,12 @@
 
 namespace lyrefit {
 
-// Isc, Voc and the maximum power point of a device's own curve, to about 1e-12 relative (of one
-// with effects read off a fine sweep, to some 1e-6). NaN for Voc and what follows from it where the
-// device gives no power (a dark curve).
+// Isc, Voc and the maximum power point of a device's model curve, with a relative error of about
+// 1e-12. With effects they are read from a fine sweep, with an error of about 1e-6. Voc and all
+// that depends on it is NaN if the device gives no power (a dark curve).
 KeyPoints ModelKeyPoints(const Device& device, const double* p);
 
-// Voc alone, which is cheaper.
+// Voc alone, in V, at lower cost.
 double ModelOpenCircuit(const Device& device, const double* p);
 
 }  // namespace lyrefit

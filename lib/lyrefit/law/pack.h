@@ -7,13 +7,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Eight numbers of a curve, laid out for loops that take as many at a time.
+// Eight numbers of a curve, aligned for loops over eight numbers.
 struct alignas(64) Block {
   static constexpr int kLanes = 8;  // numbers in a block
   double lane[kLanes];              // the numbers
 };
 
-// The pack of every processor; kernels have packs of their own for newer ones.
+// The pack for any processor. Kernels define wider packs for newer processors.
 namespace every_processor {
 
 #define LYREFIT_PACK_WIDTH 2
@@ -27,7 +27,7 @@ inline Pack sqrt(const Pack& a) {
 }
 inline const Pack& ValueOf(const Pack& a) { return a; }
 inline bool Any(const Mask& mask) { return !All(!mask); }
-// Infinity and NaN times 0 are NaN, which is never above anything.
+// Infinity and NaN times 0 are NaN, and every comparison with NaN is false.
 inline bool AllFinite(const Pack& a) { return All(-1.0 < a * 0.0); }
 
 }  // namespace every_processor

@@ -11,38 +11,39 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How a search lays its steps over a parameter's range.
+// Scale on which a search spaces its steps over a parameter's range.
 enum class SearchScale {
   kLinear,
   kLog,  // equal steps in the logarithm: saturation currents and shunt resistances span decades
 };
 
-// What a parameter does in a law decides on which scale it is fitted, profiled and quoted.
+// Role of a parameter in a law. It selects the scale on which the parameter is fitted, profiled and
+// reported.
 enum class ParameterKind {
   kPlain,         // linear
-  kPhotocurrent,  // linear, in parts of the largest current
-  kSaturation,    // logarithm; goes with the ideality of its diode
+  kPhotocurrent,  // linear, in units of the largest current
+  kSaturation,    // logarithm; refers to the ideality of its diode
   kIdeality,      // of a diode
   kSeries,        // linear
   kShunt,         // conductance
-  kDarkShunt,     // conductance, between that of the shunt it goes with and exp(-exponent) of it
+  kDarkShunt,     // conductance, between 1 and exp(-exponent) times that of its shunt
 };
 
-// What a parameter is, independent of any curve. `symbol` is the papers' (tables, plots, flags),
-// `name` is pvlib's (code, JSON).
+// Description of a parameter, independent of any curve. `symbol` is from the papers (tables, plots,
+// flags), `name` from pvlib (code, JSON).
 struct ParameterInfo {
   std::string symbol;  // "Rs"
   std::string name;    // "resistance_series"
   std::string unit;    // "ohm"; empty for pure numbers
-  std::string doc;     // what it is, one line
+  std::string doc;     // meaning, one line
   ParameterKind kind = ParameterKind::kPlain;
-  double step = 1;  // natural size, of kPlain in its unit, of kPhotocurrent in largest currents
-  // Positions in the same list of what it goes with: the ideality of a saturation current; the
-  // shunt and the exponent of a dark shunt.
+  double step = 1;  // natural size: kPlain in its unit, kPhotocurrent in largest currents
+  // Positions in the same list of the parameters it refers to: the ideality of a saturation
+  // current; the shunt and the exponent of a dark shunt.
   std::array<int, 2> with = {-1, -1};
 };
 
-// The position of a symbol or a name in such a list.
+// Position of a symbol or a name in a parameter list.
 inline std::optional<int> FindParameter(const std::vector<ParameterInfo>& parameters,
                                         const std::string& symbol_or_name) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -52,14 +53,15 @@ inline std::optional<int> FindParameter(const std::vector<ParameterInfo>& parame
   return std::nullopt;
 }
 
-// What it stands under in records: its name or, of an effect's, "shading.d", EFFECT.SYMBOL.
+// Key of the parameter in records: its name, or "shading.d" (EFFECT.SYMBOL) for an effect's
+// parameter.
 inline const std::string& ParameterKey(const ParameterInfo& info) {
   return info.symbol.find('.') == std::string::npos ? info.name : info.symbol;
 }
 
-// The scale on which the sum of squares around an optimum is closest to a parabola, which intervals
-// and profiles are laid out on: the logarithm of a saturation current, the conductance of a shunt,
-// the rest as they are.
+// Intervals and profiles use the scale on which the sum of squares around an optimum is closest to
+// a parabola: the logarithm of a saturation current, the conductance of a shunt, otherwise the
+// value.
 inline bool IsConductance(ParameterKind kind) {
   return kind == ParameterKind::kShunt || kind == ParameterKind::kDarkShunt;
 }
@@ -71,14 +73,14 @@ inline double FromScale(ParameterKind kind, double scaled) {
   if (kind == ParameterKind::kSaturation) return std::exp(scaled);
   return IsConductance(kind) ? 1 / scaled : scaled;
 }
-// The length on that scale of a short `step` from `value`.
+// Length on that scale of a short `step` at `value`.
 inline double StepOnScale(ParameterKind kind, double value, double step) {
   if (kind == ParameterKind::kSaturation) return step / value;
   return IsConductance(kind) ? step / (value * value) : step;
 }
 
-// What lies within `reach` (in the parameter's unit, at `value`) on either side on that scale. A
-// shunt that may be perfect has no upper end.
+// The interval of half-width `reach` (in the parameter's unit, at `value`) on that scale. The upper
+// end of a shunt resistance is infinite if its conductance may be 0.
 struct ParameterRange {
   double low;
   double high;
@@ -91,19 +93,19 @@ inline ParameterRange RangeAround(ParameterKind kind, double value, double reach
   return {1 / (middle + part), middle > part ? 1 / (middle - part) : infinity};
 }
 
-// Where a parameter may lie. The refinement respects [lower, upper]; the search draws from
-// [search_lower, search_upper] inside it, which is narrower where a bound is only a limit (a diode
-// may vanish, a shunt may be perfect) and no place to look for anything.
+// Bounds of a parameter. The refinement respects [lower, upper]. The search draws from
+// [search_lower, search_upper] inside it. That range is narrower where a bound is only a limit
+// (diode current 0, infinite shunt resistance) and no plausible value.
 struct ParameterBounds {
   double lower = 0;
   double upper = kUnknown;
   double search_lower = 0;         // in the parameter's unit
-  double search_upper = kUnknown;  // NaN: not known yet
+  double search_upper = kUnknown;  // NaN: not yet known
   SearchScale scale = SearchScale::kLinear;
-  double whole = 0;  // the values it may have lie so far apart, from `lower` on; 0: all between
+  double whole = 0;  // step of the allowed values, counted from `lower`; 0: continuous
 };
 
-// The value nearest to `value` that it may have.
+// The allowed value nearest to `value`.
 inline double WithinBounds(const ParameterBounds& bounds, double value) {
   const double inside = std::fmin(std::fmax(value, bounds.lower), bounds.upper);
   if (bounds.whole == 0) return inside;

@@ -9,9 +9,10 @@ namespace lyrefit {
 namespace {
 
 constexpr double kStep = 1e-4;
-constexpr double kLeastPart = 1e-3;  // of a parameter's range, that counts as its size
+constexpr double kLeastPart = 1e-3;  // of a parameter's range: the smallest size used for its step
 
-// Five places, in steps from where the derivative is wanted, and the weight of each.
+// Five-point difference formula: places in steps from the point of the derivative, and their
+// weights.
 struct Stencil {
   double place[5];
   double weight[5];
@@ -20,7 +21,8 @@ constexpr Stencil kCentral = {{-2, -1, 0, 1, 2}, {1 / 12.0, -2 / 3.0, 0, 2 / 3.0
 constexpr Stencil kForward = {{0, 1, 2, 3, 4}, {-25 / 12.0, 4, -3, 4 / 3.0, -1 / 4.0}};
 constexpr Stencil kBackward = {{0, -1, -2, -3, -4}, {25 / 12.0, -4, 3, -4 / 3.0, 1 / 4.0}};
 
-// The readings of `input` at all places of the stencil along one of its arrays, in one call.
+// Evaluates a stage at all five places along one of its input arrays, in one call of 5 x count
+// readings.
 class Widened {
  public:
   explicit Widened(const StageInput& input) : input_(input) {}
@@ -52,7 +54,7 @@ class Widened {
   }
 
  private:
-  // Volts and current scales are of the size of 1; a thermal voltage is not.
+  // The smallest size used for a step: 1 V or current scale; thermal voltages are never near 0.
   static double Least(const double* StageInput::*along) {
     return along == &StageInput::thermal_voltage ? 0 : 1;
   }

@@ -8,41 +8,41 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A stage of an effect as a plain function of numbers: for laws that are known only when the
-// program runs, of a table or written in another language. Slower than the templates of effect.h,
-// but the same in all else: what stands there of units and of what a stage has to be holds here.
+// A stage of an effect as a plain function of numbers, for laws known only at run time: a table, or
+// code in another language. It is slower than the templates of effect.h. Units and requirements of
+// stages are those of effect.h.
 
-// Where it is asked: `count` readings, a number of each in every array.
+// Inputs of a stage: `count` readings, one number each per array.
 struct StageInput {
   int count = 0;                            // of readings
   const double* x = nullptr;                // junction: its voltage, V; series: delivered current
-  const double* photocurrent = nullptr;     // of the cell, under the light of its own
+  const double* photocurrent = nullptr;     // of the cell's own group, current scales
   const double* thermal_voltage = nullptr;  // k T / q, V
   const double* p = nullptr;                // the effect's parameters, the same for all readings
-  int parameters = 0;                       // how many p has
+  int parameters = 0;                       // number of the effect's parameters
   double reach = 1;                         // largest |voltage| of all readings, V of a cell
   double cells = 1;                         // in series
 };
 
-// What a stage adds, and its derivatives: arrays of `count` numbers to be filled. The derivatives
-// that are nullptr are not asked for; all of them are, or `by_x` alone, or none.
+// Results of a stage: arrays of `count` numbers to be filled. A derivative that is nullptr is not
+// requested. Requested are all of them, `by_x` alone, or none.
 struct StageOutput {
   double* value = nullptr;               // in the unit of the stage
   double* by_x = nullptr;                // the derivative by x
   double* by_photocurrent = nullptr;     // by the photocurrent
   double* by_thermal_voltage = nullptr;  // by the thermal voltage
-  double* by_p = nullptr;                // parameter after parameter, `count` numbers of each
+  double* by_p = nullptr;                // by each parameter in turn, `count` numbers each
 };
 
-// Must give the same for the same input. It may be called from several threads at once, but not by
-// a computation whose options say one thread. NaN where the law has no value ends the evaluation.
+// A stage must be deterministic. It may be called from several threads at once, except in
+// computations whose options set one thread. A NaN value ends the evaluation of the law.
 using PlainStage = std::function<void(const StageInput& input, const StageOutput& output)>;
 
-// A stage without derivatives: these are differences of five values at steps of 1e-4 (of a volt or
-// a current scale; of the value or a thousandth of its range for a parameter), in error by some
-// 1e-12 of the value where the function is smooth over ten such steps. At the end of a parameter's
-// range, [low, high] for each, they lie inside of it. `under_sky`: whether the stage looks at
-// photocurrent or thermal voltage; else it is not asked for derivatives by them, which are 0.
+// A stage from values alone, differentiated by five-point differences. The steps are 1e-4 of a volt
+// or a current scale, or of a parameter's value (at least of a thousandth of its range). The error
+// is some 1e-12 of the value if the function is smooth over ten steps. Steps stay inside `ranges`,
+// [low, high] of each parameter. `under_sky`: the stage depends on photocurrent or thermal voltage.
+// If false, the derivatives by them are 0 and not evaluated.
 using PlainValue = std::function<void(const StageInput& input, double* value)>;
 PlainStage WithDifferences(PlainValue stage, std::vector<std::pair<double, double>> ranges,
                            bool under_sky);

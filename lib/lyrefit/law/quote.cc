@@ -15,8 +15,8 @@ double InnerValue(const Effect& effect, int k, double value, std::vector<double>
     return x * info.ReportedFactor(p.data(), scale);
   };
   if (info.convert == nullptr) return value / info.ReportedFactor(p.data(), scale);
-  // A factor that does not know the parameter itself leads straight back; else by halving, since
-  // what is reported rises or falls all the way.
+  // If the factor does not depend on the parameter itself, one division gives the value. Otherwise
+  // bisection does, since the reported value is monotone.
   const double middle = 0.5 * (info.lower + info.upper);
   const double straight = value / (reported(middle) / middle);
   if (std::fabs(reported(straight) - value) <= 1e-12 * std::fabs(value)) return straight;
@@ -30,7 +30,7 @@ double InnerValue(const Effect& effect, int k, double value, std::vector<double>
   return 0.5 * (low + high);
 }
 
-// Parameters that factors of others depend on come after the first, so they are settled first.
+// The factor of a parameter may depend on parameters after it, so the last one is converted first.
 std::vector<double> InnerValues(const Effect& effect, const std::vector<double>& reported,
                                 const ReadingScale& scale) {
   std::vector<double> p;

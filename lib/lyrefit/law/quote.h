@@ -7,8 +7,8 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/parameter.h"
 
-// An effect's parameters in the units of reports. What one is multiplied by on the way there may
-// depend on the effect's other ones: the strength k of k |V|^m on m.
+// Conversion of an effect's parameters between internal and reporting units. The factor of one
+// parameter may depend on others: that of the strength k of k |V|^m depends on m.
 namespace lyrefit {
 
 std::vector<double> ReportedValues(const Effect& effect, const double* p,
@@ -16,22 +16,23 @@ std::vector<double> ReportedValues(const Effect& effect, const double* p,
 std::vector<double> InnerValues(const Effect& effect, const std::vector<double>& reported,
                                 const ReadingScale& scale);
 
-// The effect's own number of parameter k that is reported as `value`, the others at `p`.
+// Internal value of parameter k whose reported value is `value`, with the others at `p` (internal).
 double InnerValue(const Effect& effect, int k, double value, std::vector<double> p,
                   const ReadingScale& scale);
 
-// Of what is reported at the corners of a box, the extremes of each parameter.
+// Minimum and maximum of each reported parameter over the corners of the box [lower, upper].
 std::vector<ParameterRange> ReportedRanges(const Effect& effect, const ReadingScale& scale,
                                            const double* lower, const double* upper);
 
-// Derivatives of the effect's own numbers by what is reported, at its own numbers `p`.
+// Jacobian of the internal by the reported values, at internal values `p`; size x size.
 Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, const double* p);
 
-// A device's whole parameter vector with those of the effects in the units of reports, and back.
+// The parameter vector of a device with the effects' parameters converted to reporting units, and
+// back.
 std::vector<double> Reported(const Device& device, std::vector<double> p);
 std::vector<double> Inner(const Device& device, std::vector<double> reported);
 
-// What parameter i is multiplied by on its way to a report, the others at `p`.
+// Factor from the internal to the reported value of parameter i, with the others at `p`.
 double FactorOf(const Device& device, const std::vector<double>& p, int i);
 
 }  // namespace lyrefit

@@ -18,7 +18,8 @@ Pack Gather(const Readings& readings, const ReadingBlock& block, F value) {
   return every_processor::Load(lanes);
 }
 
-// How many readings from `first` on have its sky, counted up to a full block.
+// Number of readings from `first` on with the same irradiance and temperature, at most a full
+// block.
 int RunFrom(const Readings& readings, int first) {
   const std::vector<Reading>& points = readings.points;
   const int end = std::min(first + Block::kLanes, static_cast<int>(points.size()));

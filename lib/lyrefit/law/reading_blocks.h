@@ -7,7 +7,8 @@
 
 namespace lyrefit {
 
-// Readings in blocks: those under one sky in blocks of their own, where they fill half of one.
+// Readings in blocks of eight. Readings at the same irradiance and temperature form their own block
+// if they fill at least half of one.
 std::vector<ReadingBlock> BlocksOf(const Readings& readings);
 
 }  // namespace lyrefit

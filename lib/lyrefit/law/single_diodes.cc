@@ -15,11 +15,11 @@ using every_processor::Load;
 constexpr int kLanes = Block::kLanes;
 constexpr int kMaxIterations = 120;
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-// exp() of the packs must not go above this.
+// exp() of packs is limited to this argument.
 constexpr double kLargestArgument = 700;
 
-// Eight devices. What lies outside its range is replaced by a plain device, so that its neighbours
-// converge as if it were not there, and forgotten at the end.
+// Eight devices. A device outside its range is replaced by a plain one, so that the other lanes
+// converge undisturbed. Its result becomes NaN at the end.
 struct Lanes {
   Pack iph, is, rs, gsh, a, per_volt, loss, pole;
   bool recombines = false;
@@ -38,7 +38,7 @@ bool InRange(const SingleDiodes& d, std::size_t i, double given) {
   return std::isfinite(d.recombination[i]) && d.recombination[i] > 0 && d.built_in_voltage[i] > 0;
 }
 
-// Devices [first, first + kLanes), the last one repeated where there are no more.
+// Loads devices [first, first + kLanes). The last device fills lanes beyond the end.
 Lanes LoadLanes(const SingleDiodes& d, std::size_t first, const DeviceColumn* given, Pack* at) {
   Block iph, is, rs, gsh, a, loss, pole, where;
   Lanes lanes;
@@ -94,7 +94,7 @@ Slopes JunctionCurrent(const Lanes& d, const Pack& vd) {
   return f;
 }
 
-// Where the diode alone would carry `current`, rounded up; 0 where there is none to carry.
+// Upper bound of the voltage at which the diode alone carries `current`; 0 if that is not positive.
 Pack DiodeVoltage(const Lanes& d, const Pack& current, const Pack& saturation) {
   const Pack ratio =
       Smaller(Larger(current, Pack(0.0)) / Larger(saturation, Pack(1e-300)), Pack(1e300));
@@ -104,9 +104,9 @@ Pack RecombinationVoltage(const Lanes& d, const Pack& current) {
   return d.pole - d.loss / Larger(current, Pack(1e-300));
 }
 
-// Falls from the right on the root of `excess`, a concave function that falls (so a step from
-// anywhere lands at or right of the root, and from there on no step passes it), `noise` being how far rounding moves it. Who has arrived
-// stays: no bit of a device depends on its neighbours.
+// Root of `excess`, a falling concave function, by Newton's method from the right. A step from
+// anywhere lands at or right of the root, and no later step passes it. `noise`: effect of rounding
+// on the root. Converged lanes stay fixed, so no bit of a device depends on its neighbours.
 template <class Excess>
 Pack FallOnRoot(const Lanes& d, Pack x, const Pack& noise, const Excess& excess) {
   const Pack start = x;
@@ -114,7 +114,7 @@ Pack FallOnRoot(const Lanes& d, Pack x, const Pack& noise, const Excess& excess)
   for (int iteration = 0; iteration < kMaxIterations && !All(arrived); ++iteration) {
     const Slopes f = excess(x);
     const Pack next = Choose(arrived, x, Smaller(x - f.value / f.first, start));
-    // Convergence is quadratic: the error left is the square of the step over 2 nNsVth.
+    // Convergence is quadratic: the remaining error is the square of the step over 2 nNsVth.
     const Pack enough = Smaller(d.a, Magnitude(next)) * 1e-8 + noise;
     arrived = arrived | !(enough < Magnitude(next - x));
     x = next;
@@ -126,7 +126,7 @@ Pack FallOnRoot(const Lanes& d, Pack x, const Pack& noise, const Excess& excess)
 Pack JunctionAt(const Lanes& d, const Pack& current) {
   const Pack left = d.iph - current;
   Pack start = DiodeVoltage(d, left, d.is);
-  // Below the photocurrent the shunt alone carries at most `left`; above, all but Is.
+  // The current through the shunt is at most `left`, or `left` + Is above the photocurrent.
   const Pack through = Choose(left < Pack(0.0), left + d.is, left);
   start = Choose(Pack(0.0) < left, start, Pack(0.0));
   start = Smaller(start, Choose(Pack(0.0) < d.gsh, through / Larger(d.gsh, Pack(1e-300)), start));
@@ -139,7 +139,7 @@ Pack JunctionAt(const Lanes& d, const Pack& current) {
 }
 
 Pack CurrentAt(const Lanes& d, const Pack& voltage) {
-  // Above 0 the junction gives at most Iph, below at most Iph + Is.
+  // The junction gives at most Iph at positive voltages and at most Iph + Is at negative ones.
   const Pack lit = voltage + d.rs * d.iph;
   const Pack divider = 1.0 / (1.0 + d.rs * d.gsh);
   Pack start =
@@ -156,7 +156,7 @@ Pack CurrentAt(const Lanes& d, const Pack& voltage) {
     f.first = d.rs * f.first - 1.0;
     return f;
   });
-  // Read off the flatter of the two curves that cross there.
+  // Current from the flatter of the two curves that cross at the root.
   const Slopes f = JunctionCurrent(d, vd);
   const Pack steep = f.first * d.rs;
   const Pack line = (vd - voltage) / Larger(d.rs, Pack(1e-300));
@@ -164,8 +164,9 @@ Pack CurrentAt(const Lanes& d, const Pack& voltage) {
   return Choose(steep < Pack(-1.0), line, f.value + f.first * beyond);
 }
 
-// Root of I + (Vd - 2 I Rs) F', which has the sign of dP/dV, between 0 and open circuit; P is
-// concave in V, so there is one. Newton's step where it stays inside, else halves.
+// Maximum power point: root of I + (Vd - 2 I Rs) F', which has the sign of dP/dV, between 0 and
+// open circuit. P is concave in V, so the root is unique. Newton's step is used inside the bracket,
+// else bisection.
 Pack PowerJunction(const Lanes& d, const Pack& open_circuit) {
   Pack low(0.0);
   Pack high = Larger(open_circuit, Pack(0.0));
@@ -204,7 +205,7 @@ void CurrentsAt(const SingleDiodes& devices, const DeviceColumn& voltage_V, doub
   OverLanes(devices, &voltage_V, [&](const Lanes& d, const Pack& voltage, std::size_t first) {
     StoreLanes(d, CurrentAt(d, voltage), first, devices.size, current_A);
     for (std::size_t i = first; i < std::min(first + kLanes, devices.size); ++i) {
-      // Without Rs nothing keeps the exponent small.
+      // Without Rs no limit keeps the exponent small.
       if (devices.resistance_series[i] > 0 || !(voltage_V[i] / devices.nNsVth[i] > 600)) continue;
       current_A[i] = devices.photocurrent[i] - voltage_V[i] / devices.resistance_shunt[i] -
                      devices.saturation_current[i] * std::expm1(voltage_V[i] / devices.nNsVth[i]);

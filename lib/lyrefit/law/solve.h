@@ -10,23 +10,23 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What packs have beside them, for plain numbers.
+// Functions of packs, for plain numbers.
 [[gnu::always_inline]] inline bool All(bool condition) { return condition; }
 [[gnu::always_inline]] inline double Magnitude(double x) { return std::fabs(x); }
 
-// Voltage-independent part of a device, prepared once per parameter vector. At most kMaxTerms
+// Voltage-independent part of a device, computed once per parameter vector. At most kMaxTerms
 // terms.
 struct PreparedDevice {
   static constexpr int kMaxTerms = 16;  // of one device
   PreparedTerm<double> terms[kMaxTerms];
-  int count = 0;                 // of `terms` that are there
+  int count = 0;                 // number of valid `terms`
   double rs = 0;                 // Rs, in ohm
   double largest_current = 0;    // Iph + sum of Is: F(Vd) <= this - Vd / Rsh
   double shunt_conductance = 0;  // 1 / Rsh, in siemens
-  double steepest = 1e-6;  // largest ratio of curvature and slope of a term, 1 / (n Ns Vt), in 1/V
+  double steepest = 1e-6;  // largest ratio of curvature and slope of a term, 1/V: 1 / (n Ns Vt)
 };
 
-// Fills `d` for the parameters `p`, of which Rs is the one at `rs`.
+// Fills `d` for parameters `p`; `rs` is the position of Rs in them.
 inline void PrepareDevice(const Term* terms, int count, int rs, double module_thermal_voltage_V,
                           const double* p, PreparedDevice* d) {
   d->count = count;
@@ -55,8 +55,9 @@ T PreparedCurrent(const PreparedDevice& d, const T& vd) {
   return current;
 }
 
-// Where the recombination alone drops `reach` over Rs: b - Rs a / reach, short of the pole at b.
-// Beyond the place where the term goes on along its tangent, the same on the tangent.
+// Junction voltage at which the recombination current alone drops `reach` over Rs: b - Rs a /
+// reach, below the pole at b. Near the pole the term is replaced by its tangent, and so is this
+// limit.
 inline double RecombinationVoltageLimit(const PreparedTerm<double>& term, double rs, double reach) {
   const double closest = term.b * kClosestToPole;
   const double gap = rs * term.a / reach;
@@ -65,9 +66,8 @@ inline double RecombinationVoltageLimit(const PreparedTerm<double>& term, double
   return (term.b - closest) + closest * (closest / gap - 1.0);
 }
 
-// No root lies above this for terminal voltages up to `voltage_V`: where a single diode alone, or
-// the recombination alone, would already carry more than the whole device can. Exponents stay small
-// below it.
+// Upper bound of the root for terminal voltages up to `voltage_V`. Above it a single diode alone,
+// or the recombination alone, carries more than the whole device can. It keeps exponents small.
 inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   const double reach =
       voltage_V + d.rs * d.largest_current;  // bound of Rs x diode current, Vd >= 0
@@ -87,14 +87,14 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   return limit;
 }
 
-// Roots of g(Vd) = Vd - V - Rs F(Vd) at `kCount` voltages, and the currents there. F falls and is
-// concave in Vd, so g rises and is convex: from any start one Newton step lands at or right of the
-// root, a limit keeps it from flying off, and from there Newton falls monotonically on the root.
-// Convergence is quadratic with constant 1 / (2 n Ns Vt); the last step is small enough for the
-// next to be below rounding. All roots step together until the last has arrived: a step is a long
-// chain of dependent operations, and the processor works on several chains at once. The current is
-// read off the flatter of the two curves that cross at the root: F itself, or (Vd - V) / Rs.
-// `junction` holds the starts on entry and the junction voltages on return.
+// Solves g(Vd) = Vd - V - Rs F(Vd) = 0 at `kCount` voltages and gives the currents there. F falls
+// and is concave in Vd, so g rises and is convex. From any start one Newton step lands at or right
+// of the root, and from there Newton's method falls monotonically on it. A limit keeps the first
+// step finite. Convergence is quadratic with constant 1 / (2 n Ns Vt). Iteration stops when the
+// error after the last step is below rounding. All roots step together until the last one
+// converges: a step is a long chain of dependent operations, and the processor overlaps several
+// chains. The current is read from the flatter of the two curves that cross at the root: F itself,
+// or (Vd - V) / Rs. `junction` holds the starts on entry and the junction voltages on return.
 template <int kCount, class T>
 void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage, T* junction,
                    T* current) {
@@ -110,7 +110,7 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage
     junction[k] = Smaller(junction[k], limit[k]);
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    T excess = T(-1.0);  // by how much any step is still too long
+    T excess = T(-1.0);  // excess of the longest step over rounding
     for (int k = 0; k < kCount; ++k) {
       const T x = junction[k];
       const Dual<1, T> f = PreparedCurrent(d, Dual<1, T>(x, 0));

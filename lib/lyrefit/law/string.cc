@@ -9,15 +9,15 @@ namespace {
 
 using every_processor::Any;
 
-// All that the equations are made of, at a state.
+// All terms of the equations at a state.
 struct Terms {
   KindPoint kind[kMostKinds];
-  Dual<1, Pack> bypass[kMostKinds];         // of each part, with its slope by the part's voltage
+  Dual<1, Pack> bypass[kMostKinds];         // of each substring, slope by its voltage
   Dual<1, Pack> drop[kMostKinds];           // of each string
-  Dual<1, Pack> chain_drop[kMostKinds][2];  // of a paired part's chains
+  Dual<1, Pack> chain_drop[kMostKinds][2];  // of both chains of a paired substring
 };
 
-// The kind whose current is that of a chain of a paired part.
+// The cell group whose current is that of a chain of a paired substring.
 int KindOfChain(const Cell<Pack>& cell, int part, int chain) {
   int g = 0;
   while (cell.kind[g].part != part || cell.kind[g].beside != (chain == 1)) ++g;
@@ -43,7 +43,7 @@ void TermsAt(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, con
   }
 }
 
-// A chain of a paired part carries present + (U - level) x inverse.
+// Linearised current of a chain of a paired substring: present + (U - level) x inverse.
 struct Chain {
   Pack present;
   Pack level;
@@ -51,24 +51,24 @@ struct Chain {
   Pack At(const Pack& voltage) const { return present + (voltage - level) * inverse; }
 };
 
-// The linear system at a state, solved. Cells that are all alike are one kind in one part.
+// Solution of the linear system at a state. Identical cells are one cell group in one substring.
 struct Linear {
-  Pack weight[kMostKinds];        // of each part
-  Pack mean_voltage[kMostKinds];  // of its cells
-  Pack stiffness[kMostKinds];     // its mean du/dF
+  Pack weight[kMostKinds];        // of each substring
+  Pack mean_voltage[kMostKinds];  // of the cells of each substring
+  Pack stiffness[kMostKinds];     // mean du/dF of each substring
   Pack divider[kMostKinds];
-  Pack level[kMostKinds];  // U = level + slope x (I - present I)
+  Pack level[kMostKinds];  // substring: U = level + slope x (I - present I)
   Pack slope[kMostKinds];
   Pack string_weight[kMostKinds];
   Pack string_slope[kMostKinds];
-  Pack current[kMostKinds];       // of each string, new
-  Pack part_current[kMostKinds];  // of each part's cells, new
+  Pack current[kMostKinds];       // of each string, after the step
+  Pack part_current[kMostKinds];  // of each substring's cells, after the step
   Pack part_voltage[kMostKinds];
   Chain chain[kMostKinds][2];
-  Pack beside_current[kMostKinds];  // of the second chain, new
+  Pack beside_current[kMostKinds];  // of the second chain, after the step
 };
 
-// Means over the kinds of each part, and the current that its cells carry at present.
+// Means over the cell groups of each substring, and the present current of its cells.
 void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& terms, Linear* linear,
               Pack* present, Pack* mismatch) {
   bool seen[kMostKinds] = {};
@@ -96,7 +96,7 @@ void SumKinds(const Cell<Pack>& cell, const StringState& state, const Terms& ter
   }
 }
 
-// Level and slope of a part of two chains, by the current of both.
+// Level and slope of a substring of two chains, as functions of their total current.
 void SolvePair(const Cell<Pack>& cell, int p, const StringState& state, const Terms& terms,
                const Pack& present, const Pack& mismatch, Linear* linear) {
   const int g = KindOfChain(cell, p, 1);
@@ -116,7 +116,7 @@ void SolvePair(const Cell<Pack>& cell, int p, const StringState& state, const Te
   linear->level[p] = rest * linear->slope[p];
 }
 
-// Currents of the strings, given every part's level and slope.
+// Changes of the string currents, given level and slope of every substring.
 void SolveStrings(const Cell<Pack>& cell, const Pack& voltage, Linear* linear, Pack* shift) {
   Pack level[kMostKinds];
   for (int s = 0; s < cell.strings; ++s) {
@@ -133,8 +133,8 @@ void SolveStrings(const Cell<Pack>& cell, const Pack& voltage, Linear* linear, P
   }
 }
 
-// Parts that the straight lines drive far below what their bypass diode lets them: it conducts, and
-// they stay where it carries the current scale. True if there are such.
+// Clamps substrings that the linear step drives far below the voltage at which their bypass diode
+// conducts: they stay where it carries one current scale. Returns whether there are any.
 bool ClampParts(const Cell<Pack>& cell, const StringLimits& limits, const StringState& state,
                 const Pack* shift, Linear* linear, Mask* clamped) {
   bool any = false;
@@ -153,7 +153,7 @@ bool ClampParts(const Cell<Pack>& cell, const StringLimits& limits, const String
   return any;
 }
 
-// The same for cells that are all alike.
+// SolveLinear for identical cells.
 void SolveAlike(const Pack& voltage, const StringState& state, const Terms& terms, Linear* linear) {
   const Dual<1, Pack>&current = terms.kind[0].current, &drop = terms.drop[0];
   linear->weight[0] = linear->divider[0] = linear->string_weight[0] = 1.0;
@@ -216,7 +216,7 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
   }
 }
 
-// Moves the state by `part` of a step; the lanes that have arrived.
+// Moves the state by `part` of a step. Returns the lanes that have converged.
 Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms,
           const Linear& linear, double part, StringState* state) {
   Mask done = Pack(0.0) < 1.0;
@@ -229,7 +229,7 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
     const Pack u = state->u[g], newton = missing / point.current.v[0];
     const Pack step = NextVoltage(cell, limits, u, newton, point.current, size) - u;
     state->u[g] = u + part * step;
-    // A bypass diode's current takes the rounding of its voltage along.
+    // The rounding error of the voltage is amplified in a bypass diode's current.
     const int p = PartOf(cell, g);
     Pack sum = size;
     if (cell.part[p].bypassed) sum = sum + abs(terms.bypass[p].v[0] * state->part_voltage[p]);
@@ -261,11 +261,11 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
   return done;
 }
 
-// The lanes in which a bypass diode would carry more than any device has. Where Rs drops more than
-// the cells hold, a part's cells drive such currents around through it, and no step leads to an
-// end.
+// The lanes in which a bypass diode would carry more current than any device has. Such currents
+// circulate between a substring's cells and its diode where Rs drops more than the cells give.
+// Newton's method does not converge there.
 Mask IsAbsurd(const Cell<Pack>& cell, const Terms& terms) {
-  constexpr double kMost = 1e6;  // scales
+  constexpr double kMost = 1e6;  // current scales
   Mask absurd = Pack(1.0) < 0.0;
   for (int p = 0; p < cell.parts; ++p) {
     if (cell.part[p].bypassed) absurd = absurd | (Pack(kMost) < abs(terms.bypass[p].a));
@@ -273,10 +273,10 @@ Mask IsAbsurd(const Cell<Pack>& cell, const Terms& terms) {
   return absurd;
 }
 
-// By implicit differentiation of the equations above, where they hold.
+// Slopes at the root, by implicit differentiation of the equations of string.h.
 void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& state,
                 const Terms& terms, const Linear& linear, StringSlopes* slopes) {
-  Pack scale[kMostKinds];  // of each string: its part in the sum of currents over its slope
+  Pack scale[kMostKinds];  // of each string: d(total current) / d(voltage)
   for (int s = 0; s < cell.strings; ++s) {
     scale[s] = linear.string_weight[s] / linear.string_slope[s];
     slopes->by_terminal[s] = scale[s] * linear.string_weight[s];
@@ -298,7 +298,7 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& 
     const int s = cell.part[p].string;
     slopes->by_chain_drop[g] = 0.0;
     if (cell.part[p].paired) {
-      // What moves a chain's level by one moves the current of all by so much.
+      // `moves`: derivative of the total current by the level of this chain.
       const Chain& chain = linear.chain[p][IsBeside(cell, g) ? 1 : 0];
       const Pack moves = 0.5 * slopes->by_bypass[p] * chain.inverse;
       const Pack part = IsBeside(cell, g) ? Pack(1.0) : ShareOf(cell, g) / linear.weight[p];
@@ -339,17 +339,18 @@ StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>&
   constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
   Linear linear;
-  constexpr double kLarge = 50;  // scales
+  constexpr double kLarge = 50;  // current scales
   bool near = false, settled_once = false;
   Mask hopeless = Pack(1.0) < 0.0;
   for (int k = 0; k < kMostSteps; ++k) {
     TermsAt(context, cell, *state, &terms);
     SolveLinear(cell, limits, voltage, *state, terms, &linear);
-    // Whole steps may go round in circles between exponentials that oppose each other.
+    // Half steps end cycles of whole steps between opposing exponentials.
     const double part = near || k < kPatience || k > kMostSteps - kPatience ? 1 : 0.5;
     const Mask done = Move(cell, limits, terms, linear, part, state);
     if (All(done) && part == 1) {
-      // Through a steep law voltages that hardly move leave much of a large current.
+      // In a steep law a small voltage step can leave a large current error: one more step is
+      // needed.
       Mask large = Pack(kLarge) < abs(linear.current[0]);
       for (int s = 1; s < cell.strings; ++s)
         large = large | (Pack(kLarge) < abs(linear.current[s]));

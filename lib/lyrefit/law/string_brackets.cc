@@ -12,7 +12,7 @@ class Bracketed {
 
   void Solve(const Pack& voltage, StringState* state) const {
     for (int s = 0; s < cell_.strings; ++s) {
-      const auto excess = [&](const Pack& current) {  // rises
+      const auto excess = [&](const Pack& current) {  // rises with current
         return voltage * WeightOf(s) - VoltageOf(s, current, state);
       };
       state->current[s] = RisingRoot(excess, state->current[s], 1.0);
@@ -22,10 +22,10 @@ class Bracketed {
 
  private:
   static constexpr int kSteps = 64;
-  static constexpr double kEnough = 1e-9;  // relative; Newton's steps do the rest
+  static constexpr double kEnough = 1e-9;  // relative; Newton's steps refine the result
 
-  // Root of a rising function: a bracket grown from `start` by doubling steps, then by turns halved
-  // and cut where the line between its ends crosses 0.
+  // Root of a rising function. A bracket grows from `start` by doubling steps. It is then reduced
+  // by bisection and by linear interpolation in turns.
   template <class F>
   static Pack RisingRoot(const F& f, const Pack& start, double first_step) {
     Pack low = start, high = start, below = f(start), above = below;
@@ -63,7 +63,7 @@ class Bracketed {
     return weight;
   }
 
-  // Sum of share x voltage of a string's parts at a current; the state follows.
+  // Sum of share x voltage over a string's substrings at a current; updates the state.
   Pack VoltageOf(int string, const Pack& current, StringState* state) const {
     const Pack drop = SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
     Pack sum = 0.0;
@@ -94,13 +94,13 @@ class Bracketed {
     return SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
   }
 
-  // Of two chains side by side. What the kind beside carries falls as its voltage rises, so that
-  // the others carry more, which lowers theirs.
+  // Voltage of a substring of two parallel chains. `excess` rises: the current of the group beside
+  // falls as its voltage rises, so the other chain carries more and its voltage falls.
   Pack VoltageOfPair(int part, const Pack& current, Pack* weight, StringState* state) const {
     int beside = 0;
     while (cell_.kind[beside].part != part || !cell_.kind[beside].beside) ++beside;
     Pack voltage = 0.0;
-    const auto excess = [&](const Pack& junction) {  // rises
+    const auto excess = [&](const Pack& junction) {  // rises with the junction voltage
       state->u[beside] = junction;
       const Pack own = PointOf(bench_, cell_, beside, *state).current.a;
       voltage = junction - DropAt(own);
@@ -115,7 +115,7 @@ class Bracketed {
     return voltage;
   }
 
-  // Of a part's cells at the current they carry.
+  // Mean junction voltage of a substring's cells at their current.
   Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
     Pack sum = 0.0;
     *weight = 0.0;
@@ -128,7 +128,7 @@ class Bracketed {
     return sum / *weight;
   }
 
-  // To the junction voltage at which a kind carries a current.
+  // Moves a cell group to the junction voltage at which it carries `carried`.
   void MoveKind(int kind, const Pack& carried, StringState* state) const {
     const Pack size = 1.0 + abs(carried);
     constexpr double kFar = 1e6;
@@ -141,7 +141,7 @@ class Bracketed {
       low = Choose(too_high, low, Larger(low, u));
       const Pack next =
           NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
-      // Between a flat stretch and a steep one steps may go to and fro.
+      // Newton's steps may oscillate between a flat and a steep stretch: bisection ends that.
       const Mask outside = (next < low) | (high < next);
       state->u[kind] = Choose(outside, 0.5 * (low + high), next);
       const Pack step = state->u[kind] - u;

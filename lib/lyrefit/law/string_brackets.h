@@ -4,9 +4,10 @@
 
 namespace lyrefit {
 
-// Moves the state near the root at `voltage` by current, with brackets: for lanes on which Newton's
-// steps go round in circles. The voltage of a string falls as its current rises, and what a part's
-// cells carry rises with what all carry.
+// Moves `state` near the root at `voltage` by nested bracketed searches over currents. It serves
+// lanes in which Newton's steps cycle. The search is safe because two functions are monotone: the
+// voltage of a string falls as its current rises, and the cell current of a substring rises with
+// the string current.
 void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
                      const Pack& voltage, StringState* state);
 

@@ -37,7 +37,7 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
   const Pack down = Choose(0.0 < u, StepDown(way, current, size), way);
   const Pack next = Limited(u, u + down, limits.voltage, limits.n_vt);
   if (cell.reverse == ReverseLaw::kShunt) return next;
-  return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // into breakdown by leaps of its own size
+  return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // limits steps into breakdown
 }
 
 KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,

@@ -2,11 +2,12 @@
 
 #include "lyrefit/law/string.h"
 
-// What both solvers of a string need of one kind of its cells.
+// Functions of one cell group, for the Newton solver (string.cc) and the bracketed one
+// (string_brackets.cc).
 namespace lyrefit {
 
-constexpr double kShort = 1e-9;      // of a voltage: after such a step the next is below rounding
-constexpr double kRounding = 3e-15;  // of a current: what sums of such make of it
+constexpr double kShort = 1e-9;      // relative voltage step after which the next is below rounding
+constexpr double kRounding = 3e-15;  // relative rounding error of sums of currents
 
 inline int PartOf(const Cell<Pack>& cell, int kind) {
   return cell.kinds == 1 ? 0 : cell.kind[kind].part;
@@ -21,18 +22,18 @@ inline Mask IsShort(const Pack& step, const Pack& of) {
   return abs(step) < kShort * (1.0 + abs(of));
 }
 
-// A step that leads beyond `limit` goes on by the logarithm of the rest, in units of `unit`.
+// Limits a step: beyond `limit` the rest is replaced by its logarithm, in units of `unit`.
 Pack Limited(const Pack& from, const Pack& to, const Pack& limit, const Pack& unit);
 
-// Newton's step to where a current is `size` at most, or, far up an exponential where such steps
-// are all alike, the step of its logarithm.
+// Newton's step towards a current of at most `size`. Far up an exponential, where Newton's steps
+// have constant length, the step of the logarithm is used.
 Pack StepDown(const Pack& newton, const Dual<1, Pack>& current, const Pack& size);
 
-// One junction's next voltage, `way` of Newton further.
+// Next voltage of one junction, from a Newton step `way`.
 Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack& u, const Pack& way,
                  const Dual<1, Pack>& current, const Pack& size);
 
-// Current of a kind at the voltages of a state.
+// Current of a cell group at the voltages of a state.
 KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
                   const StringState& state);
 

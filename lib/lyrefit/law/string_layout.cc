@@ -22,7 +22,7 @@ struct Range {
   double upper;
 };
 
-// An object of the file, at a place that errors name: "strings[0][1].cells[0]".
+// A value of the file with its place for error messages: "strings[0][1].cells[0]".
 struct Node {
   const json* value;
   std::string place;
@@ -42,7 +42,7 @@ struct Node {
   bool Has(const char* key) const { return value->contains(key); }
 };
 
-// An object with no keys but these.
+// Error unless the node is an object with no keys but `keys`.
 Expected<void> CheckKeys(const Node& node, std::initializer_list<const char*> keys) {
   std::string list;
   for (const char* key : keys) list += (list.empty() ? "" : ", ") + std::string(key);
@@ -57,7 +57,7 @@ Expected<void> CheckKeys(const Node& node, std::initializer_list<const char*> ke
   return {};
 }
 
-// Leaves `target` where nothing is given.
+// Reads a number; leaves `target` unchanged if the key is absent.
 Expected<void> ReadNumber(const Node& node, const char* key, const Range& range, double* target) {
   if (!node.Has(key)) return {};
   const Node at = node.At(key);
@@ -106,7 +106,7 @@ bool Alike(const StringLayout::Cells& a, const StringLayout::Cells& b) {
   return a.light == b.light && a.leak_S == b.leak_S;
 }
 
-// A part as it is written: `share` still counts cells.
+// One part (substring) as in the file: `share` holds the cell count.
 struct WrittenCheckpoint {
   Part part;
   std::vector<StringLayout::Cells> kinds;
@@ -155,7 +155,8 @@ Expected<WrittenCheckpoint> ReadPart(const Node& node, int string) {
   return written;
 }
 
-// The parts of all strings, equal ones of a string together; `cells` of each string.
+// The parts of all strings. Equal parts of a string are merged. `cells`: cells in series of each
+// string.
 Expected<std::vector<WrittenCheckpoint>> ReadParts(const Node& strings, std::vector<double>* cells) {
   std::vector<WrittenCheckpoint> parts;
   for (std::size_t s = 0; s < strings.value->size(); ++s) {
@@ -213,7 +214,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
     }
     layout.parts.push_back(written.part);
   }
-  if (layout.kinds.size() == 1) {  // a cell of one kind is the device's own: see Cell
+  if (layout.kinds.size() == 1) {  // one cell group means "all alike, no bypass diode" (see Cell)
     layout.kinds.front().share *= 0.5;
     layout.kinds.push_back(layout.kinds.front());
   }

@@ -9,29 +9,30 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How the cells of a device are wired, and what each kind of them is: constants of the law, where
-// effects have parameters. The device's own parameters are those of all its cells alike.
+// The wiring of a device's cells and the properties of each cell group. These are constants of the
+// law, in contrast to the parameters of effects. The device's own parameters describe all cells as
+// identical.
 struct StringLayout {
-  // Cells that are alike.
+  // A cell group: identical cells.
   struct Cells {
-    double share = 1;   // of all cells of the device
-    double light = 1;   // part of the photocurrent
-    double leak_S = 0;  // conductance of each cell beside that of the others
-    int part = 0;       // position in `parts`
+    double share = 1;   // fraction of all cells of the device
+    double light = 1;   // factor of the photocurrent
+    double leak_S = 0;  // additional shunt conductance of each cell
+    int part = 0;       // position of its substring in `parts`
   };
   std::vector<Cells> kinds;  // at most kMostKinds
   std::vector<Part> parts;   // at most kMostKinds
   int cells_in_series = 1;
-  int strings = 1;                // in parallel, all of as many cells
+  int strings = 1;                // in parallel, of equal cell numbers
   double bypass_voltage_V = 0.5;  // at the current scale, which is about Isc
-  double bypass_ideality = 1.2;   // towards 0: an ideal one, whose voltage stays there
+  double bypass_ideality = 1.2;   // towards 0: an ideal diode of constant voltage
   ReverseLaw reverse = ReverseLaw::kShunt;
   double reverse_strength = 0.1;  // Bishop's a
   double reverse_voltage_V = 15;
   double reverse_exponent = 3.4;  // m of either law
 };
 
-// A layout from JSON:
+// Reads a layout from JSON:
 //
 //   {"bypass_diode": {"voltage_V": 0.5, "ideality": 1.2},
 //    "reverse": {"law": "bishop", "a": 0.1, "Vbr_V": 15, "m": 3.4},
@@ -39,11 +40,11 @@ struct StringLayout {
 //                                                            "leak_S": 0.01}]},
 //                 {"bypass": true, "cells": [{"count": 20}]}]]}
 //
-// strings stand in parallel, the parts of each in series; of a part, `times` (1) says how many such
-// follow each other, `bypass` (false) whether each has a bypass diode. reverse: {"law": "shunt"}
-// (the usual), "bishop" (a, Vbr_V, m; doi:10.1016/0379-6787(88)90059-2) or "soft" (A_V, m). Parts
-// that are equal are taken together. Errors: what else stands in the file, strings of unequal
-// numbers of cells, more than kMostKinds different kinds, numbers no cell has.
+// Strings are in parallel, the parts (substrings) of each in series. `times` (1) repeats a part,
+// `bypass` (false) gives each of them a bypass diode. reverse: {"law": "shunt"} (default), "bishop"
+// (a, Vbr_V, m; doi:10.1016/0379-6787(88)90059-2) or "soft" (A_V, m). Equal parts of a string are
+// merged. Errors: unknown keys, strings of unequal numbers of cells, more than kMostKinds different
+// cell groups, numbers outside their ranges.
 Expected<StringLayout> ReadStringLayout(const std::string& path);
 
 }  // namespace lyrefit

@@ -14,7 +14,8 @@ void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     state->current[0] = current;
     return;
   }
-  // What each kind's first diode does at this current, or its shunt in reverse.
+  // Start voltage of each cell group at this current: that of its first diode, or of its shunt in
+  // reverse.
   for (int g = 0; g < cell.kinds; ++g) {
     const Kind<Pack>& kind = cell.kind[g];
     const Part& part = cell.part[kind.part];

@@ -11,49 +11,49 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   Vd = V + I Rs                      junction voltage of the whole device, in volt
 //   I  = sum of terms(Vd)              delivered current in ampere, generator sign
 //
-// Each term is written once as a template: `S` is the type of the parameters, `T` that of the
-// junction voltage. The same lines serve double, automatic differentiation (a dual number for S, T
-// or both) and eight points at a time (T = a kernel's pack). `exp` and `Smaller` are found beside
-// T.
+// Each term is a template over the type `S` of the parameters and `T` of the junction voltage. The
+// same code serves double, automatic differentiation (a dual number for S, T or both) and eight
+// points at a time (T = a kernel's pack). `exp` and `Smaller` are found by the namespace of T.
 //
-// To add a term: one kind, one line in PrepareTerm and one in TermCurrent. A term must not lead
-// from a finite Vd to NaN for any parameters inside their bounds.
+// To add a term: one TermKind, one line in PrepareTerm and one in TermCurrent. A finite Vd must not
+// lead to NaN for any parameters inside their bounds.
 enum class TermKind {
   kPhotocurrent,  // {Iph}      I = Iph
   kDiode,         // {Is, n}    I = -Is (exp(Vd / (n Ns Vt)) - 1)                    Shockley
   kShunt,         // {Rsh}      I = -Vd / Rsh
-  // {Iph, d2mutau, NsVbi}  I = -Iph d2mutau / (NsVbi - Vd): what recombines in the i-layer of
-  // amorphous silicon and CdTe, d2mutau in volt, NsVbi the built-in voltage of all cells (Merten et
-  // al. 1998, doi:10.1109/16.661229; PVsyst; pvlib's bishop88).
+  // {Iph, d2mutau, NsVbi}  I = -Iph d2mutau / (NsVbi - Vd): recombination in the i-layer of
+  // amorphous silicon and CdTe. d2mutau is in volt, NsVbi is the built-in voltage of all cells.
+  // Sources: Merten et al. 1998, doi:10.1109/16.661229; PVsyst; pvlib's bishop88.
   kRecombination,
 };
 
-// One term of a device, and which parameters it takes.
+// One term of a device, and the positions of its parameters.
 struct Term {
   TermKind kind;
   int parameter[3];  // positions in the device's parameter vector, -1 where unused
 };
 
-// What of a term does not depend on the voltage.
+// Voltage-independent part of a term.
 template <class S>
 struct PreparedTerm {
   TermKind kind;
-  S a;  // the current or conductance in front
+  S a;  // photocurrent, saturation current, conductance, or Iph d2mutau
   S b;  // 1 / (n Ns Vt) of a diode, NsVbi of the recombination
 };
 
-// Exponents are cut here, far outside any real device, so that even the square of a current, or of
-// its derivative, is finite.
+// Largest exponent, far outside any real device. With it even the square of a current, or of its
+// derivative, is finite.
 constexpr double kLargestExponent = 320;
-// Smallest shunt resistance and n that are told from 0, so that a bound of 0 is legal.
+// Smallest values of shunt resistance, n and NsVbi: smaller ones are replaced, so a bound of 0 is
+// valid.
 constexpr double kSmallestResistance_ohm = 1e-9;
 constexpr double kSmallestIdeality = 1e-3;
 constexpr double kSmallestBuiltInVoltage_V = 1e-3;
-// Closer to its pole than this part of NsVbi, the recombination goes on along its tangent: falling
-// and concave at every voltage, and never a division by 0.
+// Within this fraction of NsVbi from its pole, the recombination current is replaced by its
+// tangent. It then falls and is concave at every voltage, without a division by 0.
 constexpr double kClosestToPole = 1e-3;
 
-// The smaller and the larger of two, for every number type.
+// Smaller and larger of two values, for every number type.
 template <class T>
 [[gnu::always_inline]] inline T Smaller(const T& a, const T& b) {
   return b < a ? b : a;
@@ -63,7 +63,7 @@ template <class T>
   return a < b ? b : a;
 }
 
-// What of the term is the same at every voltage, from the device's parameters `p`.
+// Computes the voltage-independent part of a term from the device's parameters `p`.
 template <class S>
 inline void PrepareTerm(const Term& term, const S* p, double module_thermal_voltage_V,
                         PreparedTerm<S>* prepared) {
@@ -79,8 +79,7 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
           1.0 / (Larger(p[term.parameter[1]], S(kSmallestIdeality)) * module_thermal_voltage_V);
       break;
     case TermKind::kShunt:
-      // A negative resistance is let through: a least-squares step may pass there on its way to a
-      // bound.
+      // Negative resistances stay: a least-squares step may pass there on its way to a bound.
       prepared->a = 1.0 / (first < S(0.0) ? first : Larger(first, S(kSmallestResistance_ohm)));
       break;
     case TermKind::kRecombination:
@@ -90,8 +89,7 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
   }
 }
 
-// Shockley's diode, the one place where it stands: -Is (exp(Vd / n Vt) - 1), `per_volt` being 1 /
-// (n Vt).
+// Shockley's diode: -Is (exp(Vd / n Vt) - 1). `per_volt`: 1 / (n Vt). No other code evaluates it.
 template <class S, class T>
 [[gnu::always_inline]] inline T DiodeCurrent(const S& saturation, const S& per_volt, const T& vd) {
   using std::exp;
@@ -107,8 +105,8 @@ template <class S, class T>
   return -(T(term.a) / gap + (vd - below) * (term.a / (closest * closest)));
 }
 
-// The terms of every device, all but the rare recombination: apart, so that loops over points can
-// ask for the rare one once outside.
+// Any term except recombination, which is rare. Kernels test for it once, outside their loops over
+// points.
 template <class S, class T>
 [[gnu::always_inline]] inline T UsualTermCurrent(const PreparedTerm<S>& term, const T& vd) {
   switch (term.kind) {

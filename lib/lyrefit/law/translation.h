@@ -11,8 +11,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How a device's parameters follow irradiance G and cell temperature T from their values at the
-// reference (1000 W/m2, 25 C).
+// Law by which a device's parameters follow irradiance G and cell temperature T from their values
+// at the reference (1000 W/m2, 25 C).
 enum class TranslationLaw { kDeSoto, kPvsyst };
 
 template <>
@@ -21,11 +21,11 @@ struct EnumTable<TranslationLaw> {
                                                        {TranslationLaw::kPvsyst, "pvsyst"}};
 };
 
-// How the shunt follows irradiance.
+// Law of the shunt over irradiance.
 enum class ShuntLaw {
   kInverse,      // Rsh = Rsh_ref Gref / G                                        De Soto
   kConstant,     // Rsh = Rsh_ref
-  kExponential,  // between R_sh_0 in the dark and R_sh_ref, exponential in G     PVsyst
+  kExponential,  // R_sh_0 in the dark to R_sh_ref, exponential in G     PVsyst
 };
 
 template <>
@@ -35,30 +35,29 @@ struct EnumTable<ShuntLaw> {
                                                  {ShuntLaw::kExponential, "exponential"}};
 };
 
-// Standard conditions: what shared parameters are quoted at.
+// Standard conditions, the reference of the shared parameters.
 constexpr double kReferenceIrradiance_W_m2 = 1000;
 constexpr double kReferenceTemperature_K = 298.15;
 constexpr double kReferenceTemperature_C = 25;
 constexpr double kDeSotoBandgapSlope_per_K = -2.677e-4;  // of silicon, De Soto 2006, eq. 10
 
-// Which law, for which device.
+// Selects a translation law for a device.
 struct TranslationSpec {
   TranslationLaw law = TranslationLaw::kDeSoto;
   Model model = Model::kSingleDiode;  // sd or dd
   ShuntLaw shunt = ShuntLaw::kInverse;
-  bool recombination = false;  // PVsyst's loss in the i-layer: parameters d2mutau and NsVbi
+  bool recombination = false;  // PVsyst's i-layer recombination: parameters d2mutau and NsVbi
   int cells_in_series = 1;
   ConstantSet constants = ConstantSet::kCodata;
 };
 
-// The shared parameters of a law, in a fixed order that `parameters` names (symbols are the
-// papers', names are pvlib's), and the device they lead to. See translation.cc for equations and
-// sources.
+// Shared parameters of a law, in the fixed order of `parameters` (symbols are the papers', names
+// are pvlib's), and the device they translate to. See Translate for equations and sources.
 struct Translation {
-  TranslationSpec spec;  // what it was made for
+  TranslationSpec spec;  // law, model and device
   std::vector<ParameterInfo> parameters;
-  // The device at the reference temperature. Its thermal voltage stays the reference's: an ideality
-  // handed to it is n T / Tref, so that one device serves every temperature.
+  // The device at the reference temperature. Its thermal voltage is that of the reference, and its
+  // idealities must be n T / Tref. Thus one device serves every temperature.
   Device device;
   // Positions in the shared vector, -1 where the law has no such parameter.
   int photocurrent = -1;           // IL_ref, A
@@ -77,23 +76,23 @@ struct Translation {
   int recombination = -1;          // d2mutau, V                    recombination
   int built_in_voltage = -1;       // NsVbi, V                      recombination
 
-  // With effects beside the diodes: the device behind all curves in their measurement
-  // (extended_set.h), and where in the shared vector each of its parameters stands. Those of the
-  // effects are the last shared ones, in numbers of their own.
+  // With effects beside the diodes: the device behind all curves (extended_set.h), and the position
+  // of each of its parameters in the shared vector. The effects' parameters are the last shared
+  // ones, in internal units.
   std::optional<Device> extended;
   std::vector<int> shared_of;  // by position in `extended`
-  int first_effect = -1;       // position among the shared ones
+  int first_effect = -1;       // position in the shared vector
 
-  // How many parameters are shared.
+  // Number of shared parameters.
   int size() const { return static_cast<int>(parameters.size()); }
-  // The position of a shared parameter.
+  // Position of a shared parameter.
   std::optional<int> Find(const std::string& symbol_or_name) const;
 };
 
-// Errors: td, recombination or exponential shunt where the law has none (De Soto has neither).
+// Errors: model td; recombination or exponential shunt with De Soto's law, which has neither.
 Expected<Translation> MakeTranslation(const TranslationSpec& spec);
 
-// Shunt resistance at g = G / Gref.
+// Shunt resistance in ohm at g = G / Gref.
 template <class S>
 S ShuntAt(const Translation& at, const S* shared, const S& g) {
   using std::exp;
@@ -105,8 +104,8 @@ S ShuntAt(const Translation& at, const S* shared, const S& g) {
   return base + (shared[at.resistance_shunt_dark] - base) * exp(-shared[at.shunt_exponent] * g);
 }
 
-// ln of what the band gap makes of De Soto's saturation current between two temperatures:
-// Eg(T0) / (k T0) - Eg(T) / (k T), Eg = EgRef (1 + slope (T - Tref)). `k_eV`: k / q.
+// ln of the band gap factor of De Soto's saturation current from T0 (`from_K`) to T (`to_K`):
+// Eg(T0) / (k T0) - Eg(T) / (k T), Eg = EgRef (1 + slope (T - Tref)). `k_eV`: k / q in eV/K.
 template <class S>
 S DeSotoBarrier(const S& gap, const S& slope, double from_K, const S& to_K, double k_eV) {
   const S from = gap * (1.0 + slope * (from_K - kReferenceTemperature_K));
@@ -114,8 +113,8 @@ S DeSotoBarrier(const S& gap, const S& slope, double from_K, const S& to_K, doub
          gap * (1.0 + slope * (to_K - kReferenceTemperature_K)) / (k_eV * to_K);
 }
 
-// Parameters of `translation.device` (in its order; idealities times T / Tref) at irradiance G in
-// W/m2 and cell temperature T in kelvin. S may be a dual number.
+// Parameters of `translation.device`, in its order, at irradiance G in W/m2 and cell temperature T
+// in kelvin. Idealities are multiplied by T / Tref. S may be a dual number.
 //
 //   IL  = G / Gref (IL_ref + alpha_sc (T - Tref))
 //   De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010), eqs. 16 to 18, 21, 22:
@@ -161,7 +160,8 @@ void Translate(const Translation& translation, const S* shared, const S& irradia
   }
 }
 
-// The same for plain numbers, as a device of its own temperature: idealities as they are.
+// Translation in plain numbers, as a device at its own temperature: idealities without the factor T
+// / Tref.
 struct TranslatedDevice {
   Device device;
   std::vector<double> parameters;  // of `device`, in its order

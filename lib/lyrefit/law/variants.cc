@@ -31,7 +31,7 @@ bool SameBounds(const Variant& a, const Variant& b) {
   return true;
 }
 
-// As it was asked for, of one effect.
+// The variant as requested, of one effect.
 Variant AsAsked(const Extension& extension, std::size_t use) {
   Variant variant;
   variant.bounds = OwnBounds(extension, use);
@@ -41,7 +41,8 @@ Variant AsAsked(const Extension& extension, std::size_t use) {
   return variant;
 }
 
-// What a place leaves free: everything that fits do not usually keep, and what it says.
+// The variant of a start from the shape: free are all parameters that fits free by default, and
+// those that the start frees.
 Variant VariantOf(const Effect& effect, const ShapeStart& start) {
   Variant variant;
   variant.usual = start.p;
@@ -64,7 +65,7 @@ std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& s
     for (const ShapeStart& start :
          asked.effect->starts(shape, extension.readings.traits, as_asked.bounds)) {
       Variant variant = VariantOf(*asked.effect, start);
-      for (std::size_t k = 0; k < variant.bounds.size(); ++k) {  // whole numbers are known already
+      for (std::size_t k = 0; k < variant.bounds.size(); ++k) {  // requested whole numbers
         ParameterBounds& own = variant.bounds[k];
         if (own.lower < own.upper && as_asked.bounds[k].whole > 0) own = as_asked.bounds[k];
       }
@@ -77,8 +78,8 @@ std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& s
   return variants;
 }
 
-// Moves a place inside bounds; false where it is another one then: one more substring, and in a
-// variant that follows from the shape whatever that variant holds.
+// Moves a start inside bounds. Returns false if that changes its meaning: another number of
+// substrings, or, in a variant from the shape, another value of a fixed parameter.
 bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds, bool as_asked,
                 std::vector<double>* p) {
   constexpr double kTyped = 1e-4;  // shares are typed with few digits
@@ -95,7 +96,7 @@ bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds
   return same;
 }
 
-// Places of one effect; where none is one of this variant, all of them as near as it comes.
+// Starts of one effect in this variant; if none fits it, all of them moved into its bounds.
 std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const CurveShape& shape,
                                            std::size_t use,
                                            const std::vector<ParameterBounds>& bounds) {

@@ -7,29 +7,29 @@
 
 namespace lyrefit {
 
-// An effect that is asked for by its name alone can be fitted in several ways: what of it is free
-// follows from what the shape of one lit sweep suggests (one reverse law or the other, a shade that
-// covers a substring or a part of it). A variant of an extension is one such choice for every effect.
-// Where ranges were given, and of measurements that have no one shape, there is one variant: as asked.
+// One way to fit the effects of an extension: a set of free parameters for every effect. An effect
+// that is requested by name only has several variants, from the shape of one lit sweep. Examples
+// are either reverse law, or a shade over a whole substring or a fraction of it. There is one
+// variant, the request itself, if ranges are given or the measurement has several conditions.
 struct Variant {
-  std::vector<ParameterBounds> bounds;  // of the effects' parameters, in numbers of their own;
-                                        // equal ends: held
-  std::vector<double> usual;            // where a fit begins, or what it holds
+  std::vector<ParameterBounds> bounds;  // of the effects' parameters, internal units; equal ends:
+                                        // fixed
+  std::vector<double> usual;            // start or fixed values
   int free = 0;
 };
 
-// At least one, each once.
+// All variants of an extension, without duplicates; at least one.
 std::vector<Variant> VariantsOf(const Extension& extension);
 
-// Where the shape of the curve suggests to begin in this variant: all of the effects' parameters,
-// inside its bounds. Empty where no effect is seen in a shape.
+// Start points in this variant, from the shape of the curve: all of the effects' parameters, within
+// its bounds. Empty if no effect has starts from the shape.
 std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const Variant& variant);
 
-// Makes shares of cells that add up to all of them or more smaller, the largest first, until some
-// are left for the rest. `p`: the effects' parameters.
+// Reduces cell shares that sum to 1 or more, the largest first, until cells remain for the rest.
+// `p`: the effects' parameters.
 void LeaveARest(const Extension& extension, const std::vector<ParameterBounds>& bounds, double* p);
 
-// "d, Vb, m, A free; chains 2": what tells the variant from others of the same extension.
+// Text that distinguishes the variant from others of the extension: "d, Vb, m, A free; chains 2".
 std::string DescribeVariant(const Extension& extension, const Variant& variant);
 
 }  // namespace lyrefit

@@ -31,7 +31,7 @@ struct EvaluationContext {
 };
 
 template <class S>
-EvaluationContext<S> MakeWeightedData(const Law& law, const Readings& readings, const S* p) {
+EvaluationContext<S> MakeEvaluationContext(const Law& law, const Readings& readings, const S* p) {
   EvaluationContext<S> context{law, readings, p, {}};
   int offset = law.base_size();
   for (const Effect* effect : law.effects) {

@@ -31,26 +31,26 @@ template <class S>
 class CellKeeper {
  public:
   CellKeeper(const CellKeeper&) = delete;  // `warm_` and its copies point into this object
-  explicit CellKeeper(const EvaluationContext<S>& context) : bench_(context) {
+  explicit CellKeeper(const EvaluationContext<S>& context) : context_(context) {
     warm_.kind = kinds_;
     for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->sky;
   }
 
   // Updates the cell for `block`; returns whether it changed.
   bool Settle(const ReadingBlock& block) {
-    sky_ = SkyAt(bench_, block);
+    sky_ = SkyAt(context_, block);
     const bool same = known_ && block.one_sky && last_.one_sky &&
                       IsSame(block.temperature_K, last_.temperature_K) &&
                       IsSame(block.irradiance, last_.irradiance);
     if (!varies_ && same) return false;
     if (!known_ || !IsSame(sky_.temperature_K, warm_sky_.temperature_K) ||
         !IsSame(sky_.bandgap_eV, warm_sky_.bandgap_eV)) {
-      CellUnder(bench_, sky_, &warm_);
+      CellUnder(context_, sky_, &warm_);
       warm_sky_ = sky_;
     }
     cell_ = warm_;
-    Light(bench_, sky_, &cell_);
-    ApplyCellStages(bench_, &cell_);
+    Light(context_, sky_, &cell_);
+    ApplyCellStages(context_, &cell_);
     last_ = block;
     known_ = true;
     return true;
@@ -59,7 +59,7 @@ class CellKeeper {
   const Sky<S>& sky() const { return sky_; }
 
  private:
-  const EvaluationContext<S>& bench_;
+  const EvaluationContext<S>& context_;
   bool varies_ = false;
   bool known_ = false;
   ReadingBlock last_;
@@ -285,13 +285,13 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const int size = law.size(), moved = static_cast<int>(free.size());
   std::vector<Pack> plain_values(size);
   for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
-  const EvaluationContext<Pack> plain = MakeWeightedData(law, readings, static_cast<const Pack*>(plain_values.data()));
+  const EvaluationContext<Pack> plain = MakeEvaluationContext(law, readings, static_cast<const Pack*>(plain_values.data()));
   std::vector<S> duals;
   if constexpr (kDerivatives) {
     for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
     for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
   }
-  const EvaluationContext<S> context = MakeWeightedData(law, readings, static_cast<const S*>(duals.data()));
+  const EvaluationContext<S> context = MakeEvaluationContext(law, readings, static_cast<const S*>(duals.data()));
   CellKeeper<Pack> plain_cells(plain);
   CellKeeper<S> cells(context);
   const bool instrument = HasInstrument(law);

@@ -8,7 +8,7 @@ namespace {
 class Bracketed {
  public:
   Bracketed(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits)
-      : bench_(context), cell_(cell), limits_(limits) {}
+      : context_(context), cell_(cell), limits_(limits) {}
 
   void Solve(const Pack& voltage, StringState* state) const {
     for (int s = 0; s < cell_.strings; ++s) {
@@ -65,7 +65,7 @@ class Bracketed {
 
   // Sum of share x voltage over a string's substrings at a current; updates the state.
   Pack VoltageOf(int string, const Pack& current, StringState* state) const {
-    const Pack drop = SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
+    const Pack drop = SeriesDrop(context_, cell_, Dual<1, Pack>(current, 0)).a;
     Pack sum = 0.0;
     for (int p = 0; p < cell_.parts; ++p) {
       if (cell_.part[p].string != string) continue;
@@ -91,7 +91,7 @@ class Bracketed {
   }
 
   Pack DropAt(const Pack& current) const {
-    return SeriesDrop(bench_, cell_, Dual<1, Pack>(current, 0)).a;
+    return SeriesDrop(context_, cell_, Dual<1, Pack>(current, 0)).a;
   }
 
   // Voltage of a substring of two parallel chains. `excess` rises: the current of the group beside
@@ -102,7 +102,7 @@ class Bracketed {
     Pack voltage = 0.0;
     const auto excess = [&](const Pack& junction) {  // rises with the junction voltage
       state->u[beside] = junction;
-      const Pack own = PointOf(bench_, cell_, beside, *state).current.a;
+      const Pack own = PointOf(context_, cell_, beside, *state).current.a;
       voltage = junction - DropAt(own);
       Pack others = 2.0 * current - own;
       if (cell_.part[part].bypassed) {
@@ -134,7 +134,7 @@ class Bracketed {
     constexpr double kFar = 1e6;
     Pack low = -kFar, high = kFar;  // the current falls as the voltage rises
     for (int k = 0; k < kSteps; ++k) {
-      const KindPoint point = PointOf(bench_, cell_, kind, *state);
+      const KindPoint point = PointOf(context_, cell_, kind, *state);
       const Pack missing = carried - point.current.a, u = state->u[kind];
       const Mask too_high = 0.0 < missing;
       high = Choose(too_high, Smaller(high, u), high);
@@ -155,7 +155,7 @@ class Bracketed {
     }
   }
 
-  const EvaluationContext<Pack>& bench_;
+  const EvaluationContext<Pack>& context_;
   const Cell<Pack>& cell_;
   const StringLimits& limits_;
 };

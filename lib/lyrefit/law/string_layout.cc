@@ -107,13 +107,13 @@ bool Alike(const StringLayout::Cells& a, const StringLayout::Cells& b) {
 }
 
 // One part (substring) as in the file: `share` holds the cell count.
-struct WrittenCheckpoint {
+struct WrittenSubstring {
   Part part;
   std::vector<StringLayout::Cells> kinds;
   double times = 1;
 };
 
-bool Alike(const WrittenCheckpoint& a, const WrittenCheckpoint& b) {
+bool Alike(const WrittenSubstring& a, const WrittenSubstring& b) {
   if (a.part.bypassed != b.part.bypassed || a.part.string != b.part.string) return false;
   if (a.part.bypassed && a.part.cells != b.part.cells) return false;
   if (a.kinds.size() != b.kinds.size()) return false;
@@ -125,9 +125,9 @@ bool Alike(const WrittenCheckpoint& a, const WrittenCheckpoint& b) {
   return true;
 }
 
-Expected<WrittenCheckpoint> ReadPart(const Node& node, int string) {
+Expected<WrittenSubstring> ReadPart(const Node& node, int string) {
   TRY(CheckKeys(node, {"bypass", "times", "cells"}));
-  WrittenCheckpoint written;
+  WrittenSubstring written;
   written.part.string = string;
   if (node.Has("bypass")) {
     if (!node.At("bypass").value->is_boolean()) return node.At("bypass").Refuse("true or false");
@@ -157,8 +157,8 @@ Expected<WrittenCheckpoint> ReadPart(const Node& node, int string) {
 
 // The parts of all strings. Equal parts of a string are merged. `cells`: cells in series of each
 // string.
-Expected<std::vector<WrittenCheckpoint>> ReadParts(const Node& strings, std::vector<double>* cells) {
-  std::vector<WrittenCheckpoint> parts;
+Expected<std::vector<WrittenSubstring>> ReadParts(const Node& strings, std::vector<double>* cells) {
+  std::vector<WrittenSubstring> parts;
   for (std::size_t s = 0; s < strings.value->size(); ++s) {
     const Node string = strings.At(s);
     if (!string.value->is_array() || string.value->empty()) {
@@ -169,7 +169,7 @@ Expected<std::vector<WrittenCheckpoint>> ReadParts(const Node& strings, std::vec
       TRY(auto part, ReadPart(string.At(k), static_cast<int>(s)));
       count += part.times * part.part.cells;
       const auto same = std::find_if(parts.begin(), parts.end(),
-                                     [&](const WrittenCheckpoint& other) { return Alike(other, part); });
+                                     [&](const WrittenSubstring& other) { return Alike(other, part); });
       if (same == parts.end()) {
         parts.push_back(std::move(part));
       } else {
@@ -206,7 +206,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
   }
   layout.strings = static_cast<int>(cells.size());
   layout.cells_in_series = static_cast<int>(cells.front());
-  for (const WrittenCheckpoint& written : parts) {
+  for (const WrittenSubstring& written : parts) {
     for (StringLayout::Cells kind : written.kinds) {
       kind.part = static_cast<int>(layout.parts.size());
       kind.share *= written.times / (cells.front() * layout.strings);
